@@ -1,0 +1,5 @@
+//! tmp
+pub mod error;
+pub mod input;
+pub mod job;
+pub mod sparse;

@@ -1,0 +1,40 @@
+//! The sparse matrix of the model, and its assembly from triplets.
+//!
+//! sprs owns the storage: its constructor checks every index once, after which products and factorisations may trust
+//! them. Row indices are 32-bit, which cuts the memory traffic of a product by a quarter; pointers are machine words,
+//! so that the number of entries has no 32-bit limit. Symmetric matrices are stored whole (both triangles): compressed
+//! rows are then also compressed columns, and a product needs no scatter, which makes it parallel and deterministic.
+
+
+
+/// A symmetric sparse matrix in compressed rows, both triangles stored, indices sorted, no duplicates.
+pub type SparseMatrix = sprs::CsMatI<f64, u32, usize>;
+
+/// How a source declares its triplets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Declared {
+    /// Every entry is given.
+    General,
+    /// One triangle is given and stands for both.
+    Symmetric,
+}
+
+/// Entries of a matrix in the order of their file: row, column, value, zero-based.
+#[derive(Clone, Debug, Default)]
+pub struct Triplets {
+    /// Row of each entry.
+    pub rows: Vec<u32>,
+    /// Column of each entry.
+    pub cols: Vec<u32>,
+    /// Value of each entry.
+    pub values: Vec<f64>,
+}
+
+/// What assembling a matrix did beyond copying, to be told to the user.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct AssemblyNotes {
+    /// Entries that repeated an earlier position and were added to it.
+    pub n_duplicates: usize,
+    /// A source declared general held one triangle only, which was mirrored.
+    pub mirrored: bool,
+}
