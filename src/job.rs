@@ -175,7 +175,11 @@ mod centroid {
 
     pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
         let word = String::deserialize(deserializer)?;
-        if word == "centroid" { Ok(()) } else { Err(D::Error::custom("expected \"centroid\" or [x, y, z]")) }
+        if word == "centroid" {
+            Ok(())
+        } else {
+            Err(D::Error::custom("expected \"centroid\" or [x, y, z]"))
+        }
     }
 }
 

@@ -3,3 +3,4 @@ pub mod error;
 pub mod input;
 pub mod job;
 pub mod sparse;
+pub mod verification;

@@ -5,8 +5,6 @@
 //! so that the number of entries has no 32-bit limit. Symmetric matrices are stored whole (both triangles): compressed
 //! rows are then also compressed columns, and a product needs no scatter, which makes it parallel and deterministic.
 
-
-
 /// A symmetric sparse matrix in compressed rows, both triangles stored, indices sorted, no duplicates.
 pub type SparseMatrix = sprs::CsMatI<f64, u32, usize>;
 

@@ -1,0 +1,96 @@
+//! One line of the verification: a measured value, the limits it is judged by and the verdict.
+
+use serde::Serialize;
+
+/// The three sources a limit can come from; the largest one is active.
+///
+/// A figure from engineering practice may be out of reach of the arithmetic (ε·κ) or of the data (digits of the text);
+/// the limit is then what can be attained, and the line says so.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Limits {
+    /// What practice asks.
+    pub engineering: f64,
+    /// What double precision can give for this model.
+    pub arithmetic: f64,
+    /// What the digits of the input can give.
+    pub data: f64,
+}
+
+/// Which of the three limits was the largest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ActiveLimit {
+    /// Engineering practice.
+    Engineering,
+    /// Double precision.
+    Arithmetic,
+    /// Digits of the input.
+    Data,
+}
+
+impl Limits {
+    /// The limit in force.
+    pub fn value(&self) -> f64 {
+        self.engineering.max(self.arithmetic).max(self.data)
+    }
+
+    /// The source of the limit in force.
+    pub fn active(&self) -> ActiveLimit {
+        if self.engineering >= self.arithmetic && self.engineering >= self.data {
+            ActiveLimit::Engineering
+        } else if self.arithmetic >= self.data {
+            ActiveLimit::Arithmetic
+        } else {
+            ActiveLimit::Data
+        }
+    }
+}
+
+/// What a check says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// Within the limit.
+    Pass,
+    /// Past the limit, not past the point of failure.
+    Warn,
+    /// Past the point of failure.
+    Fail,
+}
+
+/// One measure of the reduction.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Check {
+    /// Stable identifier, `M-05`.
+    pub id: &'static str,
+    /// What is measured, in a structural engineer's words.
+    pub name: &'static str,
+    /// The equation of the paper or the definition.
+    pub equation: &'static str,
+    /// The measured value, not negative.
+    pub value: f64,
+    /// What it is judged by.
+    pub limits: Limits,
+    /// Above this the check fails; between the limit and this it warns.
+    pub fail_above: f64,
+    /// Where the value is worst: a mode, a node and direction, a column.
+    pub worst: Option<String>,
+}
+
+impl Check {
+    /// The verdict; a value that is not a number fails.
+    pub fn verdict(&self) -> Verdict {
+        if self.value <= self.limits.value() {
+            Verdict::Pass
+        } else if self.value <= self.fail_above {
+            Verdict::Warn
+        } else {
+            Verdict::Fail
+        }
+    }
+
+    /// How many times the value fits into the limit: above one is good.
+    pub fn margin(&self) -> f64 {
+        self.limits.value() / self.value
+    }
+}

@@ -1,0 +1,3 @@
+//! Proof of what the reduction preserves.
+
+pub mod check;
