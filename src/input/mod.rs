@@ -2,6 +2,22 @@
 //!
 //! Nothing is guessed silently: whatever a reader had to do beyond copying is a note that reaches the report.
 
+mod banner;
+mod blocks;
+mod digits;
+mod dof_map;
+mod entries;
+mod matrix_market;
+mod model_files;
+mod node_table;
+mod note;
+mod source;
+mod table;
+
+pub use digits::significant_digits;
+pub use model_files::{Input, read};
+pub use note::InputNote;
+
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
