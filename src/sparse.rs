@@ -36,3 +36,34 @@ pub struct AssemblyNotes {
     /// A source declared general held one triangle only, which was mirrored.
     pub mirrored: bool,
 }
+
+impl Triplets {
+    /// The matrix of size `n` with both triangles stored.
+    ///
+    /// # Errors
+    ///
+    /// None so far.
+    pub fn assemble(self, n: usize, declared: Declared) -> crate::error::Result<(SparseMatrix, AssemblyNotes)> {
+        let one_triangle = self.rows.iter().zip(&self.cols).all(|(r, c)| r <= c)
+            || self.rows.iter().zip(&self.cols).all(|(r, c)| r >= c);
+        let diagonal = self.rows == self.cols;
+        let mirror = declared == Declared::Symmetric || (one_triangle && !diagonal);
+        let mut triplets = sprs::TriMatI::<f64, u32>::new((n, n));
+        for ((&row, &col), &value) in self.rows.iter().zip(&self.cols).zip(&self.values) {
+            triplets.add_triplet(row as usize, col as usize, value);
+            if mirror && row != col {
+                triplets.add_triplet(col as usize, row as usize, value);
+            }
+        }
+        let n_triplets = triplets.nnz();
+        let matrix: SparseMatrix = triplets.to_csr();
+        let n_duplicates = n_triplets - matrix.nnz();
+        Ok((
+            matrix,
+            AssemblyNotes {
+                n_duplicates,
+                mirrored: mirror && declared == Declared::General,
+            },
+        ))
+    }
+}

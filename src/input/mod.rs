@@ -2,6 +2,11 @@
 //!
 //! Nothing is guessed silently: whatever a reader had to do beyond copying is a note that reaches the report.
 
+#[cfg(feature = "hdf5")]
+pub mod hdf5;
+
+pub(crate) mod digits;
+
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
