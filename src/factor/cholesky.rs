@@ -25,11 +25,16 @@ pub struct Cholesky<'a> {
 }
 
 impl<'a> Cholesky<'a> {
-    /// Factors K − σM.
+    /// Factors K − σM; `name` says what the dof of a step of elimination is called.
     ///
     /// # Errors
-    /// [`Error::NotDefinite`] with the step at which a pivot was not positive; no memory.
-    pub fn new(analysis: &'a Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<Self> {
+    /// [`Error::NotDefinite`] with the dof at which a pivot was not positive; no memory.
+    pub fn new(
+        analysis: &'a Analysis,
+        pencil: Pencil<'_>,
+        sigma: f64,
+        name: &dyn Fn(usize) -> String,
+    ) -> Result<Self> {
         let symbolic = &analysis.symbolic;
         let lower = Triangle::shifted(pencil, sigma);
         let pattern = SymbolicSparseColMatRef::new_checked(analysis.n, analysis.n, &lower.pointers, None, &lower.indices);
@@ -48,7 +53,7 @@ impl<'a> Cholesky<'a> {
             parameters,
         )
         .map_err(|faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }| Error::NotDefinite {
-            step: index,
+            dof: name(index),
         })?;
         let mut factor = Self { analysis, values, smallest_pivot_ratio: 1.0 };
         factor.smallest_pivot_ratio = factor.pivot_ratio(&lower);

@@ -33,7 +33,7 @@ pub struct Input {
 /// [`Error::DofOrderUnknown`] where they do not fit together.
 pub fn read(model: &ModelJob) -> Result<Input> {
     let mut notes = Vec::new();
-    let (stiffness, mass) = rayon::join(|| read_matrix(&model.stiffness), || read_matrix(&model.mass));
+    let (stiffness, mass) = rayon::join(|| read_matrix(&model.stiffness, Role::Stiffness), || read_matrix(&model.mass, Role::Mass));
     let (stiffness, mass) = fit_matrices(stiffness?, mass?, &mut notes)?;
     let n = stiffness.matrix.rows();
     let nodes = model.nodes.as_deref().map(read_nodes).transpose()?;
@@ -66,9 +66,16 @@ enum Matrix {
     Hdf5(MatrixInput),
 }
 
-fn read_matrix(path: &Path) -> Result<Matrix> {
+/// Which matrix of the pencil a file is read for; names inside an HDF5 file are matched against it.
+#[derive(Clone, Copy)]
+enum Role {
+    Stiffness,
+    Mass,
+}
+
+fn read_matrix(path: &Path, role: Role) -> Result<Matrix> {
     match hdf5_location(path) {
-        Some((file, group)) => read_hdf5_matrix(&file, group.as_deref()).map(Matrix::Hdf5),
+        Some((file, group)) => read_hdf5_matrix(&file, group.as_deref(), role).map(Matrix::Hdf5),
         None => matrix_market::read(path).map(Matrix::Text),
     }
 }
@@ -81,18 +88,28 @@ fn read_nodes(path: &Path) -> Result<Nodes> {
     node_table::read(path)
 }
 
-fn read_hdf5_matrix(path: &Path, _group: Option<&str>) -> Result<MatrixInput> {
-    Err(Error::FeatureMissing {
-        path: path.to_owned(),
-        feature: "hdf5",
-    })
+#[cfg(feature = "hdf5")]
+fn read_hdf5_matrix(path: &Path, group: Option<&str>, role: Role) -> Result<MatrixInput> {
+    let role = match role {
+        Role::Stiffness => super::hdf5::MatrixRole::Stiffness,
+        Role::Mass => super::hdf5::MatrixRole::Mass,
+    };
+    super::hdf5::read_matrix(path, group, role)
 }
 
+#[cfg(feature = "hdf5")]
 fn read_hdf5_nodes(path: &Path) -> Result<Nodes> {
-    Err(Error::FeatureMissing {
-        path: path.to_owned(),
-        feature: "hdf5",
-    })
+    super::hdf5::read_nodes(path)
+}
+
+#[cfg(not(feature = "hdf5"))]
+fn read_hdf5_matrix(path: &Path, _: Option<&str>, _: Role) -> Result<MatrixInput> {
+    Err(Error::FeatureMissing { path: path.to_owned(), feature: "hdf5" })
+}
+
+#[cfg(not(feature = "hdf5"))]
+fn read_hdf5_nodes(path: &Path) -> Result<Nodes> {
+    Err(Error::FeatureMissing { path: path.to_owned(), feature: "hdf5" })
 }
 
 /// File and group of a matrix in HDF5, told by `file.h5:/group`, by the extension or by the content.

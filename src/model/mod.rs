@@ -106,16 +106,17 @@ impl Model {
     /// Checks and scales what was read.
     ///
     /// # Errors
-    /// Different sizes, unsymmetric matrices, empty rows, negative or zero diagonals, no mass, swapped K and M.
+    /// Unsymmetric matrices, empty rows, negative or zero diagonals, no mass, swapped K and M.
+    ///
+    /// # Panics
+    /// If K and M differ in size, which reading has ruled out.
     pub fn new(input: Input) -> Result<Self> {
         let mut findings = Vec::new();
         let precision = Precision { stiffness: data_precision(&input.stiffness), mass: data_precision(&input.mass) };
         let dofs = input.dofs;
         let mut stiffness = input.stiffness.matrix;
         let mut mass = input.mass.matrix;
-        if stiffness.rows() != mass.rows() {
-            return Err(Error::SizesDiffer { stiffness: stiffness.rows(), mass: mass.rows() });
-        }
+        assert!(stiffness.rows() == mass.rows(), "K has {} rows, M has {}", stiffness.rows(), mass.rows());
         symmetrise("stiffness", &mut stiffness, &mut findings)?;
         symmetrise("mass", &mut mass, &mut findings)?;
         check_not_swapped(&stiffness, &mass, dofs.as_deref())?;
