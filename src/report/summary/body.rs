@@ -1,0 +1,249 @@
+//! What was read, computed and checked.
+
+use super::super::table::{self, Align};
+use super::super::{
+    Completeness, MassProperties, MatrixReport, ModeKind, ModeRow, ModelReport, ReductionReport, ReportBody,
+    RigidBodySource,
+};
+use super::{Page, Tone, WIDTH, verdict_word};
+use crate::job::{Coupling, Eigensolver, Method};
+use crate::verification::check::{ActiveLimit, Check, Verdict};
+
+/// Modes are set in this many columns, read downwards.
+const MODE_COLUMNS: usize = 3;
+
+/// Longer lists of modes are shortened to their first and last ones.
+const MODES_SHOWN: usize = 36;
+
+/// How many of the last modes a shortened list keeps.
+const MODES_AT_END: usize = 3;
+
+/// Longer lists of notes and left-out coordinates are cut; the JSON document has them all.
+const LINES_SHOWN: usize = 8;
+
+/// Significant digits of a frequency: enough to see every error bar that engineering cares about.
+const FREQUENCY_DIGITS: i32 = 9;
+
+pub(super) fn write(page: &mut Page, body: &ReportBody) {
+    let reduction = &body.reduction;
+    let sizes = format!("{} → {}", table::count(body.model.n_dofs as u64), table::count(reduction.n_reduced as u64));
+    let title = format!(
+        "{} {} · {} · {sizes} degrees of freedom",
+        body.generator.name,
+        body.generator.version,
+        method(reduction.method)
+    );
+    let title = page.toned(&title, Tone::Heading);
+    page.line(&title);
+    page.heading("Read");
+    model(page, &body.model);
+    page.heading("Reduced");
+    reduced(page, reduction);
+    modes(page, &reduction.modes);
+    page.heading("Checked");
+    checks(page, &body.checks);
+    completeness(page, &body.completeness);
+    if !body.warnings.is_empty() {
+        page.heading("Warnings");
+        for warning in &body.warnings {
+            page.entry(warning.code, &warning.message);
+        }
+    }
+}
+
+fn model(page: &mut Page, model: &ModelReport) {
+    let mut parts = vec![table::counted(model.n_dofs, "dof", "dofs")];
+    parts.extend(model.n_nodes.map(|n_nodes| table::counted(n_nodes, "node", "nodes")));
+    parts.push(table::counted(model.n_bodies, "body", "bodies"));
+    parts.extend(model.units.clone().map(|units| format!("units {units}")));
+    page.entry("model", &parts.join(" · "));
+    page.entry("stiffness", &matrix(&model.stiffness));
+    page.entry("mass", &matrix(&model.mass));
+    mass_properties(page, &model.mass_properties);
+    let source = match model.rigid_body_modes.source {
+        RigidBodySource::Geometric => "from the coordinates, verified against the stiffness",
+        RigidBodySource::Algebraic => "from the matrices, by inverse iteration",
+    };
+    let rigid = match model.rigid_body_modes.count {
+        0 => "no modes: the component is restrained".to_owned(),
+        count => format!("{} {source}", table::counted(count, "mode", "modes")),
+    };
+    page.entry("rigid body", &rigid);
+    listing(page, "note", &model.notes);
+}
+
+fn matrix(matrix: &MatrixReport) -> String {
+    let digest: String = matrix.digest.chars().take(12).collect();
+    let nonzeros = table::counted(matrix.n_nonzeros, "nonzero", "nonzeros");
+    format!("{nonzeros} · {} digits · blake3 {digest}…", matrix.digits)
+}
+
+fn mass_properties(page: &mut Page, properties: &MassProperties) {
+    if let Some(mass) = properties.mass {
+        page.entry("total mass", &table::quantity(mass, 7));
+    }
+    if let Some(cg) = properties.cg {
+        // A coordinate that is rounding beside the others would only draw the eye.
+        let size = cg.iter().fold(0.0_f64, |size, coordinate| size.max(coordinate.abs()));
+        page.entry("centre of mass", &cg.map(|coordinate| rounded(coordinate, size)).join("   "));
+    }
+    if let Some(inertia) = properties.inertia {
+        let size = inertia.iter().flatten().fold(0.0_f64, |size, term| size.max(term.abs()));
+        let term = |name: &str, row: usize, column: usize| format!("{name} {}", rounded(inertia[row][column], size));
+        let diagonal = [term("xx", 0, 0), term("yy", 1, 1), term("zz", 2, 2)].join("   ");
+        let products = [term("xy", 0, 1), term("xz", 0, 2), term("yz", 1, 2)].join("   ");
+        page.entry("inertia", &format!("{diagonal}   {products}"));
+    }
+}
+
+fn rounded(value: f64, size: f64) -> String {
+    if value.abs() <= 1e-12 * size { "0".to_owned() } else { table::quantity(value, 5) }
+}
+
+fn reduced(page: &mut Page, reduction: &ReductionReport) {
+    for interface in &reduction.interfaces {
+        let coupling = match interface.coupling {
+            Coupling::Direct => "direct",
+            Coupling::Rigid => "rigid",
+        };
+        let nodes = table::counted(interface.n_nodes, "node", "nodes");
+        let dofs = table::counted(interface.n_dofs, "dof", "dofs");
+        page.entry("interface", &format!("{} · {coupling} · {nodes} · {dofs}", interface.name));
+    }
+    let mut parts = vec![format!("{} interface", table::count(reduction.n_interface as u64))];
+    if reduction.n_inertia_relief > 0 {
+        parts.push(format!("{} inertia relief", table::count(reduction.n_inertia_relief as u64)));
+    }
+    parts.push(table::counted(reduction.n_modes, "elastic mode", "elastic modes"));
+    page.entry("coordinates", &format!("{} = {}", table::count(reduction.n_reduced as u64), parts.join(" + ")));
+    let dropped: Vec<String> =
+        reduction.dropped.iter().map(|dropped| format!("{}: {}", dropped.coordinate, dropped.reason)).collect();
+    listing(page, "left out", &dropped);
+    let solver = match reduction.eigensolver {
+        Eigensolver::Lanczos => "block Lanczos",
+        Eigensolver::Arpack => "ARPACK",
+    };
+    let worst = reduction.modes.iter().map(|mode| mode.backward_error).fold(0.0, f64::max);
+    if let Some(mode) = reduction.modes.first() {
+        let kind = match mode.kind {
+            ModeKind::FreeInterface => "free-interface",
+            ModeKind::FixedInterface => "fixed-interface",
+        };
+        let worst = table::scientific(worst, 2);
+        page.entry("modes", &format!("{kind} · {solver} · backward error at most {worst}"));
+    }
+}
+
+/// Frequencies and their error bars, in columns that are read downwards.
+fn modes(page: &mut Page, modes: &[ModeRow]) {
+    let Some(highest) = modes.iter().map(|mode| mode.frequency_hz).reduce(f64::max) else { return };
+    let decimals = usize::try_from(FREQUENCY_DIGITS - 1 - table::decade(highest)).unwrap_or(0).min(9);
+    let row = |mode: &ModeRow| {
+        let frequency = format!("{:.decimals$}", mode.frequency_hz);
+        [mode.index.to_string(), frequency, format!("± {}", table::scientific(mode.error_bar_hz, 2))]
+    };
+    let is_long = modes.len() > MODES_SHOWN;
+    let n_first = if is_long { MODES_SHOWN - MODES_AT_END } else { modes.len() };
+    let (first, rest) = modes.split_at(n_first);
+    let n_hidden = if is_long { rest.len() - MODES_AT_END } else { 0 };
+    let shown: Vec<[String; 3]> = first.iter().chain(&rest[n_hidden..]).map(row).collect();
+    let cells: Vec<String> = table::columns(&shown, [Align::Right, Align::Right, Align::Left])
+        .iter()
+        .map(|[index, frequency, bar]| format!("{index}  {frequency} {bar}"))
+        .collect();
+    page.line("");
+    let caption = page.toned("mode, natural frequency and error bar in Hz", Tone::Faint);
+    page.line(&format!("  {caption}"));
+    let n_rows = cells.len().div_ceil(MODE_COLUMNS);
+    for row_idx in 0..n_rows {
+        let line: Vec<&str> = cells.iter().skip(row_idx).step_by(n_rows).map(String::as_str).collect();
+        page.line(&format!("  {}", line.join("    ")));
+    }
+    if n_hidden > 0 {
+        let (from, to) = (n_first + 1, n_first + n_hidden);
+        let hint = page.toned(&format!("modes {from} to {to} are in the report"), Tone::Faint);
+        page.line(&format!("  {hint}"));
+    }
+}
+
+fn checks(page: &mut Page, checks: &[Check]) {
+    let heads = ["", "check", "value", "limit", "set by", "margin", "verdict"].map(str::to_owned);
+    let rows: Vec<[String; 7]> = std::iter::once(heads).chain(checks.iter().map(check_row)).collect();
+    let align =
+        [Align::Left, Align::Left, Align::Right, Align::Right, Align::Left, Align::Right, Align::Left];
+    let mut lines = table::columns(&rows, align).into_iter();
+    if let Some(heads) = lines.next() {
+        let heads = page.toned(&heads.join("  "), Tone::Faint);
+        page.line(&format!("  {heads}"));
+    }
+    for (line, check) in lines.zip(checks) {
+        let [id, name, value, limit, active, margin, word] = line;
+        let word = page.toned(word.trim_end(), Tone::Of(check.verdict()));
+        page.line(&format!("  {id}  {name}  {value}  {limit}  {active}  {margin}  {word}"));
+        if let Some(worst) = check.worst.as_ref().filter(|_| check.verdict() != Verdict::Pass) {
+            let worst = table::shorten(&format!("worst at {worst} ({})", check.equation), WIDTH - 10);
+            let worst = page.toned(&worst, Tone::Faint);
+            page.line(&format!("        {worst}"));
+        }
+    }
+}
+
+fn check_row(check: &Check) -> [String; 7] {
+    let active = match check.limits.active() {
+        ActiveLimit::Engineering => "engineering",
+        ActiveLimit::Arithmetic => "arithmetic",
+        ActiveLimit::Data => "data",
+    };
+    // Rows are 2 + 4 + 36 + 12 + 7 + 11 + 7 + 6 columns and six gaps of two: 97.
+    [
+        check.id.to_owned(),
+        table::shorten(check.name, 36),
+        table::scientific(check.value, 2),
+        table::scientific(check.limits.value(), 1),
+        active.to_owned(),
+        margin(check.margin()),
+        verdict_word(check.verdict()).to_owned(),
+    ]
+}
+
+/// Margins are looked at, not calculated with: two digits, and no more than a million.
+fn margin(margin: f64) -> String {
+    if margin.is_nan() {
+        "–".to_owned()
+    } else if margin >= 1e6 {
+        "> 1e6".to_owned()
+    } else if margin >= 10.0 {
+        table::count(margin as u64)
+    } else {
+        table::quantity(margin, 2)
+    }
+}
+
+fn completeness(page: &mut Page, completeness: &Completeness) {
+    let tone = match completeness {
+        Completeness::NotCertified { .. } => Verdict::Warn,
+        Completeness::SturmCount { .. } if completeness.is_certified() => Verdict::Pass,
+        Completeness::SturmCount { .. } => Verdict::Fail,
+    };
+    page.line("");
+    for line in table::wrap(&completeness.statement(), WIDTH - 2) {
+        let line = page.toned(&line, Tone::Of(tone));
+        page.line(&format!("  {line}"));
+    }
+}
+
+fn listing(page: &mut Page, label: &str, lines: &[String]) {
+    for line in lines.iter().take(LINES_SHOWN) {
+        page.entry(label, line);
+    }
+    if lines.len() > LINES_SHOWN {
+        page.entry("", &format!("… and {} more in the report", lines.len() - LINES_SHOWN));
+    }
+}
+
+fn method(method: Method) -> &'static str {
+    match method {
+        Method::CraigBampton => "Craig-Bampton",
+        Method::Herting => "Herting",
+    }
+}
