@@ -1,1 +1,83 @@
-//! tmp
+//! The superelement file: a finite element component reduced to its interface and a few modal amplitudes, in one file
+//! that every program can load.
+//!
+//! # The format
+//!
+//! A superelement file is a [safetensors](https://github.com/huggingface/safetensors) container. Eight bytes hold the
+//! length of the header (little-endian, unsigned, at most 100,000,000). The header is one JSON object in UTF-8, padded
+//! with spaces to a multiple of eight: for each tensor its `dtype`, `shape` and `data_offsets`, and under
+//! `__metadata__` the single key `supel`. The numbers of the tensors follow, little-endian, rows one after the other,
+//! tensor after tensor without a gap up to the last byte of the file.
+//!
+//! With r reduced coordinates, k interface nodes, n_r rigid-body modes, n_modes frequencies and n_η modal amplitudes
+//! the tensors are
+//!
+//! | name | shape | what |
+//! |---|---|---|
+//! | `stiffness`, `mass` | r × r | K̂ and M̂, symmetric to the bit |
+//! | `rigid_body_modes` | r × n_r | Û; K̂ Û = 0 |
+//! | `rigid_body_mass` | n_r × n_r | M_F = UᵀMU of the full model |
+//! | `interface_positions` | k × 3 | nodes in the reference configuration |
+//! | `interface_frames` | k × 3 × 3 | rotation matrices; columns are the node's axes |
+//! | `frequencies` | n_modes | rad/s, ascending |
+//! | `damping` | r × r | optional |
+//! | `mixing` | n_η × n_η | optional: stored dynamic modes = named modes · mixing |
+//! | `gravity` | r × 3 | optional: loads of a unit gravity field along x, y, z |
+//! | `load_vectors` | r × n_loads | optional |
+//! | `recovery`, `recovery_dofs` | rows × r, rows × 2 | optional: basis rows, and the node label and direction (0 to 5) of each |
+//!
+//! all of them 64-bit floating point, except `recovery_dofs` (64-bit integers) and `recovery`, which may be 32-bit
+//! where it is applied to the deformation only. No other tensor may occur. The reduced coordinates are displacements and
+//! rotations of the interface nodes in the inertial frame, node by node, each node with any subset of ux, uy, uz, rx,
+//! ry, rz; then interface rows of models that have no nodes; then the modal amplitudes. Units are those of the model.
+//!
+//! The text under `supel` is a JSON document that follows `schemas/superelement.schema.json`: `format_version` (`"1"`),
+//! `blake3`, and the fields of [`Metadata`]: generator, method, what every coordinate is, what was dropped and why, the
+//! model's mass properties, digests of the inputs, the resolved job, and what the verification said. `blake3` is the
+//! BLAKE3 digest of the whole file in which the digest's own 64 characters are taken as the character zero. There are
+//! no times and no unordered keys in the file: the same superelement gives the same bytes.
+//!
+//! A reader of this crate refuses every file that breaks one of these rules, with one variant of [`FileError`] for each,
+//! and never allocates more than the bytes at hand pay for.
+//!
+//! # In Python
+//!
+//! ```python
+//! tensors = safetensors.numpy.load_file("bracket.supel")
+//! metadata = json.loads(safetensors.safe_open("bracket.supel", "numpy").metadata()["supel"])
+//! ```
+//!
+//! # In Rust
+//!
+//! ```no_run
+//! use supel_runtime::Superelement;
+//!
+//! let bracket = Superelement::open("bracket.supel".as_ref())?;
+//! println!("{} coordinates, made by {}", bracket.n_coordinates(), bracket.metadata().generator.name);
+//! # Ok::<(), supel_runtime::FileError>(())
+//! ```
+
+mod atomic_file;
+mod container;
+mod document;
+mod encoding;
+mod error;
+mod file;
+mod mass_properties;
+mod matrix;
+mod metadata;
+mod strict_json;
+mod superelement;
+mod validation;
+
+pub use atomic_file::{StagedFile, abandoned_parts};
+pub use document::FORMAT_VERSION;
+pub use error::{FileError, Result};
+pub use file::SealedBytes;
+pub use mass_properties::mass_properties;
+pub use matrix::Matrix;
+pub use metadata::{
+    CheckSummary, Coordinate, Direction, DroppedColumn, Flag, Generator, InterfaceNode, MassProperties, Metadata,
+    Method, ModelSummary, RigidBodyModes, Validity, Verdict, Verification,
+};
+pub use superelement::{Precision, RecoveredDof, Recovery, Superelement, Tensors};

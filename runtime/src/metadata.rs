@@ -1,0 +1,265 @@
+//! What a superelement says about itself besides its numbers.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::{Deserialize, Serialize};
+
+/// The metadata document, without format version and digest, which writer and reader handle themselves.
+///
+/// Its JSON form follows `schemas/superelement.schema.json`. Every number must be finite.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Metadata {
+    /// The program that made the superelement.
+    pub generator: Generator,
+    /// The reduction method.
+    pub method: Method,
+    /// Label of the unit system, for example `mm-t-s`; no number depends on it.
+    pub units: Option<String>,
+    /// The interface nodes, in the order of the coordinates.
+    pub interface_nodes: Vec<InterfaceNode>,
+    /// What each of the r reduced coordinates is: first the dofs of the interface nodes, node by node, then interface
+    /// rows, then modal amplitudes.
+    pub coordinates: Vec<Coordinate>,
+    /// Modes that were left out because others span them already.
+    pub dropped: Vec<DroppedColumn>,
+    /// Name of each column of `load_vectors`.
+    pub load_names: Vec<String>,
+    /// What the superelement may be used for.
+    pub validity: Validity,
+    /// Properties that a client must know before it uses the matrices.
+    pub flags: BTreeSet<Flag>,
+    /// The model that was reduced.
+    pub model: ModelSummary,
+    /// BLAKE3 digest of each input file, 64 lower-case hexadecimal digits, by its role (`stiffness`, `mass`, …).
+    pub inputs: BTreeMap<String, String>,
+    /// The resolved job, as the generator writes it.
+    pub job: serde_json::Value,
+    /// What the verification said when the superelement was made.
+    pub verification: Verification,
+}
+
+/// A program and its version.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Generator {
+    /// Name of the program.
+    pub name: String,
+    /// Version of the program.
+    pub version: String,
+}
+
+/// The reduction method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Constraint modes and fixed-interface normal modes.
+    CraigBampton,
+    /// Constraint modes, inertia-relief modes and mode-accelerated free-free modes.
+    Herting,
+    /// Residual attachment modes and free-free modes, in Herting's variables.
+    Rubin,
+    /// Rubin's without residual mass.
+    Macneal,
+    /// Constraint modes alone.
+    Guyan,
+    /// Mode acceleration with modes of the user's choice.
+    ModeAcceleration,
+}
+
+/// Direction of a degree of freedom at a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Direction {
+    /// Translation along x.
+    Ux,
+    /// Translation along y.
+    Uy,
+    /// Translation along z.
+    Uz,
+    /// Rotation about x.
+    Rx,
+    /// Rotation about y.
+    Ry,
+    /// Rotation about z.
+    Rz,
+}
+
+impl Direction {
+    /// All six, in order; their places are the numbers in `recovery_dofs`.
+    pub const ALL: [Self; 6] = [Self::Ux, Self::Uy, Self::Uz, Self::Rx, Self::Ry, Self::Rz];
+}
+
+/// A node at which the superelement is joined to others.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct InterfaceNode {
+    /// Name of the interface; several nodes may share it.
+    pub name: String,
+    /// Label of the node in the model; none for a node that the reduction added.
+    pub label: Option<i64>,
+    /// Its degrees of freedom, any subset of the six in their order.
+    pub dofs: Vec<Direction>,
+    /// Its position in the reference configuration, equal to its row of `interface_positions`.
+    pub position: [f64; 3],
+}
+
+/// What one reduced coordinate is.
+///
+/// `mode` counts the entries of `frequencies` from 0. Where the tensor `mixing` is present the modal coordinates name
+/// the columns *before* mixing: stored dynamic modes = named modes · mixing.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Coordinate {
+    /// Displacement or rotation of an interface node.
+    Interface {
+        /// Number of the interface node, from 0.
+        node: usize,
+        /// Direction.
+        direction: Direction,
+    },
+    /// Displacement of an interface row of a model that has no nodes.
+    InterfaceRow {
+        /// Row of the model's matrices, from 0.
+        row: u64,
+    },
+    /// Amplitude of an inertia-relief mode.
+    InertiaRelief {
+        /// Number of the rigid-body mode whose inertia loads it answers, from 0.
+        index: usize,
+    },
+    /// Amplitude of a free-free normal mode.
+    ElasticMode {
+        /// Number of the mode.
+        mode: usize,
+        /// Natural frequency.
+        frequency_hz: f64,
+        /// Bound of the error of the natural frequency.
+        error_bar_hz: Option<f64>,
+    },
+    /// Amplitude of a fixed-interface normal mode.
+    FixedInterfaceMode {
+        /// Number of the mode.
+        mode: usize,
+        /// Natural frequency.
+        frequency_hz: f64,
+        /// Bound of the error of the natural frequency.
+        error_bar_hz: Option<f64>,
+    },
+}
+
+impl Coordinate {
+    /// True for u_B, false for η.
+    pub fn is_interface(&self) -> bool {
+        matches!(self, Self::Interface { .. } | Self::InterfaceRow { .. })
+    }
+
+    /// Number of the mode and its frequency in Hz, for a coordinate that has them.
+    pub fn mode(&self) -> Option<(usize, f64)> {
+        match *self {
+            Self::ElasticMode { mode, frequency_hz, .. } | Self::FixedInterfaceMode { mode, frequency_hz, .. } => {
+                Some((mode, frequency_hz))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// A mode that was left out of the basis.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DroppedColumn {
+    /// The mode.
+    pub column: Coordinate,
+    /// Why it was left out.
+    pub reason: String,
+}
+
+/// What the superelement may be used for.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Validity {
+    /// Lowest and highest frequency of excitation for which it was made.
+    pub band_hz: Option<[f64; 2]>,
+    /// What was taken for granted about the simulation, one sentence each.
+    pub assumptions: Vec<String>,
+}
+
+/// A property that a client must know.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Flag {
+    /// The mass matrix is semidefinite: it cannot be factored, and an explicit integrator cannot be used.
+    SingularMass,
+}
+
+/// The model that was reduced.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ModelSummary {
+    /// Degrees of freedom.
+    pub n_dofs: u64,
+    /// What the columns of `rigid_body_modes` are.
+    pub rigid_body_modes: RigidBodyModes,
+    /// Mass, centre of mass and inertia; none where the model has no coordinates to tell them.
+    pub mass_properties: Option<MassProperties>,
+}
+
+/// What the columns of `rigid_body_modes` are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum RigidBodyModes {
+    /// For each component of the model three unit translations along x, y, z and three unit rotations about the axes
+    /// through the model's origin.
+    Geometric,
+    /// A basis of the null space of the stiffness matrix, with no geometric meaning.
+    Algebraic,
+}
+
+/// Mass, centre of mass and inertia of a component, in the model's units.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MassProperties {
+    /// Total mass.
+    pub mass: f64,
+    /// Centre of mass, in the model's frame.
+    pub center_of_mass: [f64; 3],
+    /// Inertia tensor about the centre of mass, in the directions of the model's frame.
+    pub inertia: [[f64; 3]; 3],
+}
+
+/// What the verification said.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Verification {
+    /// The whole of it, no better than the worst check.
+    pub verdict: Verdict,
+    /// Its lines.
+    pub checks: Vec<CheckSummary>,
+}
+
+/// One line of the verification.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CheckSummary {
+    /// Stable identifier, `M-05`.
+    pub id: String,
+    /// The measured value; none where it was not a finite number.
+    pub value: Option<f64>,
+    /// The limit it was judged by.
+    pub limit: f64,
+    /// What was said.
+    pub verdict: Verdict,
+}
+
+/// What a check says; the later the worse.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// Within the limit.
+    Pass,
+    /// Past the limit, not past the point of failure.
+    Warn,
+    /// Past the point of failure.
+    Fail,
+}
