@@ -4,7 +4,9 @@
 //! decides the exit code, so that a CI job can tell bad input from a bad model from a full disk.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+use supel_runtime::FileError;
 
 /// The result of every fallible call of this crate.
 pub type Result<T, E = Error> = std::result::Result<T, E>;
@@ -157,6 +159,14 @@ pub enum Error {
     // ---- factor ----------------------------------------------------------------------------------------------------
     // ---- modes -----------------------------------------------------------------------------------------------------
     // ---- superelement file -----------------------------------------------------------------------------------------
+    /// A file is not a superelement, or cannot be made one.
+    #[error("{}: {source}", path.display())]
+    SuperelementFile {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: FileError,
+    },
 }
 
 /// The class of an [`Error`]; its number is the exit code of the process.
@@ -177,6 +187,15 @@ pub enum ErrorClass {
 }
 
 impl Error {
+    /// The error of this crate for what the superelement file's crate says of `path`.
+    pub fn from_file(path: &Path, error: FileError) -> Self {
+        match error {
+            FileError::Read { path, source } => Self::Read { path, source },
+            FileError::Write { path, source } => Self::Write { path, source },
+            source => Self::SuperelementFile { path: path.to_owned(), source },
+        }
+    }
+
     /// The class of this error, which is its exit code.
     pub fn class(&self) -> ErrorClass {
         match self {
@@ -194,6 +213,9 @@ impl Error {
             | Self::MissingFlags { .. }
             | Self::FlagText { .. } => ErrorClass::Usage,
             Self::Threads { .. } => ErrorClass::Resources,
+            Self::SuperelementFile { source: FileError::OutOfMemory { .. }, .. } => ErrorClass::Resources,
+            Self::SuperelementFile { source: FileError::NotAFile { .. }, .. } => ErrorClass::Io,
+            Self::SuperelementFile { .. } => ErrorClass::InputData,
         }
     }
 }

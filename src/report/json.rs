@@ -1,9 +1,9 @@
 //! The report as a JSON document: stored values beside the verdicts that follow from them.
 
-use std::io::Write;
 use std::path::Path;
 
 use serde::ser::{Serialize, SerializeStruct, Serializer};
+use supel_runtime::StagedFile;
 
 use super::{Completeness, Report, ReportBody};
 use crate::error::{Error, Result};
@@ -23,25 +23,12 @@ impl Report {
     ///
     /// # Errors
     ///
-    /// [`Error::Write`].
+    /// [`Error::Write`] or [`Error::SuperelementFile`] where `path` is a folder or a device.
     pub fn write(&self, path: &Path) -> Result<()> {
-        let failed = |source| Error::Write { path: path.to_owned(), source };
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let mut file = tempfile::Builder::new()
-            .prefix(".supel-report-")
-            .permissions(permissions())
-            .tempfile_in(folder)
-            .map_err(failed)?;
-        file.write_all(self.to_json().as_bytes()).map_err(failed)?;
-        file.as_file().sync_all().map_err(failed)?;
-        file.persist(path).map(drop).map_err(|error| failed(error.error))
+        StagedFile::write(path, self.to_json().as_bytes())
+            .and_then(StagedFile::commit)
+            .map_err(|source| Error::from_file(path, source))
     }
-}
-
-/// Those of any new file: a report is for others to read, and the umask still applies.
-#[cfg(unix)]
-fn permissions() -> std::fs::Permissions {
-    std::os::unix::fs::PermissionsExt::from_mode(0o666)
 }
 
 impl Serialize for ReportBody {

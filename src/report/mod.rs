@@ -4,9 +4,11 @@
 //! and in any folder. Times, memory, threads and paths are facts of the run and live beside it.
 
 mod json;
+pub(crate) mod mode_table;
+pub(crate) mod page;
 mod stages;
-mod summary;
-mod table;
+pub(crate) mod summary;
+pub(crate) mod table;
 
 use std::path::PathBuf;
 
@@ -15,8 +17,9 @@ use serde::Serialize;
 use crate::job::{Coupling, Eigensolver, Method};
 use crate::verification::check::{Check, Verdict};
 
+pub use page::Paint;
 pub use stages::{Observer, StageClock, StageTime};
-pub use summary::{Paint, summary};
+pub use summary::summary;
 
 /// Body and facts of one run; [`Report::to_json`] gives the document that `schemas/report.schema.json` describes.
 #[derive(Clone, Debug, PartialEq, Serialize)]

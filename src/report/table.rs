@@ -2,18 +2,18 @@
 
 /// How a column is aligned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Align {
+pub(crate) enum Align {
     Left,
     Right,
 }
 
 /// Width of `text` in columns of the terminal; every character used here is one column wide.
-pub(super) fn width(text: &str) -> usize {
+pub(crate) fn width(text: &str) -> usize {
     text.chars().count()
 }
 
 /// `text` padded to `columns`.
-pub(super) fn pad(text: &str, columns: usize, align: Align) -> String {
+pub(crate) fn pad(text: &str, columns: usize, align: Align) -> String {
     let gap = " ".repeat(columns.saturating_sub(width(text)));
     match align {
         Align::Left => format!("{text}{gap}"),
@@ -22,7 +22,7 @@ pub(super) fn pad(text: &str, columns: usize, align: Align) -> String {
 }
 
 /// `text` cut to `columns`, with an ellipsis where something was cut.
-pub(super) fn shorten(text: &str, columns: usize) -> String {
+pub(crate) fn shorten(text: &str, columns: usize) -> String {
     if width(text) <= columns {
         return text.to_owned();
     }
@@ -31,7 +31,7 @@ pub(super) fn shorten(text: &str, columns: usize) -> String {
 }
 
 /// `text` broken between words into lines of at most `columns`; a longer word stays whole.
-pub(super) fn wrap(text: &str, columns: usize) -> Vec<String> {
+pub(crate) fn wrap(text: &str, columns: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         match lines.last_mut() {
@@ -46,7 +46,7 @@ pub(super) fn wrap(text: &str, columns: usize) -> Vec<String> {
 }
 
 /// Rows with each column as wide as its widest cell, two blanks between columns.
-pub(super) fn columns<const N: usize>(rows: &[[String; N]], align: [Align; N]) -> Vec<[String; N]> {
+pub(crate) fn columns<const N: usize>(rows: &[[String; N]], align: [Align; N]) -> Vec<[String; N]> {
     let widths: [usize; N] =
         std::array::from_fn(|column| rows.iter().map(|row| width(&row[column])).max().unwrap_or(0));
     rows.iter()
@@ -55,7 +55,7 @@ pub(super) fn columns<const N: usize>(rows: &[[String; N]], align: [Align; N]) -
 }
 
 /// `123,486`.
-pub(super) fn count(number: u64) -> String {
+pub(crate) fn count(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (position, digit) in digits.chars().enumerate() {
@@ -68,12 +68,12 @@ pub(super) fn count(number: u64) -> String {
 }
 
 /// `1 body`, `2 bodies`.
-pub(super) fn counted(number: usize, one: &str, many: &str) -> String {
+pub(crate) fn counted(number: usize, one: &str, many: &str) -> String {
     format!("{} {}", count(number as u64), if number == 1 { one } else { many })
 }
 
 /// A quantity with about `digits` significant digits, in plain notation where that is short.
-pub(super) fn quantity(value: f64, digits: usize) -> String {
+pub(crate) fn quantity(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
@@ -87,7 +87,7 @@ pub(super) fn quantity(value: f64, digits: usize) -> String {
 }
 
 /// `1.2e-09` with the exponent's sign and two digits, so that columns align.
-pub(super) fn scientific(value: f64, digits: usize) -> String {
+pub(crate) fn scientific(value: f64, digits: usize) -> String {
     if value.is_nan() {
         return "not a number".to_owned();
     }
@@ -108,7 +108,7 @@ pub(super) fn scientific(value: f64, digits: usize) -> String {
 }
 
 /// Powers of 1024 with three digits: `41.2 MiB`.
-pub(super) fn bytes(size: u64) -> String {
+pub(crate) fn bytes(size: u64) -> String {
     const UNITS: [&str; 4] = ["KiB", "MiB", "GiB", "TiB"];
     let mut value = size as f64;
     let mut unit = "bytes";
@@ -123,7 +123,7 @@ pub(super) fn bytes(size: u64) -> String {
 }
 
 /// `0.012 s`, `1.24 s`, `2 min 05 s`.
-pub(super) fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     if seconds < 120.0 {
         let decimals = if seconds < 1.0 { 3 } else if seconds < 10.0 { 2 } else { 1 };
         return format!("{seconds:.decimals$} s");
@@ -133,7 +133,7 @@ pub(super) fn duration(seconds: f64) -> String {
 }
 
 /// The power of ten of the leading digit.
-pub(super) fn decade(value: f64) -> i32 {
+pub(crate) fn decade(value: f64) -> i32 {
     if value == 0.0 || !value.is_finite() { 0 } else { value.abs().log10().floor() as i32 }
 }
 

@@ -1,28 +1,17 @@
 //! What was read, computed and checked.
 
-use super::super::table::{self, Align};
-use super::super::{
-    Completeness, MassProperties, MatrixReport, ModeKind, ModeRow, ModelReport, ReductionReport, ReportBody,
+use crate::report::table::{self, Align};
+use crate::report::{
+    Completeness, MassProperties, MatrixReport, ModeKind, ModelReport, ReductionReport, ReportBody,
     RigidBodySource,
 };
-use super::{Page, Tone, WIDTH, verdict_word};
+use crate::report::page::{Page, Tone, WIDTH, verdict_word};
+use crate::report::mode_table::{Mode, mode_table};
 use crate::job::{Coupling, Eigensolver, Method};
 use crate::verification::check::{ActiveLimit, Check, Verdict};
 
-/// Modes are set in this many columns, read downwards.
-const MODE_COLUMNS: usize = 3;
-
-/// Longer lists of modes are shortened to their first and last ones.
-const MODES_SHOWN: usize = 36;
-
-/// How many of the last modes a shortened list keeps.
-const MODES_AT_END: usize = 3;
-
 /// Longer lists of notes and left-out coordinates are cut; the JSON document has them all.
 const LINES_SHOWN: usize = 8;
-
-/// Significant digits of a frequency: enough to see every error bar that engineering cares about.
-const FREQUENCY_DIGITS: i32 = 9;
 
 pub(super) fn write(page: &mut Page, body: &ReportBody) {
     let reduction = &body.reduction;
@@ -39,7 +28,16 @@ pub(super) fn write(page: &mut Page, body: &ReportBody) {
     model(page, &body.model);
     page.heading("Reduced");
     reduced(page, reduction);
-    modes(page, &reduction.modes);
+    let modes: Vec<Mode> = reduction
+        .modes
+        .iter()
+        .map(|mode| Mode {
+            number: mode.index,
+            frequency_hz: mode.frequency_hz,
+            error_bar_hz: Some(mode.error_bar_hz),
+        })
+        .collect();
+    mode_table(page, &modes);
     page.heading("Checked");
     checks(page, &body.checks);
     completeness(page, &body.completeness);
@@ -78,7 +76,7 @@ fn matrix(matrix: &MatrixReport) -> String {
     format!("{nonzeros} · {} digits · blake3 {digest}…", matrix.digits)
 }
 
-fn mass_properties(page: &mut Page, properties: &MassProperties) {
+pub(crate) fn mass_properties(page: &mut Page, properties: &MassProperties) {
     if let Some(mass) = properties.mass {
         page.entry("total mass", &table::quantity(mass, 7));
     }
@@ -131,38 +129,6 @@ fn reduced(page: &mut Page, reduction: &ReductionReport) {
         };
         let worst = table::scientific(worst, 2);
         page.entry("modes", &format!("{kind} · {solver} · backward error at most {worst}"));
-    }
-}
-
-/// Frequencies and their error bars, in columns that are read downwards.
-fn modes(page: &mut Page, modes: &[ModeRow]) {
-    let Some(highest) = modes.iter().map(|mode| mode.frequency_hz).reduce(f64::max) else { return };
-    let decimals = usize::try_from(FREQUENCY_DIGITS - 1 - table::decade(highest)).unwrap_or(0).min(9);
-    let row = |mode: &ModeRow| {
-        let frequency = format!("{:.decimals$}", mode.frequency_hz);
-        [mode.index.to_string(), frequency, format!("± {}", table::scientific(mode.error_bar_hz, 2))]
-    };
-    let is_long = modes.len() > MODES_SHOWN;
-    let n_first = if is_long { MODES_SHOWN - MODES_AT_END } else { modes.len() };
-    let (first, rest) = modes.split_at(n_first);
-    let n_hidden = if is_long { rest.len() - MODES_AT_END } else { 0 };
-    let shown: Vec<[String; 3]> = first.iter().chain(&rest[n_hidden..]).map(row).collect();
-    let cells: Vec<String> = table::columns(&shown, [Align::Right, Align::Right, Align::Left])
-        .iter()
-        .map(|[index, frequency, bar]| format!("{index}  {frequency} {bar}"))
-        .collect();
-    page.line("");
-    let caption = page.toned("mode, natural frequency and error bar in Hz", Tone::Faint);
-    page.line(&format!("  {caption}"));
-    let n_rows = cells.len().div_ceil(MODE_COLUMNS);
-    for row_idx in 0..n_rows {
-        let line: Vec<&str> = cells.iter().skip(row_idx).step_by(n_rows).map(String::as_str).collect();
-        page.line(&format!("  {}", line.join("    ")));
-    }
-    if n_hidden > 0 {
-        let (from, to) = (n_first + 1, n_first + n_hidden);
-        let hint = page.toned(&format!("modes {from} to {to} are in the report"), Tone::Faint);
-        page.line(&format!("  {hint}"));
     }
 }
 

@@ -1,8 +1,8 @@
 //! What the run cost, where its files are, and the verdict as the last line.
 
-use super::super::table::{self, Align};
-use super::super::{Report, RunFacts, StageTime, WorkCounters};
-use super::{Page, Tone};
+use crate::report::table::{self, Align};
+use crate::report::{Report, RunFacts, StageTime, WorkCounters};
+use crate::report::page::{LABEL, Page, Tone, WIDTH};
 use crate::verification::check::Verdict;
 
 /// Columns of the bar that shows a stage's share of the time.
@@ -23,7 +23,7 @@ fn stages(page: &mut Page, stages: &[StageTime]) {
     let rows: Vec<[String; 2]> =
         names.zip(seconds.clone()).map(|(name, seconds)| [name.to_owned(), table::duration(seconds)]).collect();
     for ([name, time], seconds) in table::columns(&rows, [Align::Left, Align::Right]).into_iter().zip(seconds) {
-        let name = page.toned(&table::pad(&name, super::LABEL, Align::Left), Tone::Faint);
+        let name = page.toned(&table::pad(&name, LABEL, Align::Left), Tone::Faint);
         let is_total = name.contains("total");
         let bar = if is_total { String::new() } else { page.toned(&bar(seconds / total), Tone::Faint) };
         page.line(&format!("  {name}  {time}  {bar}"));
@@ -79,7 +79,7 @@ fn verdict(page: &mut Page, report: &Report) {
         Verdict::Fail => format!("✗ not verified: {} of {n_checks} failed: {}", failed.len(), failed.join(", ")),
     };
     let text = if report.run.superelement.is_none() { text + " – no superelement was written" } else { text };
-    for line in table::wrap(&text, super::WIDTH) {
+    for line in table::wrap(&text, WIDTH) {
         let line = page.toned(&line, Tone::Of(verdict));
         page.line(&line);
     }
