@@ -100,7 +100,9 @@ pub enum Error {
         what: String,
     },
     /// A selection of nodes is a word that names no group.
-    #[error("interface `{interface}`: nodes `{text}` – expected \"group:NAME\", a list of node labels, a region or rows")]
+    #[error(
+        "interface `{interface}`: nodes `{text}` – expected \"group:NAME\", a list of node labels, a region or rows"
+    )]
     InterfaceNodes {
         /// Name of the interface.
         interface: String,
@@ -192,7 +194,10 @@ impl Error {
         match error {
             FileError::Read { path, source } => Self::Read { path, source },
             FileError::Write { path, source } => Self::Write { path, source },
-            source => Self::SuperelementFile { path: path.to_owned(), source },
+            source => Self::SuperelementFile {
+                path: path.to_owned(),
+                source,
+            },
         }
     }
 
@@ -213,8 +218,14 @@ impl Error {
             | Self::MissingFlags { .. }
             | Self::FlagText { .. } => ErrorClass::Usage,
             Self::Threads { .. } => ErrorClass::Resources,
-            Self::SuperelementFile { source: FileError::OutOfMemory { .. }, .. } => ErrorClass::Resources,
-            Self::SuperelementFile { source: FileError::NotAFile { .. }, .. } => ErrorClass::Io,
+            Self::SuperelementFile {
+                source: FileError::OutOfMemory { .. },
+                ..
+            } => ErrorClass::Resources,
+            Self::SuperelementFile {
+                source: FileError::NotAFile { .. },
+                ..
+            } => ErrorClass::Io,
             Self::SuperelementFile { .. } => ErrorClass::InputData,
         }
     }

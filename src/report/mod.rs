@@ -3,6 +3,7 @@
 //! The body depends on the job and its files alone: it is byte for byte the same for any number of threads, on any day
 //! and in any folder. Times, memory, threads and paths are facts of the run and live beside it.
 
+mod inspection;
 mod json;
 pub(crate) mod mode_table;
 pub(crate) mod page;
@@ -17,6 +18,7 @@ use serde::Serialize;
 use crate::job::{Coupling, Eigensolver, Method};
 use crate::verification::check::{Check, Verdict};
 
+pub use inspection::inspection;
 pub use page::Paint;
 pub use stages::{Observer, StageClock, StageTime};
 pub use summary::summary;
@@ -58,7 +60,10 @@ pub struct Generator {
 
 impl Default for Generator {
     fn default() -> Self {
-        Self { name: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION") }
+        Self {
+            name: env!("CARGO_PKG_NAME"),
+            version: env!("CARGO_PKG_VERSION"),
+        }
     }
 }
 
@@ -234,10 +239,18 @@ impl Completeness {
     pub fn statement(&self) -> String {
         match self {
             Self::NotCertified { reason } => format!("completeness of the modes is not certified: {reason}"),
-            Self::SturmCount { below_hz, n_counted, n_found } if n_counted == n_found => format!(
+            Self::SturmCount {
+                below_hz,
+                n_counted,
+                n_found,
+            } if n_counted == n_found => format!(
                 "the modes are complete: a Sturm count finds {n_counted} below {below_hz:.6} Hz and all were found"
             ),
-            Self::SturmCount { below_hz, n_counted, n_found } => format!(
+            Self::SturmCount {
+                below_hz,
+                n_counted,
+                n_found,
+            } => format!(
                 "the modes are incomplete: a Sturm count finds {n_counted} below {below_hz:.6} Hz, found were {n_found}"
             ),
         }

@@ -27,11 +27,20 @@ pub(crate) struct Mode {
 }
 
 pub(crate) fn mode_table(page: &mut Page, modes: &[Mode]) {
-    let Some(highest) = modes.iter().map(|mode| mode.frequency_hz).reduce(f64::max) else { return };
+    let Some(highest) = modes.iter().map(|mode| mode.frequency_hz).reduce(f64::max) else {
+        return;
+    };
     let decimals = usize::try_from(DIGITS - 1 - table::decade(highest)).unwrap_or(0).min(9);
     let row = |mode: &Mode| {
-        let bar = mode.error_bar_hz.map(|bar| format!("± {}", table::scientific(bar, 2))).unwrap_or_default();
-        [mode.number.to_string(), format!("{:.decimals$}", mode.frequency_hz), bar]
+        let bar = mode
+            .error_bar_hz
+            .map(|bar| format!("± {}", table::scientific(bar, 2)))
+            .unwrap_or_default();
+        [
+            mode.number.to_string(),
+            format!("{:.decimals$}", mode.frequency_hz),
+            bar,
+        ]
     };
     let is_long = modes.len() > SHOWN;
     let n_first = if is_long { SHOWN - SHOWN_AT_END } else { modes.len() };
