@@ -3,11 +3,18 @@
 //! Everything in it can also be given by flags. Paths are relative to the folder of the document; [`Job::resolve`]
 //! makes them absolute before any stage sees them. Unknown keys are errors.
 
-use std::path::PathBuf;
+mod document;
+mod interface;
+mod validation;
+
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use crate::input::Direction;
+use crate::error::{Error, Result};
+
+pub use document::Notation;
+pub use interface::{Coupling, InterfaceJob, NodeSelection, Origin, Region};
 
 /// A whole job.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,6 +32,66 @@ pub struct Job {
     pub run: RunJob,
     /// What is written and where.
     pub write: WriteJob,
+}
+
+impl Job {
+    /// The job in the document at `path`, checked, its paths made absolute.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Read`] where there is no such file, and everything that [`Job::parse`] and [`Job::validate`] find.
+    pub fn read(path: &Path) -> Result<Self> {
+        let text = std::fs::read_to_string(path).map_err(|source| Error::Read {
+            path: path.to_owned(),
+            source,
+        })?;
+        let job = Self::parse(&text, path)?;
+        job.validate()?;
+        job.resolve(path.parent().unwrap_or(Path::new("")))
+    }
+
+    /// The job written in `text`; `path` decides between TOML and JSON and appears in messages.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::JobKey`] for a key that no job has, [`Error::JobSyntax`] for anything else that is not a job.
+    pub fn parse(text: &str, path: &Path) -> Result<Self> {
+        document::parse(text, path)
+    }
+
+    /// Checks the values: ranges, names, selections, names of outputs.
+    ///
+    /// # Errors
+    ///
+    /// The first mistake found, in the order of the document.
+    pub fn validate(&self) -> Result<()> {
+        validation::validate(self)
+    }
+
+    /// The same job with paths relative to `folder` made absolute.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Read`] where the current directory cannot be determined.
+    pub fn resolve(mut self, folder: &Path) -> Result<Self> {
+        for path in self.paths_mut() {
+            let joined = folder.join(&*path);
+            *path = std::path::absolute(&joined).map_err(|source| Error::Read { path: joined, source })?;
+        }
+        Ok(self)
+    }
+
+    fn paths_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
+        let model = &mut self.model;
+        let inputs = [
+            Some(&mut model.stiffness),
+            Some(&mut model.mass),
+            model.dofs.as_mut(),
+            model.nodes.as_mut(),
+        ];
+        let outputs = [Some(&mut self.write.superelement), self.write.report.as_mut()];
+        inputs.into_iter().chain(outputs).flatten()
+    }
 }
 
 /// Where the matrices, the meaning of their rows and the nodes come from.
@@ -61,128 +128,6 @@ pub struct Expectation {
     pub cg: Option<[f64; 3]>,
 }
 
-/// One interface node of the superelement, or a set of nodes that all become interface nodes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct InterfaceJob {
-    /// Name, unique in the job.
-    pub name: String,
-    /// Which nodes of the model.
-    pub nodes: NodeSelection,
-    /// How they couple to the interface.
-    #[serde(default)]
-    pub coupling: Coupling,
-    /// Position of the interface node of a `rigid` coupling.
-    #[serde(default)]
-    pub origin: Origin,
-    /// Directions that belong to the interface; for `direct`, those of the six that the nodes have.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub dofs: Option<Vec<Direction>>,
-}
-
-/// Nodes by label, by group, by region, or rows by number where the model has no nodes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
-pub enum NodeSelection {
-    /// `"group:HUB"`.
-    Group(String),
-    /// `[412, 413]`.
-    Labels(Vec<i64>),
-    /// `{ within = … }`.
-    Region {
-        /// The region that holds the nodes.
-        within: Region,
-    },
-    /// `{ rows = [0, 1, 2] }`, zero-based, for a model without nodes.
-    Rows {
-        /// Row numbers of the matrices, from zero.
-        rows: Vec<usize>,
-    },
-}
-
-/// A region of space; a node belongs to it when it is inside or on the border.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase", deny_unknown_fields)]
-pub enum Region {
-    /// Axis-parallel box.
-    Box {
-        /// Smallest corner.
-        min: [f64; 3],
-        /// Largest corner.
-        max: [f64; 3],
-    },
-    /// Slab about a plane.
-    Plane {
-        /// A point of the plane.
-        point: [f64; 3],
-        /// Its normal, of any length.
-        normal: [f64; 3],
-        /// Half thickness.
-        tolerance: f64,
-    },
-    /// Finite cylinder, solid or (with an inner radius) a shell.
-    Cylinder {
-        /// Centre of one end.
-        from: [f64; 3],
-        /// Centre of the other end.
-        to: [f64; 3],
-        /// Outer radius.
-        radius: f64,
-        /// Inner radius.
-        #[serde(default)]
-        inner_radius: f64,
-    },
-    /// Ball.
-    Sphere {
-        /// Centre.
-        center: [f64; 3],
-        /// Radius.
-        radius: f64,
-    },
-}
-
-/// How nodes of the model couple to an interface.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Coupling {
-    /// The nodes' own degrees of freedom.
-    #[default]
-    Direct,
-    /// One node of six degrees of freedom that moves the patch as a rigid body.
-    Rigid,
-}
-
-/// Where the interface node of a rigid patch sits.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
-pub enum Origin {
-    /// `"centroid"`: the mean of the patch's nodes.
-    #[default]
-    #[serde(with = "centroid")]
-    Centroid,
-    /// `[x, y, z]`.
-    Point([f64; 3]),
-}
-
-mod centroid {
-    //! The word `"centroid"` as a unit variant of an untagged enum.
-
-    use serde::{Deserialize, Deserializer, Serializer, de::Error};
-
-    pub(super) fn serialize<S: Serializer>(serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str("centroid")
-    }
-
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
-        let word = String::deserialize(deserializer)?;
-        if word == "centroid" {
-            Ok(())
-        } else {
-            Err(D::Error::custom("expected \"centroid\" or [x, y, z]"))
-        }
-    }
-}
-
 /// Method and modes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -208,7 +153,7 @@ pub enum Method {
 
 /// How many elastic modes are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged, deny_unknown_fields)]
+#[serde(untagged, try_from = "ModeTable")]
 pub enum ModeSelection {
     /// `{ count = 40 }`, extended to complete clusters.
     Count {
@@ -220,6 +165,32 @@ pub enum ModeSelection {
         /// The highest frequency.
         up_to_hz: f64,
     },
+}
+
+/// The keys of `modes`; exactly one of them is there.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ModeTable {
+    count: Option<usize>,
+    up_to_hz: Option<f64>,
+}
+
+impl TryFrom<ModeTable> for ModeSelection {
+    type Error = &'static str;
+
+    fn try_from(table: ModeTable) -> std::result::Result<Self, Self::Error> {
+        match table {
+            ModeTable {
+                count: Some(count),
+                up_to_hz: None,
+            } => Ok(Self::Count { count }),
+            ModeTable {
+                count: None,
+                up_to_hz: Some(up_to_hz),
+            } => Ok(Self::UpTo { up_to_hz }),
+            _ => Err("expected exactly one of `count` and `up_to_hz`"),
+        }
+    }
 }
 
 /// Which eigensolver finds the modes.
@@ -265,4 +236,13 @@ pub struct WriteJob {
     /// The report; beside the superelement as `name.report.json` where absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub report: Option<PathBuf>,
+}
+
+impl WriteJob {
+    /// Where the report goes: as asked, or beside the superelement as `name.report.json`.
+    pub fn report_path(&self) -> PathBuf {
+        self.report
+            .clone()
+            .unwrap_or_else(|| self.superelement.with_extension("report.json"))
+    }
 }

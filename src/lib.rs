@@ -1,6 +1,7 @@
 //! tmp
 pub mod basis;
 pub mod dense;
+pub mod cli;
 pub mod error;
 pub mod factor;
 pub mod input;
@@ -10,5 +11,7 @@ pub mod modes;
 pub mod partition;
 pub mod reduction;
 pub mod rigid;
+pub mod outcome;
+pub mod report;
 pub mod sparse;
 pub mod verification;

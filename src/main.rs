@@ -1,1 +1,5 @@
-fn main() {}
+//! The program `supel`.
+
+fn main() -> std::process::ExitCode {
+    supel::cli::main(supel::outcome::reduce)
+}

@@ -194,7 +194,7 @@ fn refuse_shared_rows(model: &Model, resolved: &[Resolved]) -> Result<()> {
         for row in rows {
             if let Some(first) = owner.insert(*row, &node.name) {
                 let dof = model.dofs.as_ref().map_or_else(|| format!("row {row}"), |dofs| dofs[*row].to_string());
-                return Err(Error::InterfaceTwice { dof, first: first.to_owned(), second: node.name.clone() });
+                return Err(Error::DofTwice { dof, first: first.to_owned(), second: node.name.clone() });
             }
         }
     }

@@ -1,0 +1,243 @@
+//! Checked commands, built from what was typed.
+
+use std::path::{Path, PathBuf};
+
+use super::flags::{CommandLine, InspectFlags, ModelFlags, OutputFlags, ReduceFlags, ReductionFlags, Typed};
+use super::process;
+use crate::error::{Error, Result};
+use crate::job::{
+    Certify, Coupling, InterfaceJob, Job, ModeSelection, ModelJob, NodeSelection, Origin, ReductionJob, RunJob,
+    WriteJob,
+};
+
+/// One command, ready to run.
+#[derive(Debug)]
+pub(super) enum Command {
+    Reduce(ReduceCommand),
+    Inspect(InspectCommand),
+}
+
+/// Reduce a job.
+#[derive(Debug)]
+pub(super) struct ReduceCommand {
+    /// The job: checked, paths absolute.
+    pub(super) job: Job,
+    pub(super) n_threads: usize,
+    pub(super) answer: Answer,
+    pub(super) unverified: Unverified,
+    pub(super) strictness: Strictness,
+}
+
+/// Show a superelement file.
+#[derive(Debug)]
+pub(super) struct InspectCommand {
+    pub(super) file: PathBuf,
+    pub(super) answer: InspectAnswer,
+}
+
+/// What stdout carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Answer {
+    Text,
+    Json,
+    Nothing,
+}
+
+/// What `supel inspect` prints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum InspectAnswer {
+    Text,
+    Json,
+    Job,
+}
+
+/// What becomes of a superelement that failed a check.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Unverified {
+    Refused,
+    Written,
+}
+
+/// Whether warnings count as failed checks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Strictness {
+    Normal,
+    Strict,
+}
+
+impl Command {
+    pub(super) fn build(line: CommandLine) -> Result<Self> {
+        match line.command {
+            Typed::Reduce(flags) => build_reduce(*flags).map(Self::Reduce),
+            Typed::Inspect(InspectFlags { file, json, job }) => {
+                let answer = match (json, job) {
+                    (_, true) => InspectAnswer::Job,
+                    (true, false) => InspectAnswer::Json,
+                    (false, false) => InspectAnswer::Text,
+                };
+                Ok(Self::Inspect(InspectCommand { file, answer }))
+            }
+        }
+    }
+}
+
+fn build_reduce(flags: ReduceFlags) -> Result<ReduceCommand> {
+    let ReduceFlags {
+        job,
+        model,
+        reduction,
+        output,
+        run,
+    } = flags;
+    let answer = match (output.json, output.quiet) {
+        (true, _) => Answer::Json,
+        (false, true) => Answer::Nothing,
+        (false, false) => Answer::Text,
+    };
+    let unverified = if output.allow_unverified {
+        Unverified::Written
+    } else {
+        Unverified::Refused
+    };
+    let strictness = if output.strict {
+        Strictness::Strict
+    } else {
+        Strictness::Normal
+    };
+    let mut job = match job {
+        Some(path) => override_job(Job::read(&path)?, model, &reduction, output)?,
+        None => one_off_job(model, &reduction, output)?,
+    };
+    job.run.certify = reduction.certify.map_or(job.run.certify, Certify::from);
+    job.run.memory_gib = run.memory_gib.or(job.run.memory_gib);
+    job.validate()?;
+    let n_threads = run.threads.map_or_else(process::available_threads, usize::from);
+    // Paths of the document are absolute already; those of flags are relative to where the command was typed.
+    let job = job.resolve(Path::new(""))?;
+    Ok(ReduceCommand {
+        job,
+        n_threads,
+        answer,
+        unverified,
+        strictness,
+    })
+}
+
+fn override_job(mut job: Job, model: ModelFlags, reduction: &ReductionFlags, output: OutputFlags) -> Result<Job> {
+    let interfaces = interfaces(&model)?;
+    if !interfaces.is_empty() {
+        job.interfaces = interfaces;
+    }
+    replace(&mut job.model.stiffness, model.stiffness);
+    replace(&mut job.model.mass, model.mass);
+    job.model.dofs = model.dofs.or(job.model.dofs);
+    job.model.nodes = model.nodes.or(job.model.nodes);
+    replace(&mut job.reduction.method, reduction.method.map(Into::into));
+    replace(&mut job.reduction.modes, mode_selection(reduction));
+    replace(&mut job.reduction.eigensolver, reduction.eigensolver.map(Into::into));
+    replace(&mut job.write.superelement, output.output);
+    job.write.report = output.report.or(job.write.report);
+    Ok(job)
+}
+
+fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlags) -> Result<Job> {
+    let interfaces = interfaces(&model)?;
+    let (Some(stiffness), Some(mass), Some(method), Some(modes), Some(superelement)) = (
+        &model.stiffness,
+        &model.mass,
+        reduction.method,
+        mode_selection(reduction),
+        &output.output,
+    ) else {
+        let flags = [
+            ("--stiffness", model.stiffness.is_some()),
+            ("--mass", model.mass.is_some()),
+            ("--method", reduction.method.is_some()),
+            ("--up-to-hz or --modes", mode_selection(reduction).is_some()),
+            ("--output", output.output.is_some()),
+        ];
+        let missing = flags
+            .into_iter()
+            .filter(|(_, is_given)| !is_given)
+            .map(|(flag, _)| flag);
+        return Err(Error::MissingFlags {
+            flags: missing.collect(),
+        });
+    };
+    Ok(Job {
+        model: ModelJob {
+            stiffness: stiffness.clone(),
+            mass: mass.clone(),
+            dofs: model.dofs,
+            nodes: model.nodes,
+            units: None,
+            expect: None,
+        },
+        interfaces,
+        reduction: ReductionJob {
+            method: method.into(),
+            modes,
+            eigensolver: reduction.eigensolver.map(Into::into).unwrap_or_default(),
+        },
+        run: RunJob::default(),
+        write: WriteJob {
+            superelement: superelement.clone(),
+            report: output.report,
+        },
+    })
+}
+
+fn replace<T>(value: &mut T, new: Option<T>) {
+    if let Some(new) = new {
+        *value = new;
+    }
+}
+
+fn mode_selection(reduction: &ReductionFlags) -> Option<ModeSelection> {
+    let up_to = reduction.up_to_hz.map(|up_to_hz| ModeSelection::UpTo { up_to_hz });
+    up_to.or(reduction.modes.map(|count| ModeSelection::Count { count }))
+}
+
+/// The interfaces of the flags: the direct ones, then the rigid ones, each in the order typed.
+fn interfaces(model: &ModelFlags) -> Result<Vec<InterfaceJob>> {
+    let direct = model
+        .interface
+        .iter()
+        .map(|text| interface("--interface", text, Coupling::Direct));
+    let rigid = model
+        .rigid_interface
+        .iter()
+        .map(|text| interface("--rigid-interface", text, Coupling::Rigid));
+    direct.chain(rigid).collect()
+}
+
+fn interface(flag: &'static str, text: &str, coupling: Coupling) -> Result<InterfaceJob> {
+    let wrong = |expected| Error::FlagText {
+        flag,
+        text: text.to_owned(),
+        expected,
+    };
+    let (name, nodes) = text
+        .split_once('=')
+        .ok_or_else(|| wrong("NAME=NODES, as in hub=12,17,19"))?;
+    let nodes = if nodes.starts_with("group:") {
+        NodeSelection::Group(nodes.to_owned())
+    } else if let Some(rows) = nodes.strip_prefix("rows:") {
+        let rows = numbers(rows).ok_or_else(|| wrong("row numbers from zero, as in hub=rows:0,1,2"))?;
+        NodeSelection::Rows { rows }
+    } else {
+        let labels = numbers(nodes).ok_or_else(|| wrong("node labels, group:NAME or rows:0,1,2 after the ="))?;
+        NodeSelection::Labels(labels)
+    };
+    Ok(InterfaceJob {
+        name: name.to_owned(),
+        nodes,
+        coupling,
+        origin: Origin::Centroid,
+        dofs: None,
+    })
+}
+
+fn numbers<T: std::str::FromStr>(text: &str) -> Option<Vec<T>> {
+    text.split(',').map(|number| number.trim().parse().ok()).collect()
+}

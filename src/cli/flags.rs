@@ -1,0 +1,181 @@
+//! What was typed, as clap reads it.
+
+use std::path::PathBuf;
+
+use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
+
+use crate::job;
+
+/// Turns finite element models into verified superelements for multibody simulation.
+#[derive(Debug, Parser)]
+#[command(name = "supel", version, max_term_width = 100, arg_required_else_help = true)]
+pub(super) struct CommandLine {
+    #[command(subcommand)]
+    pub(super) command: Typed,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Typed {
+    /// Reduce a model, verify the result and write superelement and report
+    #[command(after_help = EXIT_CODES)]
+    Reduce(Box<ReduceFlags>),
+    /// Show what is in a superelement file
+    Inspect(InspectFlags),
+}
+
+const EXIT_CODES: &str = "\
+Exit codes: 0 done and verified; 1 done, a check failed; 2 usage; 3 input data; 4 model physics; 5 numerical limit;
+6 resources; 7 input or output; 70 a defect of supel; 130 interrupted.";
+
+#[derive(Debug, Args)]
+pub(super) struct ReduceFlags {
+    /// Job document, TOML or JSON; flags override its keys
+    pub(super) job: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) model: ModelFlags,
+    #[command(flatten)]
+    pub(super) reduction: ReductionFlags,
+    #[command(flatten)]
+    pub(super) output: OutputFlags,
+    #[command(flatten)]
+    pub(super) run: RunFlags,
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Model")]
+pub(super) struct ModelFlags {
+    /// File of the stiffness matrix K; a group of an HDF5 file follows a colon: model.h5:/K
+    #[arg(long, value_name = "FILE")]
+    pub(super) stiffness: Option<PathBuf>,
+    /// File of the mass matrix M
+    #[arg(long, value_name = "FILE")]
+    pub(super) mass: Option<PathBuf>,
+    /// File that says which node and direction each row is
+    #[arg(long, value_name = "FILE")]
+    pub(super) dofs: Option<PathBuf>,
+    /// Table of nodes or mesh
+    #[arg(long, value_name = "FILE")]
+    pub(super) nodes: Option<PathBuf>,
+    /// Interface whose nodes keep their own dofs: hub=12,17,19 or hub=group:HUB or hub=rows:0,1,2 (repeatable)
+    #[arg(long, value_name = "NAME=NODES")]
+    pub(super) interface: Vec<String>,
+    /// Interface of one six-dof node that moves its nodes as a rigid body: hub=group:HUB (repeatable)
+    #[arg(long, value_name = "NAME=NODES")]
+    pub(super) rigid_interface: Vec<String>,
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Reduction", group = ArgGroup::new("how many").args(["up_to_hz", "modes"]))]
+pub(super) struct ReductionFlags {
+    /// Reduction method
+    #[arg(long, value_enum)]
+    pub(super) method: Option<Method>,
+    /// Keep the modes up to this frequency
+    #[arg(long, value_name = "F", allow_negative_numbers = true)]
+    pub(super) up_to_hz: Option<f64>,
+    /// Keep this many modes, extended to complete clusters
+    #[arg(long, value_name = "N")]
+    pub(super) modes: Option<usize>,
+    /// Eigensolver
+    #[arg(long, value_enum)]
+    pub(super) eigensolver: Option<Eigensolver>,
+    /// How completeness of the modes is certified
+    #[arg(long, value_enum)]
+    pub(super) certify: Option<Certify>,
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Output")]
+// One field for each switch that can be typed; the checked command has enums in their place.
+#[expect(clippy::struct_excessive_bools)]
+pub(super) struct OutputFlags {
+    /// Superelement file, NAME.supel
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+    /// Report file, NAME.json [default: beside the superelement, NAME.report.json]
+    #[arg(long, value_name = "FILE")]
+    pub(super) report: Option<PathBuf>,
+    /// Print the report as JSON instead of the summary
+    #[arg(long, conflicts_with = "quiet")]
+    pub(super) json: bool,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    pub(super) quiet: bool,
+    /// Write the superelement even if a check failed; the exit code stays 1
+    #[arg(long)]
+    pub(super) allow_unverified: bool,
+    /// Treat warnings as failed checks
+    #[arg(long)]
+    pub(super) strict: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Run")]
+pub(super) struct RunFlags {
+    /// Working threads; changes no result [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(super) threads: Option<u16>,
+    /// Memory the run may use, in GiB [default: what is free]
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    pub(super) memory_gib: Option<f64>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct InspectFlags {
+    /// Superelement file
+    pub(super) file: PathBuf,
+    /// Print everything but the matrices as JSON
+    #[arg(long, conflicts_with = "job")]
+    pub(super) json: bool,
+    /// Print the job that made the file, as JSON that `supel reduce` accepts
+    #[arg(long)]
+    pub(super) job: bool,
+}
+
+/// The methods, as they are typed.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum Method {
+    CraigBampton,
+    Herting,
+}
+
+/// The eigensolvers, as they are typed.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum Eigensolver {
+    Lanczos,
+    Arpack,
+}
+
+/// The certificates, as they are typed.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum Certify {
+    None,
+    Count,
+}
+
+impl From<Method> for job::Method {
+    fn from(method: Method) -> Self {
+        match method {
+            Method::CraigBampton => Self::CraigBampton,
+            Method::Herting => Self::Herting,
+        }
+    }
+}
+
+impl From<Eigensolver> for job::Eigensolver {
+    fn from(eigensolver: Eigensolver) -> Self {
+        match eigensolver {
+            Eigensolver::Lanczos => Self::Lanczos,
+            Eigensolver::Arpack => Self::Arpack,
+        }
+    }
+}
+
+impl From<Certify> for job::Certify {
+    fn from(certify: Certify) -> Self {
+        match certify {
+            Certify::None => Self::None,
+            Certify::Count => Self::Count,
+        }
+    }
+}

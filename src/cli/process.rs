@@ -1,0 +1,16 @@
+//! What the system says of this process.
+
+use std::num::NonZeroUsize;
+
+/// Largest resident memory so far, in bytes, where the system tells.
+pub(super) fn peak_memory_bytes() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kib: u64 = line.split_whitespace().next()?.parse().ok()?;
+    kib.checked_mul(1024)
+}
+
+/// How many threads the machine runs at once.
+pub(super) fn available_threads() -> usize {
+    std::thread::available_parallelism().map_or(1, NonZeroUsize::get)
+}

@@ -1,0 +1,36 @@
+//! Progress for a person who waits: one line on stderr that names the running stage.
+
+use std::io::Write;
+
+use super::answer::Progress;
+use crate::report::Observer;
+
+/// Shows the running stage on stderr, or nothing.
+pub(super) struct StageLine {
+    progress: Progress,
+}
+
+impl StageLine {
+    pub(super) fn new(progress: Progress) -> Self {
+        Self { progress }
+    }
+
+    fn show(&self, text: &str) {
+        if self.progress == Progress::Shown {
+            // Back to the first column and clear the line: the answer that follows must not mix with it.
+            let _ = write!(std::io::stderr(), "\r\x1b[2K{text}");
+        }
+    }
+}
+
+impl Observer for StageLine {
+    fn stage(&mut self, name: &'static str) {
+        self.show(&format!("  {name} …"));
+    }
+}
+
+impl Drop for StageLine {
+    fn drop(&mut self) {
+        self.show("");
+    }
+}

@@ -1,0 +1,113 @@
+//! `supel reduce`: from a job to its files.
+
+use std::path::Path;
+
+use supel_runtime::{StagedFile, Superelement, abandoned_parts};
+
+use super::answer::Terminal;
+use super::command::{Answer, ReduceCommand, Strictness, Unverified};
+use super::exit_code::ExitCode;
+use super::progress::StageLine;
+use super::{Pipeline, process};
+use crate::error::{Error, Result};
+use crate::outcome::Outcome;
+use crate::report::{Observer, Report, StageClock, summary};
+use crate::verification::check::{Check, Limits, Verdict};
+
+pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
+    let n_threads = command.n_threads;
+    let threads = rayon::ThreadPoolBuilder::new()
+        .num_threads(n_threads)
+        .build()
+        .map_err(|source| Error::Threads { n_threads, source })?;
+    let mut stage_line = StageLine::new(terminal.progress);
+    let mut clock = StageClock::new(&mut stage_line);
+    let Outcome {
+        superelement,
+        mut report,
+    } = threads.install(|| pipeline(&command.job, &mut clock))?;
+    clock.stage("write");
+    report.run.n_threads = n_threads;
+    let code = write_superelement(command, &superelement, &mut report)?;
+    report.run.stages = clock.finish();
+    drop(stage_line);
+    report.run.peak_memory_bytes = process::peak_memory_bytes();
+    let report_path = command.job.write.report_path();
+    report.run.report = Some(report_path.clone());
+    report.write(&report_path)?;
+    match command.answer {
+        Answer::Text => terminal.answer(&summary(&report, terminal.paint)),
+        Answer::Json => terminal.answer(&report.to_json()),
+        Answer::Nothing => {}
+    }
+    explain(command, code, terminal);
+    Ok(code)
+}
+
+/// Writes the superelement under a temporary name, reads it back, and gives it its name if it may have it.
+fn write_superelement(command: &ReduceCommand, superelement: &Superelement, report: &mut Report) -> Result<ExitCode> {
+    let path = command.job.write.superelement.as_path();
+    let failed = |error| Error::from_file(path, error);
+    let sealed = superelement.to_bytes().map_err(failed)?;
+    let staged = StagedFile::write(path, &sealed.bytes).map_err(failed)?;
+    report.body.checks.push(file_check(staged.path(), superelement));
+    let is_verified = match (report.body.verdict(), command.strictness) {
+        (Verdict::Pass, _) | (Verdict::Warn, Strictness::Normal) => true,
+        (Verdict::Warn, Strictness::Strict) | (Verdict::Fail, _) => false,
+    };
+    if is_verified || command.unverified == Unverified::Written {
+        staged.commit().map_err(failed)?;
+        report.run.superelement = Some(path.to_owned());
+        report.run.file_bytes = Some(sealed.bytes.len() as u64);
+    }
+    Ok(if is_verified {
+        ExitCode::Done
+    } else {
+        ExitCode::CheckFailed
+    })
+}
+
+/// M-26: the written file, read back, is the superelement in memory to the last bit.
+fn file_check(written: &Path, superelement: &Superelement) -> Check {
+    let difference = match Superelement::open(written) {
+        Ok(read) if read == *superelement => None,
+        Ok(_) => Some("its content differs from what was computed".to_owned()),
+        Err(error) => Some(error.to_string()),
+    };
+    Check {
+        id: "M-26",
+        name: "file read back",
+        equation: "1 where the written file is not the superelement, else 0",
+        value: if difference.is_some() { 1.0 } else { 0.0 },
+        limits: Limits::default(),
+        fail_above: 0.0,
+        worst: difference,
+    }
+}
+
+/// What the exit code and the folder do not say by themselves.
+fn explain(command: &ReduceCommand, code: ExitCode, terminal: &mut Terminal<'_>) {
+    let path = command.job.write.superelement.as_path();
+    if code == ExitCode::CheckFailed && command.unverified == Unverified::Refused {
+        let cause = match command.strictness {
+            Strictness::Normal => "a check failed",
+            Strictness::Strict => "a check failed or warned, with --strict",
+        };
+        let earlier = if path.exists() {
+            "; the file of that name is from an earlier run"
+        } else {
+            ""
+        };
+        let advice = "see the report, or write it anyway with --allow-unverified";
+        terminal.complain(&format!(
+            "supel: {}: not written: {cause}{earlier} – {advice}",
+            path.display()
+        ));
+    }
+    for part in abandoned_parts(path) {
+        terminal.complain(&format!(
+            "supel: {}: left by an interrupted run – it can be removed",
+            part.display()
+        ));
+    }
+}

@@ -1,0 +1,253 @@
+//! The job document: TOML or JSON, every key known, every mistake located.
+//!
+//! Keys are checked before values are read, because the place and the nearest known key tell a user more than the
+//! list of expected keys that a deserialiser gives.
+
+use std::path::Path;
+
+use super::Job;
+use crate::error::{Error, Result};
+
+/// The keys of a job by the table they belong to; `[]` stands for each element of a list.
+const KEYS: &[(&str, &[&str])] = &[
+    ("", &["model", "interface", "reduction", "run", "write"]),
+    ("model", &["stiffness", "mass", "dofs", "nodes", "units", "expect"]),
+    ("model.expect", &["mass", "cg"]),
+    ("interface[]", &["name", "nodes", "coupling", "origin", "dofs"]),
+    ("interface[].nodes", &["within", "rows"]),
+    ("interface[].nodes.within", &["box", "plane", "cylinder", "sphere"]),
+    ("interface[].nodes.within.box", &["min", "max"]),
+    ("interface[].nodes.within.plane", &["point", "normal", "tolerance"]),
+    (
+        "interface[].nodes.within.cylinder",
+        &["from", "to", "radius", "inner_radius"],
+    ),
+    ("interface[].nodes.within.sphere", &["center", "radius"]),
+    ("reduction", &["method", "modes", "eigensolver"]),
+    ("reduction.modes", &["count", "up_to_hz"]),
+    ("run", &["certify", "memory_gib"]),
+    ("write", &["superelement", "report"]),
+];
+
+/// Above this Jaro-Winkler similarity a known key is offered for an unknown one; below it the offer would be noise.
+const SIMILAR: f64 = 0.75;
+
+/// How a job document is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Notation {
+    /// TOML.
+    Toml,
+    /// JSON.
+    Json,
+}
+
+impl Notation {
+    /// By the extension, otherwise by the content: a JSON job starts with a brace, which no TOML document does.
+    pub fn of(text: &str, path: &Path) -> Self {
+        match path.extension().and_then(|extension| extension.to_str()) {
+            Some("toml") => Self::Toml,
+            Some("json") => Self::Json,
+            _ if text.trim_start().starts_with('{') => Self::Json,
+            _ => Self::Toml,
+        }
+    }
+}
+
+pub(super) fn parse(text: &str, path: &Path) -> Result<Job> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    match Notation::of(text, path) {
+        Notation::Toml => {
+            let failure = |error: toml::de::Error| toml_failure(&error, text, path);
+            let table = toml::de::DeTable::parse(text).map_err(failure)?;
+            check_keys(&toml_table(table.get_ref(), text), path)?;
+            toml::from_str(text).map_err(failure)
+        }
+        Notation::Json => {
+            let failure = |error: serde_json::Error| json_failure(&error, path);
+            let value: serde_json::Value = serde_json::from_str(text).map_err(failure)?;
+            check_keys(&json_tree(&value), path)?;
+            serde_json::from_str(text).map_err(failure)
+        }
+    }
+}
+
+/// The shape of a document: its tables, lists and keys, without the values.
+enum Tree {
+    Table(Vec<Entry>),
+    List(Vec<Tree>),
+    Leaf,
+}
+
+struct Entry {
+    key: String,
+    line: Option<usize>,
+    value: Tree,
+}
+
+fn toml_table(table: &toml::de::DeTable<'_>, text: &str) -> Tree {
+    let entry = |(key, value): (&toml::Spanned<_>, &toml::Spanned<toml::de::DeValue<'_>>)| {
+        let name: &toml::de::DeString<'_> = key.get_ref();
+        let line = Some(line_at(text, key.span().start));
+        Entry {
+            key: name.to_string(),
+            line,
+            value: toml_value(value.get_ref(), text),
+        }
+    };
+    let mut entries: Vec<Entry> = table.iter().map(entry).collect();
+    // The table is sorted by key; the first mistake of the document is the one to report.
+    entries.sort_by_key(|entry| entry.line);
+    Tree::Table(entries)
+}
+
+fn toml_value(value: &toml::de::DeValue<'_>, text: &str) -> Tree {
+    match value {
+        toml::de::DeValue::Table(table) => toml_table(table, text),
+        toml::de::DeValue::Array(items) => {
+            Tree::List(items.iter().map(|item| toml_value(item.get_ref(), text)).collect())
+        }
+        _ => Tree::Leaf,
+    }
+}
+
+fn json_tree(value: &serde_json::Value) -> Tree {
+    match value {
+        serde_json::Value::Object(map) => Tree::Table(
+            map.iter()
+                .map(|(key, value)| Entry {
+                    key: key.clone(),
+                    line: None,
+                    value: json_tree(value),
+                })
+                .collect(),
+        ),
+        serde_json::Value::Array(items) => Tree::List(items.iter().map(json_tree).collect()),
+        _ => Tree::Leaf,
+    }
+}
+
+fn check_keys(tree: &Tree, path: &Path) -> Result<()> {
+    check_keys_below(tree, "", "", path)
+}
+
+/// `pattern` is the place with `[]` for every list, `place` the same with element numbers.
+fn check_keys_below(tree: &Tree, pattern: &str, place: &str, path: &Path) -> Result<()> {
+    match tree {
+        Tree::Leaf => Ok(()),
+        Tree::List(items) => items.iter().enumerate().try_for_each(|(item_idx, item)| {
+            check_keys_below(item, &format!("{pattern}[]"), &format!("{place}[{item_idx}]"), path)
+        }),
+        Tree::Table(entries) => {
+            // A table where none belongs is a value of the wrong kind, which the deserialiser reports.
+            let Some((_, known)) = KEYS.iter().find(|(table, _)| *table == pattern) else {
+                return Ok(());
+            };
+            entries.iter().try_for_each(|entry| {
+                let here = join(place, &entry.key);
+                if !known.contains(&entry.key.as_str()) {
+                    let suggestion = nearest(&entry.key, known);
+                    return Err(Error::JobKey {
+                        path: path.to_owned(),
+                        line: entry.line,
+                        key: here,
+                        suggestion,
+                    });
+                }
+                check_keys_below(&entry.value, &join(pattern, &entry.key), &here, path)
+            })
+        }
+    }
+}
+
+fn join(place: &str, key: &str) -> String {
+    if place.is_empty() {
+        key.to_owned()
+    } else {
+        format!("{place}.{key}")
+    }
+}
+
+fn nearest(key: &str, known: &[&str]) -> Option<String> {
+    let key = key.to_lowercase();
+    known
+        .iter()
+        .map(|candidate| (strsim::jaro_winkler(&key, candidate), candidate))
+        .filter(|(similarity, _)| *similarity >= SIMILAR)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, candidate)| (*candidate).to_owned())
+}
+
+fn toml_failure(error: &toml::de::Error, text: &str, path: &Path) -> Error {
+    Error::JobSyntax {
+        path: path.to_owned(),
+        line: error.span().map(|span| line_at(text, span.start)),
+        message: error.message().replace('\n', ", "),
+    }
+}
+
+fn json_failure(error: &serde_json::Error, path: &Path) -> Error {
+    let text = error.to_string();
+    let place = format!(" at line {} column {}", error.line(), error.column());
+    Error::JobSyntax {
+        path: path.to_owned(),
+        line: (error.line() > 0).then_some(error.line()),
+        message: text.strip_suffix(&place).unwrap_or(&text).to_owned(),
+    }
+}
+
+fn line_at(text: &str, offset: usize) -> usize {
+    text.bytes().take(offset).filter(|byte| *byte == b'\n').count() + 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Properties of the schema's table at `pattern`, following references and alternatives.
+    fn schema_keys(schema: &serde_json::Value, pattern: &str) -> Vec<String> {
+        let mut tables = vec![schema];
+        for step in pattern.split('.').filter(|step| !step.is_empty()) {
+            let (key, is_list) = step.strip_suffix("[]").map_or((step, false), |key| (key, true));
+            tables = tables
+                .iter()
+                .flat_map(|table| alternatives(schema, table))
+                .filter_map(|table| table.get("properties")?.get(key))
+                .flat_map(|value| alternatives(schema, value))
+                .filter_map(|value| if is_list { value.get("items") } else { Some(value) })
+                .collect();
+        }
+        let mut keys: Vec<String> = tables
+            .into_iter()
+            .flat_map(|table| alternatives(schema, table))
+            .filter_map(|table| table.get("properties")?.as_object())
+            .flat_map(|properties| properties.keys().cloned())
+            .collect();
+        keys.sort();
+        keys.dedup();
+        keys
+    }
+
+    fn alternatives<'a>(schema: &'a serde_json::Value, value: &'a serde_json::Value) -> Vec<&'a serde_json::Value> {
+        if let Some(reference) = value.get("$ref").and_then(serde_json::Value::as_str) {
+            let target = schema.pointer(reference.trim_start_matches('#'));
+            return alternatives(schema, target.unwrap_or_else(|| panic!("{reference} leads nowhere")));
+        }
+        match value.get("oneOf").and_then(serde_json::Value::as_array) {
+            Some(branches) => branches
+                .iter()
+                .flat_map(|branch| alternatives(schema, branch))
+                .collect(),
+            None => vec![value],
+        }
+    }
+
+    #[test]
+    fn the_table_of_keys_is_the_schema() {
+        let schema = serde_json::from_str(include_str!("../../schemas/job.schema.json")).expect("schema");
+        for (pattern, known) in KEYS {
+            let mut known: Vec<String> = known.iter().map(|key| (*key).to_owned()).collect();
+            known.sort();
+            assert_eq!(schema_keys(&schema, pattern), known, "keys of `{pattern}`");
+        }
+    }
+}

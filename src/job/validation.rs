@@ -1,0 +1,312 @@
+//! Checks of a job's values, made before any file is opened.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use super::{Coupling, InterfaceJob, Job, ModeSelection, NodeSelection, Origin, Region};
+use crate::error::{Error, Result};
+use crate::input::Direction;
+
+const POSITIVE: &str = "a positive number";
+const FINITE: &str = "a finite number";
+
+pub(super) fn validate(job: &Job) -> Result<()> {
+    model(job)?;
+    interfaces(&job.interfaces)?;
+    if let ModeSelection::UpTo { up_to_hz } = job.reduction.modes {
+        positive("reduction.modes.up_to_hz", up_to_hz)?;
+    }
+    if let Some(memory) = job.run.memory_gib {
+        positive("run.memory_gib", memory)?;
+    }
+    output("write.superelement", &job.write.superelement, ".supel")?;
+    job.write
+        .report
+        .as_deref()
+        .map_or(Ok(()), |path| output("write.report", path, ".json"))
+}
+
+fn model(job: &Job) -> Result<()> {
+    let model = &job.model;
+    let files = [
+        ("model.stiffness", Some(&model.stiffness)),
+        ("model.mass", Some(&model.mass)),
+        ("model.dofs", model.dofs.as_ref()),
+        ("model.nodes", model.nodes.as_ref()),
+    ];
+    for (key, path) in files {
+        if path.is_some_and(|path| path.as_os_str().is_empty()) {
+            return Err(Error::JobEmpty {
+                key: key.to_owned(),
+                expected: "the name of a file",
+            });
+        }
+    }
+    let Some(expect) = &model.expect else { return Ok(()) };
+    if let Some(mass) = expect.mass {
+        positive("model.expect.mass", mass)?;
+    }
+    expect.cg.map_or(Ok(()), |cg| finite("model.expect.cg", &cg))
+}
+
+fn interfaces(interfaces: &[InterfaceJob]) -> Result<()> {
+    for (interface_idx, interface) in interfaces.iter().enumerate() {
+        let place = format!("interface[{interface_idx}]");
+        if interface.name.trim().is_empty() {
+            return Err(Error::JobEmpty {
+                key: format!("{place}.name"),
+                expected: "a name",
+            });
+        }
+        let earlier = interfaces.iter().take(interface_idx);
+        if earlier.clone().any(|other| other.name == interface.name) {
+            return Err(Error::InterfaceTwice {
+                name: interface.name.clone(),
+            });
+        }
+        selection(interface, &place)?;
+        directions(interface, &place)?;
+        coupling(interface, &place)?;
+        earlier.clone().try_for_each(|other| overlap(other, interface))?;
+    }
+    Ok(())
+}
+
+fn selection(interface: &InterfaceJob, place: &str) -> Result<()> {
+    let key = format!("{place}.nodes");
+    let repeats = |what: Option<String>| match what {
+        Some(what) => Err(Error::InterfaceRepeats {
+            interface: interface.name.clone(),
+            what,
+        }),
+        None => Ok(()),
+    };
+    match &interface.nodes {
+        NodeSelection::Labels(labels) if labels.is_empty() => Err(Error::JobEmpty {
+            key,
+            expected: "the labels of one or more nodes",
+        }),
+        NodeSelection::Rows { rows } if rows.is_empty() => Err(Error::JobEmpty {
+            key: key + ".rows",
+            expected: "the numbers of one or more rows",
+        }),
+        NodeSelection::Labels(labels) => repeats(first_repeated(labels).map(|label| format!("node {label}"))),
+        NodeSelection::Rows { rows } => repeats(first_repeated(rows).map(|row| format!("row {row}"))),
+        NodeSelection::Region { within } => region(within, &format!("{key}.within")),
+        NodeSelection::Group(text) => match interface.nodes.group_name() {
+            Some(name) if !name.is_empty() => Ok(()),
+            _ => Err(Error::InterfaceNodes {
+                interface: interface.name.clone(),
+                text: text.clone(),
+            }),
+        },
+    }
+}
+
+fn directions(interface: &InterfaceJob, place: &str) -> Result<()> {
+    let Some(directions) = &interface.dofs else {
+        return Ok(());
+    };
+    if directions.is_empty() {
+        return Err(Error::JobEmpty {
+            key: format!("{place}.dofs"),
+            expected: "one or more of ux, uy, uz, rx, ry, rz",
+        });
+    }
+    match first_repeated(directions) {
+        Some(direction) => Err(Error::InterfaceRepeats {
+            interface: interface.name.clone(),
+            what: format!("direction {}", direction_name(direction)),
+        }),
+        None => Ok(()),
+    }
+}
+
+fn coupling(interface: &InterfaceJob, place: &str) -> Result<()> {
+    let conflict = |key, situation, remedy| {
+        Err(Error::InterfaceConflict {
+            interface: interface.name.clone(),
+            key,
+            situation,
+            remedy,
+        })
+    };
+    let is_rows = matches!(interface.nodes, NodeSelection::Rows { .. });
+    match (&interface.origin, interface.coupling) {
+        (_, Coupling::Rigid) if is_rows => conflict(
+            "coupling = \"rigid\"",
+            "rows, which have no position",
+            ", or give nodes",
+        ),
+        (_, Coupling::Direct) if is_rows && interface.dofs.is_some() => {
+            conflict("dofs", "rows, each of which is one degree of freedom", "")
+        }
+        (Origin::Point(_), Coupling::Direct) => conflict(
+            "origin",
+            "a direct coupling, whose nodes stay where they are",
+            ", or set coupling = \"rigid\"",
+        ),
+        (Origin::Point(point), Coupling::Rigid) => finite(&format!("{place}.origin"), point),
+        (Origin::Centroid, _) => Ok(()),
+    }
+}
+
+/// Two interfaces may share a node only where both couple directly and claim different directions of it.
+fn overlap(first: &InterfaceJob, second: &InterfaceJob) -> Result<()> {
+    let direct = first.coupling == Coupling::Direct && second.coupling == Coupling::Direct;
+    let claims = |interface: &InterfaceJob, direction| match &interface.dofs {
+        Some(directions) => directions.contains(&direction),
+        None => true,
+    };
+    if direct
+        && !Direction::ALL
+            .iter()
+            .any(|direction| claims(first, *direction) && claims(second, *direction))
+    {
+        return Ok(());
+    }
+    let shared = match (&first.nodes, &second.nodes) {
+        (NodeSelection::Labels(a), NodeSelection::Labels(b)) => first_shared(a, b).map(|label| format!("node {label}")),
+        (NodeSelection::Rows { rows: a }, NodeSelection::Rows { rows: b }) => {
+            first_shared(a, b).map(|row| format!("row {row}"))
+        }
+        (NodeSelection::Group(a), NodeSelection::Group(b)) if a == b => Some(a.clone()),
+        _ => None,
+    };
+    match shared {
+        Some(what) => Err(Error::InterfaceOverlap {
+            first: first.name.clone(),
+            second: second.name.clone(),
+            what,
+        }),
+        None => Ok(()),
+    }
+}
+
+fn region(region: &Region, place: &str) -> Result<()> {
+    match region {
+        Region::Box { min, max } => {
+            finite(&format!("{place}.box.min"), min)?;
+            finite(&format!("{place}.box.max"), max)?;
+            match min.iter().zip(max).find(|(low, high)| low > high) {
+                Some((_, high)) => Err(number(
+                    format!("{place}.box.max"),
+                    *high,
+                    "no coordinate smaller than that of `min`",
+                )),
+                None => Ok(()),
+            }
+        }
+        Region::Plane {
+            point,
+            normal,
+            tolerance,
+        } => {
+            finite(&format!("{place}.plane.point"), point)?;
+            direction(&format!("{place}.plane.normal"), normal)?;
+            not_negative(&format!("{place}.plane.tolerance"), *tolerance)
+        }
+        Region::Cylinder {
+            from,
+            to,
+            radius,
+            inner_radius,
+        } => {
+            finite(&format!("{place}.cylinder.from"), from)?;
+            finite(&format!("{place}.cylinder.to"), to)?;
+            direction(
+                &format!("{place}.cylinder.to"),
+                &std::array::from_fn(|axis| to[axis] - from[axis]),
+            )?;
+            positive(&format!("{place}.cylinder.radius"), *radius)?;
+            not_negative(&format!("{place}.cylinder.inner_radius"), *inner_radius)?;
+            if inner_radius > radius {
+                return Err(number(
+                    format!("{place}.cylinder.inner_radius"),
+                    *inner_radius,
+                    "at most `radius`",
+                ));
+            }
+            Ok(())
+        }
+        Region::Sphere { center, radius } => {
+            finite(&format!("{place}.sphere.center"), center)?;
+            positive(&format!("{place}.sphere.radius"), *radius)
+        }
+    }
+}
+
+fn output(key: &'static str, path: &Path, expected: &'static str) -> Result<()> {
+    // `name.supel`, not a bare `.supel`, which would be a hidden file without a name.
+    let is_named = path
+        .file_name()
+        .and_then(|name| name.to_str())
+        .is_some_and(|name| name.strip_suffix(expected).is_some_and(|stem| !stem.is_empty()));
+    if is_named {
+        Ok(())
+    } else {
+        Err(Error::OutputName {
+            key,
+            path: path.to_owned(),
+            expected,
+        })
+    }
+}
+
+fn positive(key: &str, value: f64) -> Result<()> {
+    if value.is_finite() && value > 0.0 {
+        Ok(())
+    } else {
+        Err(number(key.to_owned(), value, POSITIVE))
+    }
+}
+
+fn not_negative(key: &str, value: f64) -> Result<()> {
+    if value.is_finite() && value >= 0.0 {
+        Ok(())
+    } else {
+        Err(number(key.to_owned(), value, "zero or more"))
+    }
+}
+
+fn finite(key: &str, values: &[f64; 3]) -> Result<()> {
+    match values.iter().find(|value| !value.is_finite()) {
+        Some(value) => Err(number(key.to_owned(), *value, FINITE)),
+        None => Ok(()),
+    }
+}
+
+/// A vector with a direction: finite and not zero.
+fn direction(key: &str, vector: &[f64; 3]) -> Result<()> {
+    finite(key, vector)?;
+    if vector.iter().all(|component| *component == 0.0) {
+        return Err(number(key.to_owned(), 0.0, "a vector with a direction"));
+    }
+    Ok(())
+}
+
+fn number(key: String, value: f64, expected: &'static str) -> Error {
+    Error::JobNumber { key, value, expected }
+}
+
+/// The word a job uses for a direction.
+fn direction_name(direction: Direction) -> &'static str {
+    match direction {
+        Direction::Ux => "ux",
+        Direction::Uy => "uy",
+        Direction::Uz => "uz",
+        Direction::Rx => "rx",
+        Direction::Ry => "ry",
+        Direction::Rz => "rz",
+    }
+}
+
+fn first_repeated<T: Ord + Copy>(items: &[T]) -> Option<T> {
+    let mut seen = BTreeSet::new();
+    items.iter().copied().find(|item| !seen.insert(*item))
+}
+
+fn first_shared<T: Ord + Copy>(a: &[T], b: &[T]) -> Option<T> {
+    let known: BTreeSet<T> = a.iter().copied().collect();
+    b.iter().copied().find(|item| known.contains(item))
+}

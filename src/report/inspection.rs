@@ -1,0 +1,197 @@
+//! What a superelement file says of itself, as text for people.
+
+use supel_runtime::{CheckSummary, Coordinate, FORMAT_VERSION, Flag, InterfaceNode, Method, Superelement};
+
+use super::mode_table::{Mode, mode_table};
+use super::page::{Page, Paint, Tone, verdict_word};
+use super::summary::body;
+use super::table::{self, Align};
+use crate::report::MassProperties;
+use crate::verification::check::Verdict;
+
+/// Text about `superelement`, whose file has `file_bytes` bytes.
+pub fn inspection(superelement: &Superelement, file_bytes: u64, paint: Paint) -> String {
+    let mut page = Page::new(paint);
+    head(&mut page, superelement, file_bytes);
+    model(&mut page, superelement);
+    page.heading("Interface");
+    interface(&mut page, &superelement.metadata().interface_nodes);
+    page.heading("Modes");
+    modes(&mut page, superelement);
+    page.heading("Checks");
+    checks(&mut page, superelement);
+    page.into_text()
+}
+
+fn head(page: &mut Page, superelement: &Superelement, file_bytes: u64) {
+    let metadata = superelement.metadata();
+    let title = format!(
+        "superelement · {} · {} coordinates",
+        method(metadata.method),
+        superelement.n_coordinates()
+    );
+    let title = page.toned(&title, Tone::Heading);
+    page.line(&title);
+    let generator = &metadata.generator;
+    let made_by = format!(
+        "{} {} · format version {FORMAT_VERSION}",
+        generator.name, generator.version
+    );
+    page.entry("made by", &made_by);
+    page.entry("size", &table::bytes(file_bytes));
+    let sizes = format!(
+        "{} interface + {} modal",
+        superelement.n_interface(),
+        superelement.n_modal()
+    );
+    page.entry("coordinates", &format!("{} = {sizes}", superelement.n_coordinates()));
+    page.entry("rigid body", &table::counted(superelement.n_rigid(), "mode", "modes"));
+    let tensors = superelement.tensors();
+    let optional = [
+        ("damping", tensors.damping.is_some()),
+        ("mixing", tensors.mixing.is_some()),
+        ("gravity", tensors.gravity.is_some()),
+        ("load vectors", tensors.load_vectors.is_some()),
+        ("recovery", tensors.recovery.is_some()),
+    ];
+    let present: Vec<&str> = optional
+        .into_iter()
+        .filter(|(_, is_present)| *is_present)
+        .map(|(name, _)| name)
+        .collect();
+    if !present.is_empty() {
+        page.entry("also holds", &present.join(", "));
+    }
+    for flag in &metadata.flags {
+        let text = match flag {
+            Flag::SingularMass => "the mass matrix is semidefinite and cannot be factored",
+        };
+        page.entry("note", text);
+    }
+}
+
+fn model(page: &mut Page, superelement: &Superelement) {
+    let metadata = superelement.metadata();
+    page.heading("Model");
+    let units = metadata
+        .units
+        .as_ref()
+        .map(|units| format!(" · units {units}"))
+        .unwrap_or_default();
+    page.entry("model", &format!("{} dofs{units}", table::count(metadata.model.n_dofs)));
+    if let Some(properties) = &metadata.model.mass_properties {
+        let properties = MassProperties {
+            mass: Some(properties.mass),
+            cg: Some(properties.center_of_mass),
+            inertia: Some(properties.inertia),
+        };
+        body::mass_properties(page, &properties);
+    }
+    for (role, digest) in &metadata.inputs {
+        page.entry(role, &format!("blake3 {digest}"));
+    }
+}
+
+fn interface(page: &mut Page, nodes: &[InterfaceNode]) {
+    let rows: Vec<[String; 4]> = nodes
+        .iter()
+        .map(|node| {
+            let label = node.label.map(|label| format!("node {label}")).unwrap_or_default();
+            let dofs: Vec<String> = node.dofs.iter().map(|dof| format!("{dof:?}").to_lowercase()).collect();
+            let position = node
+                .position
+                .map(|coordinate| table::quantity(coordinate, 5))
+                .join(", ");
+            [node.name.clone(), label, dofs.join(" "), format!("({position})")]
+        })
+        .collect();
+    for row in table::columns(&rows, [Align::Left; 4]) {
+        page.line(&format!("  {}", row.join("  ")));
+    }
+}
+
+fn modes(page: &mut Page, superelement: &Superelement) {
+    let metadata = superelement.metadata();
+    let bar = |mode_idx: usize| {
+        metadata.coordinates.iter().find_map(|coordinate| match *coordinate {
+            Coordinate::ElasticMode { mode, error_bar_hz, .. }
+            | Coordinate::FixedInterfaceMode { mode, error_bar_hz, .. }
+                if mode == mode_idx =>
+            {
+                error_bar_hz
+            }
+            _ => None,
+        })
+    };
+    let frequencies = &superelement.tensors().frequencies;
+    page.entry("frequencies", &frequencies.len().to_string());
+    for dropped in &metadata.dropped {
+        page.entry("left out", &format!("{}: {}", column(&dropped.column), dropped.reason));
+    }
+    let rows: Vec<Mode> = frequencies
+        .iter()
+        .enumerate()
+        .map(|(mode_idx, omega)| Mode {
+            number: mode_idx + 1,
+            frequency_hz: omega / std::f64::consts::TAU,
+            error_bar_hz: bar(mode_idx),
+        })
+        .collect();
+    mode_table(page, &rows);
+}
+
+fn column(column: &Coordinate) -> String {
+    match column {
+        Coordinate::Interface { node, .. } => format!("interface node {node}"),
+        Coordinate::InterfaceRow { row } => format!("row {row}"),
+        Coordinate::InertiaRelief { index } => format!("inertia relief {}", index + 1),
+        Coordinate::ElasticMode { mode, .. } | Coordinate::FixedInterfaceMode { mode, .. } => {
+            format!("mode {}", mode + 1)
+        }
+    }
+}
+
+fn checks(page: &mut Page, superelement: &Superelement) {
+    let verification = &superelement.metadata().verification;
+    let row = |check: &CheckSummary| {
+        let value = check
+            .value
+            .map_or_else(|| "not a number".to_owned(), |value| table::scientific(value, 2));
+        [
+            check.id.clone(),
+            value,
+            "limit".to_owned(),
+            table::scientific(check.limit, 1),
+        ]
+    };
+    let rows: Vec<[String; 4]> = verification.checks.iter().map(row).collect();
+    let align = [Align::Left, Align::Right, Align::Left, Align::Right];
+    for (row, check) in table::columns(&rows, align).iter().zip(&verification.checks) {
+        let verdict = own(check.verdict);
+        let word = page.toned(verdict_word(verdict), Tone::Of(verdict));
+        page.line(&format!("  {}  {word}", row.join("  ")));
+    }
+    let verdict = own(verification.verdict);
+    let word = page.toned(verdict_word(verdict), Tone::Of(verdict));
+    page.line("");
+    page.line(&format!("{word} – as recorded when the file was made"));
+}
+
+fn own(verdict: supel_runtime::Verdict) -> Verdict {
+    match verdict {
+        supel_runtime::Verdict::Pass => Verdict::Pass,
+        supel_runtime::Verdict::Warn => Verdict::Warn,
+        supel_runtime::Verdict::Fail => Verdict::Fail,
+    }
+}
+
+fn method(method: Method) -> &'static str {
+    match method {
+        Method::CraigBampton => "Craig-Bampton",
+        Method::Herting => "Herting",
+        Method::Rubin => "Rubin",
+        Method::Macneal => "MacNeal",
+        Method::Guyan => "Guyan",
+        Method::ModeAcceleration => "mode acceleration",
+    }
+}

@@ -1,0 +1,304 @@
+//! The report: what was read, what was computed, what was checked, and what the run cost.
+//!
+//! The body depends on the job and its files alone: it is byte for byte the same for any number of threads, on any day
+//! and in any folder. Times, memory, threads and paths are facts of the run and live beside it.
+
+mod inspection;
+mod json;
+pub(crate) mod mode_table;
+pub(crate) mod page;
+mod stages;
+pub(crate) mod summary;
+pub(crate) mod table;
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+
+use crate::job::{Coupling, Eigensolver, Method};
+use crate::verification::check::{Check, Verdict};
+
+pub use inspection::inspection;
+pub use page::Paint;
+pub use stages::{Observer, StageClock, StageTime};
+pub use summary::summary;
+
+/// Body and facts of one run; [`Report::to_json`] gives the document that `schemas/report.schema.json` describes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// What was read, computed and checked.
+    pub body: ReportBody,
+    /// What the run cost and where its files are.
+    pub run: RunFacts,
+}
+
+/// What was read, computed and checked; the same for any thread count.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReportBody {
+    /// The program that wrote the report.
+    pub generator: Generator,
+    /// The finite element model as it was read.
+    pub model: ModelReport,
+    /// The reduction.
+    pub reduction: ReductionReport,
+    /// The measures, in the order of their identifiers.
+    pub checks: Vec<Check>,
+    /// What the user should know although no check failed.
+    pub warnings: Vec<Warning>,
+    /// Whether every mode of the band is known to have been found.
+    pub completeness: Completeness,
+}
+
+/// The program that wrote the report.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Generator {
+    /// Its name.
+    pub name: &'static str,
+    /// Its version.
+    pub version: &'static str,
+}
+
+impl Default for Generator {
+    fn default() -> Self {
+        Self {
+            name: env!("CARGO_PKG_NAME"),
+            version: env!("CARGO_PKG_VERSION"),
+        }
+    }
+}
+
+/// The finite element model as it was read.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ModelReport {
+    /// Degrees of freedom n: rows of K and M.
+    pub n_dofs: usize,
+    /// Nodes, where the rows belong to nodes.
+    pub n_nodes: Option<usize>,
+    /// Bodies: connected components of K and M.
+    pub n_bodies: usize,
+    /// K.
+    pub stiffness: MatrixReport,
+    /// M.
+    pub mass: MatrixReport,
+    /// What M says of the component as a rigid body.
+    pub mass_properties: MassProperties,
+    /// Motions without strain energy.
+    pub rigid_body_modes: RigidBodyModes,
+    /// Label of the unit system.
+    pub units: Option<String>,
+    /// What reading and checking did or found, one sentence each, without paths.
+    pub notes: Vec<String>,
+}
+
+/// One matrix as it was read.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct MatrixReport {
+    /// Stored entries, both triangles counted.
+    pub n_nonzeros: usize,
+    /// Significant decimal digits of the values; 17 for binary data.
+    pub digits: u32,
+    /// BLAKE3 digest of the file's bytes.
+    pub digest: String,
+}
+
+/// Mass properties; those that need coordinates or directions are absent without them.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct MassProperties {
+    /// Total mass.
+    pub mass: Option<f64>,
+    /// Centre of mass.
+    pub cg: Option<[f64; 3]>,
+    /// Inertia tensor about the centre of mass.
+    pub inertia: Option<[[f64; 3]; 3]>,
+}
+
+/// Motions without strain energy and where they come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct RigidBodyModes {
+    /// How many.
+    pub count: usize,
+    /// From coordinates or from K.
+    pub source: RigidBodySource,
+}
+
+/// Where rigid-body modes come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum RigidBodySource {
+    /// From the coordinates of the nodes, verified against K.
+    Geometric,
+    /// From K and M by inverse iteration.
+    Algebraic,
+}
+
+/// The reduction and its modes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ReductionReport {
+    /// The method.
+    pub method: Method,
+    /// The eigensolver.
+    pub eigensolver: Eigensolver,
+    /// Interface nodes in the order of the reduced coordinates.
+    pub interfaces: Vec<InterfaceReport>,
+    /// Interface degrees of freedom n_B.
+    pub n_interface: usize,
+    /// Inertia-relief modes kept.
+    pub n_inertia_relief: usize,
+    /// Elastic modes kept.
+    pub n_modes: usize,
+    /// Order of the reduced matrices.
+    pub n_reduced: usize,
+    /// Coordinates that were left out because others span them.
+    pub dropped: Vec<DroppedCoordinate>,
+    /// The elastic modes in ascending order.
+    pub modes: Vec<ModeRow>,
+}
+
+/// One interface of the superelement.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct InterfaceReport {
+    /// Its name in the job.
+    pub name: String,
+    /// How the nodes couple.
+    pub coupling: Coupling,
+    /// Nodes of the model that belong to it.
+    pub n_nodes: usize,
+    /// Degrees of freedom of it.
+    pub n_dofs: usize,
+}
+
+/// A coordinate that was left out.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct DroppedCoordinate {
+    /// What it was: `mode 7`, `inertia relief 2`.
+    pub coordinate: String,
+    /// Why, with the number that decided.
+    pub reason: String,
+}
+
+/// One elastic mode.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ModeRow {
+    /// Number of the mode, from one.
+    pub index: usize,
+    /// Natural frequency.
+    pub frequency_hz: f64,
+    /// The true frequency lies within plus or minus this.
+    pub error_bar_hz: f64,
+    /// Backward error of the eigenpair (M-01).
+    pub backward_error: f64,
+    /// Under which boundary the mode was computed.
+    pub kind: ModeKind,
+}
+
+/// Under which boundary a mode was computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ModeKind {
+    /// Interface free: elastic modes of the component as it is.
+    FreeInterface,
+    /// Interface held: fixed-interface normal modes.
+    FixedInterface,
+}
+
+/// What the user should know although no check failed.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Warning {
+    /// Stable code, `W-CUT-CLUSTER`.
+    pub code: &'static str,
+    /// One sentence.
+    pub message: String,
+}
+
+/// Whether every mode of the band is known to have been found.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Completeness {
+    /// No certificate was computed.
+    NotCertified {
+        /// Why not, in a few words: `--certify none was asked`.
+        reason: String,
+    },
+    /// A Sturm count below a shift, to be compared with the modes found.
+    SturmCount {
+        /// The shift as a frequency.
+        below_hz: f64,
+        /// Eigenvalues below it by the count, rigid-body modes included.
+        n_counted: usize,
+        /// Modes found below it, rigid-body modes included.
+        n_found: usize,
+    },
+}
+
+impl Completeness {
+    /// True where a count proves that no mode is missing.
+    pub fn is_certified(&self) -> bool {
+        matches!(self, Self::SturmCount { n_counted, n_found, .. } if n_counted == n_found)
+    }
+
+    /// The statement for people.
+    pub fn statement(&self) -> String {
+        match self {
+            Self::NotCertified { reason } => format!("completeness of the modes is not certified: {reason}"),
+            Self::SturmCount {
+                below_hz,
+                n_counted,
+                n_found,
+            } if n_counted == n_found => format!(
+                "the modes are complete: a Sturm count finds {n_counted} below {below_hz:.6} Hz and all were found"
+            ),
+            Self::SturmCount {
+                below_hz,
+                n_counted,
+                n_found,
+            } => format!(
+                "the modes are incomplete: a Sturm count finds {n_counted} below {below_hz:.6} Hz, found were {n_found}"
+            ),
+        }
+    }
+}
+
+/// What the run cost and where its files are.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct RunFacts {
+    /// Wall time of each stage, in order.
+    pub stages: Vec<StageTime>,
+    /// Largest resident memory of the process, where the system tells.
+    pub peak_memory_bytes: Option<u64>,
+    /// Size of the superelement file; absent where none was written.
+    pub file_bytes: Option<u64>,
+    /// Working threads.
+    pub n_threads: usize,
+    /// What was done, counted.
+    pub work: WorkCounters,
+    /// The superelement file; absent where none was written.
+    pub superelement: Option<PathBuf>,
+    /// The report file.
+    pub report: Option<PathBuf>,
+}
+
+/// What was done, counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct WorkCounters {
+    /// Numeric factorisations.
+    pub n_factorisations: usize,
+    /// Solves, counted by right-hand side.
+    pub n_solves: usize,
+    /// Restarts of the eigensolver.
+    pub n_restarts: usize,
+    /// Floating-point operations of the largest factorisation.
+    pub factor_flops: f64,
+    /// Entries of the largest factor L.
+    pub factor_nonzeros: u64,
+}
+
+impl ReportBody {
+    /// The worst verdict of the checks; with warnings at least [`Verdict::Warn`], with missing modes [`Verdict::Fail`].
+    pub fn verdict(&self) -> Verdict {
+        let floor = match &self.completeness {
+            Completeness::SturmCount { n_counted, n_found, .. } if n_counted != n_found => Verdict::Fail,
+            _ if self.warnings.is_empty() => Verdict::Pass,
+            _ => Verdict::Warn,
+        };
+        self.checks.iter().map(Check::verdict).fold(floor, Verdict::max)
+    }
+}

@@ -1,0 +1,251 @@
+//! What was read, computed and checked.
+
+use crate::job::{Coupling, Eigensolver, Method};
+use crate::report::mode_table::{Mode, mode_table};
+use crate::report::page::{Page, Tone, WIDTH, verdict_word};
+use crate::report::table::{self, Align};
+use crate::report::{
+    Completeness, MassProperties, MatrixReport, ModeKind, ModelReport, ReductionReport, ReportBody, RigidBodySource,
+};
+use crate::verification::check::{ActiveLimit, Check, Verdict};
+
+/// Longer lists of notes and left-out coordinates are cut; the JSON document has them all.
+const LINES_SHOWN: usize = 8;
+
+pub(super) fn write(page: &mut Page, body: &ReportBody) {
+    let reduction = &body.reduction;
+    let sizes = format!(
+        "{} → {}",
+        table::count(body.model.n_dofs as u64),
+        table::count(reduction.n_reduced as u64)
+    );
+    let title = format!(
+        "{} {} · {} · {sizes} degrees of freedom",
+        body.generator.name,
+        body.generator.version,
+        method(reduction.method)
+    );
+    let title = page.toned(&title, Tone::Heading);
+    page.line(&title);
+    page.heading("Read");
+    model(page, &body.model);
+    page.heading("Reduced");
+    reduced(page, reduction);
+    let modes: Vec<Mode> = reduction
+        .modes
+        .iter()
+        .map(|mode| Mode {
+            number: mode.index,
+            frequency_hz: mode.frequency_hz,
+            error_bar_hz: Some(mode.error_bar_hz),
+        })
+        .collect();
+    mode_table(page, &modes);
+    page.heading("Checked");
+    checks(page, &body.checks);
+    completeness(page, &body.completeness);
+    if !body.warnings.is_empty() {
+        page.heading("Warnings");
+        for warning in &body.warnings {
+            page.entry(warning.code, &warning.message);
+        }
+    }
+}
+
+fn model(page: &mut Page, model: &ModelReport) {
+    let mut parts = vec![table::counted(model.n_dofs, "dof", "dofs")];
+    parts.extend(model.n_nodes.map(|n_nodes| table::counted(n_nodes, "node", "nodes")));
+    parts.push(table::counted(model.n_bodies, "body", "bodies"));
+    parts.extend(model.units.clone().map(|units| format!("units {units}")));
+    page.entry("model", &parts.join(" · "));
+    page.entry("stiffness", &matrix(&model.stiffness));
+    page.entry("mass", &matrix(&model.mass));
+    mass_properties(page, &model.mass_properties);
+    let source = match model.rigid_body_modes.source {
+        RigidBodySource::Geometric => "from the coordinates, verified against the stiffness",
+        RigidBodySource::Algebraic => "from the matrices, by inverse iteration",
+    };
+    let rigid = match model.rigid_body_modes.count {
+        0 => "no modes: the component is restrained".to_owned(),
+        count => format!("{} {source}", table::counted(count, "mode", "modes")),
+    };
+    page.entry("rigid body", &rigid);
+    listing(page, "note", &model.notes);
+}
+
+fn matrix(matrix: &MatrixReport) -> String {
+    let digest: String = matrix.digest.chars().take(12).collect();
+    let nonzeros = table::counted(matrix.n_nonzeros, "nonzero", "nonzeros");
+    format!("{nonzeros} · {} digits · blake3 {digest}…", matrix.digits)
+}
+
+pub(crate) fn mass_properties(page: &mut Page, properties: &MassProperties) {
+    if let Some(mass) = properties.mass {
+        page.entry("total mass", &table::quantity(mass, 7));
+    }
+    if let Some(cg) = properties.cg {
+        // A coordinate that is rounding beside the others would only draw the eye.
+        let size = cg.iter().fold(0.0_f64, |size, coordinate| size.max(coordinate.abs()));
+        page.entry(
+            "centre of mass",
+            &cg.map(|coordinate| rounded(coordinate, size)).join("   "),
+        );
+    }
+    if let Some(inertia) = properties.inertia {
+        let size = inertia
+            .iter()
+            .flatten()
+            .fold(0.0_f64, |size, term| size.max(term.abs()));
+        let term = |name: &str, row: usize, column: usize| format!("{name} {}", rounded(inertia[row][column], size));
+        let diagonal = [term("xx", 0, 0), term("yy", 1, 1), term("zz", 2, 2)].join("   ");
+        let products = [term("xy", 0, 1), term("xz", 0, 2), term("yz", 1, 2)].join("   ");
+        page.entry("inertia", &format!("{diagonal}   {products}"));
+    }
+}
+
+fn rounded(value: f64, size: f64) -> String {
+    if value.abs() <= 1e-12 * size {
+        "0".to_owned()
+    } else {
+        table::quantity(value, 5)
+    }
+}
+
+fn reduced(page: &mut Page, reduction: &ReductionReport) {
+    for interface in &reduction.interfaces {
+        let coupling = match interface.coupling {
+            Coupling::Direct => "direct",
+            Coupling::Rigid => "rigid",
+        };
+        let nodes = table::counted(interface.n_nodes, "node", "nodes");
+        let dofs = table::counted(interface.n_dofs, "dof", "dofs");
+        page.entry(
+            "interface",
+            &format!("{} · {coupling} · {nodes} · {dofs}", interface.name),
+        );
+    }
+    let mut parts = vec![format!("{} interface", table::count(reduction.n_interface as u64))];
+    if reduction.n_inertia_relief > 0 {
+        parts.push(format!(
+            "{} inertia relief",
+            table::count(reduction.n_inertia_relief as u64)
+        ));
+    }
+    parts.push(table::counted(reduction.n_modes, "elastic mode", "elastic modes"));
+    page.entry(
+        "coordinates",
+        &format!("{} = {}", table::count(reduction.n_reduced as u64), parts.join(" + ")),
+    );
+    let dropped: Vec<String> = reduction
+        .dropped
+        .iter()
+        .map(|dropped| format!("{}: {}", dropped.coordinate, dropped.reason))
+        .collect();
+    listing(page, "left out", &dropped);
+    let solver = match reduction.eigensolver {
+        Eigensolver::Lanczos => "block Lanczos",
+        Eigensolver::Arpack => "ARPACK",
+    };
+    let worst = reduction
+        .modes
+        .iter()
+        .map(|mode| mode.backward_error)
+        .fold(0.0, f64::max);
+    if let Some(mode) = reduction.modes.first() {
+        let kind = match mode.kind {
+            ModeKind::FreeInterface => "free-interface",
+            ModeKind::FixedInterface => "fixed-interface",
+        };
+        let worst = table::scientific(worst, 2);
+        page.entry("modes", &format!("{kind} · {solver} · backward error at most {worst}"));
+    }
+}
+
+fn checks(page: &mut Page, checks: &[Check]) {
+    let heads = ["", "check", "value", "limit", "set by", "margin", "verdict"].map(str::to_owned);
+    let rows: Vec<[String; 7]> = std::iter::once(heads).chain(checks.iter().map(check_row)).collect();
+    let align = [
+        Align::Left,
+        Align::Left,
+        Align::Right,
+        Align::Right,
+        Align::Left,
+        Align::Right,
+        Align::Left,
+    ];
+    let mut lines = table::columns(&rows, align).into_iter();
+    if let Some(heads) = lines.next() {
+        let heads = page.toned(&heads.join("  "), Tone::Faint);
+        page.line(&format!("  {heads}"));
+    }
+    for (line, check) in lines.zip(checks) {
+        let [id, name, value, limit, active, margin, word] = line;
+        let word = page.toned(word.trim_end(), Tone::Of(check.verdict()));
+        page.line(&format!("  {id}  {name}  {value}  {limit}  {active}  {margin}  {word}"));
+        if let Some(worst) = check.worst.as_ref().filter(|_| check.verdict() != Verdict::Pass) {
+            let worst = table::shorten(&format!("worst at {worst} ({})", check.equation), WIDTH - 10);
+            let worst = page.toned(&worst, Tone::Faint);
+            page.line(&format!("        {worst}"));
+        }
+    }
+}
+
+fn check_row(check: &Check) -> [String; 7] {
+    let active = match check.limits.active() {
+        ActiveLimit::Engineering => "engineering",
+        ActiveLimit::Arithmetic => "arithmetic",
+        ActiveLimit::Data => "data",
+    };
+    // Rows are 2 + 4 + 36 + 12 + 7 + 11 + 7 + 6 columns and six gaps of two: 97.
+    [
+        check.id.to_owned(),
+        table::shorten(check.name, 36),
+        table::scientific(check.value, 2),
+        table::scientific(check.limits.value(), 1),
+        active.to_owned(),
+        margin(check.margin()),
+        verdict_word(check.verdict()).to_owned(),
+    ]
+}
+
+/// Margins are looked at, not calculated with: two digits, and no more than a million.
+fn margin(margin: f64) -> String {
+    if margin.is_nan() {
+        "–".to_owned()
+    } else if margin >= 1e6 {
+        "> 1e6".to_owned()
+    } else if margin >= 10.0 {
+        table::count(margin as u64)
+    } else {
+        table::quantity(margin, 2)
+    }
+}
+
+fn completeness(page: &mut Page, completeness: &Completeness) {
+    let tone = match completeness {
+        Completeness::NotCertified { .. } => Verdict::Warn,
+        Completeness::SturmCount { .. } if completeness.is_certified() => Verdict::Pass,
+        Completeness::SturmCount { .. } => Verdict::Fail,
+    };
+    page.line("");
+    for line in table::wrap(&completeness.statement(), WIDTH - 2) {
+        let line = page.toned(&line, Tone::Of(tone));
+        page.line(&format!("  {line}"));
+    }
+}
+
+fn listing(page: &mut Page, label: &str, lines: &[String]) {
+    for line in lines.iter().take(LINES_SHOWN) {
+        page.entry(label, line);
+    }
+    if lines.len() > LINES_SHOWN {
+        page.entry("", &format!("… and {} more in the report", lines.len() - LINES_SHOWN));
+    }
+}
+
+fn method(method: Method) -> &'static str {
+    match method {
+        Method::CraigBampton => "Craig-Bampton",
+        Method::Herting => "Herting",
+    }
+}
