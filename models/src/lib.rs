@@ -6,11 +6,14 @@
 //! rounding. [`transform`] turns one model into another: joined, scaled, rounded.
 
 pub mod bar;
+pub mod bracket;
 pub mod dense;
 pub mod element;
 pub mod frame;
 pub mod hexahedra;
 pub mod known;
+#[cfg(feature = "med")]
+pub mod med;
 pub mod membrane;
 pub mod model;
 pub mod random;
@@ -18,6 +21,7 @@ pub mod transform;
 pub mod write;
 
 pub use bar::{Ends, bar, bar_spectrum, ring, ring_spectrum, spring, spring_spectrum};
+pub use bracket::{bracket, bracket_mesh};
 pub use dense::spectrum;
 pub use frame::{Inertia, Section, frame};
 pub use hexahedra::{HexMesh, brick};
