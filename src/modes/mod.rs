@@ -12,6 +12,7 @@ mod lanczos;
 mod operator;
 mod quality;
 mod random;
+mod shifted;
 
 use faer::{Mat, MatRef};
 
@@ -24,6 +25,7 @@ use crate::sparse::SparseMatrix;
 pub use equilibration::Equilibrated;
 pub use lanczos::{CLUSTER_GAP, EigenWork, Eigenpairs, Problem, Wanted, gram_schmidt, lanczos};
 pub use operator::{Factored, FreeAtZero, ShiftInvert};
+pub use shifted::{Shifted, shifted};
 pub use quality::{ModeError, mass_orthogonality};
 
 /// Elastic modes of one boundary condition.

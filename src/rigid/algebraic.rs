@@ -1,1 +1,48 @@
-//! tmp
+//! Rigid-body modes from the matrices alone, by inverse iteration on K − σM.
+
+use faer::Mat;
+
+use super::{RigidBodyModes, RigidEnergy, RigidSource, absolute_energy, multiply};
+use crate::dense;
+use crate::error::Result;
+use crate::factor::{Analysis, Pencil};
+use crate::modes::{ModalProblem, shifted};
+use crate::partition::Partition;
+
+/// The zero modes of a pencil without coordinates, with the factorisations they took.
+///
+/// They span every motion without energy: rigid-body motions and mechanisms alike.
+///
+/// # Errors
+/// K − σM is not definite for a negative σ; the eigensolver fails.
+pub fn from_matrices(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
+    let pencil = Pencil { stiffness: &partition.stiffness, mass: &partition.mass };
+    let analysis = Analysis::new(pencil)?;
+    let problem = ModalProblem {
+        stiffness: &partition.stiffness,
+        mass: &partition.mass,
+        rigid: None,
+        precision: partition.precision,
+    };
+    let found = shifted(&analysis, problem, &|step| partition.name_of(step))?;
+    let orthonormal = found.lowest.shapes.as_ref().subcols(0, found.n_zero).to_owned();
+    let forces = multiply(&partition.stiffness, orthonormal.as_ref());
+    let magnitudes = absolute_energy(&partition.stiffness, orthonormal.as_ref());
+    let mut energy = RigidEnergy::default();
+    for j in 0..found.n_zero {
+        let (q, force) = (dense::column(orthonormal.as_ref(), j), dense::column(forces.as_ref(), j));
+        energy.largest_quotient = energy.largest_quotient.max(dense::dot(q, force).abs());
+        energy.largest_residual = energy.largest_residual.max(dense::norm(force) * dense::norm(q) / magnitudes[j]);
+        energy.noise = energy.noise.max((partition.precision.stiffness + f64::EPSILON) * magnitudes[j]);
+    }
+    let modes: Mat<f64> = orthonormal.clone();
+    let rigid = RigidBodyModes {
+        modes,
+        mass_orthonormal: multiply(&partition.mass, orthonormal.as_ref()),
+        orthonormal,
+        source: RigidSource::Algebraic,
+        is_classical: false,
+        energy,
+    };
+    Ok((rigid, found.n_factorisations))
+}

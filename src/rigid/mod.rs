@@ -20,6 +20,7 @@ use crate::partition::Partition;
 use crate::sparse::SparseMatrix;
 
 
+pub use algebraic::from_matrices;
 pub use rank::{InterfaceRank, interface_rank};
 
 /// Where rigid-body modes come from.
