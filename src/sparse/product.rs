@@ -94,3 +94,80 @@ fn pack<const W: usize>(x: MatRef<'_, f64>, packed: &mut Vec<Group<W>>) {
         }
     });
 }
+
+#[cfg(test)]
+mod tests {
+    use faer::Mat;
+
+    use super::*;
+    use crate::sparse::{Declared, Triplets};
+
+    /// A banded matrix of integers, more rows than a tile, with a row left empty.
+    fn banded(n: u32) -> SparseMatrix {
+        let mut triplets = Triplets::default();
+        for row in 0..n {
+            for step in [0, 1, 7, 100] {
+                if row >= step && row != 5 && row - step != 5 {
+                    triplets.push(row, row - step, f64::from((row * 13 + step) % 17) - 8.0);
+                }
+            }
+        }
+        triplets
+            .assemble(n as usize, Declared::Symmetric, "banded".as_ref())
+            .expect("a matrix")
+            .0
+    }
+
+    fn block(n: usize, k: usize) -> Mat<f64> {
+        Mat::from_fn(n, k, |row, col| ((row * 31 + col * 7) % 23) as f64 - 11.0)
+    }
+
+    /// Integers make every order of summation exact, so that equality needs no tolerance.
+    #[test]
+    fn columns_are_products_of_rows_whatever_their_number() {
+        let matrix = banded(2500);
+        let n = matrix.rows();
+        for k in [0, 1, 2, 3, 4, 5, 7, 8, 9, 16, 21, 64] {
+            let x = block(n, k);
+            let mut y = Mat::from_fn(n, k, |_, _| f64::NAN);
+            multiply(&matrix, x.as_ref(), y.as_mut());
+            for col in 0..k {
+                for (row, entries) in matrix.outer_iterator().enumerate() {
+                    let expected: f64 = entries.iter().map(|(at, value)| value * x[(at, col)]).sum();
+                    assert!(y[(row, col)] == expected, "row {row} of column {col} of {k}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn bits_do_not_depend_on_threads_or_neighbours() {
+        let matrix = banded(3000).map(|value| value / 3.0);
+        let x = Mat::from_fn(3000, 11, |row, col| 1.0 / (row + 2 * col + 1) as f64);
+        let product = |threads: usize, x: MatRef<'_, f64>| {
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .expect("a pool");
+            let mut y = Mat::zeros(x.nrows(), x.ncols());
+            pool.install(|| multiply(&matrix, x, y.as_mut()));
+            y
+        };
+        let reference = product(1, x.as_ref());
+        for threads in [2, 3, 8] {
+            assert!(product(threads, x.as_ref()) == reference, "{threads} threads");
+        }
+        for col in 0..11 {
+            assert!(
+                product(2, x.as_ref().subcols(col, 1)).col(0) == reference.col(col),
+                "column {col} alone"
+            );
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "times block of")]
+    fn shapes_must_fit() {
+        multiply(&banded(20), block(19, 2).as_ref(), Mat::zeros(20, 2).as_mut());
+    }
+}
