@@ -45,14 +45,17 @@ pub fn significant_digits(values: &[f64]) -> u32 {
     counts.sort_unstable();
     let digits = counts[(counts.len() * 99).div_ceil(100) - 1];
     let distinct: BTreeSet<Decimal> = sample.iter().map(|&value| Decimal::of(value)).collect();
-    match digits {
-        ..=MAX_EXACT_DIGITS if is_rounded(&distinct, digits) => digits,
-        ..=MAX_EXACT_DIGITS => DOUBLE_DIGITS,
-        ..=MAX_DECIMAL_DIGITS if n_mantissas(&distinct) >= MIN_DISTINCT => digits,
-        ..=MAX_DECIMAL_DIGITS => DOUBLE_DIGITS,
-        _ if sample.iter().all(|&value| f64::from(value as f32) == value) => SINGLE_DIGITS,
-        _ => DOUBLE_DIGITS,
+    let is_short = digits <= MAX_EXACT_DIGITS;
+    if digits > MAX_DECIMAL_DIGITS {
+        let is_single = sample.iter().all(|&value| f64::from(value as f32) == value);
+        return if is_single { SINGLE_DIGITS } else { DOUBLE_DIGITS };
     }
+    let is_from_text = if is_short {
+        is_rounded(&distinct, digits)
+    } else {
+        n_mantissas(&distinct) >= MIN_DISTINCT
+    };
+    if is_from_text { digits } else { DOUBLE_DIGITS }
 }
 
 /// Equally spaced values from the first to near the last.

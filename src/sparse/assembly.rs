@@ -75,11 +75,17 @@ impl Triplets {
         let (mut indices, mut data) = scatter(&self, &pointers, mirror);
         drop(self);
         let merged = sort_rows(&pointers, &mut indices, &mut data);
-        let n_duplicates = indices.len() - merged.iter().sum::<usize>();
-        let pointers = if n_duplicates == 0 {
+        let n_merged = indices.len() - merged.iter().sum::<usize>();
+        let pointers = if n_merged == 0 {
             pointers
         } else {
             compact(&pointers, &merged, &mut indices, &mut data)
+        };
+        let n_duplicates = match (n_merged, mirror) {
+            (0, _) => 0,
+            (_, Mirror::Off) => n_merged,
+            // What is stored twice was given once.
+            (_, Mirror::On) => n_entries - (indices.len() + n_on_diagonal(&pointers, &indices)) / 2,
         };
         let notes = AssemblyNotes {
             n_duplicates,
@@ -255,6 +261,13 @@ fn compact(pointers: &[usize], kept: &[usize], indices: &mut Vec<u32>, data: &mu
     indices.truncate(end);
     data.truncate(end);
     packed
+}
+
+/// Rows that hold their diagonal entry.
+fn n_on_diagonal(pointers: &[usize], indices: &[u32]) -> usize {
+    let rows = pointers.windows(2).enumerate();
+    rows.filter(|(row, ends)| indices[ends[0]..ends[1]].binary_search(&(*row as u32)).is_ok())
+        .count()
 }
 
 #[cfg(test)]

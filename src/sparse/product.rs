@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::SparseMatrix;
 
 /// Rows of a tile, the unit of parallel work. Fixed: what a thread computes never depends on how many there are.
-const TILE_ROWS: usize = 1024;
+const TILE_ROWS: usize = 512;
 
 /// y = A x for an n × k block x. The sum of a row runs over its entries in order, so that every element of y has the
 /// same bits whatever the number of threads and whatever the other columns.
@@ -64,18 +64,21 @@ fn multiply_group<const W: usize>(
     let pointers = indptr.raw_storage();
     y.par_row_chunks_mut(TILE_ROWS).enumerate().for_each(|(tile, mut y)| {
         let first = tile * TILE_ROWS;
-        let n_cols = y.ncols();
-        for local in 0..y.nrows() {
-            let (start, end) = (pointers[first + local], pointers[first + local + 1]);
-            let mut sum = [0.0; W];
+        let mut sums = [[0.0; W]; TILE_ROWS];
+        for (row, sum) in (first..).zip(&mut sums[..y.nrows()]) {
+            let (start, end) = (pointers[row], pointers[row + 1]);
+            // Summed in a local, which stays in registers.
+            let mut row_sum = [0.0; W];
             for (&col, &value) in indices[start..end].iter().zip(&data[start..end]) {
-                let row_of_x = &packed[col as usize];
-                for (sum, x) in sum.iter_mut().zip(row_of_x) {
+                for (sum, x) in row_sum.iter_mut().zip(&packed[col as usize]) {
                     *sum += value * x;
                 }
             }
-            for (col, &sum) in sum[..n_cols].iter().enumerate() {
-                y[(local, col)] = sum;
+            *sum = row_sum;
+        }
+        for (col, y) in y.as_mut().col_iter_mut().enumerate() {
+            for (y, sum) in y.iter_mut().zip(&sums) {
+                *y = sum[col];
             }
         }
     });
@@ -83,13 +86,13 @@ fn multiply_group<const W: usize>(
 
 /// Copies a block of at most W columns into rows of W, zeros on the right.
 fn pack<const W: usize>(x: MatRef<'_, f64>, packed: &mut Vec<Group<W>>) {
+    packed.clear();
     packed.resize(x.nrows(), [0.0; W]);
-    let n_cols = x.ncols();
     packed.par_chunks_mut(TILE_ROWS).enumerate().for_each(|(tile, rows)| {
-        let first = tile * TILE_ROWS;
-        for (local, row) in rows.iter_mut().enumerate() {
-            for (col, value) in row.iter_mut().enumerate() {
-                *value = if col < n_cols { x[(first + local, col)] } else { 0.0 };
+        let x = x.subrows(tile * TILE_ROWS, rows.len());
+        for (col, x) in x.col_iter().enumerate() {
+            for (row, x) in rows.iter_mut().zip(x.iter()) {
+                row[col] = *x;
             }
         }
     });

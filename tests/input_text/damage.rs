@@ -60,7 +60,10 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(256))]
 
     #[test]
-    fn flipped_bytes_never_panic(flips in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6), zipped: bool) {
+    fn flipped_bytes_never_panic(
+        flips in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
+        zipped: bool,
+    ) {
         let mut bytes = if zipped { gzip(small().as_bytes()) } else { small().into_bytes() };
         for (index, byte) in flips {
             let at = index.index(bytes.len());
