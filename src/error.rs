@@ -63,7 +63,10 @@ pub enum Error {
         limit: u64,
     },
     /// A line is longer than any line of numbers.
-    #[error("{}:{line}: line longer than {limit} bytes; expected lines of a few numbers, is this a text file?", path.display())]
+    #[error(
+        "{}:{line}: line longer than {limit} bytes; expected lines of a few numbers, is this a text file?",
+        path.display()
+    )]
     LineTooLong {
         /// The file.
         path: PathBuf,
@@ -95,8 +98,8 @@ pub enum Error {
     },
     /// A Matrix Market flavour that no stiffness or mass matrix needs.
     #[error(
-        "{}:{line}: Matrix Market flavour `{found}` is not read; supported are `coordinate real` and `coordinate integer`, \
-         each `symmetric` or `general`", path.display()
+        "{}:{line}: Matrix Market flavour `{found}` is not read; \
+         supported are `coordinate real` and `coordinate integer`, each `symmetric` or `general`", path.display()
     )]
     MatrixFlavour {
         /// The file.
@@ -107,7 +110,10 @@ pub enum Error {
         found: String,
     },
     /// The size line of a Matrix Market file cannot be read.
-    #[error("{}:{line}: size line: found `{found}`, expected three whole numbers `rows columns entries`", path.display())]
+    #[error(
+        "{}:{line}: size line: found `{found}`, expected three whole numbers `rows columns entries`",
+        path.display()
+    )]
     MatrixSizeLine {
         /// The file.
         path: PathBuf,
@@ -142,7 +148,8 @@ pub enum Error {
     },
     /// Nearly all rows of a large matrix are empty.
     #[error(
-        "{}: a matrix of {n} rows with only {entries} entries; nearly all rows would be empty, check its size line and indices",
+        "{}: a matrix of {n} rows with only {entries} entries; nearly all rows would be empty, \
+         check its size line and indices",
         path.display()
     )]
     MatrixMostlyEmpty {
@@ -178,7 +185,10 @@ pub enum Error {
         found: String,
     },
     /// An index lies outside the matrix.
-    #[error("{}:{line}: {field} {found} lies outside the matrix; indices count from 1, expected 1 to {n}", path.display())]
+    #[error(
+        "{}:{line}: {field} {found} lies outside the matrix; indices count from 1, expected 1 to {n}",
+        path.display()
+    )]
     EntryIndex {
         /// The file.
         path: PathBuf,
@@ -359,7 +369,10 @@ pub enum Error {
         expected: u64,
     },
     /// A dof map is longer or shorter than the matrices.
-    #[error("{}: the dof map has {found} rows, the matrices have {n}; expected one row for each of theirs", path.display())]
+    #[error(
+        "{}: the dof map has {found} rows, the matrices have {n}; expected one row for each of theirs",
+        path.display()
+    )]
     DofCount {
         /// The file.
         path: PathBuf,
@@ -370,7 +383,8 @@ pub enum Error {
     },
     /// A dof map names a node that has no position.
     #[error(
-        "{}: row {row} (from 1) is at node {node}, which {} does not list; expected a position for every node of the map",
+        "{}: row {row} (from 1) is at node {node}, which {} does not list; \
+         expected a position for every node of the map",
         path.display(), nodes.display()
     )]
     DofNodeMissing {
@@ -397,7 +411,10 @@ pub enum Error {
         n: usize,
     },
     /// A file needs a part of the program that was left out when it was built.
-    #[error("{}: this program was built without `{feature}`, which this file needs; rebuild with --features {feature}", path.display())]
+    #[error(
+        "{}: this program was built without `{feature}`, which this file needs; rebuild with --features {feature}",
+        path.display()
+    )]
     FeatureMissing {
         /// The file.
         path: PathBuf,

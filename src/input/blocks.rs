@@ -33,8 +33,8 @@ pub(super) enum LastLine {
     Open,
 }
 
-/// Hands the text of a file to `consume` in batches of blocks, in order; each block ends at a line end, except the last.
-/// A byte order mark is left out. At most a few blocks per thread are in memory.
+/// Hands the text of a file to `consume` in batches of blocks, in order. Each block ends at a line end, except the
+/// last. A byte order mark is left out. At most a few blocks per thread are in memory.
 pub(super) fn for_each_batch(
     path: &Path,
     block_bytes: usize,

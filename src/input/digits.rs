@@ -45,14 +45,17 @@ pub fn significant_digits(values: &[f64]) -> u32 {
     counts.sort_unstable();
     let digits = counts[(counts.len() * 99).div_ceil(100) - 1];
     let distinct: BTreeSet<Decimal> = sample.iter().map(|&value| Decimal::of(value)).collect();
-    match digits {
-        ..=MAX_EXACT_DIGITS if is_rounded(&distinct, digits) => digits,
-        ..=MAX_EXACT_DIGITS => DOUBLE_DIGITS,
-        ..=MAX_DECIMAL_DIGITS if n_mantissas(&distinct) >= MIN_DISTINCT => digits,
-        ..=MAX_DECIMAL_DIGITS => DOUBLE_DIGITS,
-        _ if sample.iter().all(|&value| f64::from(value as f32) == value) => SINGLE_DIGITS,
-        _ => DOUBLE_DIGITS,
+    let is_short = digits <= MAX_EXACT_DIGITS;
+    if digits > MAX_DECIMAL_DIGITS {
+        let is_single = sample.iter().all(|&value| f64::from(value as f32) == value);
+        return if is_single { SINGLE_DIGITS } else { DOUBLE_DIGITS };
     }
+    let is_from_text = if is_short {
+        is_rounded(&distinct, digits)
+    } else {
+        n_mantissas(&distinct) >= MIN_DISTINCT
+    };
+    if is_from_text { digits } else { DOUBLE_DIGITS }
 }
 
 /// Equally spaced values from the first to near the last.
@@ -102,4 +105,69 @@ fn is_rounded(distinct: &BTreeSet<Decimal>, digits: u32) -> bool {
         .collect();
     let n_full = lower.iter().filter(|(_, n_digits)| *n_digits == digits).count();
     lower.len() >= MIN_DISTINCT_SHORT && 2 * n_full > lower.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers of all sizes without a pattern.
+    fn scattered(n: usize) -> Vec<f64> {
+        let value = |k: usize| ((k as f64 + 1.0) * 0.618_033_988_749_894_9).fract() * 10_f64.powi((k % 9) as i32 - 3);
+        (0..n).map(value).collect()
+    }
+
+    fn printed(values: &[f64], n_digits: usize) -> Vec<f64> {
+        let rounded = |value: &f64| format!("{value:.*e}", n_digits - 1).parse().expect("a number");
+        values.iter().map(rounded).collect()
+    }
+
+    #[test]
+    fn computed_values_carry_all_digits() {
+        assert_eq!(significant_digits(&scattered(5000)), 17);
+    }
+
+    #[test]
+    fn printed_values_carry_the_digits_of_the_print() {
+        for n_digits in 3..=15 {
+            assert_eq!(
+                significant_digits(&printed(&scattered(5000), n_digits)),
+                n_digits as u32
+            );
+        }
+    }
+
+    #[test]
+    fn a_few_full_values_among_printed_ones_do_not_count() {
+        let mut values = printed(&scattered(2000), 10);
+        values[77] = std::f64::consts::PI;
+        assert_eq!(significant_digits(&values), 10);
+    }
+
+    #[test]
+    fn exact_short_values_are_exact() {
+        let integers: Vec<f64> = (0..2000).map(|k| f64::from(k * k % 99_991)).collect();
+        let hundredths: Vec<f64> = integers.iter().map(|value| value / 100.0).collect();
+        for values in [
+            vec![2.0, -1.0, 2.0],
+            vec![0.25; 50],
+            vec![0.0; 5],
+            vec![],
+            integers,
+            hundredths,
+        ] {
+            assert_eq!(significant_digits(&values), 17, "{:?}", &values[..values.len().min(3)]);
+        }
+    }
+
+    #[test]
+    fn one_long_constant_is_no_rounding() {
+        assert_eq!(significant_digits(&[1_234_567.5, -1_234_567.5, 2_469_135.0]), 17);
+    }
+
+    #[test]
+    fn single_precision_values_carry_seven_digits() {
+        let single: Vec<f64> = scattered(500).iter().map(|&value| f64::from(value as f32)).collect();
+        assert_eq!(significant_digits(&single), 7);
+    }
 }

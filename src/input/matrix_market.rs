@@ -185,3 +185,52 @@ fn check_emptiness(path: &Path, n: u32, n_entries: usize) -> Result<()> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A file of lines of many lengths, and what reading it in one block gives.
+    fn sample(folder: &Path) -> (std::path::PathBuf, TextMatrix) {
+        let mut text = String::from("\u{feff}%%MatrixMarket matrix coordinate real symmetric\n% rows\n\n40 40 120\n");
+        for k in 0..120_u32 {
+            let row = k * 7 % 40 + 1;
+            let col = k * 3 % row + 1;
+            text += &format!("{row}\t{col}  {}\r\n", f64::from(k * k) / 7.0 - 100.0);
+            if k % 10 == 0 {
+                text += "% a comment between\n\n";
+            }
+        }
+        let path = folder.join("a.mtx");
+        std::fs::write(&path, text).expect("a file");
+        let whole = read(&path).expect("a matrix");
+        (path, whole)
+    }
+
+    #[test]
+    fn the_block_size_changes_nothing() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (path, whole) = sample(folder.path());
+        for block_bytes in 1..=64 {
+            let blocks = read_in_blocks(&path, block_bytes).expect("a matrix");
+            assert_eq!(blocks.input.matrix, whole.input.matrix, "{block_bytes}");
+            assert_eq!(blocks.input.digest, whole.input.digest);
+            assert_eq!(blocks.last_line, LastLine::Terminated);
+        }
+    }
+
+    #[test]
+    fn the_block_size_changes_no_error() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("b.mtx");
+        let head = "%%MatrixMarket matrix coordinate real general\n3 3 3\n1 1 1\n\n% x\n";
+        for tail in ["2 2 x\n3 3 3\n", "2 2 2\n4 1 1\n", "1 1 1\n2 2 2\n3 3 3\n", "1 1 1\n"] {
+            std::fs::write(&path, format!("{head}{tail}")).expect("a file");
+            let whole = read(&path).err().expect("an error").to_string();
+            for block_bytes in 1..=64 {
+                let blocks = read_in_blocks(&path, block_bytes).err().expect("an error").to_string();
+                assert_eq!(blocks, whole, "{block_bytes}");
+            }
+        }
+    }
+}

@@ -27,7 +27,7 @@ pub(super) struct Source {
 }
 
 enum Stream {
-    Plain(BufReader<DigestReader>),
+    Plain(Box<BufReader<DigestReader>>),
     Gzip(Box<MultiGzDecoder<BufReader<DigestReader>>>),
 }
 
@@ -53,7 +53,7 @@ impl Source {
         let stream = if is_gzip {
             Stream::Gzip(Box::new(MultiGzDecoder::new(reader)))
         } else {
-            Stream::Plain(reader)
+            Stream::Plain(Box::new(reader))
         };
         Ok(Self { stream, inflated: 0 })
     }

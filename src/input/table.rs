@@ -87,7 +87,8 @@ impl Table {
         let header = header_text
             .split(char::from(delimiter))
             .map(|name| name.trim().trim_matches('"').to_owned());
-        let rest: Box<dyn Read> = Box::new(first.rest);
+        // A line feed behind every row lets its number be told from where the next one starts.
+        let rest: Box<dyn Read> = Box::new(LineFeeds(first.rest).chain(b"\n".as_slice()));
         let rows = csv::ReaderBuilder::new()
             .delimiter(delimiter)
             .has_headers(false)
@@ -141,7 +142,7 @@ impl Table {
         if !is_row {
             return Ok(None);
         }
-        let line = self.n_header_lines + self.record.position().map_or(1, csv::Position::line);
+        let line = self.n_header_lines + self.rows.position().line() - 1;
         let row = Row {
             path: &self.path,
             header: &self.header,
@@ -206,6 +207,27 @@ impl Row<'_> {
             .ok()
             .filter(|value| value.is_finite());
         value.ok_or_else(|| self.field_error(column, "a finite number"))
+    }
+}
+
+/// Text without carriage returns.
+struct LineFeeds<R>(R);
+
+impl<R: Read> Read for LineFeeds<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        loop {
+            let n_read = self.0.read(buffer)?;
+            let mut n_kept = 0;
+            for at in 0..n_read {
+                if buffer[at] != b'\r' {
+                    buffer[n_kept] = buffer[at];
+                    n_kept += 1;
+                }
+            }
+            if n_kept > 0 || n_read == 0 {
+                return Ok(n_kept);
+            }
+        }
     }
 }
 

@@ -75,11 +75,17 @@ impl Triplets {
         let (mut indices, mut data) = scatter(&self, &pointers, mirror);
         drop(self);
         let merged = sort_rows(&pointers, &mut indices, &mut data);
-        let n_duplicates = indices.len() - merged.iter().sum::<usize>();
-        let pointers = if n_duplicates == 0 {
+        let n_merged = indices.len() - merged.iter().sum::<usize>();
+        let pointers = if n_merged == 0 {
             pointers
         } else {
             compact(&pointers, &merged, &mut indices, &mut data)
+        };
+        let n_duplicates = match (n_merged, mirror) {
+            (0, _) => 0,
+            (_, Mirror::Off) => n_merged,
+            // What is stored twice was given once.
+            (_, Mirror::On) => n_entries - (indices.len() + n_on_diagonal(&pointers, &indices)) / 2,
         };
         let notes = AssemblyNotes {
             n_duplicates,
@@ -255,4 +261,79 @@ fn compact(pointers: &[usize], kept: &[usize], indices: &mut Vec<u32>, data: &mu
     indices.truncate(end);
     data.truncate(end);
     packed
+}
+
+/// Rows that hold their diagonal entry.
+fn n_on_diagonal(pointers: &[usize], indices: &[u32]) -> usize {
+    let rows = pointers.windows(2).enumerate();
+    rows.filter(|(row, ends)| indices[ends[0]..ends[1]].binary_search(&(*row as u32)).is_ok())
+        .count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scattered(n: u32, n_entries: u32) -> Triplets {
+        let mut triplets = Triplets::default();
+        for k in 0..n_entries {
+            let row = (k.wrapping_mul(2_654_435_761) >> 7) % n;
+            triplets.push(row, k.wrapping_mul(40_503) % (row + 1), 1.0 / f64::from(k + 1));
+        }
+        triplets
+    }
+
+    #[test]
+    fn bits_do_not_depend_on_threads() {
+        let assemble = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .expect("a pool");
+            pool.install(|| scattered(300, 20_000).assemble(300, Declared::Symmetric, "k".as_ref()))
+                .expect("a matrix")
+        };
+        let (reference, notes) = assemble(1);
+        assert!(notes.n_duplicates > 1000, "{notes:?}");
+        for threads in [2, 3, 7] {
+            assert_eq!(assemble(threads), (reference.clone(), notes), "{threads} threads");
+        }
+    }
+
+    #[test]
+    fn duplicates_are_added_in_file_order() {
+        let mut triplets = Triplets::default();
+        // 1 + 1e-16 rounds to 1 twice; 1e-16 + 1e-16 + 1 does not: the order of addition shows.
+        for value in [1.0, 1e-16, 1e-16] {
+            triplets.push(1, 0, value);
+        }
+        for value in [1e-16, 1e-16, 1.0] {
+            triplets.push(0, 0, value);
+        }
+        let (matrix, _) = triplets
+            .assemble(2, Declared::Symmetric, "k".as_ref())
+            .expect("a matrix");
+        assert_eq!(matrix.get(1, 0), Some(&1.0));
+        assert_eq!(matrix.get(0, 1), Some(&1.0));
+        assert_eq!(matrix.get(0, 0), Some(&(1.0 + f64::EPSILON)));
+    }
+
+    #[test]
+    fn a_matrix_without_entries_is_a_matrix() {
+        let (matrix, notes) = Triplets::default()
+            .assemble(3, Declared::General, "k".as_ref())
+            .expect("a matrix");
+        assert_eq!(
+            (matrix.shape(), matrix.nnz(), notes),
+            ((3, 3), 0, AssemblyNotes::default())
+        );
+    }
+
+    #[test]
+    #[should_panic(expected = "in a matrix of order 3")]
+    fn indices_must_be_below_the_order() {
+        let mut triplets = Triplets::default();
+        triplets.push(0, 3, 1.0);
+        let _ = triplets.assemble(3, Declared::General, "k".as_ref());
+    }
 }

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::SparseMatrix;
 
 /// Rows of a tile, the unit of parallel work. Fixed: what a thread computes never depends on how many there are.
-const TILE_ROWS: usize = 1024;
+const TILE_ROWS: usize = 512;
 
 /// y = A x for an n × k block x. The sum of a row runs over its entries in order, so that every element of y has the
 /// same bits whatever the number of threads and whatever the other columns.
@@ -64,18 +64,21 @@ fn multiply_group<const W: usize>(
     let pointers = indptr.raw_storage();
     y.par_row_chunks_mut(TILE_ROWS).enumerate().for_each(|(tile, mut y)| {
         let first = tile * TILE_ROWS;
-        let n_cols = y.ncols();
-        for local in 0..y.nrows() {
-            let (start, end) = (pointers[first + local], pointers[first + local + 1]);
-            let mut sum = [0.0; W];
+        let mut sums = [[0.0; W]; TILE_ROWS];
+        for (row, sum) in (first..).zip(&mut sums[..y.nrows()]) {
+            let (start, end) = (pointers[row], pointers[row + 1]);
+            // Summed in a local, which stays in registers.
+            let mut row_sum = [0.0; W];
             for (&col, &value) in indices[start..end].iter().zip(&data[start..end]) {
-                let row_of_x = &packed[col as usize];
-                for (sum, x) in sum.iter_mut().zip(row_of_x) {
+                for (sum, x) in row_sum.iter_mut().zip(&packed[col as usize]) {
                     *sum += value * x;
                 }
             }
-            for (col, &sum) in sum[..n_cols].iter().enumerate() {
-                y[(local, col)] = sum;
+            *sum = row_sum;
+        }
+        for (col, y) in y.as_mut().col_iter_mut().enumerate() {
+            for (y, sum) in y.iter_mut().zip(&sums) {
+                *y = sum[col];
             }
         }
     });
@@ -83,14 +86,91 @@ fn multiply_group<const W: usize>(
 
 /// Copies a block of at most W columns into rows of W, zeros on the right.
 fn pack<const W: usize>(x: MatRef<'_, f64>, packed: &mut Vec<Group<W>>) {
+    packed.clear();
     packed.resize(x.nrows(), [0.0; W]);
-    let n_cols = x.ncols();
     packed.par_chunks_mut(TILE_ROWS).enumerate().for_each(|(tile, rows)| {
-        let first = tile * TILE_ROWS;
-        for (local, row) in rows.iter_mut().enumerate() {
-            for (col, value) in row.iter_mut().enumerate() {
-                *value = if col < n_cols { x[(first + local, col)] } else { 0.0 };
+        let x = x.subrows(tile * TILE_ROWS, rows.len());
+        for (col, x) in x.col_iter().enumerate() {
+            for (row, x) in rows.iter_mut().zip(x.iter()) {
+                row[col] = *x;
             }
         }
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use faer::Mat;
+
+    use super::*;
+    use crate::sparse::{Declared, Triplets};
+
+    /// A banded matrix of integers, more rows than a tile, with a row left empty.
+    fn banded(n: u32) -> SparseMatrix {
+        let mut triplets = Triplets::default();
+        for row in 0..n {
+            for step in [0, 1, 7, 100] {
+                if row >= step && row != 5 && row - step != 5 {
+                    triplets.push(row, row - step, f64::from((row * 13 + step) % 17) - 8.0);
+                }
+            }
+        }
+        triplets
+            .assemble(n as usize, Declared::Symmetric, "banded".as_ref())
+            .expect("a matrix")
+            .0
+    }
+
+    fn block(n: usize, k: usize) -> Mat<f64> {
+        Mat::from_fn(n, k, |row, col| ((row * 31 + col * 7) % 23) as f64 - 11.0)
+    }
+
+    /// Integers make every order of summation exact, so that equality needs no tolerance.
+    #[test]
+    fn columns_are_products_of_rows_whatever_their_number() {
+        let matrix = banded(2500);
+        let n = matrix.rows();
+        for k in [0, 1, 2, 3, 4, 5, 7, 8, 9, 16, 21, 64] {
+            let x = block(n, k);
+            let mut y = Mat::from_fn(n, k, |_, _| f64::NAN);
+            multiply(&matrix, x.as_ref(), y.as_mut());
+            for col in 0..k {
+                for (row, entries) in matrix.outer_iterator().enumerate() {
+                    let expected: f64 = entries.iter().map(|(at, value)| value * x[(at, col)]).sum();
+                    assert!(y[(row, col)] == expected, "row {row} of column {col} of {k}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn bits_do_not_depend_on_threads_or_neighbours() {
+        let matrix = banded(3000).map(|value| value / 3.0);
+        let x = Mat::from_fn(3000, 11, |row, col| 1.0 / (row + 2 * col + 1) as f64);
+        let product = |threads: usize, x: MatRef<'_, f64>| {
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .expect("a pool");
+            let mut y = Mat::zeros(x.nrows(), x.ncols());
+            pool.install(|| multiply(&matrix, x, y.as_mut()));
+            y
+        };
+        let reference = product(1, x.as_ref());
+        for threads in [2, 3, 8] {
+            assert!(product(threads, x.as_ref()) == reference, "{threads} threads");
+        }
+        for col in 0..11 {
+            assert!(
+                product(2, x.as_ref().subcols(col, 1)).col(0) == reference.col(col),
+                "column {col} alone"
+            );
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "times block of")]
+    fn shapes_must_fit() {
+        multiply(&banded(20), block(19, 2).as_ref(), Mat::zeros(20, 2).as_mut());
+    }
 }
