@@ -51,11 +51,6 @@ impl<'a> Dataset<'a> {
         Ok(values.and_then(|v| v.first().copied()))
     }
 
-    /// A text attribute.
-    pub(super) fn text_attribute(&self, name: &str) -> Result<Option<String>> {
-        attribute::text(self.h5, &self.dataset, &self.name, name)
-    }
-
     /// All values as real numbers, in storage order.
     pub(super) fn reals(&self) -> Result<Reals> {
         let digits = match self.descriptor("real numbers")? {
