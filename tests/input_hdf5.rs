@@ -297,7 +297,11 @@ fn values_in_other_files_are_refused() {
 
 #[test]
 fn filters_without_a_bound_are_refused() {
-    for (group, expected) in [("lzf", "lzf"), ("twice", "deflate, a second time")] {
+    for (group, expected) in [
+        ("lzf", "lzf"),
+        ("twice", "deflate, a second time"),
+        ("wide", "of more than 32 parameters"),
+    ] {
         let error = stiffness(&fixture("filters.h5"), Some(group)).unwrap_err();
         assert!(
             matches!(&error, Error::Hdf5Filter { filter, .. } if filter == expected),
@@ -338,7 +342,7 @@ fn groups_that_contain_themselves_end_the_search() {
 
 #[test]
 fn values_that_are_not_real_numbers_are_refused() {
-    let error = stiffness(&fixture("opaque.h5"), None).unwrap_err();
+    let error = stiffness(&fixture("complex.h5"), None).unwrap_err();
     assert!(
         matches!(
             error,
@@ -364,6 +368,15 @@ fn values_that_are_not_real_numbers_are_refused() {
                 ..
             }
         ),
+        "{error}"
+    );
+}
+
+#[test]
+fn numbers_in_another_byte_order_are_refused() {
+    let error = stiffness(&fixture("big_endian.h5"), None).unwrap_err();
+    assert!(
+        matches!(&error, Error::Hdf5Type { found, .. } if found.starts_with("float64 in another byte order")),
         "{error}"
     );
 }

@@ -4,6 +4,7 @@ use hdf5_metno::types::{FixedAscii, FixedUnicode, TypeDescriptor, VarLenAscii, V
 use hdf5_metno::{Attribute, Location};
 
 use super::file::H5;
+use super::numbers::{self, Refusal};
 use crate::error::{Error, Result};
 
 /// More numbers than any attribute read here has; an attribute lives in an object header of at most 64 KiB.
@@ -56,23 +57,18 @@ pub(super) fn integers(h5: &H5, location: &Location, object: &str, name: &str) -
     let Some(attribute) = find(h5, location, object, name)? else {
         return Ok(None);
     };
-    let object = format!("{object}@{name}");
-    let read = |e: hdf5_metno::Error| h5.read_error(&object, &e);
-    let descriptor = attribute.dtype().and_then(|t| t.to_descriptor()).map_err(read)?;
-    match descriptor {
-        TypeDescriptor::Integer(_) => attribute.read_raw::<i64>().map(Some).map_err(read),
-        // A count above i64::MAX is refused by whoever compares it: HDF5 saturates.
-        TypeDescriptor::Unsigned(_) => attribute.read_raw::<i64>().map(Some).map_err(read),
-        other => {
-            let path = h5.path().to_owned();
-            Err(Error::Hdf5Type {
-                path,
+    numbers::integers(&attribute).map(Some).map_err(|refusal| {
+        let object = format!("{object}@{name}");
+        match refusal {
+            Refusal::Type(found) => Error::Hdf5Type {
+                path: h5.path().to_owned(),
                 object,
-                found: other.to_string(),
+                found,
                 expected: "whole numbers",
-            })
+            },
+            Refusal::Library(error) => h5.read_error(&object, &error),
         }
-    }
+    })
 }
 
 /// The first value of an attribute as text; `bytes` because a file may hold anything where it says UTF-8.
