@@ -247,7 +247,7 @@ pub enum Error {
     },
     /// A file in which no known mesh was found.
     #[error(
-        "{}: no mesh that can be read – found {} – expected .hmf (`type` = hmf), XDMF, .med (/ENS_MAA) or .h5m (/tstt)",
+        "{}: no mesh that can be read – found {} – expected .hmf (/domain/grid/Geometry), XDMF, .med (/ENS_MAA) or .h5m (/tstt)",
         path.display(), listed(holds)
     )]
     MeshUnknown {
