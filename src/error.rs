@@ -562,14 +562,14 @@ pub enum Error {
     /// Several sparse matrices, or one under another name, so that none can be taken without guessing.
     #[error(
         "{}: no single matrix whose name says {role} – found {} – choose one, as in {}:{}",
-        path.display(), listed(groups), path.display(), groups.first().map_or("/K", |g| g.split(' ').next().unwrap_or(g))
+        path.display(), listed(groups), path.display(), groups.first().map_or("/K", String::as_str)
     )]
     Hdf5AmbiguousMatrix {
         /// The file.
         path: PathBuf,
         /// Stiffness or mass.
         role: &'static str,
-        /// The groups, each with its shape where that is known.
+        /// The groups that could be meant.
         groups: Vec<String>,
     },
     /// A matrix without rows.
@@ -638,7 +638,7 @@ pub enum Error {
     },
     /// A file in which no known mesh was found.
     #[error(
-        "{}: no mesh that can be read – found {} – expected .hmf (`type` = hmf), XDMF, .med (/ENS_MAA) or .h5m (/tstt)",
+        "{}: no mesh that can be read – found {} – expected .hmf (/domain/grid/Geometry), XDMF, .med (/ENS_MAA) or .h5m (/tstt)",
         path.display(), listed(holds)
     )]
     MeshUnknown {

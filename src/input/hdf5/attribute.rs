@@ -1,15 +1,17 @@
-//! Attributes: small texts and whole numbers beside a group or dataset.
+//! Attributes: whole numbers beside a group or dataset.
+//!
+//! Texts are not read. Most programs write them with variable length, which puts them into the global heap of the file,
+//! and a damaged heap makes the library loop for ever or read beyond its buffers. No format needs them: members and shapes
+//! tell as much.
 
-use hdf5_metno::types::{FixedAscii, FixedUnicode, TypeDescriptor, VarLenAscii, VarLenUnicode};
 use hdf5_metno::{Attribute, Location};
 
 use super::file::H5;
+use super::numbers::{self, Refusal};
 use crate::error::{Error, Result};
 
 /// More numbers than any attribute read here has; an attribute lives in an object header of at most 64 KiB.
 const MAX_VALUES: usize = 8192;
-/// Longer than any text that is compared; HDF5 cuts longer ones when it converts.
-const MAX_TEXT: usize = 64;
 
 /// The attribute of that name, if there is one.
 fn find(h5: &H5, location: &Location, object: &str, name: &str) -> Result<Option<Attribute>> {
@@ -32,51 +34,21 @@ fn find(h5: &H5, location: &Location, object: &str, name: &str) -> Result<Option
     })
 }
 
-/// The text of an attribute; `None` if it is absent or no text.
-pub(super) fn text(h5: &H5, location: &Location, object: &str, name: &str) -> Result<Option<String>> {
-    let Some(attribute) = find(h5, location, object, name)? else {
-        return Ok(None);
-    };
-    let Ok(descriptor) = attribute.dtype().and_then(|t| t.to_descriptor()) else {
-        return Ok(None);
-    };
-    let first = match descriptor {
-        TypeDescriptor::VarLenUnicode => first(&attribute, VarLenUnicode::as_bytes),
-        TypeDescriptor::VarLenAscii => first(&attribute, VarLenAscii::as_bytes),
-        TypeDescriptor::FixedAscii(_) => first(&attribute, FixedAscii::<MAX_TEXT>::as_bytes),
-        TypeDescriptor::FixedUnicode(_) => first(&attribute, FixedUnicode::<MAX_TEXT>::as_bytes),
-        _ => return Ok(None),
-    };
-    let text = first.map_err(|e| h5.read_error(&format!("{object}@{name}"), &e))?;
-    Ok(text.map(|t| t.trim().to_owned()))
-}
-
 /// The whole numbers of an attribute; `None` if it is absent.
 pub(super) fn integers(h5: &H5, location: &Location, object: &str, name: &str) -> Result<Option<Vec<i64>>> {
     let Some(attribute) = find(h5, location, object, name)? else {
         return Ok(None);
     };
-    let object = format!("{object}@{name}");
-    let read = |e: hdf5_metno::Error| h5.read_error(&object, &e);
-    let descriptor = attribute.dtype().and_then(|t| t.to_descriptor()).map_err(read)?;
-    match descriptor {
-        TypeDescriptor::Integer(_) => attribute.read_raw::<i64>().map(Some).map_err(read),
-        // A count above i64::MAX is refused by whoever compares it: HDF5 saturates.
-        TypeDescriptor::Unsigned(_) => attribute.read_raw::<i64>().map(Some).map_err(read),
-        other => {
-            let path = h5.path().to_owned();
-            Err(Error::Hdf5Type {
-                path,
+    numbers::integers(&attribute).map(Some).map_err(|refusal| {
+        let object = format!("{object}@{name}");
+        match refusal {
+            Refusal::Type(found) => Error::Hdf5Type {
+                path: h5.path().to_owned(),
                 object,
-                found: other.to_string(),
+                found,
                 expected: "whole numbers",
-            })
+            },
+            Refusal::Library(error) => h5.read_error(&object, &error),
         }
-    }
-}
-
-/// The first value of an attribute as text; `bytes` because a file may hold anything where it says UTF-8.
-fn first<T: hdf5_metno::H5Type>(attribute: &Attribute, bytes: fn(&T) -> &[u8]) -> hdf5_metno::Result<Option<String>> {
-    let values = attribute.read_raw::<T>()?;
-    Ok(values.first().map(|v| String::from_utf8_lossy(bytes(v)).into_owned()))
+    })
 }

@@ -1,20 +1,18 @@
 //! Values of a dataset, read only after its header has been checked against the bytes that are there.
 
-use hdf5_metno::H5Type;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
 use hdf5_metno::dataset::Layout;
 use hdf5_metno::filters::Filter;
-use hdf5_metno::types::{FloatSize, IntSize, TypeDescriptor};
+use hdf5_metno::types::{IntSize, TypeDescriptor};
 
 use super::attribute;
 use super::file::H5;
+use super::numbers::{self, Reals, Refusal};
 use crate::error::{Error, Result};
 
 /// The largest expansion of deflate: 258 bytes from a code of two bits.
 const DEFLATE_RATIO: u64 = 1032;
-/// Decimal digits of a 32-bit float.
-const DIGITS_F32: u32 = 7;
-/// Decimal digits of a 64-bit float.
-const DIGITS_F64: u32 = 17;
 /// Length of a name in a table of names.
 const NAME_LENGTH: usize = 80;
 
@@ -23,12 +21,6 @@ pub(super) struct Dataset<'a> {
     h5: &'a H5,
     dataset: hdf5_metno::Dataset,
     name: String,
-}
-
-/// Real numbers and the decimal digits their storage carries.
-pub(super) struct Reals {
-    pub(super) values: Vec<f64>,
-    pub(super) digits: u32,
 }
 
 impl<'a> Dataset<'a> {
@@ -51,47 +43,40 @@ impl<'a> Dataset<'a> {
         Ok(values.and_then(|v| v.first().copied()))
     }
 
-    /// A text attribute.
-    pub(super) fn text_attribute(&self, name: &str) -> Result<Option<String>> {
-        attribute::text(self.h5, &self.dataset, &self.name, name)
-    }
-
     /// All values as real numbers, in storage order.
     pub(super) fn reals(&self) -> Result<Reals> {
-        let digits = match self.descriptor("real numbers")? {
-            TypeDescriptor::Float(FloatSize::U4) => DIGITS_F32,
-            TypeDescriptor::Float(_) | TypeDescriptor::Integer(_) | TypeDescriptor::Unsigned(_) => DIGITS_F64,
-            other => return Err(self.wrong_type(other.to_string(), "real numbers")),
-        };
-        Ok(Reals {
-            values: self.read::<f64>()?,
-            digits,
-        })
+        if self.checked_len()? == 0 {
+            return Ok(Reals {
+                values: Vec::new(),
+                digits: u32::MAX,
+            });
+        }
+        numbers::reals(&self.dataset).map_err(|e| self.refused(e, "real numbers"))
     }
 
-    /// All values as whole numbers, in storage order. The library saturates when it converts: an unsigned number above
-    /// the largest signed one stays out of every range.
+    /// All values as whole numbers, in storage order.
     pub(super) fn integers(&self) -> Result<Vec<i64>> {
-        match self.descriptor("whole numbers")? {
-            TypeDescriptor::Integer(_) | TypeDescriptor::Unsigned(_) => self.read::<i64>(),
-            other => Err(self.wrong_type(other.to_string(), "whole numbers")),
+        if self.checked_len()? == 0 {
+            return Ok(Vec::new());
         }
+        numbers::integers(&self.dataset).map_err(|e| self.refused(e, "whole numbers"))
     }
 
     /// A table of names of 80 characters each: padded with blanks or ended by a zero byte.
     pub(super) fn names(&self) -> Result<Vec<String>> {
-        const EXPECTED: &str = "names of 80 characters";
-        match self.descriptor(EXPECTED)? {
-            TypeDescriptor::FixedArray(item, NAME_LENGTH) if *item == TypeDescriptor::Integer(IntSize::U1) => Ok(self
-                .read::<[i8; NAME_LENGTH]>()?
-                .iter()
-                .map(|name| text_of(name))
-                .collect()),
-            TypeDescriptor::Integer(IntSize::U1) if self.shape()?.last() == Some(&NAME_LENGTH) => {
-                Ok(self.read::<i8>()?.chunks_exact(NAME_LENGTH).map(text_of).collect())
-            }
-            other => Err(self.wrong_type(other.to_string(), EXPECTED)),
+        if self.checked_len()? == 0 {
+            return Ok(Vec::new());
         }
+        let flat = self.shape()?.last() == Some(&NAME_LENGTH);
+        let read = match numbers::descriptor(&self.dataset) {
+            Ok(TypeDescriptor::Integer(IntSize::U1)) if flat => {
+                numbers::read::<i8>(&self.dataset).map(|names| names.chunks_exact(NAME_LENGTH).map(text_of).collect())
+            }
+            Ok(_) => numbers::read::<[i8; NAME_LENGTH]>(&self.dataset)
+                .map(|names| names.iter().map(|name| text_of(name)).collect()),
+            Err(refusal) => Err(refusal),
+        };
+        read.map_err(|e| self.refused(e, "names of 80 characters"))
     }
 
     /// The error for a dataset of the wrong length.
@@ -118,13 +103,6 @@ impl<'a> Dataset<'a> {
             first,
             last: first.saturating_add_unsigned(n as u64).saturating_sub(1),
         })
-    }
-
-    fn read<T: H5Type>(&self) -> Result<Vec<T>> {
-        if self.checked_len()? == 0 {
-            return Ok(Vec::new());
-        }
-        self.dataset.read_raw::<T>().map_err(|e| self.read_error(&e))
     }
 
     /// Number of values, once it is certain that the stored bytes can hold them.
@@ -173,7 +151,15 @@ impl<'a> Dataset<'a> {
             return Err(Error::Hdf5ExternalStorage { path, object });
         }
         let mut ratio = 1;
-        for filter in plist.get_filters().map_err(|e| self.read_error(&e))? {
+        // The binding slices by the number of parameters that the file states, and panics where there are more than 32.
+        let Ok(filters) = catch_unwind(AssertUnwindSafe(|| plist.get_filters())) else {
+            return Err(Error::Hdf5Filter {
+                path,
+                object,
+                filter: "of more than 32 parameters".to_owned(),
+            });
+        };
+        for filter in filters.map_err(|e| self.read_error(&e))? {
             match filter {
                 Filter::Shuffle | Filter::Fletcher32 => {}
                 Filter::Deflate(_) if ratio == 1 => ratio = DEFLATE_RATIO,
@@ -189,19 +175,16 @@ impl<'a> Dataset<'a> {
         Ok(ratio)
     }
 
-    fn descriptor(&self, expected: &'static str) -> Result<TypeDescriptor> {
-        let datatype = self.dataset.dtype().map_err(|e| self.read_error(&e))?;
-        datatype
-            .to_descriptor()
-            .map_err(|e| self.wrong_type(e.to_string(), expected))
-    }
-
-    fn wrong_type(&self, found: String, expected: &'static str) -> Error {
-        Error::Hdf5Type {
-            path: self.h5.path().to_owned(),
-            object: self.name.clone(),
-            found,
-            expected,
+    fn refused(&self, refusal: Refusal, expected: &'static str) -> Error {
+        let (path, object) = (self.h5.path().to_owned(), self.name.clone());
+        match refusal {
+            Refusal::Type(found) => Error::Hdf5Type {
+                path,
+                object,
+                found,
+                expected,
+            },
+            Refusal::Library(error) => self.read_error(&error),
         }
     }
 

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use super::dataset::Dataset;
 use super::file::{H5, Member};
-use super::{attribute, hmf, med, moab, xdmf};
+use super::{hmf, med, moab, xdmf};
 use crate::error::{Error, Result};
 use crate::input::Nodes;
 
@@ -132,14 +132,14 @@ fn is_xml(path: &Path) -> Result<bool> {
 fn read_hdf5(path: &Path) -> Result<Mesh> {
     let h5 = H5::open(path)?;
     let root = h5.root()?;
-    if attribute::text(&h5, root.location(), "/", "type")?.as_deref() == Some("hmf") {
-        return hmf::read(&root);
-    }
     if root.member("ENS_MAA")? == Some(Member::Group) {
         return med::read(&root);
     }
     if root.member("tstt")? == Some(Member::Group) {
         return moab::read(&root);
+    }
+    if let Some(geometry) = hmf::find(&root)? {
+        return hmf::read(&geometry);
     }
     let holds = root
         .members()?

@@ -28,9 +28,26 @@ pub(super) fn read_sets(tstt: &Group<'_>, nodes: Range<i64>) -> Result<BTreeMap<
         elements: read_elements(tstt)?,
         sets,
     };
+    let limit = contents.max_steps();
+    let mut n_steps = 0;
     for (name, set) in tagged {
-        let mut visited = BTreeSet::new();
-        contents.collect(set, groups.entry(name).or_default(), &mut visited, MAX_DEPTH);
+        let mut walk = Walk {
+            found: groups.entry(name).or_default(),
+            visited: BTreeSet::new(),
+            n_steps,
+            limit,
+        };
+        contents.collect(set, &mut walk, MAX_DEPTH);
+        n_steps = walk.n_steps;
+    }
+    if n_steps > limit {
+        let (path, object) = (tstt.h5().path().to_owned(), tstt.child_name("sets"));
+        return Err(Error::Hdf5Depth {
+            path,
+            object,
+            limit,
+            counted: "members of sets",
+        });
     }
     Ok(groups
         .into_iter()
@@ -171,14 +188,27 @@ struct Contents {
     sets: Sets,
 }
 
+/// The nodes found so far, and the work it took.
+struct Walk<'a> {
+    found: &'a mut BTreeSet<usize>,
+    /// Elements and sets already expanded.
+    visited: BTreeSet<i64>,
+    n_steps: usize,
+    limit: usize,
+}
+
 impl Contents {
     /// Adds the nodes that the file id stands for; ids of nothing are passed over as MOAB does.
-    fn collect(&self, id: i64, into: &mut BTreeSet<usize>, visited: &mut BTreeSet<i64>, depth: usize) {
-        if self.nodes.contains(&id) {
-            into.insert((id - self.nodes.start) as usize);
+    fn collect(&self, id: i64, walk: &mut Walk<'_>, depth: usize) {
+        walk.n_steps = walk.n_steps.saturating_add(1);
+        if walk.n_steps > walk.limit {
             return;
         }
-        if depth == 0 || !visited.insert(id) {
+        if self.nodes.contains(&id) {
+            walk.found.insert((id - self.nodes.start) as usize);
+            return;
+        }
+        if depth == 0 || !walk.visited.insert(id) {
             return;
         }
         if let Some(kind) = self.elements.iter().find(|e| e.ids.contains(&id)) {
@@ -188,16 +218,19 @@ impl Contents {
                 .chunks_exact(kind.n_corners.max(1))
                 .nth(element)
                 .unwrap_or_default();
-            corners
-                .iter()
-                .for_each(|&corner| self.collect(corner, into, visited, depth - 1));
+            corners.iter().for_each(|&corner| self.collect(corner, walk, depth - 1));
             return;
         }
         for range in self.sets.ranges(id) {
             // A range cannot name more ids than the file has, however long it claims to be.
             for known in self.known() {
                 let common = range.start.max(known.start)..range.end.min(known.end);
-                common.for_each(|id| self.collect(id, into, visited, depth - 1));
+                for id in common {
+                    self.collect(id, walk, depth - 1);
+                    if walk.n_steps > walk.limit {
+                        return;
+                    }
+                }
             }
         }
     }
@@ -210,5 +243,12 @@ impl Contents {
             .iter()
             .map(|e| e.ids.clone())
             .chain([self.nodes.clone(), sets])
+    }
+
+    /// More steps than overlapping sets of a real file take: 64 times over everything.
+    fn max_steps(&self) -> usize {
+        let n_nodes = usize::try_from(self.nodes.end - self.nodes.start).unwrap_or(0);
+        let n_corners: usize = self.elements.iter().map(|e| e.connectivity.len()).sum();
+        (n_nodes + n_corners + self.sets.contents.len() + self.sets.list.len()).saturating_mul(64)
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! The C library is called through a crate that takes one process-wide lock for each call, so that reading from several
 //! threads is safe. It is never asked to believe a header: a dataset is read only when its stored bytes can hold what it
-//! promises, links that could leave the file are refused, and only filters with a bounded expansion are accepted.
+//! promises, links that could leave the file are refused, only filters with a bounded expansion are accepted, and numbers
+//! are converted here. What remains is the library's own parsing of damaged metadata, which these checks cannot reach.
 
 mod attribute;
 mod compressed;
@@ -14,6 +15,7 @@ mod med_groups;
 mod mesh;
 mod moab;
 mod moab_sets;
+mod numbers;
 mod search;
 mod sparse;
 mod xdmf;

@@ -51,47 +51,48 @@ pub fn read_matrix(path: &Path, group: Option<&str>, role: MatrixRole) -> Result
 /// How a group stores a sparse matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Convention {
-    /// Compressed columns `jc`, `ir`, `data`; the attribute is the number of rows.
+    /// Compressed columns `jc`, `ir`, `data`; the attribute `MATLAB_sparse` is the number of rows.
     Matlab,
-    /// `data`, `indices`, `indptr`, with the shape in an attribute of this name or in a dataset `shape`.
-    Compressed(Major, Option<&'static str>),
+    /// `data`, `indices`, `indptr`, with the shape in this attribute.
+    ShapeAttribute(&'static str),
+    /// The same with the shape in a dataset `shape` or, without one, square.
+    ShapeDataset,
 }
 
 impl Convention {
-    /// The convention of a group, judged by its attributes first and the names of its members last.
+    /// The convention of a group, judged by the names of its attributes and members.
     pub(super) fn of(group: &Group<'_>, members: &[(String, Member)]) -> Result<Option<Self>> {
-        let (h5, location) = (group.h5(), group.location());
-        let names = location.attr_names().map_err(|e| h5.read_error(group.name(), &e))?;
+        let names = group
+            .location()
+            .attr_names()
+            .map_err(|e| group.h5().read_error(group.name(), &e))?;
         let has = |name: &str| names.iter().any(|n| n == name);
         if has("MATLAB_sparse") {
             return Ok(Some(Self::Matlab));
         }
-        for (attribute, shape) in [
-            ("encoding-type", Some("shape")),
-            ("h5sparse_format", Some("h5sparse_shape")),
-            ("datatype", None),
-        ] {
-            let text = if has(attribute) {
-                attribute::text(h5, location, group.name(), attribute)?
-            } else {
-                None
-            };
-            match text.as_deref() {
-                Some("csr_matrix" | "csr") => return Ok(Some(Self::Compressed(Major::Rows, shape))),
-                Some("csc_matrix" | "csc") => return Ok(Some(Self::Compressed(Major::Columns, shape))),
-                _ => {}
-            }
+        if has("h5sparse_shape") {
+            return Ok(Some(Self::ShapeAttribute("h5sparse_shape")));
         }
         let has_dataset = |name: &str| members.iter().any(|(n, m)| n == name && *m != Member::Group);
-        let plain = ["data", "indices", "indptr"].into_iter().all(has_dataset);
-        Ok(plain.then_some(Self::Compressed(Major::Rows, has("shape").then_some("shape"))))
+        if !["data", "indices", "indptr"].into_iter().all(has_dataset) {
+            return Ok(None);
+        }
+        Ok(Some(if has("shape") {
+            Self::ShapeAttribute("shape")
+        } else {
+            Self::ShapeDataset
+        }))
     }
 
     /// Reads the group, and the digits its values are stored with.
     fn read(self, group: &Group<'_>) -> Result<(Compressed, u32)> {
         match self {
             Self::Matlab => read_matlab(group),
-            Self::Compressed(major, shape) => read_compressed(group, major, shape),
+            Self::ShapeAttribute(name) => read_compressed(group, shape_attribute(group, name)?),
+            Self::ShapeDataset => {
+                let shape = group.find_dataset("shape")?.map(|d| d.integers()).transpose()?;
+                read_compressed(group, shape.map(counts))
+            }
         }
     }
 }
@@ -118,17 +119,11 @@ fn read_matlab(group: &Group<'_>) -> Result<(Compressed, u32)> {
     ))
 }
 
-fn read_compressed(group: &Group<'_>, major: Major, shape: Option<&'static str>) -> Result<(Compressed, u32)> {
+/// Whether rows or columns are compressed stands in a text that is not read (see [`attribute`]); the matrices wanted are
+/// symmetric, for which both are the same.
+fn read_compressed(group: &Group<'_>, stated: Option<Vec<u64>>) -> Result<(Compressed, u32)> {
     let pointers = group.dataset("indptr")?.integers()?;
     let n_major = pointers.len().saturating_sub(1) as u64;
-    let stated = match shape {
-        Some(name) => shape_attribute(group, name)?,
-        None => group
-            .find_dataset("shape")?
-            .map(|d| d.integers())
-            .transpose()?
-            .map(counts),
-    };
     let shape = match stated.as_deref() {
         None => [n_major, n_major],
         Some(&[n_rows, n_cols]) => [n_rows, n_cols],
@@ -147,7 +142,7 @@ fn read_compressed(group: &Group<'_>, major: Major, shape: Option<&'static str>)
     let reals = group.dataset("data")?.reals()?;
     let names = ["indptr", "indices", "data"].map(|name| group.child_name(name));
     Ok((
-        Compressed::new(major, shape, pointers, indices, reals.values, names),
+        Compressed::new(Major::Rows, shape, pointers, indices, reals.values, names),
         reals.digits,
     ))
 }

@@ -20,7 +20,7 @@ pub(super) fn read(path: &Path) -> Result<Mesh> {
         source,
     })?;
     let mut geometries: Vec<Geometry<'_>> = Vec::new();
-    for node in document.descendants().filter(|n| n.has_tag_name("Geometry")) {
+    for node in document.descendants().filter(|n| n.tag_name().name() == "Geometry") {
         let geometry = Geometry::of(node, path)?;
         if !geometries.contains(&geometry) {
             geometries.push(geometry);
@@ -75,7 +75,7 @@ impl<'a> Geometry<'a> {
             "XYZ" => 3,
             _ => return unsupported("Geometry", kind, "GeometryType XYZ or XY"),
         };
-        let items: Vec<Node<'_, '_>> = node.children().filter(|c| c.has_tag_name("DataItem")).collect();
+        let items: Vec<Node<'_, '_>> = node.children().filter(|c| c.tag_name().name() == "DataItem").collect();
         let &[item] = items.as_slice() else {
             let found = format!("{} data items", items.len());
             return unsupported("Geometry", &found, "one DataItem");

@@ -1,0 +1,85 @@
+//! Numbers of a dataset or attribute, converted here and not by the library.
+//!
+//! Its conversions trust the bit layout that a file states for a type, and a damaged one makes them write past their
+//! buffers. So values are read only where the type is exactly one of this machine's, and widened afterwards.
+
+use hdf5_metno::types::{FloatSize, IntSize, TypeDescriptor};
+use hdf5_metno::{Container, H5Type};
+
+/// Decimal digits of a 32-bit float.
+const DIGITS_F32: u32 = 7;
+/// Decimal digits of a 64-bit float.
+const DIGITS_F64: u32 = 17;
+
+/// Why numbers could not be read.
+pub(super) enum Refusal {
+    /// The type, in words.
+    Type(String),
+    Library(hdf5_metno::Error),
+}
+
+/// Real numbers and the decimal digits their storage carries.
+pub(super) struct Reals {
+    pub(super) values: Vec<f64>,
+    pub(super) digits: u32,
+}
+
+/// All values as real numbers, in storage order.
+pub(super) fn reals(container: &Container) -> Result<Reals, Refusal> {
+    let (values, digits) = match descriptor(container)? {
+        TypeDescriptor::Float(FloatSize::U8) => (read::<f64>(container)?, DIGITS_F64),
+        TypeDescriptor::Float(FloatSize::U4) => (widened::<f32, f64>(container)?, DIGITS_F32),
+        _ => (integers(container)?.into_iter().map(|v| v as f64).collect(), DIGITS_F64),
+    };
+    Ok(Reals { values, digits })
+}
+
+/// All values as whole numbers, in storage order. Unsigned numbers above the largest signed one become that one, which
+/// is outside of every range they are held against.
+pub(super) fn integers(container: &Container) -> Result<Vec<i64>, Refusal> {
+    match descriptor(container)? {
+        TypeDescriptor::Integer(IntSize::U1) => widened::<i8, i64>(container),
+        TypeDescriptor::Integer(IntSize::U2) => widened::<i16, i64>(container),
+        TypeDescriptor::Integer(IntSize::U4) => widened::<i32, i64>(container),
+        TypeDescriptor::Integer(IntSize::U8) => read::<i64>(container),
+        TypeDescriptor::Unsigned(IntSize::U1) => widened::<u8, i64>(container),
+        TypeDescriptor::Unsigned(IntSize::U2) => widened::<u16, i64>(container),
+        TypeDescriptor::Unsigned(IntSize::U4) => widened::<u32, i64>(container),
+        TypeDescriptor::Unsigned(IntSize::U8) => {
+            let values = read::<u64>(container)?;
+            Ok(values
+                .into_iter()
+                .map(|v| i64::try_from(v).unwrap_or(i64::MAX))
+                .collect())
+        }
+        other => Err(Refusal::Type(other.to_string())),
+    }
+}
+
+/// All values of exactly this type.
+pub(super) fn read<T: H5Type>(container: &Container) -> Result<Vec<T>, Refusal> {
+    let datatype = container.dtype().map_err(Refusal::Library)?;
+    if !datatype.is::<T>() {
+        let words = datatype
+            .to_descriptor()
+            .map_or_else(|e| e.to_string(), |d| d.to_string());
+        return Err(Refusal::Type(format!(
+            "{words} in another byte order or bit layout than this machine's"
+        )));
+    }
+    container
+        .as_reader()
+        .no_convert()
+        .read_raw::<T>()
+        .map_err(Refusal::Library)
+}
+
+/// The type of the values.
+pub(super) fn descriptor(container: &Container) -> Result<TypeDescriptor, Refusal> {
+    let datatype = container.dtype().map_err(Refusal::Library)?;
+    datatype.to_descriptor().map_err(|e| Refusal::Type(e.to_string()))
+}
+
+fn widened<T: H5Type, U: From<T>>(container: &Container) -> Result<Vec<U>, Refusal> {
+    Ok(read::<T>(container)?.into_iter().map(U::from).collect())
+}
