@@ -37,6 +37,17 @@ pub enum Error {
     // ---- factor ----------------------------------------------------------------------------------------------------
     // ---- modes -----------------------------------------------------------------------------------------------------
     // ---- superelement file -----------------------------------------------------------------------------------------
+    /// A superelement file cannot be read or written; the message names it.
+    #[error(transparent)]
+    SuperelementAccess(supel_runtime::FileError),
+    /// The content of a superelement file, or of one to be written, is not a superelement.
+    #[error("{}: {source}", path.display())]
+    SuperelementContent {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: supel_runtime::FileError,
+    },
 }
 
 /// The class of an [`Error`]; its number is the exit code of the process.
@@ -57,10 +68,24 @@ pub enum ErrorClass {
 }
 
 impl Error {
+    /// Why the superelement file at `path` could not be written or read.
+    pub fn superelement(path: &std::path::Path, source: supel_runtime::FileError) -> Self {
+        if source.is_io() {
+            Self::SuperelementAccess(source)
+        } else {
+            Self::SuperelementContent { path: path.to_owned(), source }
+        }
+    }
+
     /// The class of this error, which is its exit code.
     pub fn class(&self) -> ErrorClass {
         match self {
             Self::Read { .. } | Self::Write { .. } => ErrorClass::Io,
+            Self::SuperelementAccess(_) => ErrorClass::Io,
+            Self::SuperelementContent { source: supel_runtime::FileError::OutOfMemory { .. }, .. } => {
+                ErrorClass::Resources
+            }
+            Self::SuperelementContent { .. } => ErrorClass::InputData,
         }
     }
 }
