@@ -73,7 +73,10 @@ impl Error {
         if source.is_io() {
             Self::SuperelementAccess(source)
         } else {
-            Self::SuperelementContent { path: path.to_owned(), source }
+            Self::SuperelementContent {
+                path: path.to_owned(),
+                source,
+            }
         }
     }
 
@@ -82,9 +85,10 @@ impl Error {
         match self {
             Self::Read { .. } | Self::Write { .. } => ErrorClass::Io,
             Self::SuperelementAccess(_) => ErrorClass::Io,
-            Self::SuperelementContent { source: supel_runtime::FileError::OutOfMemory { .. }, .. } => {
-                ErrorClass::Resources
-            }
+            Self::SuperelementContent {
+                source: supel_runtime::FileError::OutOfMemory { .. },
+                ..
+            } => ErrorClass::Resources,
             Self::SuperelementContent { .. } => ErrorClass::InputData,
         }
     }
