@@ -33,7 +33,670 @@ pub enum Error {
         source: std::io::Error,
     },
     // ---- text input ------------------------------------------------------------------------------------------------
+    /// A path is a folder, a pipe or a device.
+    #[error("{}: not a regular file; give the path of a file on disk", path.display())]
+    NotAFile {
+        /// The path.
+        path: PathBuf,
+    },
+    /// Gzipped data ends early or is damaged.
+    #[error("{}: the gzipped data are damaged or cut short ({source}); copy or create the file again", path.display())]
+    GzipDamaged {
+        /// The file.
+        path: PathBuf,
+        /// What the decoder said.
+        source: std::io::Error,
+    },
+    /// Gzipped data inflate to more than a matrix can.
+    #[error(
+        "{}: the gzipped data inflate to more than {limit} times their size ({compressed} bytes gave {inflated}); \
+         no table of numbers does this, check where the file comes from", path.display()
+    )]
+    GzipInflation {
+        /// The file.
+        path: PathBuf,
+        /// Bytes read so far.
+        compressed: u64,
+        /// Bytes they gave.
+        inflated: u64,
+        /// The ratio allowed.
+        limit: u64,
+    },
+    /// A line is longer than any line of numbers.
+    #[error("{}:{line}: line longer than {limit} bytes; expected lines of a few numbers, is this a text file?", path.display())]
+    LineTooLong {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// The longest line allowed, in bytes.
+        limit: usize,
+    },
+    /// A text file holds no data.
+    #[error("{}: the file holds no data; expected {expected}", path.display())]
+    NoData {
+        /// The file.
+        path: PathBuf,
+        /// What belongs there.
+        expected: &'static str,
+    },
+    /// The first line of a matrix file is neither a Matrix Market banner nor numbers.
+    #[error(
+        "{}:{line}: not a matrix: found `{found}`, expected `%%MatrixMarket matrix coordinate real symmetric` \
+         or lines `row column value`", path.display()
+    )]
+    MatrixBanner {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// The line.
+        found: String,
+    },
+    /// A Matrix Market flavour that no stiffness or mass matrix needs.
+    #[error(
+        "{}:{line}: Matrix Market flavour `{found}` is not read; supported are `coordinate real` and `coordinate integer`, \
+         each `symmetric` or `general`", path.display()
+    )]
+    MatrixFlavour {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// The word that is not supported.
+        found: String,
+    },
+    /// The size line of a Matrix Market file cannot be read.
+    #[error("{}:{line}: size line: found `{found}`, expected three whole numbers `rows columns entries`", path.display())]
+    MatrixSizeLine {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// The line.
+        found: String,
+    },
+    /// A matrix is rectangular.
+    #[error("{}:{line}: the matrix has {rows} rows and {cols} columns; stiffness and mass are square", path.display())]
+    MatrixNotSquare {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// Rows declared.
+        rows: u64,
+        /// Columns declared.
+        cols: u64,
+    },
+    /// A matrix without rows, or with more than can be numbered.
+    #[error("{}:{line}: the matrix has {n} rows; expected 1 to {limit}", path.display())]
+    MatrixOrder {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// Rows declared or implied.
+        n: u64,
+        /// The largest order.
+        limit: u64,
+    },
+    /// Nearly all rows of a large matrix are empty.
+    #[error(
+        "{}: a matrix of {n} rows with only {entries} entries; nearly all rows would be empty, check its size line and indices",
+        path.display()
+    )]
+    MatrixMostlyEmpty {
+        /// The file.
+        path: PathBuf,
+        /// Rows declared or implied.
+        n: u64,
+        /// Entries found.
+        entries: u64,
+    },
+    /// A field of an entry is not a number.
+    #[error("{}:{line}: {field} of an entry: found `{found}`, expected {expected}", path.display())]
+    EntryField {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// Which field: row, column or value.
+        field: &'static str,
+        /// The text found.
+        found: String,
+        /// What belongs there.
+        expected: &'static str,
+    },
+    /// A line has more fields than an entry.
+    #[error("{}:{line}: found `{found}` after the value; expected `row column value` and nothing else", path.display())]
+    EntryExcess {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// The text found.
+        found: String,
+    },
+    /// An index lies outside the matrix.
+    #[error("{}:{line}: {field} {found} lies outside the matrix; indices count from 1, expected 1 to {n}", path.display())]
+    EntryIndex {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// Which index: row or column.
+        field: &'static str,
+        /// The index found.
+        found: u64,
+        /// The order of the matrix.
+        n: u64,
+    },
+    /// A value is infinite or not a number.
+    #[error("{}:{line}: entry ({row}, {col}) is `{found}`; expected a finite number", path.display())]
+    NonFinite {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// Row, from 1.
+        row: u64,
+        /// Column, from 1.
+        col: u64,
+        /// The text found.
+        found: String,
+    },
+    /// A matrix file holds fewer entries than it declares, or its bare size line is wrong.
+    #[error("{}: the size line declares {declared} entries, found {found}; the file may be cut short", path.display())]
+    EntryCount {
+        /// The file.
+        path: PathBuf,
+        /// Entries declared.
+        declared: u64,
+        /// Entries found.
+        found: u64,
+    },
+    /// A matrix file goes on after all entries have come.
+    #[error("{}:{line}: more entries than the {declared} that the size line declares", path.display())]
+    EntriesSurplus {
+        /// The file.
+        path: PathBuf,
+        /// Line number of the first entry too many, from 1.
+        line: u64,
+        /// Entries declared.
+        declared: u64,
+    },
+    /// A matrix declared symmetric has entries on both sides of the diagonal.
+    #[error(
+        "{}: declared symmetric, but entries lie on both sides of the diagonal, ({}, {}) and ({}, {}); \
+         expected one triangle: remove the other, or declare the matrix general",
+        path.display(), lower.0, lower.1, upper.0, upper.1
+    )]
+    DoubleTriangle {
+        /// The file.
+        path: PathBuf,
+        /// Row and column, from 1, of an entry below the diagonal.
+        lower: (u64, u64),
+        /// Row and column, from 1, of an entry above the diagonal.
+        upper: (u64, u64),
+    },
+    /// K and M differ in size.
+    #[error(
+        "stiffness {} has {n_stiffness} rows and mass {} has {n_mass}; expected the same degrees of freedom in both",
+        stiffness.display(), mass.display()
+    )]
+    SizeMismatch {
+        /// The file of K.
+        stiffness: PathBuf,
+        /// Its order.
+        n_stiffness: usize,
+        /// The file of M.
+        mass: PathBuf,
+        /// Its order.
+        n_mass: usize,
+    },
+    /// A table lacks a column.
+    #[error("{}: no column `{column}`: found the header `{found}`, expected {expected}", path.display())]
+    TableColumn {
+        /// The file.
+        path: PathBuf,
+        /// The missing column.
+        column: &'static str,
+        /// The header found.
+        found: String,
+        /// The columns that are needed.
+        expected: &'static str,
+    },
+    /// A table cannot be split into rows and fields.
+    #[error("{}:{line}: row of {found} fields; expected {expected} as in the header", path.display())]
+    TableRow {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// Fields found.
+        found: u64,
+        /// Fields of the header.
+        expected: u64,
+    },
+    /// A field of a table cannot be read.
+    #[error("{}:{line}: column `{column}`: found `{found}`, expected {expected}", path.display())]
+    TableField {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// Name of the column.
+        column: String,
+        /// The text found.
+        found: String,
+        /// What belongs there.
+        expected: &'static str,
+    },
+    /// A node is listed twice.
+    #[error("{}:{line}: node {node} again, first at line {first_line}; expected each node once", path.display())]
+    NodeRepeated {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// Label of the node.
+        node: i64,
+        /// Line where it came first.
+        first_line: u64,
+    },
+    /// A line of a dof map is not `node.direction`.
+    #[error("{}:{line}: found `{found}`; expected `node.direction`, for example 412.1", path.display())]
+    DofText {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// The text found.
+        found: String,
+    },
+    /// A direction of a dof map does not exist.
+    #[error("{}:{line}: node {node} has direction `{found}`; expected {expected}", path.display())]
+    DofDirection {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// Label of the node.
+        node: i64,
+        /// The text found.
+        found: String,
+        /// The directions that exist.
+        expected: &'static str,
+    },
+    /// Two rows of a dof map are the same degree of freedom.
+    #[error(
+        "{}: rows {first_row} and {row} are both {direction:?} of node {node}; expected every degree of freedom once \
+         (rows count from 1; programs that expand shells or beams into solids repeat labels, renumber their nodes)",
+        path.display()
+    )]
+    DofRepeated {
+        /// The file.
+        path: PathBuf,
+        /// Row of the repetition, from 1.
+        row: usize,
+        /// Row where it came first, from 1.
+        first_row: usize,
+        /// Label of the node.
+        node: i64,
+        /// Direction.
+        direction: crate::input::Direction,
+    },
+    /// The rows of a dof map are numbered, but not in order.
+    #[error("{}:{line}: row number `{found}`; expected {expected}, the rows of the matrices in order", path.display())]
+    DofRowOrder {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// The number found.
+        found: String,
+        /// The number due.
+        expected: u64,
+    },
+    /// A dof map is longer or shorter than the matrices.
+    #[error("{}: the dof map has {found} rows, the matrices have {n}; expected one row for each of theirs", path.display())]
+    DofCount {
+        /// The file.
+        path: PathBuf,
+        /// Rows of the map.
+        found: usize,
+        /// Order of the matrices.
+        n: usize,
+    },
+    /// A dof map names a node that has no position.
+    #[error(
+        "{}: row {row} (from 1) is at node {node}, which {} does not list; expected a position for every node of the map",
+        path.display(), nodes.display()
+    )]
+    DofNodeMissing {
+        /// The file of the dof map.
+        path: PathBuf,
+        /// Row, from 1.
+        row: usize,
+        /// Label of the node.
+        node: i64,
+        /// The file of the nodes.
+        nodes: PathBuf,
+    },
+    /// Without a dof map, the counts do not say what the rows are.
+    #[error(
+        "the matrices have {n} rows and {} lists {n_nodes} nodes, neither three nor six rows a node; \
+         give a dof map (a file with `node.direction` for each row)", nodes.display()
+    )]
+    DofOrderUnknown {
+        /// The file of the nodes.
+        nodes: PathBuf,
+        /// Nodes listed.
+        n_nodes: usize,
+        /// Order of the matrices.
+        n: usize,
+    },
+    /// A file needs a part of the program that was left out when it was built.
+    #[error("{}: this program was built without `{feature}`, which this file needs; rebuild with --features {feature}", path.display())]
+    FeatureMissing {
+        /// The file.
+        path: PathBuf,
+        /// The feature.
+        feature: &'static str,
+    },
     // ---- hdf5 input ------------------------------------------------------------------------------------------------
+    /// A file that should be HDF5 is something else.
+    #[error("{}: not an HDF5 file – found {found} – expected the HDF5 signature – {advice}", path.display())]
+    Hdf5Signature {
+        /// The file.
+        path: PathBuf,
+        /// What its first bytes look like.
+        found: &'static str,
+        /// What to do about it.
+        advice: &'static str,
+    },
+    /// The HDF5 library refused to open a file.
+    #[error("{}: a damaged HDF5 file – the HDF5 library says: {reason} – write or copy the file again", path.display())]
+    Hdf5Open {
+        /// The file.
+        path: PathBuf,
+        /// The library's words.
+        reason: String,
+    },
+    /// The HDF5 library could not read an object of a file.
+    #[error("{}:{object}: cannot be read – the HDF5 library says: {reason}", path.display())]
+    Hdf5Read {
+        /// The file.
+        path: PathBuf,
+        /// Path of the object in the file.
+        object: String,
+        /// The library's words.
+        reason: String,
+    },
+    /// A group, dataset or attribute that must be there is not.
+    #[error("{}:{object}: there is no such {kind} in the file", path.display())]
+    Hdf5Missing {
+        /// The file.
+        path: PathBuf,
+        /// Path of the object in the file.
+        object: String,
+        /// Group, dataset or attribute.
+        kind: &'static str,
+    },
+    /// A path in the file leads through a soft or external link.
+    #[error("{}:{object}: a soft or external link, and links are not followed – give the path of the object itself", path.display())]
+    Hdf5Link {
+        /// The file.
+        path: PathBuf,
+        /// Path of the link in the file.
+        object: String,
+    },
+    /// The values of a dataset lie in other files.
+    #[error(
+        "{}:{object}: keeps its values in other files – expected values stored in this file – repack it with h5repack",
+        path.display()
+    )]
+    Hdf5ExternalStorage {
+        /// The file.
+        path: PathBuf,
+        /// Path of the dataset in the file.
+        object: String,
+    },
+    /// A dataset is compressed in a way that is not read.
+    #[error(
+        "{}:{object}: stored through filter {filter} – expected none, shuffle, fletcher32 or one deflate (gzip) – \
+         rewrite it with `h5repack -f GZIP=4`",
+        path.display()
+    )]
+    Hdf5Filter {
+        /// The file.
+        path: PathBuf,
+        /// Path of the dataset in the file.
+        object: String,
+        /// The filter.
+        filter: String,
+    },
+    /// A dataset promises more values than its stored bytes can hold.
+    #[error(
+        "{}:{object}: promises {promised} – its stored bytes can hold at most {available} bytes – \
+         the file is damaged or the dataset was never written",
+        path.display()
+    )]
+    Hdf5Size {
+        /// The file.
+        path: PathBuf,
+        /// Path of the dataset in the file.
+        object: String,
+        /// What the header promises.
+        promised: String,
+        /// Bytes that can be there.
+        available: u64,
+    },
+    /// Groups are nested deeper, or there are more of them, than any real file has.
+    #[error("{}:{object}: more than {limit} {counted} – the file is damaged or its groups contain themselves", path.display())]
+    Hdf5Depth {
+        /// The file.
+        path: PathBuf,
+        /// Path of the group at which reading stopped.
+        object: String,
+        /// The limit.
+        limit: usize,
+        /// Levels or objects.
+        counted: &'static str,
+    },
+    /// An object or a value is of the wrong type.
+    #[error("{}:{object}: found {found} – expected {expected}", path.display())]
+    Hdf5Type {
+        /// The file.
+        path: PathBuf,
+        /// Path of the object in the file.
+        object: String,
+        /// The type found.
+        found: String,
+        /// The type expected.
+        expected: &'static str,
+    },
+    /// A dataset has the wrong number of values or the wrong shape.
+    #[error("{}:{object}: found {found} – expected {expected}", path.display())]
+    Hdf5Shape {
+        /// The file.
+        path: PathBuf,
+        /// Path of the dataset in the file.
+        object: String,
+        /// Length or shape found.
+        found: String,
+        /// Length or shape expected, and where that comes from.
+        expected: String,
+    },
+    /// There is no sparse matrix where one was looked for.
+    #[error(
+        "{}:{group}: no sparse matrix – found {} – expected a MATLAB v7.3 or PETSc (`MATLAB_sparse`), anndata, h5sparse or \
+         Exudyn group, or one with data, indices and indptr",
+        path.display(), listed(holds)
+    )]
+    Hdf5NoMatrix {
+        /// The file.
+        path: PathBuf,
+        /// The group below which it was looked for.
+        group: String,
+        /// The objects there.
+        holds: Vec<String>,
+    },
+    /// Several sparse matrices, or one under another name, so that none can be taken without guessing.
+    #[error(
+        "{}: no single matrix whose name says {role} – found {} – choose one, as in {}:{}",
+        path.display(), listed(groups), path.display(), groups.first().map_or("/K", |g| g.split(' ').next().unwrap_or(g))
+    )]
+    Hdf5AmbiguousMatrix {
+        /// The file.
+        path: PathBuf,
+        /// Stiffness or mass.
+        role: &'static str,
+        /// The groups, each with its shape where that is known.
+        groups: Vec<String>,
+    },
+    /// A matrix without rows.
+    #[error("{}:{group}: an empty matrix (0 × 0)", path.display())]
+    Hdf5EmptyMatrix {
+        /// The file.
+        path: PathBuf,
+        /// The group.
+        group: String,
+    },
+    /// A stiffness or mass matrix that is not square, or larger than 32-bit row numbers allow.
+    #[error("{}:{group}: found a matrix of {n_rows} × {n_cols} – expected a square one of at most {} rows", path.display(), u32::MAX)]
+    Hdf5NotSquare {
+        /// The file.
+        path: PathBuf,
+        /// The group.
+        group: String,
+        /// Number of rows.
+        n_rows: u64,
+        /// Number of columns.
+        n_cols: u64,
+    },
+    /// The pointers of compressed rows or columns do not rise from zero to the number of entries.
+    #[error("{}:{dataset}: pointer {position} is {found} – expected {expected}", path.display())]
+    Hdf5Pointer {
+        /// The file.
+        path: PathBuf,
+        /// The dataset of the pointers.
+        dataset: String,
+        /// Position in the dataset, from zero.
+        position: usize,
+        /// The pointer there.
+        found: i64,
+        /// What it must be.
+        expected: String,
+    },
+    /// A row or column index outside the matrix, or a node number outside the mesh.
+    #[error("{}:{dataset}: entry {position} is {found} – expected {first} to {last}", path.display())]
+    Hdf5Index {
+        /// The file.
+        path: PathBuf,
+        /// The dataset.
+        dataset: String,
+        /// Position in the dataset, from zero.
+        position: usize,
+        /// The index there.
+        found: i64,
+        /// Smallest index allowed.
+        first: i64,
+        /// Largest index allowed.
+        last: i64,
+    },
+    /// A matrix entry that is not a finite number.
+    #[error("{}:{dataset}: the entry of row {row}, column {col} (both from 0) is {value} – expected a finite number", path.display())]
+    Hdf5NotFinite {
+        /// The file.
+        path: PathBuf,
+        /// The dataset of the values.
+        dataset: String,
+        /// Row, from zero.
+        row: u32,
+        /// Column, from zero.
+        col: u32,
+        /// The value.
+        value: f64,
+    },
+    /// A file in which no known mesh was found.
+    #[error(
+        "{}: no mesh that can be read – found {} – expected .hmf (`type` = hmf), XDMF, .med (/ENS_MAA) or .h5m (/tstt)",
+        path.display(), listed(holds)
+    )]
+    MeshUnknown {
+        /// The file.
+        path: PathBuf,
+        /// The objects at its top.
+        holds: Vec<String>,
+    },
+    /// A file with no or several meshes, time steps or geometries where one is expected.
+    #[error("{}:{object}: found {} – expected exactly one {kind}", path.display(), listed(found))]
+    MeshNotOne {
+        /// The file.
+        path: PathBuf,
+        /// Where in the file.
+        object: String,
+        /// What is there.
+        found: Vec<String>,
+        /// What there must be one of.
+        kind: &'static str,
+    },
+    /// A property of a mesh that is not supported.
+    #[error("{}:{object}: found {found} – expected {expected}", path.display())]
+    MeshUnsupported {
+        /// The file.
+        path: PathBuf,
+        /// Where in the file.
+        object: String,
+        /// What is there.
+        found: String,
+        /// What is supported.
+        expected: &'static str,
+    },
+    /// A coordinate that is not a finite number.
+    #[error("{}:{object}: coordinate {} of node {label} is {value} – expected a finite number", path.display(), ["x", "y", "z"][*axis % 3])]
+    MeshNotFinite {
+        /// The file.
+        path: PathBuf,
+        /// Where in the file.
+        object: String,
+        /// Label of the node.
+        label: i64,
+        /// The axis 0, 1 or 2.
+        axis: usize,
+        /// The value.
+        value: f64,
+    },
+    /// Two nodes of the same label.
+    #[error("{}:{object}: two nodes have the label {label} – expected each label once", path.display())]
+    MeshLabelTwice {
+        /// The file.
+        path: PathBuf,
+        /// Where in the file.
+        object: String,
+        /// The label.
+        label: i64,
+    },
+    /// An XDMF file that is not well-formed XML.
+    #[error("{}: not well-formed XML: {source}", path.display())]
+    XdmfSyntax {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong and where.
+        source: roxmltree::Error,
+    },
+    /// An XDMF file names a data file outside its own folder.
+    #[error(
+        "{}: refers to data in {reference} – expected a `file.h5:/path` in the folder of the XDMF file – move the data there",
+        path.display()
+    )]
+    XdmfReference {
+        /// The file.
+        path: PathBuf,
+        /// The reference as it is written.
+        reference: String,
+    },
     // ---- job and command line --------------------------------------------------------------------------------------
     /// The job document is not valid TOML or JSON, or a value in it has the wrong kind.
     #[error("{}{}: {message}", path.display(), At(*line))]
@@ -157,9 +820,259 @@ pub enum Error {
         source: rayon::ThreadPoolBuildError,
     },
     // ---- model -----------------------------------------------------------------------------------------------------
+    /// A matrix is not symmetric.
+    #[error("the {matrix} matrix is not symmetric – worst at row {row}, column {col} – found a relative difference of {asymmetry:.1e} – expected below 1e-6 – leave out follower forces, gyroscopic and friction terms")]
+    Unsymmetric {
+        /// `stiffness` or `mass`.
+        matrix: &'static str,
+        /// max |A − Aᵀ| / max |A|.
+        asymmetry: f64,
+        /// Row of the largest difference, from one.
+        row: usize,
+        /// Its column.
+        col: usize,
+    },
+    /// K and M are exchanged.
+    #[error("stiffness and mass are exchanged – a unit translation has relative energy {in_stiffness:.1e} in the stiffness and {in_mass:.1e} in the mass – expected the reverse – exchange the two files")]
+    Swapped {
+        /// |uᵀKu| / |u|ᵀ|K||u| of a translation.
+        in_stiffness: f64,
+        /// The same of M.
+        in_mass: f64,
+    },
+    /// M is zero.
+    #[error("the mass matrix is zero – found no entry other than zero – expected a mass – give the mass matrix of the model")]
+    NoMass,
+    /// Rows without stiffness and mass.
+    #[error("{n_rows} rows have neither stiffness nor mass – the first is row {row}{dof} – expected none – leave unused and constrained dofs out of both matrices")]
+    EmptyRows {
+        /// How many.
+        n_rows: usize,
+        /// The first, from one.
+        row: usize,
+        /// Its dof, in brackets, where known.
+        dof: String,
+    },
+    /// A zero on the diagonal of K in a row that is not empty.
+    #[error("row {row}{dof} of the stiffness has a zero diagonal and other entries – expected a positive diagonal – this is a constraint multiplier; eliminate constraints before exporting the matrices")]
+    MultiplierRow {
+        /// The row, from one.
+        row: usize,
+        /// Its dof.
+        dof: String,
+    },
+    /// A negative diagonal entry of K.
+    #[error("row {row}{dof} of the stiffness has the diagonal {value:.3e} – expected a positive one – the structure is unstable or preloaded beyond buckling")]
+    NegativeStiffness {
+        /// The row, from one.
+        row: usize,
+        /// Its dof.
+        dof: String,
+        /// The entry.
+        value: f64,
+    },
+    /// A negative diagonal entry of M.
+    #[error("row {row}{dof} of the mass has the diagonal {value:.3e} – expected none below zero – check point masses and offsets of the model")]
+    NegativeMass {
+        /// The row, from one.
+        row: usize,
+        /// Its dof.
+        dof: String,
+        /// The entry.
+        value: f64,
+    },
+    /// Coordinates that do not belong to K.
+    #[error("the coordinates do not belong to the stiffness – translations cost no energy but the rotation about {rotation} costs {energy:.1e} of its terms, most of it at {dof} – expected below {expected:.1e} – check units, axes and local node frames, or leave the nodes out")]
+    CoordinatesDoNotFit {
+        /// The axis.
+        rotation: &'static str,
+        /// Relative energy of the rotation.
+        energy: f64,
+        /// What rounding allows.
+        expected: f64,
+        /// Where the force is largest.
+        dof: String,
+    },
+    /// A rigid-body motion whose energy is negative beyond rounding.
+    #[error("a rigid-body motion has the negative energy {energy:.1e} – expected zero within {noise:.1e} – the stiffness is indefinite; check preload and negative springs")]
+    NegativeRigidEnergy {
+        /// Its Rayleigh quotient, scaled.
+        energy: f64,
+        /// What rounding of the data allows.
+        noise: f64,
+    },
+    /// A rigid-body motion that moves no mass.
+    #[error("a rigid-body motion moves no mass – found a modal mass of {relative_mass:.1e} relative to the largest – expected above 1e-12 – give the massless part of the model its mass")]
+    MasslessRigidMotion {
+        /// Its modal mass over the largest.
+        relative_mass: f64,
+    },
+    /// A small dense eigenproblem did not converge.
+    #[error("a dense eigenproblem of order {n} did not converge – its matrix holds values that are not finite – check the magnitudes of the input")]
+    DenseEigen {
+        /// Its order.
+        n: usize,
+    },
     // ---- partition -------------------------------------------------------------------------------------------------
+    /// No internal dof is left.
+    #[error("no internal degree of freedom is left – found {n_interface} interface dofs – expected at least one internal – take fewer interface nodes")]
+    NothingToReduce {
+        /// Dofs of the partition, all interface.
+        n_interface: usize,
+    },
+    /// Nodes asked for where the model has none.
+    #[error("interface {interface:?} names nodes – the model has no dof map or no nodes – give --dofs and --nodes, or select rows by number")]
+    SelectionNeedsNodes {
+        /// The interface.
+        interface: String,
+    },
+    /// A rigid patch without coordinates.
+    #[error("interface {interface:?} is rigid – its nodes have no coordinates – expected a node table or mesh with every node of the patch")]
+    RigidNeedsCoordinates {
+        /// The interface.
+        interface: String,
+    },
+    /// A group the mesh does not have.
+    #[error("interface {interface:?}: the mesh has no group {group:?} – found {} – name one of them", listed(known))]
+    UnknownGroup {
+        /// The interface.
+        interface: String,
+        /// The group asked for.
+        group: String,
+        /// Those there are.
+        known: Vec<String>,
+    },
+    /// A selection without nodes.
+    #[error("interface {interface:?} selects no node – expected at least one – check the list or the region against the coordinates")]
+    EmptyInterface {
+        /// The interface.
+        interface: String,
+    },
+    /// A node without rows in the matrices.
+    #[error("interface {interface:?}: node {node} has no row in the matrices – expected a free dof – the node is constrained, unused or not in the dof map")]
+    InterfaceNodeWithoutRows {
+        /// The interface.
+        interface: String,
+        /// The node.
+        node: i64,
+    },
+    /// A dof the node does not have.
+    #[error("interface {interface:?}: {dof} does not exist – expected a direction the node has – solids have no rotations; use coupling = \"rigid\" or list the dofs")]
+    DofMissing {
+        /// The interface.
+        interface: String,
+        /// The dof.
+        dof: crate::input::Dof,
+    },
+    /// A row number beyond the matrices.
+    #[error("interface {interface:?}: row {row} does not exist – expected 0 to {} – rows count from zero", n.saturating_sub(1))]
+    InterfaceRow {
+        /// The interface.
+        interface: String,
+        /// The row, from zero.
+        row: usize,
+        /// Rows of the matrices.
+        n: usize,
+    },
+    /// A dof that two interface nodes claim.
+    #[error("{dof} belongs to interface {first:?} and to interface {second:?} – expected one owner – take it out of one of them")]
+    DofTwice {
+        /// The dof.
+        dof: String,
+        /// First owner.
+        first: String,
+        /// Second owner.
+        second: String,
+    },
+    /// A patch that cannot move in all directions of its node.
+    #[error("interface {interface:?}: its {n_rows} rows can follow only {rank} of {expected} motions of a rigid node – expected three nodes that are not in line – add nodes to the patch or list fewer dofs")]
+    PatchRank {
+        /// The interface.
+        interface: String,
+        /// Rows of the patch.
+        n_rows: usize,
+        /// Independent motions.
+        rank: usize,
+        /// Motions asked for.
+        expected: usize,
+    },
+    /// The interface leaves a rigid-body motion free.
+    #[error("the interface can react only {rank} of the {n_rigid} rigid-body motions{motion} – expected all – add interface nodes off that axis or give the nodes rotations")]
+    InterfaceRank {
+        /// Motions it reacts.
+        rank: usize,
+        /// Motions there are.
+        n_rigid: usize,
+        /// The free motion in words.
+        motion: String,
+    },
     // ---- factor ----------------------------------------------------------------------------------------------------
+    /// A pivot of a matrix that should be definite was not positive.
+    #[error("the stiffness with the interface held is not positive definite – elimination stopped at {dof} – expected a positive pivot – the structure has a mechanism there or is unstable")]
+    NotDefinite {
+        /// The dof eliminated when it happened.
+        dof: String,
+    },
+    /// The forecast exceeds the memory there is.
+    #[error("the run needs {:.1} GiB – {:.1} GiB are available – {what} – free memory, raise run.memory_gib, or use --certify none, which saves one factor", gib(*needed), gib(*available))]
+    MemoryForecast {
+        /// Bytes needed at the peak.
+        needed: u64,
+        /// Bytes available.
+        available: u64,
+        /// What takes them.
+        what: String,
+    },
+    /// An allocation failed.
+    #[error("out of memory – {what} could not be allocated – free memory or reduce a smaller model")]
+    OutOfMemory {
+        /// What was to be allocated.
+        what: &'static str,
+    },
+    /// A pivot of a Sturm count is zero or not a number.
+    #[error("the Sturm count met a pivot without a sign at step {step} – the shift lies on an eigenvalue – ask for one mode more or less")]
+    SturmPivot {
+        /// The step of elimination.
+        step: usize,
+    },
     // ---- modes -----------------------------------------------------------------------------------------------------
+    /// Lanczos did not converge.
+    #[error("the eigensolver stalled after {restarts} restarts – found {converged} converged modes – ask for fewer modes or a narrower band")]
+    LanczosStalled {
+        /// Restarts done.
+        restarts: usize,
+        /// Pairs that had converged.
+        converged: usize,
+    },
+    /// More zero-energy motions than rigid-body modes.
+    #[error("the component is a mechanism – found {n_more} motions without energy beside the {n_rigid} rigid-body modes – expected none – close hinges and sliding joints or give them stiffness")]
+    Mechanism {
+        /// Rigid-body modes.
+        n_rigid: usize,
+        /// Further zero modes.
+        n_more: usize,
+    },
+    /// The modes found are not all there are.
+    #[error("modes are missing below {below_hz:.6} Hz – found {found}, the Sturm count says {counted} – restarting found no more – use --eigensolver arpack to compare")]
+    ModesMissing {
+        /// Frequency of the shift.
+        below_hz: f64,
+        /// Eigenvalues found, rigid-body modes included.
+        found: usize,
+        /// Eigenvalues counted.
+        counted: usize,
+    },
+    /// The second eigensolver is not built in.
+    #[error("--eigensolver arpack needs the feature \"arpack\", which this program was built without – use --eigensolver lanczos")]
+    EigensolverMissing,
+    /// The second eigensolver failed.
+    #[error("ARPACK failed with status {status} after {converged} converged modes – use --eigensolver lanczos")]
+    Arpack {
+        /// Its `info`.
+        status: i32,
+        /// Pairs that had converged.
+        converged: usize,
+    },
     // ---- superelement file -----------------------------------------------------------------------------------------
     /// A file is not a superelement, or cannot be made one.
     #[error("{}: {source}", path.display())]
@@ -205,6 +1118,91 @@ impl Error {
     pub fn class(&self) -> ErrorClass {
         match self {
             Self::Read { .. } | Self::Write { .. } => ErrorClass::Io,
+            Self::FeatureMissing { .. } | Self::EigensolverMissing => ErrorClass::Usage,
+            Self::Unsymmetric { .. }
+            | Self::Swapped { .. }
+            | Self::NoMass
+            | Self::EmptyRows { .. }
+            | Self::MultiplierRow { .. }
+            | Self::CoordinatesDoNotFit { .. }
+            | Self::NothingToReduce { .. }
+            | Self::SelectionNeedsNodes { .. }
+            | Self::RigidNeedsCoordinates { .. }
+            | Self::UnknownGroup { .. }
+            | Self::EmptyInterface { .. }
+            | Self::InterfaceNodeWithoutRows { .. }
+            | Self::DofMissing { .. }
+            | Self::InterfaceRow { .. }
+            | Self::DofTwice { .. }
+            | Self::PatchRank { .. } => ErrorClass::InputData,
+            Self::NegativeStiffness { .. }
+            | Self::NegativeMass { .. }
+            | Self::NegativeRigidEnergy { .. }
+            | Self::MasslessRigidMotion { .. }
+            | Self::InterfaceRank { .. }
+            | Self::NotDefinite { .. }
+            | Self::Mechanism { .. } => ErrorClass::ModelPhysics,
+            Self::DenseEigen { .. }
+            | Self::SturmPivot { .. }
+            | Self::LanczosStalled { .. }
+            | Self::ModesMissing { .. }
+            | Self::Arpack { .. } => ErrorClass::NumericalLimit,
+            Self::MemoryForecast { .. } | Self::OutOfMemory { .. } => ErrorClass::Resources,
+            Self::NotAFile { .. }
+            | Self::GzipDamaged { .. }
+            | Self::GzipInflation { .. }
+            | Self::LineTooLong { .. }
+            | Self::NoData { .. }
+            | Self::MatrixBanner { .. }
+            | Self::MatrixFlavour { .. }
+            | Self::MatrixSizeLine { .. }
+            | Self::MatrixNotSquare { .. }
+            | Self::MatrixOrder { .. }
+            | Self::MatrixMostlyEmpty { .. }
+            | Self::EntryField { .. }
+            | Self::EntryExcess { .. }
+            | Self::EntryIndex { .. }
+            | Self::NonFinite { .. }
+            | Self::EntryCount { .. }
+            | Self::EntriesSurplus { .. }
+            | Self::DoubleTriangle { .. }
+            | Self::SizeMismatch { .. }
+            | Self::TableColumn { .. }
+            | Self::TableRow { .. }
+            | Self::TableField { .. }
+            | Self::NodeRepeated { .. }
+            | Self::DofText { .. }
+            | Self::DofDirection { .. }
+            | Self::DofRepeated { .. }
+            | Self::DofRowOrder { .. }
+            | Self::DofCount { .. }
+            | Self::DofNodeMissing { .. }
+            | Self::DofOrderUnknown { .. }
+            | Self::Hdf5Signature { .. }
+            | Self::Hdf5Open { .. }
+            | Self::Hdf5Read { .. }
+            | Self::Hdf5Missing { .. }
+            | Self::Hdf5Link { .. }
+            | Self::Hdf5ExternalStorage { .. }
+            | Self::Hdf5Filter { .. }
+            | Self::Hdf5Size { .. }
+            | Self::Hdf5Depth { .. }
+            | Self::Hdf5Type { .. }
+            | Self::Hdf5Shape { .. }
+            | Self::Hdf5NoMatrix { .. }
+            | Self::Hdf5AmbiguousMatrix { .. }
+            | Self::Hdf5EmptyMatrix { .. }
+            | Self::Hdf5NotSquare { .. }
+            | Self::Hdf5Pointer { .. }
+            | Self::Hdf5Index { .. }
+            | Self::Hdf5NotFinite { .. }
+            | Self::MeshUnknown { .. }
+            | Self::MeshNotOne { .. }
+            | Self::MeshUnsupported { .. }
+            | Self::MeshNotFinite { .. }
+            | Self::MeshLabelTwice { .. }
+            | Self::XdmfSyntax { .. }
+            | Self::XdmfReference { .. } => ErrorClass::InputData,
             Self::JobSyntax { .. }
             | Self::JobKey { .. }
             | Self::JobNumber { .. }
@@ -250,4 +1248,19 @@ impl fmt::Display for Suggested<'_> {
             None => write!(f, " – remove it; the keys are listed in schemas/job.schema.json"),
         }
     }
+}
+
+/// Names for a message: the first few, and how many more there are.
+fn listed(names: &[String]) -> String {
+    const SHOWN: usize = 12;
+    match names.len() {
+        0 => "nothing".to_owned(),
+        n if n > SHOWN => format!("{} and {} more", names[..SHOWN].join(", "), n - SHOWN),
+        _ => names.join(", "),
+    }
+}
+
+/// Bytes in GiB.
+fn gib(bytes: u64) -> f64 {
+    bytes as f64 / f64::from(1 << 30)
 }

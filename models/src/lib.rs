@@ -1,1 +1,31 @@
-//! tmp
+//! Deterministic finite element models for the tests and examples of supel.
+//!
+//! Every model is computed, none is read: the same arguments give the same bits on every machine that rounds as
+//! IEEE 754 says. Families with a closed-form spectrum ([`bar`], [`spring`], [`ring`], [`known`]) come with it; the
+//! solids ([`brick`], [`hexahedra`]), membranes ([`membrane`]) and frames ([`frame`]) carry their rigid-body modes to
+//! rounding. [`transform`] turns one model into another: joined, scaled, rounded.
+
+pub mod bar;
+pub mod bracket;
+pub mod dense;
+pub mod element;
+pub mod frame;
+pub mod hexahedra;
+pub mod known;
+#[cfg(feature = "med")]
+pub mod med;
+pub mod membrane;
+pub mod model;
+pub mod random;
+pub mod transform;
+pub mod write;
+
+pub use bar::{Ends, bar, bar_spectrum, ring, ring_spectrum, spring, spring_spectrum};
+pub use bracket::{bracket, bracket_mesh};
+pub use dense::spectrum;
+pub use frame::{Inertia, Section, frame};
+pub use hexahedra::{HexMesh, brick};
+pub use known::known;
+pub use membrane::membrane;
+pub use model::{Assembler, Material, Model};
+pub use random::{SplitMix64, fnv1a};

@@ -2,6 +2,24 @@
 //!
 //! Nothing is guessed silently: whatever a reader had to do beyond copying is a note that reaches the report.
 
+mod banner;
+mod blocks;
+mod digits;
+mod dof_map;
+mod entries;
+#[cfg(feature = "hdf5")]
+pub mod hdf5;
+mod matrix_market;
+mod model_files;
+mod node_table;
+mod note;
+mod source;
+mod table;
+
+pub use digits::significant_digits;
+pub use model_files::{Input, read};
+pub use note::InputNote;
+
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -56,6 +74,12 @@ impl Direction {
     }
 }
 
+impl std::fmt::Display for Direction {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(["ux", "uy", "uz", "rx", "ry", "rz"][*self as usize])
+    }
+}
+
 /// A degree of freedom of the finite element model: what one row of K and M stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Dof {
@@ -63,6 +87,12 @@ pub struct Dof {
     pub node: i64,
     /// Direction at the node.
     pub direction: Direction,
+}
+
+impl std::fmt::Display for Dof {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "node {} {}", self.node, self.direction)
+    }
 }
 
 /// The degree of freedom of every row, in row order.

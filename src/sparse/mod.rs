@@ -5,8 +5,16 @@
 //! so that the number of entries has no 32-bit limit. Symmetric matrices are stored whole (both triangles): compressed
 //! rows are then also compressed columns, and a product needs no scatter, which makes it parallel and deterministic.
 
+mod assembly;
+mod product;
+
+pub use product::multiply;
+
 /// A symmetric sparse matrix in compressed rows, both triangles stored, indices sorted, no duplicates.
 pub type SparseMatrix = sprs::CsMatI<f64, u32, usize>;
+
+/// The largest order a matrix may have, 2³¹ − 1: what METIS and 32-bit row indices can number.
+pub const MAX_ORDER: usize = i32::MAX as usize;
 
 /// How a source declares its triplets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,0 +1,159 @@
+//! From one model to another: JOIN, SCALE, DOFSCALE, DIGITS, supports and grounding.
+
+use std::collections::BTreeMap;
+
+use crate::model::{Assembler, Entry, Model};
+
+/// JOIN: two models as one; the nodes of each pair (label in `a`, label in `b`) become one, with the position in `a`.
+///
+/// The rows of `a` come first. Other labels of `b` are raised by the largest of `a`, and its groups take the prefix `B.`.
+/// Without pairs it is the direct sum.
+///
+/// # Panics
+/// If a pair names a node that does not exist.
+pub fn join(a: &Model, b: &Model, pairs: &[(i64, i64)]) -> Model {
+    let offset = a.labels.iter().copied().max().unwrap_or(0);
+    let partner: BTreeMap<i64, i64> = pairs.iter().map(|&(in_a, in_b)| (in_b, in_a)).collect();
+    for &(in_a, in_b) in pairs {
+        assert!(
+            a.labels.contains(&in_a) && b.labels.contains(&in_b),
+            "no nodes {in_a} and {in_b} to join"
+        );
+    }
+    let relabel = |label: i64| partner.get(&label).copied().unwrap_or(label + offset);
+    let mut joined = Model {
+        stiffness: Vec::new(),
+        mass: Vec::new(),
+        ..a.clone()
+    };
+    let mut row_of: BTreeMap<(i64, u8), u32> = (0..).zip(&a.dofs).map(|(row, &dof)| (dof, row)).collect();
+    let mut rows_of_b = Vec::with_capacity(b.n);
+    for row in 0..b.n {
+        let fresh = joined.n as u32;
+        let target = b.dofs.get(row).map(|&(label, direction)| (relabel(label), direction));
+        let number = target.map_or(fresh, |dof| *row_of.entry(dof).or_insert(fresh));
+        if number == fresh {
+            joined.n += 1;
+            joined.dofs.extend(target);
+        }
+        rows_of_b.push(number);
+    }
+    for (&label, &position) in b
+        .labels
+        .iter()
+        .zip(&b.nodes)
+        .filter(|(label, _)| !partner.contains_key(label))
+    {
+        joined.labels.push(label + offset);
+        joined.nodes.push(position);
+    }
+    for (name, members) in &b.groups {
+        joined.groups.insert(
+            format!("B.{name}"),
+            members.iter().map(|&label| relabel(label)).collect(),
+        );
+    }
+    joined.stiffness = direct_sum(&a.stiffness, &b.stiffness, &rows_of_b);
+    joined.mass = direct_sum(&a.mass, &b.mass, &rows_of_b);
+    joined
+}
+
+fn direct_sum(a: &[Entry], b: &[Entry], rows_of_b: &[u32]) -> Vec<Entry> {
+    let mut sum = Assembler::default();
+    sum.extend(a.iter().copied());
+    sum.extend(
+        b.iter()
+            .map(|&(i, j, value)| (rows_of_b[i as usize], rows_of_b[j as usize], value)),
+    );
+    sum.finish()
+}
+
+/// The same model at another place.
+pub fn translated(model: &Model, by: [f64; 3]) -> Model {
+    let nodes = model
+        .nodes
+        .iter()
+        .map(|x| std::array::from_fn(|d| x[d] + by[d]))
+        .collect();
+    Model { nodes, ..model.clone() }
+}
+
+/// SCALE(a, b): K times `stiffness`, M times `mass`.
+pub fn scaled(model: &Model, stiffness: f64, mass: f64) -> Model {
+    map_values(model, |_, value| value * stiffness, |_, value| value * mass)
+}
+
+/// DOFSCALE(D): K → D K D and M → D M D with one factor a row.
+///
+/// # Panics
+/// If the number of factors is not the number of rows.
+pub fn dof_scaled(model: &Model, factors: &[f64]) -> Model {
+    assert_eq!(factors.len(), model.n, "one factor a row");
+    // The product of the factors first: the same for (i, j) and (j, i), so that symmetry stays exact.
+    let scale = |(i, j): (u32, u32), value: f64| value * (factors[i as usize] * factors[j as usize]);
+    map_values(model, scale, scale)
+}
+
+/// DIGITS(d): every entry rounded to d significant decimal digits.
+///
+/// # Panics
+/// If `digits` is zero.
+pub fn rounded(model: &Model, digits: usize) -> Model {
+    assert!(digits > 0, "at least one digit");
+    let round = |_, value: f64| format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
+    map_values(model, round, round)
+}
+
+/// The model without the rows whose dof satisfies a condition: rows tied to the ground.
+pub fn supported(model: &Model, is_tied: impl Fn((i64, u8)) -> bool) -> Model {
+    let mut rows = Vec::with_capacity(model.n);
+    let mut dofs = Vec::new();
+    for &dof in &model.dofs {
+        if is_tied(dof) {
+            rows.push(None);
+        } else {
+            rows.push(Some(dofs.len() as u32));
+            dofs.push(dof);
+        }
+    }
+    let keep = |entries: &[Entry]| {
+        entries
+            .iter()
+            .filter_map(|&(i, j, v)| Some((rows[i as usize]?, rows[j as usize]?, v)))
+            .collect()
+    };
+    Model {
+        n: dofs.len(),
+        stiffness: keep(&model.stiffness),
+        mass: keep(&model.mass),
+        dofs,
+        ..model.clone()
+    }
+}
+
+/// The model with a spring from one row to the ground.
+pub fn grounded(model: &Model, row: usize, stiffness: f64) -> Model {
+    let mut sum = Assembler::default();
+    sum.extend(model.stiffness.iter().copied());
+    sum.add(row as u32, row as u32, stiffness);
+    Model {
+        stiffness: sum.finish(),
+        ..model.clone()
+    }
+}
+
+fn map_values(
+    model: &Model,
+    stiffness: impl Fn((u32, u32), f64) -> f64,
+    mass: impl Fn((u32, u32), f64) -> f64,
+) -> Model {
+    Model {
+        stiffness: model
+            .stiffness
+            .iter()
+            .map(|&(i, j, v)| (i, j, stiffness((i, j), v)))
+            .collect(),
+        mass: model.mass.iter().map(|&(i, j, v)| (i, j, mass((i, j), v))).collect(),
+        ..model.clone()
+    }
+}

@@ -1,0 +1,52 @@
+//! Writers: Matrix Market, node table, dof map.
+
+use std::io::{self, Write};
+
+use crate::model::{Entry, Model};
+
+/// Writes a symmetric matrix as Matrix Market coordinates: lower triangle by columns, from one, with the shortest
+/// decimals that read back as the same bits.
+///
+/// # Errors
+/// Those of the writer.
+pub fn matrix_market(out: &mut impl Write, n: usize, entries: &[Entry], comment: &str) -> io::Result<()> {
+    // By symmetry the upper triangle by rows is the lower one by columns.
+    let lower: Vec<&Entry> = entries.iter().filter(|(row, column, _)| row <= column).collect();
+    writeln!(out, "%%MatrixMarket matrix coordinate real symmetric")?;
+    comment.lines().try_for_each(|line| writeln!(out, "% {line}"))?;
+    writeln!(out, "{n} {n} {}", lower.len())?;
+    lower
+        .iter()
+        .try_for_each(|(row, column, value)| writeln!(out, "{} {} {value:e}", column + 1, row + 1))
+}
+
+/// The same, gzipped without name and time, so that equal input gives equal bytes.
+///
+/// # Errors
+/// Those of the writer.
+pub fn matrix_market_gz(out: impl Write, n: usize, entries: &[Entry], comment: &str) -> io::Result<()> {
+    let mut packed = flate2::write::GzEncoder::new(out, flate2::Compression::best());
+    matrix_market(&mut io::BufWriter::new(&mut packed), n, entries, comment)?;
+    packed.finish().map(drop)
+}
+
+/// Writes the node table: `node,x,y,z`.
+///
+/// # Errors
+/// Those of the writer.
+pub fn nodes_csv(out: &mut impl Write, model: &Model) -> io::Result<()> {
+    writeln!(out, "node,x,y,z")?;
+    let mut rows = model.labels.iter().zip(&model.nodes);
+    rows.try_for_each(|(label, [x, y, z])| writeln!(out, "{label},{x:?},{y:?},{z:?}"))
+}
+
+/// Writes the dof map, `node.direction` with directions from one to six, a line for each row.
+///
+/// # Errors
+/// Those of the writer.
+pub fn dof_map(out: &mut impl Write, model: &Model) -> io::Result<()> {
+    model
+        .dofs
+        .iter()
+        .try_for_each(|(label, direction)| writeln!(out, "{label}.{}", direction + 1))
+}

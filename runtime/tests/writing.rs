@@ -1,0 +1,219 @@
+//! A file appears whole or not at all, whatever happens while it is written.
+
+mod sample;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use supel_runtime::{FileError, Method, StagedFile, Superelement, abandoned_parts};
+
+fn names_in(folder: &Path) -> Vec<String> {
+    let mut names = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+        .collect::<Vec<_>>();
+    names.sort();
+    names
+}
+
+#[test]
+fn written_file_is_read_back_and_leaves_nothing_beside_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("part ü.supel");
+    let superelement = sample::complete();
+    let digest = superelement.write(&path).unwrap();
+    assert_eq!(Superelement::open(&path).unwrap(), superelement);
+    assert_eq!(fs::read(&path).unwrap(), superelement.to_bytes().unwrap().bytes);
+    assert_eq!(digest, superelement.to_bytes().unwrap().digest);
+    assert_eq!(names_in(folder.path()), ["part ü.supel"]);
+    sample::two_particles().write(&path).unwrap();
+    assert_eq!(
+        Superelement::open(&path).unwrap(),
+        sample::two_particles(),
+        "an old file is replaced"
+    );
+}
+
+#[test]
+fn staged_file_has_no_name_until_it_is_committed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.supel");
+    let bytes = sample::two_particles().to_bytes().unwrap().bytes;
+    let staged = StagedFile::write(&path, &bytes).unwrap();
+    assert_eq!(
+        staged.path().parent(),
+        path.parent(),
+        "same folder, so that renaming is one step"
+    );
+    assert_eq!(Superelement::open(staged.path()).unwrap(), sample::two_particles());
+    assert!(!path.exists());
+    drop(staged);
+    assert!(names_in(folder.path()).is_empty(), "given up without a trace");
+    StagedFile::write(&path, &bytes).unwrap().commit().unwrap();
+    assert_eq!(names_in(folder.path()), ["a.supel"]);
+}
+
+#[test]
+fn two_writers_of_one_name_do_not_meet() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.supel");
+    let first = StagedFile::write(&path, b"first").unwrap();
+    let second = StagedFile::write(&path, b"second").unwrap();
+    assert_ne!(first.path(), second.path());
+    second.commit().unwrap();
+    first.commit().unwrap();
+    assert_eq!(fs::read(&path).unwrap(), b"first", "the last one to commit wins");
+    assert_eq!(names_in(folder.path()), ["a.supel"]);
+}
+
+#[test]
+fn folder_that_does_not_exist() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("missing").join("a.supel");
+    let error = sample::two_particles().write(&path).unwrap_err();
+    assert!(
+        matches!(&error, FileError::Write { path: named, .. } if *named == path),
+        "{error:?}"
+    );
+    assert!(error.is_io());
+}
+
+#[test]
+fn name_of_a_folder_or_a_device_or_no_name() {
+    let folder = tempfile::tempdir().unwrap();
+    for path in [folder.path(), Path::new("/dev/null"), Path::new("/"), Path::new("..")] {
+        let error = sample::two_particles().write(path).unwrap_err();
+        assert!(
+            matches!(error, FileError::NotAFile { .. }),
+            "{}: {error:?}",
+            path.display()
+        );
+    }
+    assert!(names_in(folder.path()).is_empty());
+}
+
+#[test]
+fn renaming_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.supel");
+    let staged = StagedFile::write(&path, b"new").unwrap();
+    fs::create_dir(&path).unwrap();
+    assert!(matches!(staged.commit(), Err(FileError::Write { .. })));
+    assert_eq!(names_in(folder.path()), ["a.supel"], "the temporary file is removed");
+}
+
+#[test]
+fn reading_what_is_not_there_or_not_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let missing = Superelement::open(&folder.path().join("none.supel")).unwrap_err();
+    assert!(matches!(missing, FileError::Read { .. }), "{missing:?}");
+    for path in [folder.path(), Path::new("/dev/zero")] {
+        let error = Superelement::open(path).unwrap_err();
+        assert!(matches!(error, FileError::NotAFile { .. }), "{error:?}");
+    }
+}
+
+/// A sparse file claims more bytes than any machine has; only some file systems allow one.
+#[test]
+fn file_larger_than_the_memory() {
+    let folder = ["/dev/shm", "/tmp"].into_iter().find_map(|folder| {
+        let folder = tempfile::tempdir_in(folder).ok()?;
+        let file = fs::File::create(folder.path().join("huge.supel")).ok()?;
+        file.set_len(1 << 62).ok().map(|()| folder)
+    });
+    let Some(folder) = folder else {
+        println!("skipped: no file system here holds a sparse file of 2^62 bytes");
+        return;
+    };
+    let error = Superelement::open(&folder.path().join("huge.supel")).unwrap_err();
+    assert!(
+        matches!(error, FileError::OutOfMemory { bytes } if bytes == 1 << 62),
+        "{error:?}"
+    );
+}
+
+#[test]
+fn reader_sees_the_old_file_or_the_new_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.supel");
+    let versions = [Method::CraigBampton, Method::Herting].map(sample::component);
+    versions[0].write(&path).unwrap();
+    std::thread::scope(|scope| {
+        let writer = scope.spawn(|| (0..100).try_for_each(|turn| versions[turn % 2].write(&path).map(drop)));
+        let mut readings = 0;
+        while !writer.is_finished() || readings == 0 {
+            assert!(versions.contains(&Superelement::open(&path).unwrap()));
+            readings += 1;
+        }
+        writer.join().unwrap().unwrap();
+    });
+}
+
+/// Name of the environment variable that turns [`writes_when_told`] into the process that is stopped while it writes.
+#[cfg(unix)]
+const TARGET: &str = "SUPEL_TEST_WRITE_TARGET";
+
+/// Body of the process that the two tests below start; in a plain test run there is nothing for it to do.
+#[cfg(unix)]
+#[test]
+fn writes_when_told() {
+    let Some(target) = std::env::var_os(TARGET).map(PathBuf::from) else {
+        return;
+    };
+    let error = sample::complete().write(&target).unwrap_err();
+    assert!(matches!(error, FileError::Write { .. }), "{error:?}");
+}
+
+/// Writes over an old file in a process whose files may hold only one block, and returns the folder afterwards.
+#[cfg(unix)]
+fn write_with_too_little_room(on_signal: &str) -> (tempfile::TempDir, PathBuf, std::process::ExitStatus) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.supel");
+    sample::two_particles().write(&path).unwrap();
+    let status = std::process::Command::new("sh")
+        .args([
+            "-c",
+            &format!("{on_signal} ulimit -c 0; ulimit -f 1; exec \"$0\" --exact writes_when_told"),
+        ])
+        .arg(std::env::current_exe().unwrap())
+        .env(TARGET, &path)
+        .stdout(std::process::Stdio::null())
+        .status()
+        .unwrap();
+    assert_eq!(
+        Superelement::open(&path).unwrap(),
+        sample::two_particles(),
+        "the old file is intact"
+    );
+    (folder, path, status)
+}
+
+/// The limit on the size of files stands for a full disk: writing fails in the middle.
+#[cfg(unix)]
+#[test]
+fn disk_full() {
+    let (folder, path, status) = write_with_too_little_room("trap '' XFSZ;");
+    assert!(
+        status.success(),
+        "the write must fail with an error, and only that: {status}"
+    );
+    assert_eq!(names_in(folder.path()), ["a.supel"], "the temporary file is removed");
+    assert!(abandoned_parts(&path).is_empty());
+}
+
+/// Without the trap the same limit kills the process in the middle of writing.
+#[cfg(unix)]
+#[test]
+fn killed_while_writing() {
+    let (folder, path, status) = write_with_too_little_room("");
+    assert!(!status.success());
+    let parts = abandoned_parts(&path);
+    assert_eq!(parts.len(), 1, "{:?}", names_in(folder.path()));
+    assert!(parts[0].to_string_lossy().ends_with(".part"));
+    sample::complete().write(&path).unwrap();
+    assert_eq!(
+        Superelement::open(&path).unwrap(),
+        sample::complete(),
+        "what was left does not hinder the next writer"
+    );
+}

@@ -1,0 +1,89 @@
+//! Constraint modes: unit displacements of the interface, one at a time.
+
+use faer::linalg::solvers::SolveLstsq;
+use faer::{Mat, MatRef};
+
+use crate::dense;
+use crate::factor::SolveOperator;
+use crate::partition::Partition;
+use crate::rigid::{RigidBodyModes, multiply};
+
+/// Ψ_S with what it took to make it exact.
+#[derive(Clone, Debug)]
+pub struct ConstraintModes {
+    /// Ψ_S, n_I × n_B, corrected.
+    pub modes: Mat<f64>,
+    /// K̂_BB = [Ψ_S; I]ᵀ K [Ψ_S; I], n_B × n_B: second order in the error of Ψ_S.
+    pub stiffness: Mat<f64>,
+    /// Error of equation (24) as solved: max |Ψ_S U_B − U_I| / max |U_I|.
+    pub raw_rigid_error: f64,
+    /// The same after the correction, and the dof it is worst at.
+    pub rigid_error: (f64, usize),
+}
+
+/// Ψ_S = −K_II⁻¹ K_IB (23), then Ψ_S ← Ψ_S + (U_I − Ψ_S U_B) U_B⁺.
+///
+/// The correction has rank n_r and removes exactly the part of the error that the condition of K_II amplifies: after
+/// it the interface carries every rigid-body motion to rounding, and with it the mass properties.
+pub fn constraint_modes(partition: &Partition, factor: &dyn SolveOperator, rigid: &RigidBodyModes) -> ConstraintModes {
+    let (n_i, n_b) = (partition.n_internal, partition.n_interface());
+    let mut modes = partition.interface_columns(0.0).as_ref().subrows(0, n_i).to_owned();
+    factor.solve_in_place(modes.as_mut());
+    for j in 0..n_b {
+        dense::column_mut(modes.as_mut(), j).iter_mut().for_each(|value| *value = -*value);
+    }
+    let u_i = rigid.orthonormal.as_ref().subrows(0, n_i);
+    let u_b = rigid.orthonormal.as_ref().subrows(n_i, n_b);
+    let mut raw_rigid_error = 0.0;
+    if rigid.count() > 0 {
+        raw_rigid_error = rigid_error(modes.as_ref(), u_i, u_b).0;
+        let defect = defect(modes.as_ref(), u_i, u_b);
+        dense::add_product(modes.as_mut(), 1.0, defect.as_ref(), left_inverse(partition, u_b).as_ref());
+    }
+    let rigid_error = rigid_error(modes.as_ref(), u_i, u_b);
+    let stiffness = condensed_stiffness(partition, modes.as_ref());
+    ConstraintModes { modes, stiffness, raw_rigid_error, rigid_error }
+}
+
+/// U_I − Ψ_S U_B, n_I × n_r.
+fn defect(modes: MatRef<'_, f64>, u_i: MatRef<'_, f64>, u_b: MatRef<'_, f64>) -> Mat<f64> {
+    let mut defect = u_i.to_owned();
+    dense::add_product(defect.as_mut(), -1.0, modes, u_b);
+    defect
+}
+
+/// Largest defect of a rigid-body mode relative to the largest displacement of the mode, and where it is.
+fn rigid_error(modes: MatRef<'_, f64>, u_i: MatRef<'_, f64>, u_b: MatRef<'_, f64>) -> (f64, usize) {
+    let defect = defect(modes, u_i, u_b);
+    let mut worst = (0.0, 0);
+    for j in 0..defect.ncols() {
+        let largest = dense::column(u_i, j).iter().fold(0.0f64, |max, value| max.max(value.abs()));
+        for (i, value) in dense::column(defect.as_ref(), j).iter().enumerate() {
+            if value.abs() / largest > worst.0 {
+                worst = (value.abs() / largest, i);
+            }
+        }
+    }
+    worst
+}
+
+/// A matrix U_B⁺ with U_B⁺ U_B = I, n_r × n_B: least squares with rows weighted by stiffness, so that translations and
+/// rotations count alike whatever their units.
+fn left_inverse(partition: &Partition, u_b: MatRef<'_, f64>) -> Mat<f64> {
+    let (n_i, n_b) = (partition.n_internal, u_b.nrows());
+    let diagonal = |i: usize| partition.stiffness.get(n_i + i, n_i + i).copied().unwrap_or(0.0);
+    let weight: Vec<f64> = (0..n_b).map(|i| if diagonal(i) > 0.0 { diagonal(i).sqrt() } else { 1.0 }).collect();
+    let weighted = Mat::from_fn(n_b, u_b.ncols(), |i, j| weight[i] * u_b[(i, j)]);
+    let weights = Mat::from_fn(n_b, n_b, |i, j| if i == j { weight[i] } else { 0.0 });
+    weighted.qr().solve_lstsq(&weights)
+}
+
+fn condensed_stiffness(partition: &Partition, modes: MatRef<'_, f64>) -> Mat<f64> {
+    let (n_i, n_b) = (modes.nrows(), modes.ncols());
+    let mut psi = Mat::zeros(partition.n_dofs(), n_b);
+    psi.as_mut().subrows_mut(0, n_i).copy_from(modes);
+    psi.as_mut().subrows_mut(n_i, n_b).copy_from(Mat::<f64>::identity(n_b, n_b));
+    let mut stiffness = dense::gram(psi.as_ref(), multiply(&partition.stiffness, psi.as_ref()).as_ref());
+    dense::symmetrise(&mut stiffness);
+    stiffness
+}

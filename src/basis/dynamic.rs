@@ -1,0 +1,150 @@
+//! Dynamic modes: what the interior does beyond following the interface statically.
+
+use faer::{Mat, MatRef};
+
+use super::{ConstraintModes, DroppedColumn, DynamicCoordinate};
+use crate::dense;
+use crate::factor::SolveOperator;
+use crate::modes::{Modes, gram_schmidt};
+use crate::partition::Partition;
+use crate::rigid::{RigidBodyModes, multiply};
+use crate::sparse::SparseMatrix;
+
+/// Columns for Ψ_D before dependent ones are taken out, in the order of the coordinates.
+#[derive(Clone, Debug)]
+pub struct DynamicColumns {
+    /// n_I × n_η.
+    pub columns: Mat<f64>,
+    /// What each column is.
+    pub coordinates: Vec<DynamicCoordinate>,
+}
+
+/// Length a unit column must keep after the columns before it are taken out. Healthy bases keep 10⁻³ to 10⁻²; at 10⁻⁸
+/// half the digits of the column are rounding.
+const INDEPENDENT: f64 = 1e-8;
+/// Columns orthogonalised together.
+const PANEL: usize = 8;
+
+/// Craig-Bampton: the fixed-interface normal modes themselves (38).
+pub fn fixed_interface_columns(modes: &Modes) -> DynamicColumns {
+    DynamicColumns {
+        columns: modes.shapes.clone(),
+        coordinates: (0..modes.count()).map(DynamicCoordinate::FixedInterface).collect(),
+    }
+}
+
+/// Herting: inertia-relief modes K_II⁻¹ (MU)_I (37) and mode-accelerated free-free modes X_I − Ψ_S X_B (23).
+///
+/// Equation (23) asks for K_II⁻¹ (M_II X_I + M_IB X_B); for an eigenvector that is ω⁻² (X_I − Ψ_S X_B), without a solve.
+/// Every column is scaled to unit length, so the factor does not matter.
+pub fn mode_acceleration_columns(
+    partition: &Partition,
+    factor: &dyn SolveOperator,
+    constraint: &ConstraintModes,
+    rigid: &RigidBodyModes,
+    modes: &Modes,
+) -> DynamicColumns {
+    let (n_i, n_b, n_r) = (partition.n_internal, partition.n_interface(), rigid.count());
+    let mut columns = Mat::zeros(n_i, n_r + modes.count());
+    // The modes of the file, not the orthonormal ones: a coordinate then answers to one named unit acceleration.
+    let inertia = multiply(&partition.mass, rigid.modes.as_ref());
+    columns.as_mut().subcols_mut(0, n_r).copy_from(inertia.as_ref().subrows(0, n_i));
+    factor.solve_in_place(columns.as_mut().subcols_mut(0, n_r));
+    let (x_i, x_b) = (modes.shapes.as_ref().subrows(0, n_i), modes.shapes.as_ref().subrows(n_i, n_b));
+    let mut accelerated = columns.as_mut().subcols_mut(n_r, modes.count());
+    accelerated.copy_from(x_i);
+    dense::add_product(accelerated, -1.0, constraint.modes.as_ref(), x_b);
+    let relief = (0..n_r).map(DynamicCoordinate::InertiaRelief);
+    DynamicColumns { columns, coordinates: relief.chain((0..modes.count()).map(DynamicCoordinate::FreeFree)).collect() }
+}
+
+/// Columns that are M_II-orthonormal, with the triangle that gives the named ones back.
+pub(super) struct Independent {
+    pub(super) modes: Mat<f64>,
+    pub(super) coordinates: Vec<DynamicCoordinate>,
+    pub(super) mixing: Mat<f64>,
+    pub(super) dropped: Vec<DroppedColumn>,
+}
+
+/// M_II-orthonormalises the columns in their order, leaving out those that depend on earlier ones.
+///
+/// The order matters: a column is replaced by what it adds to the columns before it, so the low modes keep their shape.
+pub(super) fn independent(named: DynamicColumns, mass: &SparseMatrix) -> Independent {
+    let (n, total) = (named.columns.nrows(), named.columns.ncols());
+    let mut basis = Mat::zeros(n, total);
+    let mut mixing = Mat::zeros(total, total);
+    let (mut kept, mut dropped) = (Vec::new(), Vec::new());
+    for start in (0..total).step_by(PANEL) {
+        let width = PANEL.min(total - start);
+        let mut panel = named.columns.as_ref().subcols(start, width).to_owned();
+        let lengths = scale_to_unit_mass(&mut panel, mass);
+        let size = kept.len();
+        let step = orthonormalise(basis.as_ref().subcols(0, size), panel, mass);
+        for j in 0..width {
+            let coordinate = named.coordinates[start + j];
+            for i in 0..size {
+                mixing[(i, start + j)] = step.coefficients[(i, j)] * lengths[j];
+            }
+            for (slot, i) in step.kept.iter().enumerate() {
+                mixing[(size + slot, start + j)] = step.coupling[(*i, j)] * lengths[j];
+            }
+            if step.kept.contains(&j) {
+                basis.as_mut().subcols_mut(kept.len(), 1).copy_from(step.block.as_ref().subcols(j, 1));
+                kept.push(coordinate);
+            } else {
+                dropped.push(DroppedColumn { coordinate, remaining: step.remaining[j] });
+            }
+        }
+    }
+    Independent {
+        modes: basis.as_ref().subcols(0, kept.len()).to_owned(),
+        mixing: mixing.as_ref().subrows(0, kept.len()).to_owned(),
+        coordinates: kept,
+        dropped,
+    }
+}
+
+/// Scales columns to unit M_II-length and returns the lengths; a column without mass becomes zero.
+fn scale_to_unit_mass(panel: &mut Mat<f64>, mass: &SparseMatrix) -> Vec<f64> {
+    let images = multiply(mass, panel.as_ref());
+    let mut lengths = Vec::with_capacity(panel.ncols());
+    for j in 0..panel.ncols() {
+        let square = dense::dot(dense::column(panel.as_ref(), j), dense::column(images.as_ref(), j));
+        let length = square.max(0.0).sqrt();
+        let factor = if length > 0.0 { 1.0 / length } else { 0.0 };
+        dense::column_mut(panel.as_mut(), j).iter_mut().for_each(|value| *value *= factor);
+        lengths.push(length);
+    }
+    lengths
+}
+
+struct Step {
+    block: Mat<f64>,
+    coefficients: Mat<f64>,
+    coupling: Mat<f64>,
+    kept: Vec<usize>,
+    remaining: Vec<f64>,
+}
+
+/// panel = basis · coefficients + block · coupling, twice over for orthogonality to rounding.
+fn orthonormalise(basis: MatRef<'_, f64>, panel: Mat<f64>, mass: &SparseMatrix) -> Step {
+    let width = panel.ncols();
+    let mut block = panel;
+    let mut coefficients = Mat::zeros(basis.ncols(), width);
+    let mut coupling: Mat<f64> = Mat::identity(width, width);
+    let mut dependent = vec![false; width];
+    let mut remaining = vec![0.0; width];
+    for pass in 0..2 {
+        let c = dense::gram(basis, multiply(mass, block.as_ref()).as_ref());
+        dense::add_product(block.as_mut(), -1.0, basis, c.as_ref());
+        dense::add_product(coefficients.as_mut(), 1.0, c.as_ref(), coupling.as_ref());
+        let mut image = multiply(mass, block.as_ref());
+        let least = if pass == 0 { INDEPENDENT } else { 0.0 };
+        let r = gram_schmidt(&mut block, &mut image, least, &mut dependent);
+        if pass == 0 {
+            remaining = (0..width).map(|j| r[(j, j)]).collect();
+        }
+        coupling = dense::product(r.as_ref(), coupling.as_ref());
+    }
+    Step { block, coefficients, coupling, kept: (0..width).filter(|j| !dependent[*j]).collect(), remaining }
+}

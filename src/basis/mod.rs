@@ -1,0 +1,92 @@
+//! The basis: Ψ = [I 0; Ψ_S Ψ_D] of equation (18).
+//!
+//! ```text
+//! Ψ_S   n_I × n_B   constraint modes −K_II⁻¹ K_IB, corrected so that they carry rigid-body motion exactly (24)
+//! Ψ_D   n_I × n_η   dynamic modes: fixed-interface modes (38), or inertia-relief (37) and mode-accelerated modes (23)
+//! ```
+//! The reduction method has been decided when the modes were chosen; from here on every method is this one form.
+
+mod constraint;
+mod dynamic;
+
+use faer::Mat;
+
+use crate::modes::Modes;
+
+pub use constraint::{ConstraintModes, constraint_modes};
+pub use dynamic::{DynamicColumns, fixed_interface_columns, mode_acceleration_columns};
+
+/// The modal reduction matrix in its blocks.
+#[derive(Clone, Debug)]
+pub struct Basis {
+    /// Ψ_S, n_I × n_B.
+    pub constraint_modes: Mat<f64>,
+    /// Ψ_D, n_I × n_η, M_II-orthonormal.
+    pub dynamic_modes: Mat<f64>,
+    /// What each column of Ψ_D is.
+    pub coordinates: Vec<DynamicCoordinate>,
+    /// Upper triangular R, n_η × (n_η + dropped): named column j = Σ_i Ψ_D[:, i] R_ij.
+    pub mixing: Mat<f64>,
+    /// Columns that depend on others and were left out.
+    pub dropped: Vec<DroppedColumn>,
+}
+
+/// What a dynamic coordinate stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DynamicCoordinate {
+    /// Inertia-relief mode of rigid-body motion k.
+    InertiaRelief(usize),
+    /// Mode-accelerated free-free mode k.
+    FreeFree(usize),
+    /// Fixed-interface normal mode k.
+    FixedInterface(usize),
+}
+
+/// A column that was left out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DroppedColumn {
+    /// What it was.
+    pub coordinate: DynamicCoordinate,
+    /// What was left of its length after taking out the columns before it.
+    pub remaining: f64,
+}
+
+impl Basis {
+    /// Puts constraint modes and dynamic columns together; dependent columns are left out by name.
+    pub fn new(constraint: &ConstraintModes, columns: DynamicColumns, internal_mass: &crate::sparse::SparseMatrix) -> Self {
+        let independent = dynamic::independent(columns, internal_mass);
+        Self {
+            constraint_modes: constraint.modes.clone(),
+            dynamic_modes: independent.modes,
+            coordinates: independent.coordinates,
+            mixing: independent.mixing,
+            dropped: independent.dropped,
+        }
+    }
+
+    /// n_η.
+    pub fn n_dynamic(&self) -> usize {
+        self.dynamic_modes.ncols()
+    }
+
+    /// n_B + n_η.
+    pub fn n_reduced(&self) -> usize {
+        self.constraint_modes.ncols() + self.n_dynamic()
+    }
+
+    /// The retained modes in reduced coordinates, (n_B + n_η) × k: the V̄ of equations (34) and (35).
+    pub fn reduced_modes(&self, modes: &Modes, n_internal: usize) -> Mat<f64> {
+        let n_b = self.constraint_modes.ncols();
+        let has_interface = modes.shapes.nrows() > n_internal;
+        let first = self.mixing.ncols() - modes.count();
+        Mat::from_fn(self.n_reduced(), modes.count(), |i, j| {
+            if i >= n_b {
+                self.mixing[(i - n_b, first + j)]
+            } else if has_interface {
+                modes.shapes[(n_internal + i, j)]
+            } else {
+                0.0
+            }
+        })
+    }
+}

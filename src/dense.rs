@@ -1,0 +1,138 @@
+//! The few dense operations the method needs, on faer's kernels.
+//!
+//! Matrix products give the same bits for any number of threads, so they run in parallel. Decompositions of small
+//! matrices run sequentially.
+
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
+
+use crate::error::{Error, Result};
+
+/// Products smaller than this many multiplications are done by one thread: starting a second one costs more.
+const PARALLEL_ABOVE: usize = 1 << 18;
+
+fn parallelism(multiplications: usize) -> Par {
+    if multiplications > PARALLEL_ABOVE { Par::rayon(0) } else { Par::Seq }
+}
+
+/// Xᵀ Y.
+pub fn gram(x: MatRef<'_, f64>, y: MatRef<'_, f64>) -> Mat<f64> {
+    let mut product = Mat::zeros(x.ncols(), y.ncols());
+    let par = parallelism(x.nrows() * x.ncols() * y.ncols());
+    matmul(product.as_mut(), Accum::Replace, x.transpose(), y, 1.0, par);
+    product
+}
+
+/// X C.
+pub fn product(x: MatRef<'_, f64>, c: MatRef<'_, f64>) -> Mat<f64> {
+    let mut out = Mat::zeros(x.nrows(), c.ncols());
+    add_product(out.as_mut(), 1.0, x, c);
+    out
+}
+
+/// Y ← Y + α X C.
+pub fn add_product(y: MatMut<'_, f64>, alpha: f64, x: MatRef<'_, f64>, c: MatRef<'_, f64>) {
+    let par = parallelism(x.nrows() * x.ncols() * c.ncols());
+    matmul(y, Accum::Add, x, c, alpha, par);
+}
+
+/// Eigenvalues in ascending order and orthonormal eigenvectors of a symmetric matrix (lower triangle read).
+///
+/// # Errors
+/// The iteration did not converge, which means that the matrix holds values that are not numbers.
+pub fn symmetric_eigen(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>)> {
+    if a.nrows() == 0 {
+        return Ok((Vec::new(), Mat::zeros(0, 0)));
+    }
+    let eigen = a.self_adjoint_eigen(Side::Lower).map_err(|_| Error::DenseEigen { n: a.nrows() })?;
+    Ok((eigen.S().column_vector().iter().copied().collect(), eigen.U().to_owned()))
+}
+
+/// Singular values (descending) and right singular vectors of a matrix with at least as many rows as columns.
+///
+/// # Errors
+/// As [`symmetric_eigen`].
+pub fn right_singular(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>)> {
+    if a.ncols() == 0 {
+        return Ok((Vec::new(), Mat::zeros(0, 0)));
+    }
+    let svd = a.thin_svd().map_err(|_| Error::DenseEigen { n: a.ncols() })?;
+    Ok((svd.S().column_vector().iter().copied().collect(), svd.V().to_owned()))
+}
+
+/// The rank of a set of rows of six, with every column scaled to unit length first.
+pub fn rank_of_rows(rows: &[[f64; 6]], tolerance: f64) -> usize {
+    let mut scale = [0.0f64; 6];
+    for row in rows {
+        for (sum, value) in scale.iter_mut().zip(row) {
+            *sum += value * value;
+        }
+    }
+    // The square of a short column disappears beside that of a long one; a QR factorisation of the rows keeps it.
+    let n_rows = rows.len().max(6);
+    let scaled = Mat::from_fn(n_rows, 6, |i, j| match rows.get(i) {
+        Some(row) if scale[j] > 0.0 => row[j] / scale[j].sqrt(),
+        _ => 0.0,
+    });
+    let Ok((singular, _)) = right_singular(scaled.as_ref()) else { return 0 };
+    let largest = singular.first().copied().unwrap_or(0.0);
+    singular.iter().filter(|value| **value > tolerance * largest).count()
+}
+
+/// The Euclidean norm of a column.
+pub fn norm(column: &[f64]) -> f64 {
+    dot(column, column).sqrt()
+}
+
+/// The scalar product of two columns, summed in a fixed order.
+pub fn dot(x: &[f64], y: &[f64]) -> f64 {
+    // Eight partial sums let the compiler use vector registers; their order never depends on the machine.
+    let mut sums = [0.0; 8];
+    let (x_blocks, x_rest) = x.as_chunks::<8>();
+    let (y_blocks, y_rest) = y.as_chunks::<8>();
+    for (a, b) in x_blocks.iter().zip(y_blocks) {
+        for lane in 0..8 {
+            sums[lane] += a[lane] * b[lane];
+        }
+    }
+    let rest: f64 = x_rest.iter().zip(y_rest).map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f64>() + rest
+}
+
+/// Y ← Y + α X on columns.
+pub fn add_scaled(y: &mut [f64], alpha: f64, x: &[f64]) {
+    for (y, x) in y.iter_mut().zip(x) {
+        *y += alpha * x;
+    }
+}
+
+/// A column of a matrix as a slice.
+///
+/// # Panics
+/// If the matrix is not stored by columns.
+pub fn column<'a>(a: MatRef<'a, f64>, j: usize) -> &'a [f64] {
+    a.col(j).try_as_col_major().expect("stored by columns").as_slice()
+}
+
+/// A column of a matrix as a mutable slice.
+///
+/// # Panics
+/// If the matrix is not stored by columns.
+pub fn column_mut<'a>(a: MatMut<'a, f64>, j: usize) -> &'a mut [f64] {
+    a.col_mut(j).try_as_col_major_mut().expect("stored by columns").as_slice_mut()
+}
+
+/// A ← (A + Aᵀ)/2; returns max |A − Aᵀ| / max |A|.
+pub fn symmetrise(a: &mut Mat<f64>) -> f64 {
+    let (mut difference, mut largest) = (0.0f64, 0.0f64);
+    for j in 0..a.ncols() {
+        for i in 0..=j {
+            difference = difference.max((a[(i, j)] - a[(j, i)]).abs());
+            largest = largest.max(a[(i, j)].abs());
+            let mean = 0.5 * (a[(i, j)] + a[(j, i)]);
+            a[(i, j)] = mean;
+            a[(j, i)] = mean;
+        }
+    }
+    if largest > 0.0 { difference / largest } else { 0.0 }
+}

@@ -1,0 +1,98 @@
+//! The Cholesky factor of a definite matrix.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::linalg::cholesky::supernodal::{
+    SupernodalLltRef, factorize_supernodal_numeric_llt, factorize_supernodal_numeric_llt_scratch,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Conj, MatMut, Par, Spec};
+use rayon::prelude::*;
+
+use super::{Analysis, Pencil, SolveOperator, Triangle};
+use crate::error::{Error, Result};
+
+/// Right-hand sides solved together by one task. A fixed number: the bits of a solution depend on the width of its
+/// tile, which therefore must not depend on the number of threads.
+const TILE: usize = 8;
+
+/// L of K − σM = L Lᵀ.
+#[derive(Debug)]
+pub struct Cholesky<'a> {
+    analysis: &'a Analysis,
+    values: Vec<f64>,
+    /// Smallest ratio of a pivot to the diagonal entry it came from: how much of a dof's stiffness elimination left.
+    pub smallest_pivot_ratio: f64,
+}
+
+impl<'a> Cholesky<'a> {
+    /// Factors K − σM; `name` says what the dof of a step of elimination is called.
+    ///
+    /// # Errors
+    /// [`Error::NotDefinite`] with the dof at which a pivot was not positive; no memory.
+    pub fn new(
+        analysis: &'a Analysis,
+        pencil: Pencil<'_>,
+        sigma: f64,
+        name: &dyn Fn(usize) -> String,
+    ) -> Result<Self> {
+        let symbolic = &analysis.symbolic;
+        let lower = Triangle::shifted(pencil, sigma);
+        let pattern = SymbolicSparseColMatRef::new_checked(analysis.n, analysis.n, &lower.pointers, None, &lower.indices);
+        let matrix = SparseColMatRef::new(pattern, lower.values.as_slice());
+        let mut values = zeros(symbolic.len_val())?;
+        let parameters = Spec::default();
+        let scratch = factorize_supernodal_numeric_llt_scratch::<usize, f64>(symbolic, Par::Seq, parameters);
+        let mut memory = MemBuffer::try_new(scratch).map_err(|_| Error::OutOfMemory { what: "the factorisation" })?;
+        factorize_supernodal_numeric_llt(
+            &mut values,
+            matrix,
+            Default::default(),
+            symbolic,
+            Par::Seq,
+            MemStack::new(&mut memory),
+            parameters,
+        )
+        .map_err(|faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }| Error::NotDefinite {
+            dof: name(index),
+        })?;
+        let mut factor = Self { analysis, values, smallest_pivot_ratio: 1.0 };
+        factor.smallest_pivot_ratio = factor.pivot_ratio(&lower);
+        Ok(factor)
+    }
+
+    fn pivot_ratio(&self, lower: &Triangle) -> f64 {
+        let factor = SupernodalLltRef::new(&self.analysis.symbolic, &self.values);
+        let mut smallest = 1.0f64;
+        for s in 0..self.analysis.symbolic.n_supernodes() {
+            let node = factor.supernode(s);
+            for j in 0..node.val().ncols() {
+                let diagonal = lower.values[lower.pointers[node.start() + j]];
+                smallest = smallest.min(node.val()[(j, j)].powi(2) / diagonal);
+            }
+        }
+        smallest
+    }
+}
+
+impl SolveOperator for Cholesky<'_> {
+    fn n(&self) -> usize {
+        self.analysis.n
+    }
+
+    fn solve_in_place(&self, block: MatMut<'_, f64>) {
+        let factor = SupernodalLltRef::new(&self.analysis.symbolic, &self.values);
+        block.par_col_chunks_mut(TILE).for_each(|tile| {
+            let scratch = self.analysis.symbolic.solve_in_place_scratch::<f64>(tile.ncols(), Par::Seq);
+            let mut memory = MemBuffer::new(scratch);
+            factor.solve_in_place_with_conj(Conj::No, tile, Par::Seq, MemStack::new(&mut memory));
+        });
+    }
+}
+
+/// A vector of zeros, or an error where there is no memory for it.
+pub(super) fn zeros(len: usize) -> Result<Vec<f64>> {
+    let mut values = Vec::new();
+    values.try_reserve_exact(len).map_err(|_| Error::OutOfMemory { what: "the factor" })?;
+    values.resize(len, 0.0);
+    Ok(values)
+}

@@ -1,0 +1,252 @@
+//! Lines `row column value` to triplets.
+
+use std::path::Path;
+
+use super::banner::{excerpt, is_comment};
+use crate::error::Error;
+use crate::sparse::Triplets;
+
+/// The shortest line of an entry, `1 1 1` and its end.
+const MIN_LINE_BYTES: usize = 6;
+
+/// Entries of a piece of text.
+#[derive(Debug)]
+pub(super) struct Entries {
+    /// Entries in order, zero-based.
+    pub(super) triplets: Triplets,
+    /// Line ends passed.
+    pub(super) n_lines: u64,
+}
+
+/// What is wrong with a line, and its number within the text, from 0.
+#[derive(Debug)]
+pub(super) struct Fault {
+    line: u64,
+    what: What,
+}
+
+#[derive(Debug)]
+enum What {
+    Field {
+        field: &'static str,
+        found: String,
+        expected: &'static str,
+    },
+    Excess {
+        found: String,
+    },
+    Index {
+        field: &'static str,
+        found: u64,
+    },
+    NonFinite {
+        row: u64,
+        col: u64,
+        found: String,
+    },
+    Surplus,
+}
+
+/// Parses whole lines of a matrix of order n, at most `max_entries` of them.
+pub(super) fn parse_entries(text: &[u8], n: u32, max_entries: u64) -> Result<Entries, Fault> {
+    let capacity = text.len() / (3 * MIN_LINE_BYTES) + 1;
+    let mut triplets = Triplets {
+        rows: Vec::with_capacity(capacity),
+        cols: Vec::with_capacity(capacity),
+        values: Vec::with_capacity(capacity),
+    };
+    let mut cursor = Cursor { text, at: 0 };
+    let mut line = 0;
+    loop {
+        cursor.skip_blanks();
+        match cursor.peek() {
+            None => {
+                return Ok(Entries {
+                    triplets,
+                    n_lines: line,
+                });
+            }
+            Some(b'\n') => {
+                cursor.at += 1;
+                line += 1;
+            }
+            Some(_) if is_comment(cursor.rest()) => cursor.skip_line(),
+            Some(_) if triplets.len() as u64 >= max_entries => {
+                return Err(Fault {
+                    line,
+                    what: What::Surplus,
+                });
+            }
+            Some(_) => {
+                let (row, col, value) = cursor.entry(n).map_err(|what| Fault { line, what })?;
+                triplets.push(row, col, value);
+            }
+        }
+    }
+}
+
+impl Fault {
+    /// The error in the file `path`, where `n_before` lines come before the text and `declared` entries are due.
+    pub(super) fn into_error(self, path: &Path, n_before: u64, n: u32, declared: u64) -> Error {
+        let (path, line) = (path.to_owned(), n_before + self.line + 1);
+        match self.what {
+            What::Field { field, found, expected } => Error::EntryField {
+                path,
+                line,
+                field,
+                found,
+                expected,
+            },
+            What::Excess { found } => Error::EntryExcess { path, line, found },
+            What::Index { field, found } => Error::EntryIndex {
+                path,
+                line,
+                field,
+                found,
+                n: n.into(),
+            },
+            What::NonFinite { row, col, found } => Error::NonFinite {
+                path,
+                line,
+                row,
+                col,
+                found,
+            },
+            What::Surplus => Error::EntriesSurplus { path, line, declared },
+        }
+    }
+}
+
+/// A place in a text.
+struct Cursor<'a> {
+    text: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Cursor<'a> {
+    fn peek(&self) -> Option<u8> {
+        self.text.get(self.at).copied()
+    }
+
+    fn rest(&self) -> &'a [u8] {
+        self.text.get(self.at..).unwrap_or_default()
+    }
+
+    fn skip_blanks(&mut self) {
+        while matches!(self.peek(), Some(b' ' | b'\t' | b'\r')) {
+            self.at += 1;
+        }
+    }
+
+    /// Stops before the line end.
+    fn skip_line(&mut self) {
+        let rest = self.rest();
+        self.at += rest.iter().position(|&byte| byte == b'\n').unwrap_or(rest.len());
+    }
+
+    /// One entry, zero-based, up to its line end.
+    fn entry(&mut self, n: u32) -> Result<(u32, u32, f64), What> {
+        let row = self.index("row", n)?;
+        self.skip_blanks();
+        let col = self.index("column", n)?;
+        self.skip_blanks();
+        let start = self.at;
+        let value = self.value()?;
+        if !value.is_finite() {
+            let found = excerpt(&self.text[start..self.at]);
+            return Err(What::NonFinite {
+                row: u64::from(row) + 1,
+                col: u64::from(col) + 1,
+                found,
+            });
+        }
+        self.skip_blanks();
+        if !matches!(self.peek(), None | Some(b'\n')) {
+            return Err(What::Excess { found: self.found() });
+        }
+        Ok((row, col, value))
+    }
+
+    /// An index from 1 to n, returned from 0.
+    fn index(&mut self, field: &'static str, n: u32) -> Result<u32, What> {
+        let start = self.at;
+        let mut found = 0_u64;
+        while let Some(digit @ b'0'..=b'9') = self.peek() {
+            found = found.saturating_mul(10).saturating_add(u64::from(digit - b'0'));
+            self.at += 1;
+        }
+        if self.at == start || !self.at_field_end() {
+            self.at = start;
+            return Err(What::Field {
+                field,
+                found: self.found(),
+                expected: "a whole number from 1",
+            });
+        }
+        match u32::try_from(found) {
+            Ok(index @ 1..) if index <= n => Ok(index - 1),
+            _ => Err(What::Index { field, found }),
+        }
+    }
+
+    fn value(&mut self) -> Result<f64, What> {
+        if let Ok((value, length)) = fast_float2::parse_partial::<f64, _>(self.rest()) {
+            let start = self.at;
+            self.at += length;
+            if self.at_field_end() {
+                return Ok(value);
+            }
+            self.at = start;
+        }
+        let field = self.field();
+        let value = fortran_number(field);
+        match value {
+            Some(value) => {
+                self.at += field.len();
+                Ok(value)
+            }
+            None => Err(What::Field {
+                field: "value",
+                found: self.found(),
+                expected: "a number",
+            }),
+        }
+    }
+
+    fn at_field_end(&self) -> bool {
+        matches!(self.peek(), None | Some(b' ' | b'\t' | b'\r' | b'\n'))
+    }
+
+    /// The field that starts here, without moving.
+    fn field(&self) -> &'a [u8] {
+        let rest = self.rest();
+        let length = rest
+            .iter()
+            .position(|byte| byte.is_ascii_whitespace())
+            .unwrap_or(rest.len());
+        &rest[..length]
+    }
+
+    /// What stands here, for a message.
+    fn found(&self) -> String {
+        let field = self.field();
+        if field.is_empty() {
+            "end of line".into()
+        } else {
+            excerpt(field)
+        }
+    }
+}
+
+/// A number whose exponent is marked by D, as Fortran writes double precision.
+fn fortran_number(field: &[u8]) -> Option<f64> {
+    const LONGEST: usize = 64;
+    if field.len() > LONGEST {
+        return None;
+    }
+    let marked: Vec<u8> = field
+        .iter()
+        .map(|&byte| if matches!(byte, b'd' | b'D') { b'e' } else { byte })
+        .collect();
+    fast_float2::parse(&marked).ok()
+}

@@ -1,0 +1,236 @@
+//! Values of a dataset, read only after its header has been checked against the bytes that are there.
+
+use hdf5_metno::H5Type;
+use hdf5_metno::dataset::Layout;
+use hdf5_metno::filters::Filter;
+use hdf5_metno::types::{FloatSize, IntSize, TypeDescriptor};
+
+use super::attribute;
+use super::file::H5;
+use crate::error::{Error, Result};
+
+/// The largest expansion of deflate: 258 bytes from a code of two bits.
+const DEFLATE_RATIO: u64 = 1032;
+/// Decimal digits of a 32-bit float.
+const DIGITS_F32: u32 = 7;
+/// Decimal digits of a 64-bit float.
+const DIGITS_F64: u32 = 17;
+/// Length of a name in a table of names.
+const NAME_LENGTH: usize = 80;
+
+/// A dataset of an open file, with its path in it.
+pub(super) struct Dataset<'a> {
+    h5: &'a H5,
+    dataset: hdf5_metno::Dataset,
+    name: String,
+}
+
+/// Real numbers and the decimal digits their storage carries.
+pub(super) struct Reals {
+    pub(super) values: Vec<f64>,
+    pub(super) digits: u32,
+}
+
+impl<'a> Dataset<'a> {
+    pub(super) fn new(h5: &'a H5, dataset: hdf5_metno::Dataset, name: String) -> Self {
+        Self { h5, dataset, name }
+    }
+
+    pub(super) fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Extents of the dataset; empty for a single value.
+    pub(super) fn shape(&self) -> Result<Vec<usize>> {
+        Ok(self.dataset.space().map_err(|e| self.read_error(&e))?.shape())
+    }
+
+    /// A whole-number attribute with one value.
+    pub(super) fn integer_attribute(&self, name: &str) -> Result<Option<i64>> {
+        let values = attribute::integers(self.h5, &self.dataset, &self.name, name)?;
+        Ok(values.and_then(|v| v.first().copied()))
+    }
+
+    /// A text attribute.
+    pub(super) fn text_attribute(&self, name: &str) -> Result<Option<String>> {
+        attribute::text(self.h5, &self.dataset, &self.name, name)
+    }
+
+    /// All values as real numbers, in storage order.
+    pub(super) fn reals(&self) -> Result<Reals> {
+        let digits = match self.descriptor("real numbers")? {
+            TypeDescriptor::Float(FloatSize::U4) => DIGITS_F32,
+            TypeDescriptor::Float(_) | TypeDescriptor::Integer(_) | TypeDescriptor::Unsigned(_) => DIGITS_F64,
+            other => return Err(self.wrong_type(other.to_string(), "real numbers")),
+        };
+        Ok(Reals {
+            values: self.read::<f64>()?,
+            digits,
+        })
+    }
+
+    /// All values as whole numbers, in storage order. The library saturates when it converts: an unsigned number above
+    /// the largest signed one stays out of every range.
+    pub(super) fn integers(&self) -> Result<Vec<i64>> {
+        match self.descriptor("whole numbers")? {
+            TypeDescriptor::Integer(_) | TypeDescriptor::Unsigned(_) => self.read::<i64>(),
+            other => Err(self.wrong_type(other.to_string(), "whole numbers")),
+        }
+    }
+
+    /// A table of names of 80 characters each: padded with blanks or ended by a zero byte.
+    pub(super) fn names(&self) -> Result<Vec<String>> {
+        const EXPECTED: &str = "names of 80 characters";
+        match self.descriptor(EXPECTED)? {
+            TypeDescriptor::FixedArray(item, NAME_LENGTH) if *item == TypeDescriptor::Integer(IntSize::U1) => Ok(self
+                .read::<[i8; NAME_LENGTH]>()?
+                .iter()
+                .map(|name| text_of(name))
+                .collect()),
+            TypeDescriptor::Integer(IntSize::U1) if self.shape()?.last() == Some(&NAME_LENGTH) => {
+                Ok(self.read::<i8>()?.chunks_exact(NAME_LENGTH).map(text_of).collect())
+            }
+            other => Err(self.wrong_type(other.to_string(), EXPECTED)),
+        }
+    }
+
+    /// The error for a dataset of the wrong length.
+    pub(super) fn wrong_shape(&self, found: String, expected: String) -> Error {
+        Error::Hdf5Shape {
+            path: self.h5.path().to_owned(),
+            object: self.name.clone(),
+            found,
+            expected,
+        }
+    }
+
+    /// The zero-based index that `number`, counted from `first`, stands for among `n` things.
+    pub(super) fn checked_index(&self, position: usize, number: i64, first: i64, n: usize) -> Result<usize> {
+        let index = number
+            .checked_sub(first)
+            .and_then(|i| usize::try_from(i).ok())
+            .filter(|&i| i < n);
+        index.ok_or_else(|| Error::Hdf5Index {
+            path: self.h5.path().to_owned(),
+            dataset: self.name.clone(),
+            position,
+            found: number,
+            first,
+            last: first.saturating_add_unsigned(n as u64).saturating_sub(1),
+        })
+    }
+
+    fn read<T: H5Type>(&self) -> Result<Vec<T>> {
+        if self.checked_len()? == 0 {
+            return Ok(Vec::new());
+        }
+        self.dataset.read_raw::<T>().map_err(|e| self.read_error(&e))
+    }
+
+    /// Number of values, once it is certain that the stored bytes can hold them.
+    fn checked_len(&self) -> Result<usize> {
+        let space = self.dataset.space().map_err(|e| self.read_error(&e))?;
+        if space.is_null() {
+            return Ok(0);
+        }
+        let shape = space.shape();
+        let n_values = shape
+            .iter()
+            .try_fold(1_usize, |n, &d| n.checked_mul(d))
+            .filter(|&n| n == space.size());
+        let item = self.dataset.dtype().map_err(|e| self.read_error(&e))?.size() as u64;
+        let n_bytes = n_values.and_then(|n| (n as u64).checked_mul(item));
+        if n_bytes == Some(0) {
+            return Ok(0);
+        }
+        let ratio = self.check_storage()?;
+        let available = self.dataset.storage_size().min(self.h5.n_bytes()).saturating_mul(ratio);
+        let chunk = self.dataset.chunk().unwrap_or_default();
+        let chunk_bytes = chunk.iter().try_fold(item, |n, &d| n.checked_mul(d as u64));
+        let chunk_fits = chunk_bytes.is_some_and(|n| n <= self.h5.n_bytes().saturating_mul(ratio));
+        match (n_values, n_bytes) {
+            (Some(n_values), Some(n_bytes)) if n_bytes <= available && chunk_fits => Ok(n_values),
+            _ => {
+                let promised = format!("a shape of {shape:?} in chunks of {chunk:?} with {item} bytes each");
+                let (path, object) = (self.h5.path().to_owned(), self.name.clone());
+                Err(Error::Hdf5Size {
+                    path,
+                    object,
+                    promised,
+                    available,
+                })
+            }
+        }
+    }
+
+    /// Refuses values in other files and filters whose expansion has no bound; gives the largest expansion.
+    fn check_storage(&self) -> Result<u64> {
+        let plist = self.dataset.dcpl().map_err(|e| self.read_error(&e))?;
+        let (path, object) = (self.h5.path().to_owned(), self.name.clone());
+        let layout = plist.get_layout().map_err(|e| self.read_error(&e))?;
+        let external = plist.get_external().map_err(|e| self.read_error(&e))?;
+        if !external.is_empty() || !matches!(layout, Layout::Compact | Layout::Contiguous | Layout::Chunked) {
+            return Err(Error::Hdf5ExternalStorage { path, object });
+        }
+        let mut ratio = 1;
+        for filter in plist.get_filters().map_err(|e| self.read_error(&e))? {
+            match filter {
+                Filter::Shuffle | Filter::Fletcher32 => {}
+                Filter::Deflate(_) if ratio == 1 => ratio = DEFLATE_RATIO,
+                other => {
+                    return Err(Error::Hdf5Filter {
+                        path,
+                        object,
+                        filter: filter_name(&other),
+                    });
+                }
+            }
+        }
+        Ok(ratio)
+    }
+
+    fn descriptor(&self, expected: &'static str) -> Result<TypeDescriptor> {
+        let datatype = self.dataset.dtype().map_err(|e| self.read_error(&e))?;
+        datatype
+            .to_descriptor()
+            .map_err(|e| self.wrong_type(e.to_string(), expected))
+    }
+
+    fn wrong_type(&self, found: String, expected: &'static str) -> Error {
+        Error::Hdf5Type {
+            path: self.h5.path().to_owned(),
+            object: self.name.clone(),
+            found,
+            expected,
+        }
+    }
+
+    fn read_error(&self, error: &hdf5_metno::Error) -> Error {
+        self.h5.read_error(&self.name, error)
+    }
+}
+
+/// What a user knows a filter as.
+fn filter_name(filter: &Filter) -> String {
+    match filter {
+        Filter::Deflate(_) => "deflate, a second time".to_owned(),
+        Filter::SZip(..) => "szip".to_owned(),
+        Filter::NBit => "nbit".to_owned(),
+        Filter::ScaleOffset(_) => "scale-offset".to_owned(),
+        Filter::User(32000, _) => "lzf".to_owned(),
+        Filter::User(32001, _) => "blosc".to_owned(),
+        Filter::User(32015, _) => "zstd".to_owned(),
+        other => format!("{other:?}"),
+    }
+}
+
+/// Characters up to a zero byte, without trailing blanks; bytes that are not UTF-8 are taken as Latin-1.
+fn text_of(name: &[i8]) -> String {
+    let bytes: Vec<u8> = name
+        .iter()
+        .take_while(|&&c| c != 0)
+        .map(|&c| c.cast_unsigned())
+        .collect();
+    let text = String::from_utf8(bytes).unwrap_or_else(|e| e.as_bytes().iter().copied().map(char::from).collect());
+    text.trim_end().to_owned()
+}

@@ -1,0 +1,321 @@
+//! An HDF5 file opened for reading, and a walk through its groups that never leaves the file.
+
+use std::fs;
+use std::io::{Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+
+use hdf5_metno::{IndexType, IterationOrder, LinkType, LocationType};
+
+use super::dataset::Dataset;
+use crate::error::{Error, Result};
+
+/// More links than any group of a real file has; the library itself would follow a damaged index for ever.
+const MAX_LINKS: usize = 1_000_000;
+
+/// The first bytes of every HDF5 superblock.
+const SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
+
+/// An open HDF5 file.
+pub(super) struct H5 {
+    file: hdf5_metno::File,
+    path: PathBuf,
+    n_bytes: u64,
+}
+
+/// A group of an open file, with its path in it.
+pub(super) struct Group<'a> {
+    h5: &'a H5,
+    group: hdf5_metno::Group,
+    name: String,
+}
+
+/// What a name in a group leads to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Member {
+    Group,
+    Dataset,
+    /// A soft, external or user-defined link.
+    Link,
+    /// A committed datatype, or an object the library cannot describe.
+    Other,
+}
+
+impl H5 {
+    /// Opens a file after looking at its signature, which gives a clearer refusal than the library does.
+    pub(super) fn open(path: &Path) -> Result<Self> {
+        let n_bytes = check_signature(path)?;
+        hdf5_metno::silence_errors(true);
+        let file = hdf5_metno::File::open(path).map_err(|e| Error::Hdf5Open {
+            path: path.to_owned(),
+            reason: e.to_string(),
+        })?;
+        Ok(Self {
+            file,
+            path: path.to_owned(),
+            n_bytes,
+        })
+    }
+
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    pub(super) fn n_bytes(&self) -> u64 {
+        self.n_bytes
+    }
+
+    pub(super) fn root(&self) -> Result<Group<'_>> {
+        let group = self.file.group("/").map_err(|e| self.read_error("/", &e))?;
+        Ok(Group {
+            h5: self,
+            group,
+            name: String::from("/"),
+        })
+    }
+
+    pub(super) fn read_error(&self, object: &str, error: &hdf5_metno::Error) -> Error {
+        Error::Hdf5Read {
+            path: self.path.clone(),
+            object: object.to_owned(),
+            reason: error.to_string(),
+        }
+    }
+}
+
+impl<'a> Group<'a> {
+    pub(super) fn name(&self) -> &str {
+        &self.name
+    }
+
+    pub(super) fn h5(&self) -> &'a H5 {
+        self.h5
+    }
+
+    pub(super) fn location(&self) -> &hdf5_metno::Location {
+        &self.group
+    }
+
+    /// Path in the file of a member of this group.
+    pub(super) fn child_name(&self, member: &str) -> String {
+        format!("{}/{member}", self.name.trim_end_matches('/'))
+    }
+
+    /// Names and kinds of all members, sorted by name.
+    pub(super) fn members(&self) -> Result<Vec<(String, Member)>> {
+        let mut links = Vec::new();
+        let mut too_many = false;
+        let visited = self
+            .group
+            .iter_visit(IndexType::Name, IterationOrder::Native, |name, info| {
+                too_many = links.len() >= MAX_LINKS;
+                if too_many {
+                    return Err("too many links".into());
+                }
+                links.push((name.to_owned(), info.link_type));
+                Ok(())
+            });
+        if too_many {
+            let path = self.h5.path.clone();
+            return Err(Error::Hdf5Depth {
+                path,
+                object: self.name.clone(),
+                limit: MAX_LINKS,
+                counted: "members",
+            });
+        }
+        visited.map_err(|e| self.h5.read_error(&self.name, &e))?;
+        links.sort_by(|a, b| a.0.cmp(&b.0));
+        Ok(links
+            .into_iter()
+            .map(|(name, link)| (name.clone(), self.classify(&name, link)))
+            .collect())
+    }
+
+    /// What `member` is; `None` if there is nothing of that name.
+    pub(super) fn member(&self, member: &str) -> Result<Option<Member>> {
+        let mut n_links = 0;
+        let link = self
+            .group
+            .find_link(IndexType::Name, IterationOrder::Native, |name, info| {
+                n_links += 1;
+                if n_links > MAX_LINKS {
+                    return Err("too many links".into());
+                }
+                Ok((name == member).then_some(info.link_type))
+            })
+            .map_err(|e| self.h5.read_error(&self.name, &e))?;
+        Ok(link.map(|link| self.classify(member, link)))
+    }
+
+    /// The group at `path` below this one, which may have several components.
+    pub(super) fn group(&self, path: &str) -> Result<Group<'a>> {
+        self.find_group(path)?.ok_or_else(|| self.missing(path, "group"))
+    }
+
+    /// The same, `None` where a component of the path does not exist.
+    pub(super) fn find_group(&self, path: &str) -> Result<Option<Group<'a>>> {
+        let mut here = Group {
+            h5: self.h5,
+            group: self.group.clone(),
+            name: self.name.clone(),
+        };
+        for component in path.split('/').filter(|c| !c.is_empty() && *c != ".") {
+            match here.member(component)? {
+                None => return Ok(None),
+                Some(Member::Group) => here = here.child_group(component)?,
+                Some(Member::Link) => return Err(here.link(component)),
+                Some(other) => return Err(here.wrong_kind(component, other, "a group")),
+            }
+        }
+        Ok(Some(here))
+    }
+
+    /// The groups among the members, sorted by name.
+    pub(super) fn groups(&self) -> Result<Vec<Group<'a>>> {
+        let members = self.members()?;
+        members
+            .iter()
+            .filter(|(_, member)| *member == Member::Group)
+            .map(|(name, _)| self.child_group(name))
+            .collect()
+    }
+
+    /// The dataset at `path` below this group.
+    pub(super) fn dataset(&self, path: &str) -> Result<Dataset<'a>> {
+        self.find_dataset(path)?.ok_or_else(|| self.missing(path, "dataset"))
+    }
+
+    /// The same, `None` where it does not exist.
+    pub(super) fn find_dataset(&self, path: &str) -> Result<Option<Dataset<'a>>> {
+        let (folder, member) = path.rsplit_once('/').unwrap_or(("", path));
+        let Some(group) = self.find_group(folder)? else {
+            return Ok(None);
+        };
+        match group.member(member)? {
+            None => Ok(None),
+            Some(Member::Dataset) => {
+                let name = group.child_name(member);
+                let dataset = group.group.dataset(member).map_err(|e| self.h5.read_error(&name, &e))?;
+                Ok(Some(Dataset::new(self.h5, dataset, name)))
+            }
+            Some(Member::Link) => Err(group.link(member)),
+            Some(other) => Err(group.wrong_kind(member, other, "a dataset")),
+        }
+    }
+
+    fn child_group(&self, member: &str) -> Result<Group<'a>> {
+        let name = self.child_name(member);
+        let group = self.group.group(member).map_err(|e| self.h5.read_error(&name, &e))?;
+        Ok(Group {
+            h5: self.h5,
+            group,
+            name,
+        })
+    }
+
+    fn classify(&self, member: &str, link: LinkType) -> Member {
+        if link != LinkType::Hard {
+            return Member::Link;
+        }
+        match self.group.loc_type_by_name(member) {
+            Ok(LocationType::Group) => Member::Group,
+            Ok(LocationType::Dataset) => Member::Dataset,
+            _ => Member::Other,
+        }
+    }
+
+    fn missing(&self, path: &str, kind: &'static str) -> Error {
+        Error::Hdf5Missing {
+            path: self.h5.path.clone(),
+            object: self.child_name(path.trim_start_matches('/')),
+            kind,
+        }
+    }
+
+    fn link(&self, member: &str) -> Error {
+        Error::Hdf5Link {
+            path: self.h5.path.clone(),
+            object: self.child_name(member),
+        }
+    }
+
+    fn wrong_kind(&self, member: &str, found: Member, expected: &'static str) -> Error {
+        let found = match found {
+            Member::Group => "a group",
+            Member::Dataset => "a dataset",
+            Member::Link => "a link",
+            Member::Other => "neither group nor dataset",
+        };
+        let path = self.h5.path.clone();
+        Error::Hdf5Type {
+            path,
+            object: self.child_name(member),
+            found: found.to_owned(),
+            expected,
+        }
+    }
+}
+
+/// Length of a file that carries the HDF5 signature at 0, 512, 1024, 2048 and so on (MATLAB writes 512 bytes before it).
+fn check_signature(path: &Path) -> Result<u64> {
+    let read = |source| Error::Read {
+        path: path.to_owned(),
+        source,
+    };
+    let mut file = fs::File::open(path).map_err(read)?;
+    let metadata = file.metadata().map_err(read)?;
+    if !metadata.is_file() {
+        return Err(read(std::io::Error::new(
+            std::io::ErrorKind::InvalidInput,
+            "not a regular file",
+        )));
+    }
+    let mut offset = 0;
+    while offset < metadata.len() {
+        let mut bytes = Vec::with_capacity(SIGNATURE.len());
+        file.seek(SeekFrom::Start(offset)).map_err(read)?;
+        file.by_ref()
+            .take(SIGNATURE.len() as u64)
+            .read_to_end(&mut bytes)
+            .map_err(read)?;
+        if bytes == SIGNATURE {
+            return Ok(metadata.len());
+        }
+        offset = if offset == 0 { 512 } else { offset.saturating_mul(2) };
+    }
+    file.seek(SeekFrom::Start(0)).map_err(read)?;
+    let mut head = Vec::with_capacity(32);
+    file.take(32).read_to_end(&mut head).map_err(read)?;
+    let (found, advice) = looks_like(&head);
+    Err(Error::Hdf5Signature {
+        path: path.to_owned(),
+        found,
+        advice,
+    })
+}
+
+/// What a file that is not HDF5 is, judged by its first bytes, and what to do about it.
+fn looks_like(head: &[u8]) -> (&'static str, &'static str) {
+    const KINDS: [(&[u8], &str, &str); 7] = [
+        (
+            b"MATLAB 5.0",
+            "a MATLAB file of version 7 or older",
+            "save it with -v7.3",
+        ),
+        (b"\xc0\xa8\xa3\xa9", "a CGNS file in ADF", "convert it with adf2hdf"),
+        (b"@(#)ADF", "a CGNS file in ADF", "convert it with adf2hdf"),
+        (b"\x1f\x8b", "a gzip file", "unpack it"),
+        (b"PK", "a zip file", "unpack it"),
+        (b"CDF", "a classic netCDF file", "convert it with nccopy -k netCDF-4"),
+        (b"%%MatrixMarket", "a Matrix Market file", "give it the name .mtx"),
+    ];
+    if head.is_empty() {
+        return ("an empty file", "write it again");
+    }
+    KINDS
+        .iter()
+        .find(|(magic, ..)| head.starts_with(magic))
+        .map_or(("other bytes", "check the name of the file"), |&(_, found, advice)| {
+            (found, advice)
+        })
+}

@@ -1,0 +1,153 @@
+//! Nodes of a mesh in one of the formats that live in HDF5; the content tells which.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+
+use super::dataset::Dataset;
+use super::file::{H5, Member};
+use super::{attribute, hmf, med, moab, xdmf};
+use crate::error::{Error, Result};
+use crate::input::Nodes;
+
+/// Reads the nodes of a mesh: `.hmf`, XDMF with its `.h5`, `.med` with its node and element groups, `.h5m` (MOAB).
+///
+/// Labels are those of the file, or 1 to N where the format has none. Missing coordinates of a mesh in the plane or on a
+/// line are zero. A group of elements becomes the group of their nodes; where a group of nodes has the same name and
+/// other nodes, the element group is called `NAME (elements)`.
+///
+/// # Errors
+///
+/// The file cannot be read, holds no mesh of these formats or several, refers to data outside its folder, or has
+/// coordinates, labels or node numbers that cannot be right.
+pub fn read_nodes(path: &Path) -> Result<Nodes> {
+    let mesh = if is_xml(path)? {
+        xdmf::read(path)?
+    } else {
+        read_hdf5(path)?
+    };
+    mesh.into_nodes(path)
+}
+
+/// Nodes as a format's reader leaves them.
+pub(super) struct Mesh {
+    /// Labels if the format has them, with the dataset they come from.
+    pub(super) labels: Option<(Vec<i64>, String)>,
+    pub(super) coordinates: Vec<[f64; 3]>,
+    /// Where the coordinates come from.
+    pub(super) source: String,
+    pub(super) groups: BTreeMap<String, Vec<usize>>,
+}
+
+impl Mesh {
+    /// A mesh without labels and groups.
+    pub(super) fn of_points(coordinates: Vec<[f64; 3]>, source: String) -> Self {
+        Self {
+            labels: None,
+            coordinates,
+            source,
+            groups: BTreeMap::new(),
+        }
+    }
+
+    /// Checks what every format has in common.
+    fn into_nodes(self, path: &Path) -> Result<Nodes> {
+        let n_nodes = self.coordinates.len();
+        let (labels, label_source) = self
+            .labels
+            .unwrap_or_else(|| ((1..=n_nodes as i64).collect(), self.source.clone()));
+        if n_nodes == 0 || labels.len() != n_nodes {
+            let found = format!("{n_nodes} nodes and {} labels", labels.len());
+            let expected = "a label for each of one or more nodes".to_owned();
+            return Err(Error::Hdf5Shape {
+                path: path.to_owned(),
+                object: label_source,
+                found,
+                expected,
+            });
+        }
+        let mut sorted = labels.clone();
+        sorted.sort_unstable();
+        if let Some(pair) = sorted.windows(2).find(|pair| pair[0] == pair[1]) {
+            return Err(Error::MeshLabelTwice {
+                path: path.to_owned(),
+                object: label_source,
+                label: pair[0],
+            });
+        }
+        for (point, &label) in self.coordinates.iter().zip(&labels) {
+            if let Some(axis) = point.iter().position(|x| !x.is_finite()) {
+                let (path, object) = (path.to_owned(), self.source);
+                return Err(Error::MeshNotFinite {
+                    path,
+                    object,
+                    label,
+                    axis,
+                    value: point[axis],
+                });
+            }
+        }
+        Ok(Nodes {
+            labels,
+            coordinates: self.coordinates,
+            groups: self.groups,
+        })
+    }
+}
+
+/// Points from a dataset of `n × 1`, `n × 2` or `n × 3` numbers.
+pub(super) fn points_of_rows(dataset: &Dataset<'_>) -> Result<Vec<[f64; 3]>> {
+    let shape = dataset.shape()?;
+    match shape.as_slice() {
+        &[_, n_axes @ 1..=3] => Ok(points(&dataset.reals()?.values, n_axes)),
+        other => Err(dataset.wrong_shape(format!("shape {other:?}"), "shape [n, 1], [n, 2] or [n, 3]".to_owned())),
+    }
+}
+
+/// Points from numbers in which those of one node are neighbours; axes that are missing are zero.
+pub(super) fn points(values: &[f64], n_axes: usize) -> Vec<[f64; 3]> {
+    values
+        .chunks_exact(n_axes)
+        .map(|p| std::array::from_fn(|axis| p.get(axis).copied().unwrap_or(0.0)))
+        .collect()
+}
+
+/// True if the first character that is no blank opens a tag.
+fn is_xml(path: &Path) -> Result<bool> {
+    let read = |source| Error::Read {
+        path: path.to_owned(),
+        source,
+    };
+    let mut head = Vec::new();
+    fs::File::open(path)
+        .map_err(read)?
+        .take(256)
+        .read_to_end(&mut head)
+        .map_err(read)?;
+    let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&head);
+    Ok(text.trim_ascii_start().starts_with(b"<"))
+}
+
+fn read_hdf5(path: &Path) -> Result<Mesh> {
+    let h5 = H5::open(path)?;
+    let root = h5.root()?;
+    if attribute::text(&h5, root.location(), "/", "type")?.as_deref() == Some("hmf") {
+        return hmf::read(&root);
+    }
+    if root.member("ENS_MAA")? == Some(Member::Group) {
+        return med::read(&root);
+    }
+    if root.member("tstt")? == Some(Member::Group) {
+        return moab::read(&root);
+    }
+    let holds = root
+        .members()?
+        .into_iter()
+        .map(|(name, _)| root.child_name(&name))
+        .collect();
+    Err(Error::MeshUnknown {
+        path: path.to_owned(),
+        holds,
+    })
+}

@@ -1,0 +1,23 @@
+//! Sparse matrices and meshes in HDF5 files.
+//!
+//! The C library is called through a crate that takes one process-wide lock for each call, so that reading from several
+//! threads is safe. It is never asked to believe a header: a dataset is read only when its stored bytes can hold what it
+//! promises, links that could leave the file are refused, and only filters with a bounded expansion are accepted.
+
+mod attribute;
+mod compressed;
+mod dataset;
+mod file;
+mod hmf;
+mod med;
+mod med_groups;
+mod mesh;
+mod moab;
+mod moab_sets;
+mod search;
+mod sparse;
+mod xdmf;
+
+pub use mesh::read_nodes;
+pub use search::MatrixRole;
+pub use sparse::read_matrix;

@@ -1,0 +1,187 @@
+//! Matrices in text: Matrix Market coordinate files, and the bare triplets of CalculiX (`.sti`, `.mas`) and Abaqus.
+//!
+//! Bare triplets have no size: the largest index is the order of the matrix. One shape of file is known by looking
+//! back, a size line without a banner: first line `n n m`, then m entries within n.
+
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use super::MatrixInput;
+use super::banner::{Head, HeadReader, square_order};
+use super::blocks::{BLOCK_BYTES, LastLine, for_each_batch};
+use super::digits::significant_digits;
+use super::entries::{Entries, Fault, parse_entries};
+use crate::error::{Error, Result};
+use crate::sparse::{Declared, MAX_ORDER, Triplets};
+
+/// Order up to which a matrix may be empty; its row pointers take 8 MiB.
+const FREE_ORDER: u64 = 1 << 20;
+/// Rows for each entry that a larger matrix may have, so that the row pointers stay within a multiple of the file.
+const MAX_ROWS_PER_ENTRY: u64 = 100;
+
+/// A matrix read from text.
+pub(super) struct TextMatrix {
+    /// The matrix.
+    pub(super) input: MatrixInput,
+    /// Where its order comes from.
+    pub(super) order: OrderSource,
+    /// Whether the last line is complete.
+    pub(super) last_line: LastLine,
+}
+
+/// Where the order of a matrix comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum OrderSource {
+    /// The size line.
+    SizeLine,
+    /// The largest index.
+    LargestIndex,
+}
+
+/// Reads a matrix from text, plain or gzipped.
+pub(super) fn read(path: &Path) -> Result<TextMatrix> {
+    read_in_blocks(path, BLOCK_BYTES)
+}
+
+/// Reads a matrix in blocks of about this many bytes. The block size changes no result.
+pub(super) fn read_in_blocks(path: &Path, block_bytes: usize) -> Result<TextMatrix> {
+    let mut reading = Reading {
+        path,
+        head_reader: HeadReader::new(path),
+        head: None,
+        triplets: Triplets::default(),
+        n_lines: 0,
+    };
+    let ending = for_each_batch(path, block_bytes, |batch| reading.take(batch))?;
+    let Some(head) = reading.head else {
+        return Err(reading.head_reader.ended_early());
+    };
+    let mut triplets = reading.triplets;
+    let (n, declared, order) = match head {
+        Head::Coordinate { n, n_entries, declared } => {
+            check_count(path, n_entries, triplets.len() as u64)?;
+            (n, declared, OrderSource::SizeLine)
+        }
+        Head::Headerless { first, line } => {
+            let (n, order) = headerless_order(path, &mut triplets, first, line)?;
+            (n, Declared::General, order)
+        }
+    };
+    check_emptiness(path, n, triplets.len())?;
+    let (matrix, notes) = triplets.assemble(n as usize, declared, path)?;
+    let digits = significant_digits(matrix.data());
+    let input = MatrixInput {
+        matrix,
+        notes,
+        digits,
+        path: path.to_owned(),
+        digest: ending.digest,
+    };
+    Ok(TextMatrix {
+        input,
+        order,
+        last_line: ending.last_line,
+    })
+}
+
+/// What was read so far.
+struct Reading<'a> {
+    path: &'a Path,
+    head_reader: HeadReader<'a>,
+    head: Option<Head>,
+    triplets: Triplets,
+    /// Lines taken, of the head and of entries.
+    n_lines: u64,
+}
+
+impl Reading<'_> {
+    fn take(&mut self, batch: &[Vec<u8>]) -> Result<()> {
+        let mut texts: Vec<&[u8]> = Vec::with_capacity(batch.len());
+        for block in batch {
+            let mut text = block.as_slice();
+            if self.head.is_none() {
+                let (taken, head) = self.head_reader.take(text)?;
+                (text, self.head) = (&text[taken..], head);
+                self.n_lines = self.head_reader.n_lines();
+            }
+            texts.push(text);
+        }
+        let (n, declared) = match self.head {
+            None => return Ok(()),
+            Some(Head::Coordinate { n, n_entries, .. }) => (n, n_entries),
+            Some(Head::Headerless { .. }) => (MAX_ORDER as u32, u64::MAX),
+        };
+        let parsed: Vec<Result<Entries, Fault>> =
+            texts.par_iter().map(|text| parse_entries(text, n, u64::MAX)).collect();
+        for (text, entries) in texts.into_iter().zip(parsed) {
+            let left = declared - self.triplets.len() as u64;
+            let entries = entries.and_then(|entries| {
+                // Parsed again to find the line of the first one too many.
+                if entries.triplets.len() as u64 > left {
+                    parse_entries(text, n, left)
+                } else {
+                    Ok(entries)
+                }
+            });
+            let entries = entries.map_err(|fault| fault.into_error(self.path, self.n_lines, n, declared))?;
+            self.triplets.append(&entries.triplets);
+            self.n_lines += entries.n_lines;
+        }
+        Ok(())
+    }
+}
+
+/// The order of a matrix without a banner; takes a bare size line out of the entries.
+fn headerless_order(
+    path: &Path,
+    triplets: &mut Triplets,
+    first: Option<[u64; 3]>,
+    line: u64,
+) -> Result<(u32, OrderSource)> {
+    let largest = |from: usize| {
+        let rows = triplets.rows.iter().skip(from);
+        rows.chain(triplets.cols.iter().skip(from))
+            .max()
+            .map_or(0, |&index| u64::from(index) + 1)
+    };
+    if let Some([rows, cols, declared]) = first {
+        let n_rest = triplets.len() as u64 - 1;
+        let holds_rest = n_rest > 0 && rows.min(cols) >= largest(1);
+        // A count of entries below the order would be an odd matrix, but an ordinary value.
+        if holds_rest && (declared == n_rest || (rows == cols && declared >= rows)) {
+            check_count(path, declared, n_rest)?;
+            let n = square_order(path, line, rows, cols)?;
+            triplets.rows.remove(0);
+            triplets.cols.remove(0);
+            triplets.values.remove(0);
+            return Ok((n, OrderSource::SizeLine));
+        }
+    }
+    let n = largest(0);
+    Ok((square_order(path, line, n, n)?, OrderSource::LargestIndex))
+}
+
+fn check_count(path: &Path, declared: u64, found: u64) -> Result<()> {
+    if found == declared {
+        return Ok(());
+    }
+    Err(Error::EntryCount {
+        path: path.to_owned(),
+        declared,
+        found,
+    })
+}
+
+/// Refuses to make row pointers of a size that only an index or the size line promises.
+fn check_emptiness(path: &Path, n: u32, n_entries: usize) -> Result<()> {
+    let (n, entries) = (u64::from(n), n_entries as u64);
+    if n > FREE_ORDER && n / MAX_ROWS_PER_ENTRY > entries {
+        return Err(Error::MatrixMostlyEmpty {
+            path: path.to_owned(),
+            n,
+            entries,
+        });
+    }
+    Ok(())
+}

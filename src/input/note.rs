@@ -1,0 +1,111 @@
+//! What a reader did beyond copying, to be told to the user.
+
+use std::fmt;
+use std::path::PathBuf;
+
+/// A remark on the input that is no error. Its text is one line for the report.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum InputNote {
+    /// Entries of one position were added.
+    Duplicates {
+        /// The file of the matrix.
+        path: PathBuf,
+        /// Entries that repeated an earlier position.
+        count: usize,
+    },
+    /// One triangle was given without the declaration that it stands for both.
+    Mirrored {
+        /// The file of the matrix.
+        path: PathBuf,
+    },
+    /// A file without a size line: its order is the largest index.
+    OrderFromIndices {
+        /// The file of the matrix.
+        path: PathBuf,
+        /// The order.
+        n: usize,
+    },
+    /// A matrix without a size line was filled up with empty rows to the order of the other.
+    Extended {
+        /// The file of the matrix.
+        path: PathBuf,
+        /// Its largest index.
+        from: usize,
+        /// The order of the other matrix.
+        to: usize,
+    },
+    /// The last line has no line end, the usual sign of a file cut short.
+    OpenLastLine {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Directions of the dof map count from zero.
+    DirectionsFromZero {
+        /// The file of the dof map.
+        path: PathBuf,
+    },
+    /// Without a dof map, rows were taken node by node.
+    DefaultOrder {
+        /// Directions at each node, three or six.
+        dofs_per_node: usize,
+        /// The file of the nodes, whose order was used.
+        nodes: PathBuf,
+    },
+    /// Nodes without any row.
+    UnusedNodes {
+        /// The file of the nodes.
+        path: PathBuf,
+        /// How many.
+        count: usize,
+    },
+}
+
+impl fmt::Display for InputNote {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Duplicates { path, count } => {
+                write!(
+                    f,
+                    "{}: {count} entries repeat a position and were added to it",
+                    path.display()
+                )
+            }
+            Self::Mirrored { path } => {
+                write!(
+                    f,
+                    "{}: only one triangle is given; it was mirrored, as stiffness and mass are symmetric",
+                    path.display()
+                )
+            }
+            Self::OrderFromIndices { path, n } => {
+                write!(
+                    f,
+                    "{}: no size line; the largest index makes it a matrix of {n} rows",
+                    path.display()
+                )
+            }
+            Self::Extended { path, from, to } => {
+                write!(
+                    f,
+                    "{}: the largest index is {from}; rows up to {to}, the order of the other matrix, are empty",
+                    path.display()
+                )
+            }
+            Self::OpenLastLine { path } => {
+                write!(
+                    f,
+                    "{}: the last line has no line end; check that the file is complete",
+                    path.display()
+                )
+            }
+            Self::DirectionsFromZero { path } => write!(f, "{}: directions count from zero, 0 is ux", path.display()),
+            Self::DefaultOrder { dofs_per_node, nodes } => write!(
+                f,
+                "no dof map: rows are taken as {dofs_per_node} a node, in the order of {}",
+                nodes.display()
+            ),
+            Self::UnusedNodes { path, count } => write!(f, "{}: {count} nodes have no row", path.display()),
+        }
+    }
+}

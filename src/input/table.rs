@@ -1,0 +1,218 @@
+//! Tables of numbers in text with a header: comma, semicolon or tab between fields, plain or gzipped.
+
+use std::io::{BufRead, BufReader, Read};
+use std::path::{Path, PathBuf};
+
+use super::banner::excerpt;
+use super::source::{Source, read_error};
+use crate::error::{Error, Result};
+
+/// The longest row.
+const MAX_ROW_BYTES: u64 = 1 << 16;
+
+/// A table being read, its header taken.
+pub(super) struct Table {
+    path: PathBuf,
+    header: Vec<String>,
+    rows: csv::Reader<Box<dyn Read>>,
+    record: csv::StringRecord,
+    n_header_lines: u64,
+}
+
+/// A row of a table and where it is.
+pub(super) struct Row<'a> {
+    path: &'a Path,
+    header: &'a [String],
+    record: &'a csv::StringRecord,
+    /// Line number in the file, from 1.
+    pub(super) line: u64,
+}
+
+/// The start of a text file: what stands before the first line of data, and that line.
+pub(super) struct FirstLine {
+    /// The first line that is neither blank nor a comment, without its end.
+    pub(super) text: String,
+    /// Its number, from 1.
+    pub(super) line: u64,
+    /// What follows.
+    pub(super) rest: BufReader<Source>,
+}
+
+/// Opens a text file and reads up to its first line of data.
+pub(super) fn open_first_line(path: &Path, expected: &'static str) -> Result<FirstLine> {
+    let mut rest = BufReader::new(Source::open(path)?);
+    let mut line = 0;
+    loop {
+        let mut bytes = Vec::new();
+        let n_read = rest.by_ref().take(MAX_ROW_BYTES).read_until(b'\n', &mut bytes);
+        line += 1;
+        match n_read.map_err(|error| read_error(path, error))? as u64 {
+            0 => {
+                return Err(Error::NoData {
+                    path: path.to_owned(),
+                    expected,
+                });
+            }
+            MAX_ROW_BYTES => {
+                return Err(Error::LineTooLong {
+                    path: path.to_owned(),
+                    line,
+                    limit: MAX_ROW_BYTES as usize,
+                });
+            }
+            _ => {}
+        }
+        let text = bytes
+            .strip_prefix(b"\xef\xbb\xbf".as_slice())
+            .unwrap_or(&bytes)
+            .trim_ascii();
+        if !text.is_empty() && !text.starts_with(b"%") {
+            return Ok(FirstLine {
+                text: String::from_utf8_lossy(text).into_owned(),
+                line,
+                rest,
+            });
+        }
+    }
+}
+
+impl Table {
+    /// A table whose header is the first line of data.
+    pub(super) fn new(path: &Path, first: FirstLine) -> Self {
+        let header_text = first.text.trim_start_matches('#');
+        let delimiter = [b';', b'\t', b',']
+            .into_iter()
+            .find(|&mark| header_text.contains(char::from(mark)));
+        let delimiter = delimiter.unwrap_or(b',');
+        let header = header_text
+            .split(char::from(delimiter))
+            .map(|name| name.trim().trim_matches('"').to_owned());
+        let rest: Box<dyn Read> = Box::new(first.rest);
+        let rows = csv::ReaderBuilder::new()
+            .delimiter(delimiter)
+            .has_headers(false)
+            .flexible(true)
+            .trim(csv::Trim::All)
+            .comment(Some(b'#'))
+            .from_reader(rest);
+        Self {
+            path: path.to_owned(),
+            header: header.collect(),
+            rows,
+            record: csv::StringRecord::new(),
+            n_header_lines: first.line,
+        }
+    }
+
+    /// Index of the column that a predicate on the lower-case name finds.
+    pub(super) fn find(&self, is_wanted: impl Fn(&str) -> bool) -> Option<usize> {
+        self.header.iter().position(|name| is_wanted(&name.to_lowercase()))
+    }
+
+    /// As [`Table::find`], for a column that must be there.
+    pub(super) fn require(
+        &self,
+        column: &'static str,
+        expected: &'static str,
+        is_wanted: impl Fn(&str) -> bool,
+    ) -> Result<usize> {
+        self.find(is_wanted).ok_or_else(|| Error::TableColumn {
+            path: self.path.clone(),
+            column,
+            found: excerpt(self.header.join(",").as_bytes()),
+            expected,
+        })
+    }
+
+    /// Name of a column, in lower case.
+    pub(super) fn name(&self, column: usize) -> String {
+        self.header
+            .get(column)
+            .map(|name| name.to_lowercase())
+            .unwrap_or_default()
+    }
+
+    /// The next row, or `None` at the end.
+    pub(super) fn next_row(&mut self) -> Result<Option<Row<'_>>> {
+        let is_row = self
+            .rows
+            .read_record(&mut self.record)
+            .map_err(|error| self.row_error(error))?;
+        if !is_row {
+            return Ok(None);
+        }
+        let line = self.n_header_lines + self.record.position().map_or(1, csv::Position::line);
+        let row = Row {
+            path: &self.path,
+            header: &self.header,
+            record: &self.record,
+            line,
+        };
+        if row.record.len() < self.header.len() {
+            let (found, expected) = (row.record.len() as u64, self.header.len() as u64);
+            return Err(Error::TableRow {
+                path: self.path.clone(),
+                line,
+                found,
+                expected,
+            });
+        }
+        Ok(Some(row))
+    }
+
+    fn row_error(&self, error: csv::Error) -> Error {
+        let path = self.path.clone();
+        let line = self.n_header_lines + error.position().map_or(1, csv::Position::line);
+        match error.into_kind() {
+            csv::ErrorKind::Io(error) => read_error(&path, error),
+            _ => Error::TableField {
+                path,
+                line,
+                column: "(all)".into(),
+                found: "bytes that are not text".into(),
+                expected: "UTF-8 text",
+            },
+        }
+    }
+}
+
+impl Row<'_> {
+    /// The text of a field.
+    pub(super) fn text(&self, column: usize) -> &str {
+        self.record.get(column).unwrap_or_default()
+    }
+
+    /// The error of a field that is not what it should be.
+    pub(super) fn field_error(&self, column: usize, expected: &'static str) -> Error {
+        Error::TableField {
+            path: self.path.to_owned(),
+            line: self.line,
+            column: self.header.get(column).cloned().unwrap_or_default(),
+            found: excerpt(self.text(column).as_bytes()),
+            expected,
+        }
+    }
+
+    /// A whole number.
+    pub(super) fn integer(&self, column: usize) -> Result<i64> {
+        self.text(column)
+            .parse()
+            .map_err(|_| self.field_error(column, "a whole number"))
+    }
+
+    /// A finite number.
+    pub(super) fn number(&self, column: usize) -> Result<f64> {
+        let value = fast_float2::parse::<f64, _>(self.text(column))
+            .ok()
+            .filter(|value| value.is_finite());
+        value.ok_or_else(|| self.field_error(column, "a finite number"))
+    }
+}
+
+/// Names that a column of node labels has.
+pub(super) fn is_node_column(name: &str) -> bool {
+    matches!(
+        name,
+        "node" | "nodes" | "node_id" | "nodeid" | "node id" | "nid" | "grid" | "label" | "id"
+    )
+}

@@ -1,0 +1,64 @@
+//! Bodies: the connected parts of the model.
+//!
+//! Connection is judged between nodes, not between rows: the axial and the bending rows of a straight beam are not
+//! coupled in K and yet belong to one body.
+
+use std::collections::HashMap;
+
+use crate::input::Dof;
+use crate::sparse::SparseMatrix;
+
+/// The connected parts of the node graph of K.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Bodies {
+    /// Body of each row.
+    pub of_row: Vec<u32>,
+    /// How many there are.
+    pub n_bodies: usize,
+}
+
+impl Bodies {
+    /// Finds the parts by union of the nodes that share an entry of K.
+    pub fn of(stiffness: &SparseMatrix, node_of_row: &[u32]) -> Self {
+        let n_nodes = node_of_row.iter().max().map_or(0, |max| *max as usize + 1);
+        let mut parent: Vec<u32> = (0..n_nodes as u32).collect();
+        for (row, view) in stiffness.outer_iterator().enumerate() {
+            for (col, value) in view.iter() {
+                if *value != 0.0 && col < row {
+                    let (a, b) = (root(&mut parent, node_of_row[row]), root(&mut parent, node_of_row[col]));
+                    parent[a.max(b) as usize] = a.min(b);
+                }
+            }
+        }
+        let mut number = HashMap::new();
+        let of_row = node_of_row
+            .iter()
+            .map(|node| {
+                let next = number.len() as u32;
+                *number.entry(root(&mut parent, *node)).or_insert(next)
+            })
+            .collect();
+        Self { of_row, n_bodies: number.len() }
+    }
+}
+
+/// A dense number for the node of each row, in order of first appearance; every row its own node where no map is known.
+pub fn node_of_row(n_rows: usize, dofs: Option<&[Dof]>) -> Vec<u32> {
+    let Some(dofs) = dofs else { return (0..n_rows as u32).collect() };
+    let mut number = HashMap::with_capacity(n_rows / 3 + 1);
+    dofs.iter()
+        .map(|dof| {
+            let next = number.len() as u32;
+            *number.entry(dof.node).or_insert(next)
+        })
+        .collect()
+}
+
+fn root(parent: &mut [u32], mut node: u32) -> u32 {
+    while parent[node as usize] != node {
+        let grandparent = parent[parent[node as usize] as usize];
+        parent[node as usize] = grandparent;
+        node = grandparent;
+    }
+    node
+}

@@ -1,0 +1,513 @@
+//! Block Lanczos for K x = λ M x, with shift-invert, full M-reorthogonalisation, thick restart and locking.
+//!
+//! ```text
+//! OP = P (K − σM)⁻¹ Pᵀ M     n × n    symmetric in the M-inner product, P = I − Q QᵀM takes out the rigid-body modes
+//! V                          n × m    VᵀMV = I
+//! T = VᵀM OP V               m × m    Ritz pairs (θ, s): λ = σ + 1/θ, x = V s
+//! OP V = V T + W B           W the next block (n × b), B its coupling (b × m); ‖B s‖ is the residual of a Ritz pair
+//! ```
+//! T is formed from inner products, not from a recurrence, so that a restart needs no special case: the kept Ritz
+//! vectors simply are the basis. A wanted cluster is never cut, and one pair beyond the wanted ones is found too, so
+//! that a Sturm count can be taken in the gap between them.
+
+use faer::{Mat, MatMut, MatRef};
+
+use super::operator::ShiftInvert;
+use super::random::SplitMix64;
+use crate::dense;
+use crate::error::{Error, Result};
+use crate::sparse::{SparseMatrix, multiply};
+
+/// The eigenproblem: K enters through its shift-invert operator.
+#[derive(Clone, Copy)]
+#[allow(missing_debug_implementations)]
+pub struct Problem<'a> {
+    /// (K − σM)⁻¹.
+    pub operator: &'a dyn ShiftInvert,
+    /// M, n × n.
+    pub mass: &'a SparseMatrix,
+    /// Q and MQ, n × n_r each; empty where nothing is deflated.
+    pub deflated: [MatRef<'a, f64>; 2],
+}
+
+/// Which eigenpairs are wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Wanted {
+    /// The lowest ones, completed to whole clusters.
+    Count(usize),
+    /// All up to this λ, completed to whole clusters.
+    UpTo(f64),
+}
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub struct Eigenpairs {
+    /// λ in ascending order.
+    pub values: Vec<f64>,
+    /// x, n × k, M-orthonormal.
+    pub vectors: Mat<f64>,
+    /// The next λ above, where there is one: the far side of the gap a Sturm count is taken in.
+    pub next: Option<f64>,
+    /// What it cost.
+    pub work: EigenWork,
+}
+
+/// Work counters of an eigensolution.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct EigenWork {
+    /// Right-hand sides solved.
+    pub solves: usize,
+    /// Block steps.
+    pub steps: usize,
+    /// Thick restarts.
+    pub restarts: usize,
+}
+
+/// Residual ‖OP x − θx‖ over θ at which a pair is taken: the Rayleigh quotient then errs by its square.
+const TOLERANCE: f64 = 1e-12;
+/// The same for the pair beyond the wanted ones, of which only λ is used.
+const NEXT_TOLERANCE: f64 = 1e-4;
+/// Rounding of OP in units of ε times its largest eigenvalue: no residual falls below it.
+const ROUNDING: f64 = 16.0;
+/// Eigenvalues nearer than this, relatively, belong to one cluster.
+pub const CLUSTER_GAP: f64 = 1e-6;
+/// Restarts after which an iteration that has not converged never will.
+const MAX_RESTARTS: usize = 60;
+/// Right-hand sides per block on large models: a block of eight costs a fifth per vector of eight single solves.
+const WIDE_BLOCK: usize = 8;
+/// On small models the factor stays in the cache and a narrow block wastes fewer vectors.
+const NARROW_BLOCK: usize = 4;
+const WIDE_FROM: usize = 50_000;
+
+/// Finds the wanted eigenpairs.
+///
+/// # Errors
+/// [`Error::LanczosStalled`] when restarts bring no more convergence.
+pub fn lanczos(problem: Problem<'_>, wanted: Wanted, seed: u64) -> Result<Eigenpairs> {
+    let mut basis = Basis::start(problem, wanted, seed);
+    loop {
+        while basis.has_room() {
+            basis.extend();
+            if let Some(found) = basis.converged(wanted)? {
+                return Ok(found);
+            }
+            if basis.is_exhausted() {
+                return basis.everything(wanted);
+            }
+        }
+        if basis.work.restarts == MAX_RESTARTS {
+            return Err(Error::LanczosStalled { restarts: MAX_RESTARTS, converged: basis.n_converged()? });
+        }
+        basis.restart(wanted)?;
+    }
+}
+
+struct Basis<'a> {
+    problem: Problem<'a>,
+    random: SplitMix64,
+    /// V followed by W.
+    vectors: Mat<f64>,
+    /// M W, kept for the next application of OP.
+    mass_next: Mat<f64>,
+    /// T.
+    projected: Mat<f64>,
+    /// B, b × m.
+    coupling: Mat<f64>,
+    /// m: columns of V.
+    size: usize,
+    /// Leading columns of V that are locked: their coupling is zero.
+    locked: usize,
+    /// Largest m.
+    capacity: usize,
+    work: EigenWork,
+}
+
+/// Ritz pairs in descending θ, that is ascending λ.
+struct Ritz {
+    theta: Vec<f64>,
+    s: Mat<f64>,
+    residuals: Vec<f64>,
+}
+
+impl<'a> Basis<'a> {
+    fn start(problem: Problem<'a>, wanted: Wanted, seed: u64) -> Self {
+        let n = problem.operator.n();
+        let block = if n >= WIDE_FROM { WIDE_BLOCK } else { NARROW_BLOCK }.min(n);
+        let expected = match wanted {
+            Wanted::Count(count) => count,
+            Wanted::UpTo(_) => 2 * WIDE_BLOCK,
+        };
+        let capacity = capacity_for(expected, block, n);
+        let mut basis = Self {
+            problem,
+            random: SplitMix64::new(seed),
+            vectors: Mat::zeros(n, capacity + block),
+            mass_next: Mat::zeros(n, 0),
+            projected: Mat::zeros(0, 0),
+            coupling: Mat::zeros(0, 0),
+            size: 0,
+            locked: 0,
+            capacity,
+            work: EigenWork::default(),
+        };
+        let mut first = Mat::zeros(n, block);
+        basis.random.fill(first.as_mut());
+        // One application of OP removes what M does not see and the directions of very high frequency.
+        basis.problem.deflate(first.as_mut());
+        let mut image = product(problem.mass, first.as_ref());
+        basis.apply(&mut image);
+        let (_, _) = basis.orthonormalise(image);
+        basis
+    }
+
+    fn n_next(&self) -> usize {
+        self.mass_next.ncols()
+    }
+
+    fn has_room(&self) -> bool {
+        self.size + self.n_next() <= self.capacity
+    }
+
+    fn is_exhausted(&self) -> bool {
+        self.n_next() == 0
+    }
+
+    fn v(&self) -> MatRef<'_, f64> {
+        self.vectors.as_ref().subcols(0, self.size)
+    }
+
+    /// Replaces M v by OP v.
+    fn apply(&mut self, block: &mut Mat<f64>) {
+        self.work.solves += block.ncols();
+        self.problem.equilibrate(block.as_mut());
+        self.problem.operator.solve_in_place(block.as_mut());
+        self.problem.deflate(block.as_mut());
+    }
+
+    /// One block step: V grows by W, a new W is found.
+    fn extend(&mut self) {
+        let block = self.n_next();
+        let mut image = std::mem::replace(&mut self.mass_next, Mat::zeros(0, 0));
+        self.apply(&mut image);
+        self.work.steps += 1;
+        let before = self.size;
+        self.size += block;
+        let (mut coefficients, coupling) = self.orthonormalise(image);
+        // Locked pairs are exact to the tolerance; their coupling is rounding and would unlock them.
+        coefficients.as_mut().subrows_mut(0, self.locked).fill(0.0);
+        let mut projected = Mat::zeros(self.size, self.size);
+        projected.as_mut().submatrix_mut(0, 0, before, before).copy_from(&self.projected);
+        projected.as_mut().subcols_mut(before, block).copy_from(&coefficients);
+        for j in before..self.size {
+            for i in 0..before {
+                projected[(j, i)] = projected[(i, j)];
+            }
+        }
+        let own = projected.as_ref().submatrix(before, before, block, block).to_owned();
+        for j in 0..block {
+            for i in 0..block {
+                projected[(before + i, before + j)] = 0.5 * (own[(i, j)] + own[(j, i)]);
+            }
+        }
+        self.projected = projected;
+        self.coupling = Mat::zeros(coupling.nrows(), self.size);
+        self.coupling.as_mut().subcols_mut(before, block).copy_from(&coupling);
+    }
+
+    /// Makes a block M-orthogonal to V and M-orthonormal in itself: block = V C + W B. Stores W and M W.
+    fn orthonormalise(&mut self, mut block: Mat<f64>) -> (Mat<f64>, Mat<f64>) {
+        let width = block.ncols();
+        let mut coefficients = Mat::zeros(self.size, width);
+        let mut coupling: Mat<f64> = Mat::identity(width, width);
+        let mut mass_block = product(self.problem.mass, block.as_ref());
+        let floor = self.rounding_floor(&block, &mass_block);
+        let mut dependent = vec![false; width];
+        // Twice is enough for orthogonality to rounding; the first pass normalises, so that the second works on columns
+        // of unit length however small they were.
+        for pass in 0..2 {
+            let c = dense::gram(self.v(), mass_block.as_ref());
+            dense::add_product(block.as_mut(), -1.0, self.v(), c.as_ref());
+            dense::add_product(coefficients.as_mut(), 1.0, c.as_ref(), coupling.as_ref());
+            mass_block = product(self.problem.mass, block.as_ref());
+            let least = if pass == 0 { floor } else { 0.5 };
+            let r = gram_schmidt(&mut block, &mut mass_block, least, &mut dependent);
+            coupling = dense::product(r.as_ref(), coupling.as_ref());
+        }
+        self.replace_dependent(&mut block, &dependent);
+        let kept: Vec<usize> = (0..width).filter(|j| !dependent[*j] || self.holds(block.as_ref(), *j)).collect();
+        let next = Mat::from_fn(block.nrows(), kept.len(), |i, j| block[(i, kept[j])]);
+        let coupling = Mat::from_fn(kept.len(), width, |i, j| coupling[(kept[i], j)]);
+        self.vectors.as_mut().subcols_mut(self.size, kept.len()).copy_from(&next);
+        self.mass_next = product(self.problem.mass, next.as_ref());
+        (coefficients, coupling)
+    }
+
+    /// Length below which a column of OP V is rounding.
+    fn rounding_floor(&self, block: &Mat<f64>, mass_block: &Mat<f64>) -> f64 {
+        let largest = (0..self.projected.nrows()).fold(0.0f64, |max, i| max.max(self.projected[(i, i)].abs()));
+        let own = (0..block.ncols()).fold(0.0f64, |max, j| {
+            let square = dense::dot(dense::column(block.as_ref(), j), dense::column(mass_block.as_ref(), j));
+            max.max(square.max(0.0).sqrt())
+        });
+        f64::EPSILON * largest.max(own)
+    }
+
+    fn holds(&self, block: MatRef<'_, f64>, j: usize) -> bool {
+        dense::column(block, j).iter().any(|value| *value != 0.0)
+    }
+
+    /// Puts new random directions in the place of dependent columns, or zeros where the space is exhausted.
+    fn replace_dependent(&mut self, block: &mut Mat<f64>, dependent: &[bool]) {
+        const ATTEMPTS: usize = 3;
+        for j in (0..block.ncols()).filter(|j| dependent[*j]) {
+            dense::column_mut(block.as_mut(), j).fill(0.0);
+            for _ in 0..ATTEMPTS {
+                let mut fresh = Mat::zeros(block.nrows(), 1);
+                self.random.fill(fresh.as_mut());
+                self.problem.deflate(fresh.as_mut());
+                let mut image = product(self.problem.mass, fresh.as_ref());
+                self.apply(&mut image);
+                if let Some(unit) = self.unit_component(&image, block) {
+                    block.as_mut().subcols_mut(j, 1).copy_from(&unit);
+                    break;
+                }
+            }
+        }
+    }
+
+    /// The part of a vector M-orthogonal to V and to the block, at unit length; none where nothing but rounding is left.
+    fn unit_component(&self, image: &Mat<f64>, block: &Mat<f64>) -> Option<Mat<f64>> {
+        // What is left of a random direction after projection is of order one unless the space is exhausted.
+        const LEFT: f64 = 1e-8;
+        let mut vector = image.clone();
+        for pass in 0..3 {
+            let before = mass_norm(self.problem.mass, &vector);
+            for basis in [self.v(), block.as_ref()] {
+                let c = dense::gram(basis, product(self.problem.mass, vector.as_ref()).as_ref());
+                dense::add_product(vector.as_mut(), -1.0, basis, c.as_ref());
+            }
+            let after = mass_norm(self.problem.mass, &vector);
+            if !(after > if pass == 0 { LEFT } else { 0.5 } * before) {
+                return None;
+            }
+            vector.as_mut().col_mut(0).iter_mut().for_each(|value| *value /= after);
+        }
+        Some(vector)
+    }
+
+    fn ritz(&self) -> Result<Ritz> {
+        let (ascending, vectors) = dense::symmetric_eigen(self.projected.as_ref())?;
+        let m = ascending.len();
+        let s = Mat::from_fn(m, m, |i, j| vectors[(i, m - 1 - j)]);
+        let coupled = dense::product(self.coupling.as_ref(), s.as_ref());
+        let residuals = (0..m).map(|j| dense::norm(dense::column(coupled.as_ref(), j))).collect();
+        Ok(Ritz { theta: ascending.into_iter().rev().collect(), s, residuals })
+    }
+
+    fn n_converged(&self) -> Result<usize> {
+        let ritz = self.ritz()?;
+        Ok((0..ritz.theta.len()).take_while(|j| ritz.is_converged(*j)).count())
+    }
+
+    /// The wanted pairs, once they and the one beyond have converged.
+    fn converged(&self, wanted: Wanted) -> Result<Option<Eigenpairs>> {
+        if let Wanted::Count(count) = wanted
+            && self.size <= count
+        {
+            return Ok(None);
+        }
+        let ritz = self.ritz()?;
+        let Some(count) = ritz.count_wanted(wanted, self.problem.operator.shift()) else { return Ok(None) };
+        Ok(Some(self.extract(&ritz, count)))
+    }
+
+    /// All pairs of an exhausted space, as far as wanted.
+    fn everything(&self, wanted: Wanted) -> Result<Eigenpairs> {
+        let ritz = self.ritz()?;
+        let sigma = self.problem.operator.shift();
+        let n_finite = ritz.n_finite();
+        let count = match wanted {
+            Wanted::Count(count) => (0..n_finite)
+                .find(|j| *j >= count && (*j == 0 || !ritz.same_cluster(*j - 1, *j, sigma)))
+                .unwrap_or(n_finite),
+            Wanted::UpTo(limit) => (0..n_finite).find(|j| ritz.lambda(*j, sigma) > limit).unwrap_or(n_finite),
+        };
+        Ok(self.extract(&ritz, count))
+    }
+
+    /// x = V s + W B s / θ: the step of inverse iteration that the last block gives for nothing.
+    fn extract(&self, ritz: &Ritz, count: usize) -> Eigenpairs {
+        let sigma = self.problem.operator.shift();
+        let s = ritz.s.as_ref().subcols(0, count);
+        let mut vectors = dense::product(self.v(), s);
+        let mut correction = dense::product(self.coupling.as_ref(), s);
+        for j in 0..count {
+            correction.as_mut().col_mut(j).iter_mut().for_each(|value| *value /= ritz.theta[j]);
+        }
+        let next = self.vectors.as_ref().subcols(self.size, self.n_next());
+        dense::add_product(vectors.as_mut(), 1.0, next, correction.as_ref());
+        self.problem.deflate(vectors.as_mut());
+        Eigenpairs {
+            values: (0..count).map(|j| ritz.lambda(j, sigma)).collect(),
+            vectors,
+            next: (count < ritz.n_finite()).then(|| ritz.lambda(count, sigma)),
+            work: self.work,
+        }
+    }
+
+    /// Replaces V by its best Ritz vectors, or makes room where a band turns out to hold many modes.
+    fn restart(&mut self, wanted: Wanted) -> Result<()> {
+        let ritz = self.ritz()?;
+        let (n, block) = (self.vectors.nrows(), self.n_next());
+        let n_wanted = match wanted {
+            Wanted::Count(count) => count,
+            Wanted::UpTo(limit) => {
+                let sigma = self.problem.operator.shift();
+                (0..ritz.n_finite()).take_while(|j| ritz.lambda(*j, sigma) <= limit).count()
+            }
+        };
+        let capacity = capacity_for(n_wanted, block, n);
+        if capacity > self.capacity {
+            self.vectors.resize_with(n, capacity + block, |_, _| 0.0);
+            self.capacity = capacity;
+            return Ok(());
+        }
+        self.work.restarts += 1;
+        let keep = (n_wanted + (self.size - n_wanted.min(self.size)) / 2).min(self.size.saturating_sub(block)).max(1);
+        self.locked = (0..keep).take_while(|j| ritz.is_converged(*j)).count();
+        let s = ritz.s.as_ref().subcols(0, keep);
+        combine_in_place(self.vectors.as_mut(), self.size, s);
+        let next = self.vectors.as_ref().subcols(self.size, block).to_owned();
+        self.vectors.as_mut().subcols_mut(keep, block).copy_from(&next);
+        self.coupling = dense::product(self.coupling.as_ref(), s);
+        self.coupling.as_mut().subcols_mut(0, self.locked).fill(0.0);
+        self.projected = Mat::from_fn(keep, keep, |i, j| if i == j { ritz.theta[i] } else { 0.0 });
+        self.size = keep;
+        Ok(())
+    }
+}
+
+impl Ritz {
+    fn lambda(&self, j: usize, sigma: f64) -> f64 {
+        sigma + 1.0 / self.theta[j]
+    }
+
+    /// Pairs that are not infinite eigenvalues: θ above the rounding of OP.
+    fn n_finite(&self) -> usize {
+        let floor = ROUNDING * f64::EPSILON * self.theta.first().copied().unwrap_or(0.0);
+        self.theta.iter().take_while(|theta| **theta > floor).count()
+    }
+
+    fn is_converged(&self, j: usize) -> bool {
+        self.residuals[j] <= (TOLERANCE * self.theta[j]).max(ROUNDING * f64::EPSILON * self.theta[0])
+    }
+
+    fn same_cluster(&self, a: usize, b: usize, sigma: f64) -> bool {
+        (self.lambda(b, sigma) - self.lambda(a, sigma)).abs() <= CLUSTER_GAP * self.lambda(b, sigma).abs()
+    }
+
+    /// How many pairs answer the request, or none while the request is not answered.
+    fn count_wanted(&self, wanted: Wanted, sigma: f64) -> Option<usize> {
+        let n_finite = self.n_finite();
+        let mut count = match wanted {
+            Wanted::Count(count) => count,
+            Wanted::UpTo(limit) => (0..n_finite).find(|j| self.lambda(*j, sigma) > limit)?,
+        };
+        while count > 0 && count < n_finite && self.same_cluster(count - 1, count, sigma) {
+            count += 1;
+        }
+        let settled = count < n_finite
+            && (0..count).all(|j| self.is_converged(j))
+            && self.residuals[count] <= NEXT_TOLERANCE * self.theta[count];
+        settled.then_some(count)
+    }
+}
+
+impl Problem<'_> {
+    /// F ← Pᵀ F: takes the rigid-body resultant out of forces.
+    fn equilibrate(&self, forces: MatMut<'_, f64>) {
+        let [q, mass_q] = self.deflated;
+        if q.ncols() > 0 {
+            let resultant = dense::gram(q, forces.as_ref());
+            dense::add_product(forces, -1.0, mass_q, resultant.as_ref());
+        }
+    }
+
+    /// X ← P X: takes the rigid-body motion out of displacements.
+    fn deflate(&self, displacements: MatMut<'_, f64>) {
+        let [q, mass_q] = self.deflated;
+        if q.ncols() > 0 {
+            let motion = dense::gram(mass_q, displacements.as_ref());
+            dense::add_product(displacements, -1.0, q, motion.as_ref());
+        }
+    }
+}
+
+/// Columns of V before a restart: three times the wanted ones and eight blocks converge fifty modes without one.
+fn capacity_for(n_wanted: usize, block: usize, n: usize) -> usize {
+    (3 * n_wanted + 8 * block).min(n)
+}
+
+fn product(mass: &SparseMatrix, block: MatRef<'_, f64>) -> Mat<f64> {
+    let mut out = Mat::zeros(block.nrows(), block.ncols());
+    multiply(mass, block, out.as_mut());
+    out
+}
+
+fn mass_norm(mass: &SparseMatrix, vector: &Mat<f64>) -> f64 {
+    let image = product(mass, vector.as_ref());
+    dense::dot(dense::column(vector.as_ref(), 0), dense::column(image.as_ref(), 0)).max(0.0).sqrt()
+}
+
+/// Modified Gram-Schmidt of a narrow block in the M-inner product, MW carried along: block = W R.
+///
+/// A column of length at most `least` is dependent: it becomes zero and its row of R too.
+pub fn gram_schmidt(block: &mut Mat<f64>, mass_block: &mut Mat<f64>, least: f64, dependent: &mut [bool]) -> Mat<f64> {
+    let width = block.ncols();
+    let mut r = Mat::zeros(width, width);
+    for j in 0..width {
+        if dependent[j] {
+            continue;
+        }
+        let square = dense::dot(dense::column(block.as_ref(), j), dense::column(mass_block.as_ref(), j));
+        let length = square.max(0.0).sqrt();
+        if !(length > least) {
+            dependent[j] = true;
+            dense::column_mut(block.as_mut(), j).fill(0.0);
+            dense::column_mut(mass_block.as_mut(), j).fill(0.0);
+            continue;
+        }
+        r[(j, j)] = length;
+        for side in [&mut *block, &mut *mass_block] {
+            dense::column_mut(side.as_mut(), j).iter_mut().for_each(|value| *value /= length);
+        }
+        for l in j + 1..width {
+            let c = dense::dot(dense::column(mass_block.as_ref(), j), dense::column(block.as_ref(), l));
+            r[(j, l)] = c;
+            for side in [&mut *block, &mut *mass_block] {
+                let unit = dense::column(side.as_ref(), j).to_vec();
+                dense::add_scaled(dense::column_mut(side.as_mut(), l), -c, &unit);
+            }
+        }
+    }
+    r
+}
+
+/// The leading `size` columns of V become V S, row tile by row tile.
+fn combine_in_place(mut vectors: MatMut<'_, f64>, size: usize, s: MatRef<'_, f64>) {
+    use rayon::prelude::*;
+    const ROWS_PER_TILE: usize = 2048;
+    let width = s.ncols();
+    vectors.as_mut().subcols_mut(0, size).par_row_chunks_mut(ROWS_PER_TILE).for_each(|mut tile| {
+        let mut result = Mat::zeros(tile.nrows(), width);
+        faer::linalg::matmul::matmul(
+            result.as_mut(),
+            faer::Accum::Replace,
+            tile.as_ref(),
+            s,
+            1.0,
+            faer::Par::Seq,
+        );
+        tile.as_mut().subcols_mut(0, width).copy_from(&result);
+    });
+}

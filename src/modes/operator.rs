@@ -1,0 +1,151 @@
+//! The shift-invert operators that the eigensolvers iterate with.
+
+use faer::linalg::solvers::{Llt, Solve};
+use faer::{Mat, MatMut, MatRef, Side};
+
+use crate::dense;
+use crate::error::{Error, Result};
+use crate::factor::SolveOperator;
+use crate::rigid::RigidBodyModes;
+use crate::sparse::SparseMatrix;
+
+/// X ← (K − σM)⁻¹ F on blocks.
+pub trait ShiftInvert: Sync {
+    /// Order of K.
+    fn n(&self) -> usize;
+
+    /// σ.
+    fn shift(&self) -> f64;
+
+    /// Replaces forces by displacements; on a free component the forces are self-equilibrated.
+    fn solve_in_place(&self, block: MatMut<'_, f64>);
+}
+
+/// A factor of K − σM used as it is.
+#[allow(missing_debug_implementations)]
+pub struct Factored<'a> {
+    factor: &'a dyn SolveOperator,
+    sigma: f64,
+}
+
+impl<'a> Factored<'a> {
+    /// The operator of a factor of K − σM.
+    pub fn new(factor: &'a dyn SolveOperator, sigma: f64) -> Self {
+        Self { factor, sigma }
+    }
+}
+
+impl ShiftInvert for Factored<'_> {
+    fn n(&self) -> usize {
+        self.factor.n()
+    }
+
+    fn shift(&self) -> f64 {
+        self.sigma
+    }
+
+    fn solve_in_place(&self, block: MatMut<'_, f64>) {
+        self.factor.solve_in_place(block);
+    }
+}
+
+/// K⁺ of a free component from the factor of K_II alone, at shift zero.
+///
+/// ```text
+/// y   = K_II⁻¹ f_I                       S = K_BB + K_BI Ψ_S, null space U_B
+/// x_B = S⁺ (f_B − K_BI y)
+/// x_I = y + Ψ_S x_B
+/// ```
+/// For a self-equilibrated load x is the elastic displacement up to a rigid-body motion, which deflation removes. The
+/// factor that makes the constraint modes thus serves the free-free modes too.
+#[allow(missing_debug_implementations)]
+pub struct FreeAtZero<'a> {
+    factor: &'a dyn SolveOperator,
+    stiffness: &'a SparseMatrix,
+    constraint_modes: MatRef<'a, f64>,
+    schur: Schur,
+}
+
+/// S + α Z Zᵀ in scaled coordinates, with Z an orthonormal basis of U_B: S⁺ on self-equilibrated interface loads.
+struct Schur {
+    scale: Vec<f64>,
+    rigid: Mat<f64>,
+    factor: Llt<f64>,
+}
+
+impl<'a> FreeAtZero<'a> {
+    /// The operator from the factor of K_II, the constraint modes Ψ_S (n_I × n_B) and K̂_BB = S.
+    ///
+    /// # Errors
+    /// S has more zero-energy motions than there are rigid-body modes: a mechanism.
+    pub fn new(
+        factor: &'a dyn SolveOperator,
+        stiffness: &'a SparseMatrix,
+        constraint_modes: MatRef<'a, f64>,
+        schur: MatRef<'_, f64>,
+        rigid: &RigidBodyModes,
+    ) -> Result<Self> {
+        let schur = Schur::new(schur, rigid.orthonormal.as_ref().subrows(factor.n(), schur.nrows()))?;
+        Ok(Self { factor, stiffness, constraint_modes, schur })
+    }
+}
+
+impl Schur {
+    fn new(schur: MatRef<'_, f64>, u_b: MatRef<'_, f64>) -> Result<Self> {
+        let n_b = schur.nrows();
+        let scale: Vec<f64> = (0..n_b)
+            .map(|i| if schur[(i, i)] > 0.0 { 2f64.powi((-0.5 * schur[(i, i)].log2()).round() as i32) } else { 1.0 })
+            .collect();
+        let mut scaled = Mat::from_fn(n_b, n_b, |i, j| schur[(i, j)] * scale[i] * scale[j]);
+        // In scaled coordinates the null space is D⁻¹ U_B.
+        let unscaled = Mat::from_fn(n_b, u_b.ncols(), |i, j| u_b[(i, j)] / scale[i]);
+        let rigid = if u_b.ncols() > 0 { unscaled.qr().compute_thin_Q() } else { Mat::zeros(n_b, 0) };
+        // The diagonal is near one, so adding Z Zᵀ lifts the null space to the size of the rest.
+        dense::add_product(scaled.as_mut(), 1.0, rigid.as_ref(), rigid.transpose());
+        dense::symmetrise(&mut scaled);
+        let (eigenvalues, _) = dense::symmetric_eigen(scaled.as_ref())?;
+        let (least, most) = (eigenvalues.first().copied().unwrap_or(1.0), eigenvalues.last().copied().unwrap_or(1.0));
+        if least <= n_b as f64 * f64::EPSILON * most {
+            let n_more = eigenvalues.iter().filter(|value| **value <= n_b as f64 * f64::EPSILON * most).count();
+            return Err(Error::Mechanism { n_rigid: u_b.ncols(), n_more });
+        }
+        let factor = scaled.llt(Side::Lower).map_err(|_| Error::Mechanism { n_rigid: u_b.ncols(), n_more: 1 })?;
+        Ok(Self { scale, rigid, factor })
+    }
+
+    fn solve(&self, loads: MatRef<'_, f64>) -> Mat<f64> {
+        let mut x = Mat::from_fn(loads.nrows(), loads.ncols(), |i, j| loads[(i, j)] * self.scale[i]);
+        let resultant = dense::gram(self.rigid.as_ref(), x.as_ref());
+        dense::add_product(x.as_mut(), -1.0, self.rigid.as_ref(), resultant.as_ref());
+        self.factor.solve_in_place(x.as_mut());
+        Mat::from_fn(x.nrows(), x.ncols(), |i, j| x[(i, j)] * self.scale[i])
+    }
+}
+
+impl ShiftInvert for FreeAtZero<'_> {
+    fn n(&self) -> usize {
+        self.stiffness.rows()
+    }
+
+    fn shift(&self) -> f64 {
+        0.0
+    }
+
+    fn solve_in_place(&self, mut block: MatMut<'_, f64>) {
+        let n_i = self.factor.n();
+        let n_b = block.nrows() - n_i;
+        self.factor.solve_in_place(block.as_mut().subrows_mut(0, n_i));
+        let mut loads = block.as_ref().subrows(n_i, n_b).to_owned();
+        for b in 0..n_b {
+            let Some(row) = self.stiffness.outer_view(n_i + b) else { continue };
+            for j in 0..block.ncols() {
+                let y = &dense::column(block.as_ref(), j)[..n_i];
+                let internal = row.iter().filter(|(col, _)| *col < n_i);
+                loads[(b, j)] -= internal.map(|(col, value)| value * y[col]).sum::<f64>();
+            }
+        }
+        let x_b = self.schur.solve(loads.as_ref());
+        dense::add_product(block.as_mut().subrows_mut(0, n_i), 1.0, self.constraint_modes, x_b.as_ref());
+        block.subrows_mut(n_i, n_b).copy_from(&x_b);
+    }
+}

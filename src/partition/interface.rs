@@ -1,0 +1,202 @@
+//! Which rows of the model belong to which interface node.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::region::contains;
+use crate::error::{Error, Result};
+use crate::input::{Direction, Dof};
+use crate::job::{Coupling, InterfaceJob, NodeSelection, Origin};
+use crate::model::Model;
+
+/// One node of the superelement's interface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InterfaceNode {
+    /// Name of the job's interface it came from.
+    pub name: String,
+    /// Label of the model's node; none for a rigid patch and for rows without a dof map.
+    pub label: Option<i64>,
+    /// Position, where coordinates are known.
+    pub position: Option<[f64; 3]>,
+    /// Its directions, in the order of the interface dofs; empty where the model has no dof map.
+    pub directions: Vec<Direction>,
+    /// How it couples to the model.
+    pub coupling: Coupling,
+}
+
+/// An interface node with the rows it owns.
+#[derive(Clone, Debug)]
+pub(super) struct Resolved {
+    pub(super) node: InterfaceNode,
+    pub(super) rows: Rows,
+}
+
+/// The rows of the model that an interface node stands for.
+#[derive(Clone, Debug)]
+pub(super) enum Rows {
+    /// The node's own rows, one for each interface dof.
+    Own(Vec<usize>),
+    /// All rows of a patch that moves with the node as a rigid body.
+    Patch(Vec<usize>),
+}
+
+/// All interfaces of a job, resolved.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Interfaces(pub(super) Vec<Resolved>);
+
+impl Interfaces {
+    pub(super) fn into_nodes(self) -> Vec<InterfaceNode> {
+        self.0.into_iter().map(|resolved| resolved.node).collect()
+    }
+}
+
+/// Finds the rows of every interface and checks that no row is asked for twice.
+pub(super) fn resolve(model: &Model, interfaces: &[InterfaceJob]) -> Result<Interfaces> {
+    let catalogue = Catalogue::new(model);
+    let mut resolved = Vec::new();
+    for job in interfaces {
+        match (&job.nodes, job.coupling) {
+            (NodeSelection::Rows { rows }, Coupling::Direct) => resolved.push(from_rows(model, job, rows)?),
+            (NodeSelection::Rows { .. }, Coupling::Rigid) => {
+                return Err(Error::RigidNeedsCoordinates { interface: job.name.clone() });
+            }
+            (_, Coupling::Direct) => {
+                for label in catalogue.select(model, job)? {
+                    resolved.push(catalogue.direct(job, label)?);
+                }
+            }
+            (_, Coupling::Rigid) => resolved.push(catalogue.patch(job, &catalogue.select(model, job)?)?),
+        }
+    }
+    refuse_shared_rows(model, &resolved)?;
+    Ok(Interfaces(resolved))
+}
+
+fn from_rows(model: &Model, job: &InterfaceJob, rows: &[usize]) -> Result<Resolved> {
+    let n = model.n_dofs();
+    if let Some(row) = rows.iter().find(|row| **row >= n) {
+        return Err(Error::InterfaceRow { interface: job.name.clone(), row: *row, n });
+    }
+    let node = InterfaceNode {
+        name: job.name.clone(),
+        label: None,
+        position: None,
+        directions: Vec::new(),
+        coupling: Coupling::Direct,
+    };
+    Ok(Resolved { node, rows: Rows::Own(rows.to_vec()) })
+}
+
+/// The rows and the position of each node of the model.
+struct Catalogue {
+    rows: HashMap<i64, BTreeMap<Direction, usize>>,
+    positions: HashMap<i64, [f64; 3]>,
+}
+
+impl Catalogue {
+    fn new(model: &Model) -> Self {
+        let mut rows: HashMap<i64, BTreeMap<Direction, usize>> = HashMap::new();
+        for (row, Dof { node, direction }) in model.dofs.iter().flatten().enumerate() {
+            rows.entry(*node).or_default().insert(*direction, row);
+        }
+        let positions = model.nodes.iter().flat_map(|nodes| nodes.labels.iter().copied().zip(nodes.coordinates.clone()));
+        Self { rows, positions: positions.collect() }
+    }
+
+    /// The labels a job's selection names, in its own order for a list and in table order otherwise.
+    fn select(&self, model: &Model, job: &InterfaceJob) -> Result<Vec<i64>> {
+        let interface = || job.name.clone();
+        let nodes = || model.nodes.as_ref().ok_or_else(|| Error::SelectionNeedsNodes { interface: interface() });
+        let labels: Vec<i64> = match &job.nodes {
+            NodeSelection::Labels(labels) => labels.clone(),
+            NodeSelection::Group(text) => {
+                let nodes = nodes()?;
+                let name = text.strip_prefix("group:").unwrap_or(text);
+                let members = nodes.groups.get(name).ok_or_else(|| Error::UnknownGroup {
+                    interface: interface(),
+                    group: name.to_owned(),
+                    known: nodes.groups.keys().cloned().collect(),
+                })?;
+                members.iter().map(|index| nodes.labels[*index]).collect()
+            }
+            NodeSelection::Region { within } => {
+                let nodes = nodes()?;
+                let all = nodes.labels.iter().zip(&nodes.coordinates);
+                all.filter(|(label, point)| contains(within, **point) && self.rows.contains_key(label))
+                    .map(|(label, _)| *label)
+                    .collect()
+            }
+            NodeSelection::Rows { .. } => Vec::new(),
+        };
+        if labels.is_empty() { Err(Error::EmptyInterface { interface: interface() }) } else { Ok(labels) }
+    }
+
+    fn rows_of(&self, job: &InterfaceJob, label: i64) -> Result<&BTreeMap<Direction, usize>> {
+        if self.rows.is_empty() {
+            return Err(Error::SelectionNeedsNodes { interface: job.name.clone() });
+        }
+        self.rows.get(&label).ok_or_else(|| Error::InterfaceNodeWithoutRows { interface: job.name.clone(), node: label })
+    }
+
+    fn direct(&self, job: &InterfaceJob, label: i64) -> Result<Resolved> {
+        let of_node = self.rows_of(job, label)?;
+        let directions = job.dofs.clone().unwrap_or_else(|| of_node.keys().copied().collect());
+        let rows = directions
+            .iter()
+            .map(|direction| {
+                of_node.get(direction).copied().ok_or_else(|| Error::DofMissing {
+                    interface: job.name.clone(),
+                    dof: Dof { node: label, direction: *direction },
+                })
+            })
+            .collect::<Result<_>>()?;
+        let node = InterfaceNode {
+            name: job.name.clone(),
+            label: Some(label),
+            position: self.positions.get(&label).copied(),
+            directions,
+            coupling: Coupling::Direct,
+        };
+        Ok(Resolved { node, rows: Rows::Own(rows) })
+    }
+
+    fn patch(&self, job: &InterfaceJob, labels: &[i64]) -> Result<Resolved> {
+        let mut rows = Vec::new();
+        let mut centroid = [0.0; 3];
+        for label in labels {
+            rows.extend(self.rows_of(job, *label)?.values());
+            let point = self
+                .positions
+                .get(label)
+                .ok_or_else(|| Error::RigidNeedsCoordinates { interface: job.name.clone() })?;
+            for axis in 0..3 {
+                centroid[axis] += point[axis] / labels.len() as f64;
+            }
+        }
+        let position = match job.origin {
+            Origin::Centroid => centroid,
+            Origin::Point(point) => point,
+        };
+        let node = InterfaceNode {
+            name: job.name.clone(),
+            label: None,
+            position: Some(position),
+            directions: job.dofs.clone().unwrap_or_else(|| Direction::ALL.to_vec()),
+            coupling: Coupling::Rigid,
+        };
+        Ok(Resolved { node, rows: Rows::Patch(rows) })
+    }
+}
+
+fn refuse_shared_rows(model: &Model, resolved: &[Resolved]) -> Result<()> {
+    let mut owner: HashMap<usize, &str> = HashMap::new();
+    for Resolved { node, rows } in resolved {
+        let (Rows::Own(rows) | Rows::Patch(rows)) = rows;
+        for row in rows {
+            if let Some(first) = owner.insert(*row, &node.name) {
+                let dof = model.dofs.as_ref().map_or_else(|| format!("row {row}"), |dofs| dofs[*row].to_string());
+                return Err(Error::DofTwice { dof, first: first.to_owned(), second: node.name.clone() });
+            }
+        }
+    }
+    Ok(())
+}

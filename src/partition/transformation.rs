@@ -1,0 +1,264 @@
+//! The transformation T between the rows of the model and the dofs of the partition.
+//!
+//! A row of an ordinary dof holds a single one. A row of a rigid patch holds the motion of its point by the six dofs of
+//! the interface node: u = t + θ × r for a translation, θ for a rotation.
+
+use super::interface::{InterfaceNode, Interfaces, Resolved, Rows};
+use crate::error::{Error, Result};
+use crate::input::Direction;
+use crate::model::{Model, node_of_row};
+
+/// Where a dof is and which way it points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Site {
+    /// Position of the node.
+    pub position: [f64; 3],
+    /// Direction at the node.
+    pub direction: Direction,
+}
+
+impl Site {
+    /// Displacement of this dof under the six unit rigid motions: translations, then rotations about axes through the origin.
+    pub fn rigid_motion(&self) -> [f64; 6] {
+        rigid_motion(self.direction, self.position)
+    }
+}
+
+/// Displacement in a direction at offset r from the centre, under unit translations and rotations.
+fn rigid_motion(direction: Direction, r: [f64; 3]) -> [f64; 6] {
+    let [x, y, z] = r;
+    match direction {
+        Direction::Ux => [1.0, 0.0, 0.0, 0.0, z, -y],
+        Direction::Uy => [0.0, 1.0, 0.0, -z, 0.0, x],
+        Direction::Uz => [0.0, 0.0, 1.0, y, -x, 0.0],
+        Direction::Rx => [0.0, 0.0, 0.0, 1.0, 0.0, 0.0],
+        Direction::Ry => [0.0, 0.0, 0.0, 0.0, 1.0, 0.0],
+        Direction::Rz => [0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+    }
+}
+
+/// A dof of the partition.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReducedDof {
+    /// What it is in the model.
+    pub origin: DofOrigin,
+    /// True for an interface dof.
+    pub is_interface: bool,
+    /// Position and direction, where known.
+    pub site: Option<Site>,
+    /// Number of the node it belongs to, shared by the dofs of one node.
+    pub node: u32,
+    /// Label of that node in the model, where it has one.
+    pub label: Option<i64>,
+}
+
+/// Where a dof of the partition comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DofOrigin {
+    /// A row of the model.
+    Row(usize),
+    /// A direction of a rigid interface node (its index in the job's order).
+    RigidNode(usize, Direction),
+}
+
+impl ReducedDof {
+    /// What the dof is called in messages.
+    pub(super) fn name(&self, interface: &[InterfaceNode]) -> String {
+        match (self.origin, self.site, self.label) {
+            (DofOrigin::RigidNode(node, direction), ..) => format!("interface {} {direction}", interface[node].name),
+            (DofOrigin::Row(_), Some(site), Some(label)) => format!("node {label} {}", site.direction),
+            (DofOrigin::Row(row), ..) => format!("row {}", row + 1),
+        }
+    }
+}
+
+/// T by rows: for each row of the model the dofs that move it, with their factors.
+#[derive(Clone, Debug)]
+pub struct Transformation {
+    /// The dofs of the partition, its columns.
+    pub dofs: Vec<ReducedDof>,
+    /// The entries of each row.
+    pub rows: Vec<TransformationRow>,
+}
+
+/// One row of T.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TransformationRow {
+    /// The row is a dof of the partition itself.
+    Dof(u32),
+    /// The row moves with a rigid interface node.
+    Rigid(Box<[(u32, f64)]>),
+}
+
+impl TransformationRow {
+    /// The entries of the row.
+    pub fn entries(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
+        let (single, several): (Option<(u32, f64)>, &[(u32, f64)]) = match self {
+            Self::Dof(dof) => (Some((*dof, 1.0)), &[]),
+            Self::Rigid(entries) => (None, entries),
+        };
+        single.into_iter().chain(several.iter().copied())
+    }
+}
+
+impl Transformation {
+    /// Lays out the dofs: internal ones in the model's order, then the interface in the job's order.
+    pub(super) fn new(model: &Model, interfaces: &Interfaces) -> Result<Self> {
+        let n = model.n_dofs();
+        let mut taken = vec![false; n];
+        for Resolved { rows: Rows::Own(rows) | Rows::Patch(rows), .. } in &interfaces.0 {
+            for row in rows {
+                taken[*row] = true;
+            }
+        }
+        let sites = Sites::new(model);
+        let mut builder = Builder { dofs: Vec::with_capacity(n), rows: vec![TransformationRow::Dof(u32::MAX); n], sites };
+        for row in (0..n).filter(|row| !taken[*row]) {
+            builder.own_row(row, false);
+        }
+        for interface_dofs in [false, true] {
+            for (index, resolved) in interfaces.0.iter().enumerate() {
+                match &resolved.rows {
+                    Rows::Own(rows) if interface_dofs => rows.iter().for_each(|row| builder.own_row(*row, true)),
+                    Rows::Own(_) => {}
+                    Rows::Patch(rows) => builder.rigid_node(index, resolved, rows, interface_dofs),
+                }
+            }
+        }
+        for (index, resolved) in interfaces.0.iter().enumerate() {
+            if let Rows::Patch(rows) = &resolved.rows {
+                builder.attach_patch(index, resolved, rows)?;
+            }
+        }
+        Ok(Self { dofs: builder.dofs, rows: builder.rows })
+    }
+
+    /// Number of internal dofs, which come first.
+    pub fn n_internal(&self) -> usize {
+        self.dofs.iter().take_while(|dof| !dof.is_interface).count()
+    }
+
+    /// The same transformation with dof `order[k]` moved to place k.
+    pub(super) fn permuted(self, order: &[u32]) -> Self {
+        let mut place = vec![0u32; order.len()];
+        for (new, old) in order.iter().enumerate() {
+            place[*old as usize] = new as u32;
+        }
+        let dofs = order.iter().map(|old| self.dofs[*old as usize]).collect();
+        let mut rows = self.rows;
+        for row in &mut rows {
+            match row {
+                TransformationRow::Dof(dof) => *dof = place[*dof as usize],
+                TransformationRow::Rigid(entries) => {
+                    entries.iter_mut().for_each(|(dof, _)| *dof = place[*dof as usize]);
+                }
+            }
+        }
+        Self { dofs, rows }
+    }
+}
+
+/// Positions of the rows of the model.
+struct Sites {
+    of_row: Option<Vec<Site>>,
+    node_of_row: Vec<u32>,
+    label_of_row: Option<Vec<i64>>,
+    n_nodes: u32,
+}
+
+impl Sites {
+    fn new(model: &Model) -> Self {
+        let of_row = model.dofs.as_ref().zip(model.nodes.as_ref()).and_then(|(dofs, nodes)| {
+            let positions: std::collections::HashMap<i64, [f64; 3]> =
+                nodes.labels.iter().copied().zip(nodes.coordinates.iter().copied()).collect();
+            let site = |dof: &crate::input::Dof| {
+                positions.get(&dof.node).map(|position| Site { position: *position, direction: dof.direction })
+            };
+            dofs.iter().map(site).collect()
+        });
+        let node_of_row = node_of_row(model.n_dofs(), model.dofs.as_deref());
+        let n_nodes = node_of_row.iter().max().map_or(0, |max| max + 1);
+        let label_of_row = model.dofs.as_ref().map(|dofs| dofs.iter().map(|dof| dof.node).collect());
+        Self { of_row, node_of_row, label_of_row, n_nodes }
+    }
+}
+
+struct Builder {
+    dofs: Vec<ReducedDof>,
+    rows: Vec<TransformationRow>,
+    sites: Sites,
+}
+
+impl Builder {
+    fn own_row(&mut self, row: usize, is_interface: bool) {
+        self.rows[row] = TransformationRow::Dof(self.dofs.len() as u32);
+        self.dofs.push(ReducedDof {
+            origin: DofOrigin::Row(row),
+            is_interface,
+            site: self.sites.of_row.as_ref().map(|sites| sites[row]),
+            node: self.sites.node_of_row[row],
+            label: self.sites.label_of_row.as_ref().map(|labels| labels[row]),
+        });
+    }
+
+    /// Adds those directions of a rigid node that are (or are not) interface dofs and that its patch can move in.
+    fn rigid_node(&mut self, index: usize, resolved: &Resolved, rows: &[usize], interface_dofs: bool) {
+        let position = resolved.node.position.unwrap_or_default();
+        let listed = &resolved.node.directions;
+        let directions: Vec<Direction> = if interface_dofs {
+            listed.clone()
+        } else {
+            let rest = Direction::ALL.into_iter().filter(|direction| !listed.contains(direction));
+            rest.filter(|direction| self.moves(position, rows, *direction)).collect()
+        };
+        for direction in directions {
+            self.dofs.push(ReducedDof {
+                origin: DofOrigin::RigidNode(index, direction),
+                is_interface: interface_dofs,
+                site: Some(Site { position, direction }),
+                node: self.sites.n_nodes + index as u32,
+                label: None,
+            });
+        }
+    }
+
+    fn moves(&self, position: [f64; 3], rows: &[usize], direction: Direction) -> bool {
+        rows.iter().any(|row| self.lever(*row, position)[direction as usize] != 0.0)
+    }
+
+    /// The factors of the six dofs of a node at `position` in the motion of a row.
+    fn lever(&self, row: usize, position: [f64; 3]) -> [f64; 6] {
+        let Some(sites) = &self.sites.of_row else { return [0.0; 6] };
+        let Site { position: point, direction } = sites[row];
+        rigid_motion(direction, [point[0] - position[0], point[1] - position[1], point[2] - position[2]])
+    }
+
+    fn attach_patch(&mut self, index: usize, resolved: &Resolved, rows: &[usize]) -> Result<()> {
+        let position = resolved.node.position.unwrap_or_default();
+        let mut column_of = [None; 6];
+        for (column, dof) in self.dofs.iter().enumerate() {
+            if let DofOrigin::RigidNode(node, direction) = dof.origin
+                && node == index
+            {
+                column_of[direction as usize] = Some(column as u32);
+            }
+        }
+        let levers: Vec<[f64; 6]> = rows.iter().map(|row| self.lever(*row, position)).collect();
+        let rank = crate::dense::rank_of_rows(&levers, PATCH_RANK_TOLERANCE);
+        let n_columns = column_of.iter().flatten().count();
+        if rank < n_columns {
+            let interface = resolved.node.name.clone();
+            return Err(Error::PatchRank { interface, n_rows: rows.len(), rank, expected: n_columns });
+        }
+        for (row, lever) in rows.iter().zip(&levers) {
+            let entries = lever.iter().zip(column_of).filter(|(factor, _)| **factor != 0.0);
+            let entries = entries.filter_map(|(factor, column)| column.map(|column| (column, *factor)));
+            self.rows[*row] = TransformationRow::Rigid(entries.collect());
+        }
+        Ok(())
+    }
+}
+
+/// Smallest singular value of a patch's levers, relative to the largest and with rotations scaled to the patch's size,
+/// below which the patch cannot move in six independent ways: far above rounding, far below any real patch.
+const PATCH_RANK_TOLERANCE: f64 = 1e-8;

@@ -1,0 +1,146 @@
+//! Projection: the reduced matrices K̂ = ΨᵀKΨ (29) and M̂ = ΨᵀMΨ (31).
+//!
+//! ```text
+//! r = n_B + n_η
+//! K̂, M̂   r × r      interface coordinates first
+//! Û       r × n_r    the rigid-body modes in reduced coordinates: [U_B; 0], because Ψ_S U_B = U_I
+//! M_F     n_r × n_r  UᵀMU of the full model
+//! ```
+//! K̂ is formed as ΨᵀKΨ, whose error is of second order in that of Ψ; its blocks between interface and dynamic
+//! coordinates vanish by (29) and are set to zero after being measured.
+
+use faer::{Mat, MatRef};
+
+use crate::basis::Basis;
+use crate::dense;
+use crate::partition::Partition;
+use crate::rigid::{RigidBodyModes, multiply};
+use crate::sparse::SparseMatrix;
+
+/// The reduced matrices, in scaled units.
+#[derive(Clone, Debug)]
+pub struct Reduction {
+    /// K̂.
+    pub stiffness: Mat<f64>,
+    /// M̂.
+    pub mass: Mat<f64>,
+    /// Û.
+    pub rigid_body_modes: Mat<f64>,
+    /// M_F.
+    pub rigid_body_mass: Mat<f64>,
+    /// ΨᵀM of the three unit translations, r × 3, where the directions are known and the component is free.
+    pub gravity: Option<Mat<f64>>,
+    /// What projecting measured.
+    pub measured: Projection,
+}
+
+/// What was measured before it was mended.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Projection {
+    /// max |K̂_Bη| / √(K̂_BB K̂_ηη) over all entries (M-13).
+    pub block_coupling: f64,
+    /// The entry it is reached at.
+    pub block_coupling_at: (usize, usize),
+    /// max |K̂ − K̂ᵀ| / max |K̂|.
+    pub stiffness_asymmetry: f64,
+    /// max |M̂ − M̂ᵀ| / max |M̂|.
+    pub mass_asymmetry: f64,
+}
+
+/// Columns of Ψ that are multiplied by K and M at a time: the memory beside Ψ is three such panels.
+const PANEL: usize = 32;
+
+impl Reduction {
+    /// Projects the partition's matrices on the basis.
+    pub fn new(partition: &Partition, basis: &Basis, rigid: &RigidBodyModes) -> Self {
+        let (mut stiffness, mut mass) =
+            rayon::join(|| project(&partition.stiffness, basis), || project(&partition.mass, basis));
+        let n_b = partition.n_interface();
+        let mut measured = Projection {
+            stiffness_asymmetry: dense::symmetrise(&mut stiffness),
+            mass_asymmetry: dense::symmetrise(&mut mass),
+            ..Projection::default()
+        };
+        (measured.block_coupling, measured.block_coupling_at) = uncouple(&mut stiffness, n_b);
+        let r = basis.n_reduced();
+        let u_b = rigid.modes.as_ref().subrows(partition.n_internal, n_b);
+        let rigid_body_modes = Mat::from_fn(r, rigid.count(), |i, j| if i < n_b { u_b[(i, j)] } else { 0.0 });
+        let gravity = rigid.is_classical.then(|| {
+            let momenta = multiply(&partition.mass, rigid.modes.as_ref().subcols(0, 3));
+            transpose_apply(basis, momenta.as_ref())
+        });
+        Self {
+            stiffness,
+            mass,
+            rigid_body_modes,
+            rigid_body_mass: rigid.rigid_body_mass(&partition.mass),
+            gravity,
+            measured,
+        }
+    }
+
+    /// r.
+    pub fn n_reduced(&self) -> usize {
+        self.stiffness.nrows()
+    }
+}
+
+/// ΨᵀAΨ, panel by panel.
+fn project(matrix: &SparseMatrix, basis: &Basis) -> Mat<f64> {
+    let r = basis.n_reduced();
+    let mut projected = Mat::zeros(r, r);
+    for start in (0..r).step_by(PANEL) {
+        let width = PANEL.min(r - start);
+        let image = multiply(matrix, panel_of(basis, start, width).as_ref());
+        projected.as_mut().subcols_mut(start, width).copy_from(transpose_apply(basis, image.as_ref()));
+    }
+    projected
+}
+
+/// Columns start .. start + width of Ψ, n' × width.
+fn panel_of(basis: &Basis, start: usize, width: usize) -> Mat<f64> {
+    let (n_i, n_b) = (basis.constraint_modes.nrows(), basis.constraint_modes.ncols());
+    let mut panel = Mat::zeros(n_i + n_b, width);
+    for j in 0..width {
+        let column = dense::column_mut(panel.as_mut(), j);
+        let source = if start + j < n_b {
+            column[n_i + start + j] = 1.0;
+            dense::column(basis.constraint_modes.as_ref(), start + j)
+        } else {
+            dense::column(basis.dynamic_modes.as_ref(), start + j - n_b)
+        };
+        column[..n_i].copy_from_slice(source);
+    }
+    panel
+}
+
+/// Ψᵀ F, r × k.
+fn transpose_apply(basis: &Basis, forces: MatRef<'_, f64>) -> Mat<f64> {
+    let (n_i, n_b) = (basis.constraint_modes.nrows(), basis.constraint_modes.ncols());
+    let (internal, interface) = (forces.subrows(0, n_i), forces.subrows(n_i, n_b));
+    let mut reduced = Mat::zeros(basis.n_reduced(), forces.ncols());
+    let mut top = reduced.as_mut().subrows_mut(0, n_b);
+    top.copy_from(dense::gram(basis.constraint_modes.as_ref(), internal));
+    top += interface;
+    reduced
+        .as_mut()
+        .subrows_mut(n_b, basis.n_dynamic())
+        .copy_from(dense::gram(basis.dynamic_modes.as_ref(), internal));
+    reduced
+}
+
+/// Sets K̂_Bη to zero and says how large it was, relative to the diagonal.
+fn uncouple(stiffness: &mut Mat<f64>, n_b: usize) -> (f64, (usize, usize)) {
+    let mut worst = (0.0, (0, 0));
+    for j in n_b..stiffness.ncols() {
+        for i in 0..n_b {
+            let size = (stiffness[(i, i)] * stiffness[(j, j)]).abs().sqrt();
+            if size > 0.0 && stiffness[(i, j)].abs() / size > worst.0 {
+                worst = (stiffness[(i, j)].abs() / size, (i, j));
+            }
+            stiffness[(i, j)] = 0.0;
+            stiffness[(j, i)] = 0.0;
+        }
+    }
+    worst
+}

@@ -1,0 +1,229 @@
+//! Rigid-body modes from coordinates, body by body, verified against K.
+
+use faer::{Mat, MatRef};
+
+use super::{RigidBodyModes, RigidEnergy, RigidSource, absolute_energy, multiply};
+use crate::dense;
+use crate::error::{Error, Result};
+use crate::model::Bodies;
+use crate::partition::{Partition, Site};
+
+/// Singular values of a body's six unit motions, relative to the largest, below which the motion moves no dof (rotation
+/// of a straight row of translations about its own axis): a thousand times rounding, far below any real thickness.
+const NO_DISPLACEMENT: f64 = 1e-11;
+/// Modal masses relative to the largest below which a rigid motion has no inertia.
+const NO_MASS: f64 = 1e-12;
+/// A motion is free when its energy stays below this many times the noise of the data. The noise bound adds all
+/// roundings with one sign; measured energies of exact rigid motions stay below it, so ten is generous.
+const FREE_BELOW_NOISE: f64 = 10.0;
+/// Energy of a rotation relative to |u|ᵀ|K||u| that coordinates rounded to six or seven digits can make: (10⁻⁶)².
+const ROUNDED_COORDINATES: f64 = 1e-12;
+
+/// The zero-energy rigid motions of every body.
+pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<RigidBodyModes> {
+    let node_of_dof: Vec<u32> = partition.dofs.iter().map(|dof| dof.node).collect();
+    let bodies = Bodies::of(&partition.stiffness, &dense_numbers(&node_of_dof));
+    let mut found = Vec::new();
+    for body in 0..bodies.n_bodies as u32 {
+        let dofs: Vec<usize> = (0..sites.len()).filter(|dof| bodies.of_row[*dof] == body).collect();
+        found.push(of_body(partition, sites, &dofs)?);
+    }
+    let is_classical = matches!(found.as_slice(), [body] if body.is_classical);
+    let energy = found.iter().fold(RigidEnergy::default(), |worst, body| RigidEnergy {
+        largest_quotient: worst.largest_quotient.max(body.energy.largest_quotient),
+        largest_residual: worst.largest_residual.max(body.energy.largest_residual),
+        noise: worst.noise.max(body.energy.noise),
+    });
+    let n = sites.len();
+    let join = |part: fn(&Body) -> MatRef<'_, f64>| concatenate(n, found.iter().map(part));
+    let orthonormal = join(|body| body.orthonormal.as_ref());
+    Ok(RigidBodyModes {
+        modes: join(|body| body.modes.as_ref()),
+        mass_orthonormal: multiply(&partition.mass, orthonormal.as_ref()),
+        orthonormal,
+        source: RigidSource::Geometric,
+        is_classical,
+        energy,
+    })
+}
+
+/// Numbers of nodes without gaps.
+fn dense_numbers(nodes: &[u32]) -> Vec<u32> {
+    let mut sorted = nodes.to_vec();
+    sorted.sort_unstable();
+    sorted.dedup();
+    nodes.iter().map(|node| sorted.binary_search(node).unwrap_or_default() as u32).collect()
+}
+
+fn concatenate<'a>(n: usize, parts: impl Iterator<Item = MatRef<'a, f64>>) -> Mat<f64> {
+    let parts: Vec<_> = parts.collect();
+    let mut whole = Mat::zeros(n, parts.iter().map(|part| part.ncols()).sum());
+    let mut at = 0;
+    for part in parts {
+        whole.as_mut().subcols_mut(at, part.ncols()).copy_from(part);
+        at += part.ncols();
+    }
+    whole
+}
+
+struct Body {
+    modes: Mat<f64>,
+    orthonormal: Mat<f64>,
+    is_classical: bool,
+    energy: RigidEnergy,
+}
+
+fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body> {
+    let n = sites.len();
+    let frame = Frame::of(sites, dofs);
+    // Unit motions about the body's own centre, rotations scaled to its size: columns of like length.
+    let mut centred = Mat::zeros(n, 6);
+    for dof in dofs {
+        let Site { position, direction } = sites[*dof];
+        let offset = [0, 1, 2].map(|axis| position[axis] - frame.centre[axis]);
+        let motion = Site { position: offset, direction }.rigid_motion();
+        for (j, value) in motion.iter().enumerate() {
+            centred[(*dof, j)] = if j < 3 { *value } else { value / frame.size };
+        }
+    }
+    let moving = moving_directions(centred.as_ref())?;
+    let orthonormal = mass_orthonormal(partition, dense::product(centred.as_ref(), moving.as_ref()).as_ref())?;
+    let (energies, directions) = energies(partition, orthonormal.as_ref())?;
+    let noise = noise(partition, orthonormal.as_ref());
+    if let Some(energy) = energies.first().filter(|energy| **energy < -FREE_BELOW_NOISE * noise) {
+        return Err(Error::NegativeRigidEnergy { energy: *energy, noise });
+    }
+    let n_free = energies.iter().filter(|energy| **energy <= FREE_BELOW_NOISE * noise).count();
+    let only_rounded = n_free < energies.len() && only_rounded_coordinates(partition, centred.as_ref(), dofs)?;
+    let n_free = if only_rounded { energies.len() } else { n_free };
+    let orthonormal = dense::product(orthonormal.as_ref(), directions.as_ref().subcols(0, n_free));
+    let is_classical = n_free == 6;
+    let modes = if is_classical { unit_motions(sites, dofs) } else { orthonormal.clone() };
+    let energy = RigidEnergy {
+        largest_quotient: energies[..n_free].iter().fold(0.0, |max: f64, energy| max.max(energy.abs())),
+        largest_residual: largest_residual(partition, orthonormal.as_ref()),
+        noise,
+    };
+    Ok(Body { modes, orthonormal, is_classical, energy })
+}
+
+struct Frame {
+    centre: [f64; 3],
+    size: f64,
+}
+
+impl Frame {
+    fn of(sites: &[Site], dofs: &[usize]) -> Self {
+        let count = dofs.len().max(1) as f64;
+        let mut centre = [0.0; 3];
+        for dof in dofs {
+            for (sum, value) in centre.iter_mut().zip(sites[*dof].position) {
+                *sum += value / count;
+            }
+        }
+        let distance = |dof: &usize| {
+            let position = sites[*dof].position;
+            (0..3).map(|axis| (position[axis] - centre[axis]).powi(2)).sum::<f64>().sqrt()
+        };
+        let size = dofs.iter().map(distance).fold(0.0, f64::max);
+        // A body of one node has no size; any length serves to compare its rotations.
+        Self { centre, size: if size > 0.0 { size } else { 1.0 } }
+    }
+}
+
+/// Combinations of the six unit motions that move at least one dof, 6 × (≤ 6), scaled to unit displacement.
+fn moving_directions(centred: MatRef<'_, f64>) -> Result<Mat<f64>> {
+    let tall = if centred.nrows() >= 6 { centred.to_owned() } else { padded(centred) };
+    let (singular, v) = dense::right_singular(tall.as_ref())?;
+    let largest = singular.first().copied().unwrap_or(0.0);
+    let kept = singular.iter().filter(|value| **value > NO_DISPLACEMENT * largest).count();
+    if kept == 6 {
+        // All six move: keep them as they are, so that the exact zeros of translations stay exact.
+        return Ok(Mat::identity(6, 6));
+    }
+    Ok(Mat::from_fn(6, kept, |i, j| v[(i, j)] / singular[j]))
+}
+
+fn padded(matrix: MatRef<'_, f64>) -> Mat<f64> {
+    Mat::from_fn(6, matrix.ncols(), |i, j| if i < matrix.nrows() { matrix[(i, j)] } else { 0.0 })
+}
+
+/// The same space with QᵀMQ = I.
+fn mass_orthonormal(partition: &Partition, motions: MatRef<'_, f64>) -> Result<Mat<f64>> {
+    let mut q = motions.to_owned();
+    // The second pass removes what rounding of the first left: a body far from round has unlike modal masses.
+    for _ in 0..2 {
+        let mut modal_mass = dense::gram(q.as_ref(), multiply(&partition.mass, q.as_ref()).as_ref());
+        dense::symmetrise(&mut modal_mass);
+        let (masses, directions) = dense::symmetric_eigen(modal_mass.as_ref())?;
+        let largest = masses.last().copied().unwrap_or(0.0);
+        if let Some(mass) = masses.iter().find(|mass| !(**mass > NO_MASS * largest)) {
+            return Err(Error::MasslessRigidMotion { relative_mass: mass / largest });
+        }
+        let scaled = Mat::from_fn(masses.len(), masses.len(), |i, j| directions[(i, j)] / masses[j].sqrt());
+        q = dense::product(q.as_ref(), scaled.as_ref());
+    }
+    Ok(q)
+}
+
+/// Energies qᵀKq in ascending order of size and the combinations that have them.
+fn energies(partition: &Partition, q: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>)> {
+    let mut energy = dense::gram(q, multiply(&partition.stiffness, q).as_ref());
+    dense::symmetrise(&mut energy);
+    dense::symmetric_eigen(energy.as_ref())
+}
+
+fn noise(partition: &Partition, q: MatRef<'_, f64>) -> f64 {
+    let largest = absolute_energy(&partition.stiffness, q).into_iter().fold(0.0, f64::max);
+    (partition.precision.stiffness + f64::EPSILON) * largest
+}
+
+fn largest_residual(partition: &Partition, q: MatRef<'_, f64>) -> f64 {
+    let forces = multiply(&partition.stiffness, q);
+    let magnitudes = absolute_energy(&partition.stiffness, q);
+    // ‖|K||q|‖ ≥ |q|ᵀ|K||q| / ‖q‖ by Cauchy and Schwarz, which makes the quotient below an upper bound.
+    (0..q.ncols()).fold(0.0, |worst: f64, j| {
+        let ratio = dense::norm(dense::column(forces.as_ref(), j)) * dense::norm(dense::column(q, j)) / magnitudes[j];
+        worst.max(ratio)
+    })
+}
+
+/// Tells a component that is held (false) from one whose coordinates are rounded (true).
+///
+/// Translations do not depend on coordinates. Where they are free and a rotation is not, the coordinates are wrong, or
+/// merely rounded if its energy is small enough for that.
+fn only_rounded_coordinates(partition: &Partition, centred: MatRef<'_, f64>, dofs: &[usize]) -> Result<bool> {
+    let forces = multiply(&partition.stiffness, centred);
+    let magnitudes = absolute_energy(&partition.stiffness, centred);
+    let relative = |j: usize| {
+        let energy = dense::dot(dense::column(centred, j), dense::column(forces.as_ref(), j));
+        if magnitudes[j] > 0.0 { energy.abs() / magnitudes[j] } else { 0.0 }
+    };
+    let data = FREE_BELOW_NOISE * (partition.precision.stiffness + f64::EPSILON);
+    if (0..3).any(|j| relative(j) > data) {
+        return Ok(false);
+    }
+    let (worst, energy) = (3..6).map(|j| (j, relative(j))).fold((3, 0.0), |a, b| if b.1 > a.1 { b } else { a });
+    if energy <= ROUNDED_COORDINATES {
+        return Ok(true);
+    }
+    let force = dense::column(forces.as_ref(), worst);
+    let at = dofs.iter().copied().max_by(|a, b| force[*a].abs().total_cmp(&force[*b].abs())).unwrap_or_default();
+    Err(Error::CoordinatesDoNotFit {
+        rotation: ["x", "y", "z"][worst - 3],
+        energy,
+        expected: data.max(ROUNDED_COORDINATES),
+        dof: partition.name_of(at),
+    })
+}
+
+/// The six unit motions about the origin, restricted to the dofs of a body.
+fn unit_motions(sites: &[Site], dofs: &[usize]) -> Mat<f64> {
+    let mut modes = Mat::zeros(sites.len(), 6);
+    for dof in dofs {
+        for (j, value) in sites[*dof].rigid_motion().iter().enumerate() {
+            modes[(*dof, j)] = *value;
+        }
+    }
+    modes
+}

@@ -1,0 +1,100 @@
+//! Whether the interface can react every rigid-body motion.
+//!
+//! K_II is singular exactly when some motion without energy leaves the interface at rest, that is when
+//! rank(U_B) < n_r. This is seen on an n_B × n_r matrix before anything is factored, and the motion can be named.
+
+use faer::Mat;
+
+use super::RigidBodyModes;
+use crate::dense;
+use crate::error::{Error, Result};
+use crate::partition::{Partition, Site};
+
+/// Below this ratio of singular values the interface does not react a motion.
+const RANK_TOLERANCE: f64 = 1e-10;
+/// Below this ratio the interface reacts it badly: digits are lost in K_II, and the report warns.
+pub const ILL_CONDITIONED: f64 = 1e-2;
+
+/// How well the interface reacts the rigid-body motions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InterfaceRank {
+    /// Smallest over largest singular value of U_B, rotations scaled to the size of the component; one without rigid modes.
+    pub singular_ratio: f64,
+}
+
+/// Checks rank(U_B) = n_r.
+///
+/// # Errors
+/// A rigid-body motion leaves the interface at rest; the message names it.
+pub fn interface_rank(partition: &Partition, rigid: &RigidBodyModes) -> Result<InterfaceRank> {
+    let (n_i, n_b, n_r) = (partition.n_internal, partition.n_interface(), rigid.count());
+    if n_r == 0 {
+        return Ok(InterfaceRank { singular_ratio: 1.0 });
+    }
+    let size = partition.sites().map_or(1.0, |sites| size_of(&sites));
+    let row_scale = |i: usize| match partition.dofs[n_i + i].site {
+        Some(site) if site.direction.is_rotation() => size,
+        _ => 1.0,
+    };
+    let u_b = Mat::from_fn(n_b.max(n_r), n_r, |i, j| {
+        if i < n_b { rigid.orthonormal[(n_i + i, j)] * row_scale(i) } else { 0.0 }
+    });
+    let (singular, v) = dense::right_singular(u_b.as_ref())?;
+    let largest = singular.first().copied().unwrap_or(0.0);
+    let rank = singular.iter().filter(|value| **value > RANK_TOLERANCE * largest).count();
+    if largest == 0.0 || rank < n_r {
+        let free = rigid.orthonormal.as_ref() * v.as_ref().subcols(n_r - 1, 1);
+        let motion = partition.sites().map_or_else(String::new, |sites| describe(&sites, dense::column(free.as_ref(), 0)));
+        return Err(Error::InterfaceRank { rank, n_rigid: n_r, motion });
+    }
+    Ok(InterfaceRank { singular_ratio: singular[n_r - 1] / largest })
+}
+
+fn size_of(sites: &[Site]) -> f64 {
+    let mut low = [f64::INFINITY; 3];
+    let mut high = [f64::NEG_INFINITY; 3];
+    for site in sites {
+        for axis in 0..3 {
+            low[axis] = low[axis].min(site.position[axis]);
+            high[axis] = high[axis].max(site.position[axis]);
+        }
+    }
+    let size = (0..3).map(|axis| (high[axis] - low[axis]).powi(2)).sum::<f64>().sqrt();
+    if size > 0.0 { size } else { 1.0 }
+}
+
+/// Puts a rigid motion into words: the axis it turns about, or the direction it moves in.
+fn describe(sites: &[Site], motion: &[f64]) -> String {
+    let Some([t, r]) = fit(sites, motion) else { return String::new() };
+    let (turning, moving) = (length(r), length(t));
+    let size = size_of(sites);
+    if turning * size <= 1e-6 * moving {
+        let [x, y, z] = t.map(|value| value / moving);
+        return format!("; free: translation along ({x:.3}, {y:.3}, {z:.3})");
+    }
+    let axis = r.map(|value| value / turning);
+    // The point of the axis nearest the origin: (θ × t) / θ².
+    let cross = [r[1] * t[2] - r[2] * t[1], r[2] * t[0] - r[0] * t[2], r[0] * t[1] - r[1] * t[0]];
+    let point = cross.map(|value| value / (turning * turning));
+    let show = |values: [f64; 3]| format!("({:.4}, {:.4}, {:.4})", values[0] + 0.0, values[1] + 0.0, values[2] + 0.0);
+    format!("; free: rotation about the axis through {} along {}", show(point), show(axis))
+}
+
+/// Translation and rotation about the origin that make up a rigid motion, by least squares.
+fn fit(sites: &[Site], motion: &[f64]) -> Option<[[f64; 3]; 2]> {
+    use faer::linalg::solvers::SolveLstsq;
+    // Only the part that moves takes part: a motion of one body of several is zero elsewhere.
+    let moving: Vec<usize> = (0..sites.len()).filter(|dof| motion[*dof] != 0.0).collect();
+    if moving.len() < 6 {
+        return None;
+    }
+    let a = Mat::from_fn(moving.len(), 6, |i, j| sites[moving[i]].rigid_motion()[j]);
+    let b = Mat::from_fn(moving.len(), 1, |i, _| motion[moving[i]]);
+    let x = a.qr().solve_lstsq(&b);
+    let part = |start: usize| [x[(start, 0)], x[(start + 1, 0)], x[(start + 2, 0)]];
+    Some([part(0), part(3)])
+}
+
+fn length(v: [f64; 3]) -> f64 {
+    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
+}

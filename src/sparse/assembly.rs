@@ -1,0 +1,258 @@
+//! From triplets to compressed rows.
+//!
+//! A counting sort by row, then each row by column where its entries do not come sorted already. Row ranges are
+//! independent and every row receives its entries in file order, so that sums of duplicates have the same bits whatever
+//! the number of threads.
+//!
+//! Shapes: m entries in, at most 2 m out, n rows.
+
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use super::{AssemblyNotes, Declared, SparseMatrix, Triplets};
+use crate::error::{Error, Result};
+
+impl Triplets {
+    /// Number of entries.
+    pub fn len(&self) -> usize {
+        self.values.len()
+    }
+
+    /// True without entries.
+    pub fn is_empty(&self) -> bool {
+        self.values.is_empty()
+    }
+
+    /// Appends one entry: row, column, value, zero-based.
+    pub fn push(&mut self, row: u32, col: u32, value: f64) {
+        self.rows.push(row);
+        self.cols.push(col);
+        self.values.push(value);
+    }
+
+    /// Appends the entries of another list after the own.
+    pub fn append(&mut self, other: &Self) {
+        self.rows.extend_from_slice(&other.rows);
+        self.cols.extend_from_slice(&other.cols);
+        self.values.extend_from_slice(&other.values);
+    }
+
+    /// Assembles the n × n matrix: mirrors the triangle of a symmetric source, adds duplicates in the order of the
+    /// file, sorts every row. A source declared general whose off-diagonal entries all lie on one side of the diagonal
+    /// is mirrored too, which the notes say. `path` names the source in errors.
+    ///
+    /// # Errors
+    /// [`Error::DoubleTriangle`] where a source declared symmetric has entries on both sides of the diagonal.
+    ///
+    /// # Panics
+    /// Where the three lists differ in length or an index is not below n; readers check indices where they can still
+    /// name the line.
+    pub fn assemble(self, n: usize, declared: Declared, path: &Path) -> Result<(SparseMatrix, AssemblyNotes)> {
+        let n_entries = self.len();
+        assert!(
+            self.rows.len() == n_entries && self.cols.len() == n_entries,
+            "{} rows, {} columns, {n_entries} values",
+            self.rows.len(),
+            self.cols.len()
+        );
+        let (lower, upper) = (
+            self.first_where(|row, col| row > col),
+            self.first_where(|row, col| row < col),
+        );
+        let mirror = match (declared, lower, upper) {
+            (Declared::Symmetric, Some(lower), Some(upper)) => {
+                return Err(Error::DoubleTriangle {
+                    path: path.to_owned(),
+                    lower,
+                    upper,
+                });
+            }
+            (_, None, None) | (Declared::General, Some(_), Some(_)) => Mirror::Off,
+            _ => Mirror::On,
+        };
+        let pointers = row_pointers(&self, n, mirror);
+        let (mut indices, mut data) = scatter(&self, &pointers, mirror);
+        drop(self);
+        let merged = sort_rows(&pointers, &mut indices, &mut data);
+        let n_duplicates = indices.len() - merged.iter().sum::<usize>();
+        let pointers = if n_duplicates == 0 {
+            pointers
+        } else {
+            compact(&pointers, &merged, &mut indices, &mut data)
+        };
+        let notes = AssemblyNotes {
+            n_duplicates,
+            mirrored: mirror == Mirror::On && declared == Declared::General,
+        };
+        let matrix = SparseMatrix::try_new((n, n), pointers, indices, data);
+        Ok((
+            matrix.unwrap_or_else(|(.., fault)| panic!("rows of {} are not sorted: {fault}", path.display())),
+            notes,
+        ))
+    }
+
+    /// Row and column, from 1, of the first entry on one side of the diagonal.
+    fn first_where(&self, side: impl Fn(u32, u32) -> bool) -> Option<(u64, u64)> {
+        let found = self.rows.iter().zip(&self.cols).find(|&(&row, &col)| side(row, col));
+        found.map(|(&row, &col)| (u64::from(row) + 1, u64::from(col) + 1))
+    }
+}
+
+/// Whether an off-diagonal entry stands for its transpose too.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Mirror {
+    On,
+    Off,
+}
+
+/// Where each row starts, n + 1 values, duplicates counted.
+fn row_pointers(triplets: &Triplets, n: usize, mirror: Mirror) -> Vec<usize> {
+    let mut pointers = vec![0_usize; n + 1];
+    for (&row, &col) in triplets.rows.iter().zip(&triplets.cols) {
+        let (row, col) = (row as usize, col as usize);
+        assert!(row < n && col < n, "entry ({row}, {col}) in a matrix of order {n}");
+        pointers[row + 1] += 1;
+        if mirror == Mirror::On && row != col {
+            pointers[col + 1] += 1;
+        }
+    }
+    let mut total = 0;
+    for pointer in &mut pointers {
+        total += *pointer;
+        *pointer = total;
+    }
+    pointers
+}
+
+/// Columns and values of all rows, each row in the order of the file.
+///
+/// Every range of rows is filled by one task that passes over all triplets: reading them once per task is cheaper than
+/// sharing the scattered writes.
+fn scatter(triplets: &Triplets, pointers: &[usize], mirror: Mirror) -> (Vec<u32>, Vec<f64>) {
+    let n_stored = pointers.last().copied().unwrap_or(0);
+    let mut indices = vec![0_u32; n_stored];
+    let mut data = vec![0.0; n_stored];
+    let ranges = balanced_ranges(pointers, rayon::current_num_threads());
+    let parts = split_by_rows(pointers, &ranges, &mut indices, &mut data);
+    parts.into_par_iter().for_each(|(rows, indices, data)| {
+        let offset = pointers[rows.start];
+        let mut next: Vec<usize> = pointers[rows.clone()].iter().map(|pointer| pointer - offset).collect();
+        let (first, n_rows) = (rows.start, rows.len());
+        let mut put = |row: u32, col: u32, value: f64| {
+            // A row before the range wraps to a huge number, so that one comparison decides.
+            let local = (row as usize).wrapping_sub(first);
+            if local < n_rows {
+                let at = next[local];
+                next[local] = at + 1;
+                indices[at] = col;
+                data[at] = value;
+            }
+        };
+        for ((&row, &col), &value) in triplets.rows.iter().zip(&triplets.cols).zip(&triplets.values) {
+            put(row, col, value);
+            if mirror == Mirror::On && row != col {
+                put(col, row, value);
+            }
+        }
+    });
+    (indices, data)
+}
+
+/// At most `n_parts` consecutive ranges of rows with about as many entries each.
+fn balanced_ranges(pointers: &[usize], n_parts: usize) -> Vec<std::ops::Range<usize>> {
+    let n_rows = pointers.len() - 1;
+    let n_stored = pointers[n_rows];
+    let mut ranges = Vec::new();
+    let mut start = 0;
+    for part in 1..=n_parts {
+        let target = (n_stored as u128 * part as u128 / n_parts as u128) as usize;
+        let end = if part == n_parts {
+            n_rows
+        } else {
+            pointers.partition_point(|&p| p < target).min(n_rows)
+        };
+        if end > start {
+            ranges.push(start..end);
+            start = end;
+        }
+    }
+    ranges
+}
+
+/// A range of rows with the parts of the column and value arrays that belong to it.
+type RowPart<'a> = (std::ops::Range<usize>, &'a mut [u32], &'a mut [f64]);
+
+fn split_by_rows<'a>(
+    pointers: &[usize],
+    ranges: &[std::ops::Range<usize>],
+    mut indices: &'a mut [u32],
+    mut data: &'a mut [f64],
+) -> Vec<RowPart<'a>> {
+    let mut parts = Vec::with_capacity(ranges.len());
+    for rows in ranges {
+        let length = pointers[rows.end] - pointers[rows.start];
+        let (index_part, index_rest) = indices.split_at_mut(length);
+        let (data_part, data_rest) = data.split_at_mut(length);
+        (indices, data) = (index_rest, data_rest);
+        parts.push((rows.clone(), index_part, data_part));
+    }
+    parts
+}
+
+/// Sorts every row by column and adds duplicates into the first of them; returns how many entries each row keeps, at
+/// its front.
+fn sort_rows(pointers: &[usize], indices: &mut [u32], data: &mut [f64]) -> Vec<usize> {
+    let ranges = balanced_ranges(pointers, 8 * rayon::current_num_threads());
+    let parts = split_by_rows(pointers, &ranges, indices, data);
+    let kept: Vec<Vec<usize>> = parts
+        .into_par_iter()
+        .map(|(rows, indices, data)| {
+            let offset = pointers[rows.start];
+            let mut scratch = Vec::new();
+            rows.map(|row| {
+                let entries = pointers[row] - offset..pointers[row + 1] - offset;
+                sort_row(&mut indices[entries.clone()], &mut data[entries], &mut scratch)
+            })
+            .collect()
+        })
+        .collect();
+    kept.concat()
+}
+
+fn sort_row(indices: &mut [u32], data: &mut [f64], scratch: &mut Vec<(u32, f64)>) -> usize {
+    if indices.is_sorted_by(|a, b| a < b) {
+        return indices.len();
+    }
+    scratch.clear();
+    scratch.extend(indices.iter().copied().zip(data.iter().copied()));
+    // Stable, so that duplicates stay in the order of the file.
+    scratch.sort_by_key(|&(col, _)| col);
+    let mut n_kept = 0;
+    for &(col, value) in &*scratch {
+        if n_kept > 0 && indices[n_kept - 1] == col {
+            data[n_kept - 1] += value;
+        } else {
+            indices[n_kept] = col;
+            data[n_kept] = value;
+            n_kept += 1;
+        }
+    }
+    n_kept
+}
+
+/// Closes the gaps that merged duplicates left and returns the new row pointers.
+fn compact(pointers: &[usize], kept: &[usize], indices: &mut Vec<u32>, data: &mut Vec<f64>) -> Vec<usize> {
+    let mut packed = Vec::with_capacity(pointers.len());
+    packed.push(0);
+    let mut end = 0;
+    for (&start, &n_kept) in pointers.iter().zip(kept) {
+        indices.copy_within(start..start + n_kept, end);
+        data.copy_within(start..start + n_kept, end);
+        end += n_kept;
+        packed.push(end);
+    }
+    indices.truncate(end);
+    data.truncate(end);
+    packed
+}
