@@ -47,9 +47,16 @@ fn search_path() -> std::ffi::OsString {
 }
 
 fn run(folder: &Path, program: &str, args: &[&str]) {
-    let ended = Command::new(program).args(args).current_dir(folder).env("PATH", search_path()).output();
+    let ended = Command::new(program)
+        .args(args)
+        .current_dir(folder)
+        .env("PATH", search_path())
+        .output();
     let ended = ended.unwrap_or_else(|error| panic!("{program}: {error}"));
-    let (out, err) = (String::from_utf8_lossy(&ended.stdout), String::from_utf8_lossy(&ended.stderr));
+    let (out, err) = (
+        String::from_utf8_lossy(&ended.stdout),
+        String::from_utf8_lossy(&ended.stderr),
+    );
     assert!(ended.status.success(), "{}\n{out}\n{err}", args.join(" "));
     assert!(!out.contains("False"), "{out}");
 }
@@ -70,7 +77,12 @@ fn every_command_of_the_readme_runs() {
             "python run" => println!("skipped: {python} has no numpy and safetensors; set SUPEL_PYTHON"),
             // The continuous integration script runs these.
             "sh" => assert!(content.starts_with("./setup.sh "), "not marked `run`: {content}"),
-            "toml" => drop(Job::parse(content, Path::new("job.toml")).expect("a job").validate().expect("valid")),
+            "toml" => drop(
+                Job::parse(content, Path::new("job.toml"))
+                    .expect("a job")
+                    .validate()
+                    .expect("valid"),
+            ),
             _ => panic!("a block of an unknown kind: {mark}"),
         }
         n_run += usize::from(mark.ends_with(" run"));
@@ -78,14 +90,24 @@ fn every_command_of_the_readme_runs() {
     assert_eq!(n_run, 6, "blocks that were run");
     let again = Job::read(&folder.path().join("again.json")).expect("the job kept in the file is a job");
     assert_eq!(again.write.superelement.file_name(), Some("small.supel".as_ref()));
-    for name in ["examples/bracket/bracket.supel", "examples/bracket/bracket.report.json", "bracket-cb.supel"] {
+    for name in [
+        "examples/bracket/bracket.supel",
+        "examples/bracket/bracket.report.json",
+        "bracket-cb.supel",
+    ] {
         assert!(folder.path().join(name).exists(), "{name} was not written");
     }
 }
 
 #[test]
 fn files_that_the_readme_names_exist() {
-    for name in ["schemas/job.schema.json", "schemas/report.schema.json", "LICENSE-MIT", "LICENSE-APACHE", "setup.sh"] {
+    for name in [
+        "schemas/job.schema.json",
+        "schemas/report.schema.json",
+        "LICENSE-MIT",
+        "LICENSE-APACHE",
+        "setup.sh",
+    ] {
         assert!(README.contains(name), "{name} is not named");
         assert!(root().join(name).exists(), "{name} does not exist");
     }

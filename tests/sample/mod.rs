@@ -24,7 +24,11 @@ pub fn full_report() -> Report {
         name: "error bar from the digits of the input",
         equation: "ε_in c_j",
         value: 3.2e-5,
-        limits: Limits { engineering: 1e-6, arithmetic: 1e-9, data: 2e-5 },
+        limits: Limits {
+            engineering: 1e-6,
+            arithmetic: 1e-9,
+            data: 2e-5,
+        },
         fail_above: 1e-3,
         worst: Some("mode 3 at 311.2 Hz".to_owned()),
     });
@@ -33,7 +37,11 @@ pub fn full_report() -> Report {
         name: "mass properties of the reduced model against those of the full one",
         equation: "|Û_Bᵀ M̂ Û_B − M_F| / |M_F|",
         value: 2.5e-2,
-        limits: Limits { engineering: 1e-10, arithmetic: 3e-9, data: 0.0 },
+        limits: Limits {
+            engineering: 1e-10,
+            arithmetic: 3e-9,
+            data: 0.0,
+        },
         fail_above: 1e-6,
         worst: None,
     });
@@ -52,7 +60,10 @@ pub fn full_report() -> Report {
 
 /// The same without anything to complain of.
 pub fn passing_report() -> Report {
-    Report { body: body(), run: run_facts() }
+    Report {
+        body: body(),
+        run: run_facts(),
+    }
 }
 
 fn body() -> ReportBody {
@@ -70,8 +81,18 @@ fn body() -> ReportBody {
             method: Method::Herting,
             eigensolver: Eigensolver::Lanczos,
             interfaces: vec![
-                InterfaceReport { name: "hub".to_owned(), coupling: Coupling::Rigid, n_nodes: 96, n_dofs: 6 },
-                InterfaceReport { name: "foot".to_owned(), coupling: Coupling::Direct, n_nodes: 1, n_dofs: 3 },
+                InterfaceReport {
+                    name: "hub".to_owned(),
+                    coupling: Coupling::Rigid,
+                    n_nodes: 96,
+                    n_dofs: 6,
+                },
+                InterfaceReport {
+                    name: "foot".to_owned(),
+                    coupling: Coupling::Direct,
+                    n_nodes: 1,
+                    n_dofs: 3,
+                },
             ],
             n_interface: 9,
             n_inertia_relief: 6,
@@ -85,17 +106,29 @@ fn body() -> ReportBody {
             name: "eigenpair backward error",
             equation: "|K x − λ M x| / ((|K| + λ |M|) |x|)",
             value: 3.1e-16,
-            limits: Limits { engineering: 1e-13, arithmetic: 4e-14, data: 0.0 },
+            limits: Limits {
+                engineering: 1e-13,
+                arithmetic: 4e-14,
+                data: 0.0,
+            },
             fail_above: 1e-10,
             worst: Some("mode 12".to_owned()),
         }],
         warnings: Vec::new(),
-        completeness: Completeness::SturmCount { below_hz: 16_200.25, n_counted: 56, n_found: 56 },
+        completeness: Completeness::SturmCount {
+            below_hz: 16_200.25,
+            n_counted: 56,
+            n_found: 56,
+        },
     }
 }
 
 fn model() -> ModelReport {
-    let matrix = |n_nonzeros, digit: &str| MatrixReport { n_nonzeros, digits: 12, digest: digit.repeat(64) };
+    let matrix = |n_nonzeros, digit: &str| MatrixReport {
+        n_nonzeros,
+        digits: 12,
+        digest: digit.repeat(64),
+    };
     ModelReport {
         n_dofs: 123_486,
         n_nodes: Some(41_162),
@@ -107,7 +140,10 @@ fn model() -> ModelReport {
             cg: Some([0.0, -1.5e-17, 41.2]),
             inertia: Some([[1.25, 0.0, -0.015], [0.0, 2.5, 0.0], [-0.015, 0.0, 3.1]]),
         },
-        rigid_body_modes: RigidBodyModes { count: 6, source: RigidBodySource::Geometric },
+        rigid_body_modes: RigidBodyModes {
+            count: 6,
+            source: RigidBodySource::Geometric,
+        },
         units: Some("mm-t-s".to_owned()),
         notes: vec![
             "stiffness: declared general but held one triangle; it was mirrored".to_owned(),
@@ -119,7 +155,12 @@ fn model() -> ModelReport {
 fn run_facts() -> RunFacts {
     let stage = |name, seconds| StageTime { name, seconds };
     RunFacts {
-        stages: vec![stage("read", 1.31), stage("factor", 4.2), stage("modes", 6.9), stage("write", 0.004)],
+        stages: vec![
+            stage("read", 1.31),
+            stage("factor", 4.2),
+            stage("modes", 6.9),
+            stage("write", 0.004),
+        ],
         peak_memory_bytes: Some(1_932_735_283),
         file_bytes: Some(81_920),
         n_threads: 2,
@@ -144,7 +185,8 @@ pub fn superelement() -> Superelement {
         position: [x, 0.0, 0.0],
     };
     let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let matrix = |rows, values: &[f64]| Matrix::from_row_major(rows, values.len() / rows, values.to_vec()).expect("size");
+    let matrix =
+        |rows, values: &[f64]| Matrix::from_row_major(rows, values.len() / rows, values.to_vec()).expect("size");
     let tensors = Tensors {
         stiffness: matrix(2, &[4.0, -4.0, -4.0, 4.0]),
         mass: matrix(2, &[1.0, 0.0, 0.0, 1.0]),
@@ -159,9 +201,15 @@ pub fn superelement() -> Superelement {
 }
 
 fn metadata(interface_nodes: Vec<InterfaceNode>) -> Metadata {
-    let coordinate = |node| Coordinate::Interface { node, direction: Direction::Ux };
+    let coordinate = |node| Coordinate::Interface {
+        node,
+        direction: Direction::Ux,
+    };
     Metadata {
-        generator: supel_runtime::Generator { name: "supel".to_owned(), version: "0.1.0".to_owned() },
+        generator: supel_runtime::Generator {
+            name: "supel".to_owned(),
+            version: "0.1.0".to_owned(),
+        },
         method: supel_runtime::Method::Herting,
         units: Some("kg-m-s".to_owned()),
         interface_nodes,
@@ -199,6 +247,15 @@ fn metadata(interface_nodes: Vec<InterfaceNode>) -> Metadata {
 pub fn pipeline(_job: &Job, observer: &mut dyn Observer) -> Result<Outcome> {
     observer.stage("read");
     observer.stage("factor");
-    let report = Report { run: RunFacts { work: run_facts().work, ..RunFacts::default() }, ..passing_report() };
-    Ok(Outcome { superelement: superelement(), report })
+    let report = Report {
+        run: RunFacts {
+            work: run_facts().work,
+            ..RunFacts::default()
+        },
+        ..passing_report()
+    };
+    Ok(Outcome {
+        superelement: superelement(),
+        report,
+    })
 }
