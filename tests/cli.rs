@@ -369,10 +369,17 @@ fn a_panic_is_reported_as_a_defect() {
 
 #[test]
 fn help_is_an_answer() {
-    let ended = supel(&["reduce", "--help"]);
-    assert_eq!(ended.code, ExitCode::Done);
-    insta::assert_snapshot!("help_reduce", ended.out);
+    assert_eq!(supel(&["reduce", "--help"]).code, ExitCode::Done);
     assert!(supel(&["--version"]).out.starts_with("supel "));
+    // As a program without a terminal: with one, the text would be broken at its width.
+    let mut program = std::process::Command::new(assert_cmd::cargo::cargo_bin!("supel"));
+    let ended = program
+        .args(["reduce", "--help"])
+        .stdin(std::process::Stdio::null())
+        .env_remove("COLUMNS")
+        .output();
+    let help = String::from_utf8(ended.expect("ended").stdout).expect("UTF-8");
+    insta::assert_snapshot!("help_reduce", help);
 }
 
 #[test]

@@ -77,12 +77,10 @@ fn every_command_of_the_readme_runs() {
             "python run" => println!("skipped: {python} has no numpy and safetensors; set SUPEL_PYTHON"),
             // The continuous integration script runs these.
             "sh" => assert!(content.starts_with("./setup.sh "), "not marked `run`: {content}"),
-            "toml" => drop(
-                Job::parse(content, Path::new("job.toml"))
-                    .expect("a job")
-                    .validate()
-                    .expect("valid"),
-            ),
+            "toml" => {
+                let job = Job::parse(content, Path::new("job.toml")).expect("a job");
+                job.validate().expect("valid");
+            }
             _ => panic!("a block of an unknown kind: {mark}"),
         }
         n_run += usize::from(mark.ends_with(" run"));

@@ -17,7 +17,7 @@ use supel_runtime::{
 };
 
 /// A report in which every optional field is present, with checks of all three verdicts and limits.
-pub fn full_report() -> Report {
+pub(crate) fn full_report() -> Report {
     let mut report = passing_report();
     report.body.checks.push(Check {
         id: "M-09",
@@ -59,7 +59,7 @@ pub fn full_report() -> Report {
 }
 
 /// The same without anything to complain of.
-pub fn passing_report() -> Report {
+pub(crate) fn passing_report() -> Report {
     Report {
         body: body(),
         run: run_facts(),
@@ -177,7 +177,7 @@ fn run_facts() -> RunFacts {
 }
 
 /// A superelement of two translations: k = 4, m = 1 each, free along x.
-pub fn superelement() -> Superelement {
+pub(crate) fn superelement() -> Superelement {
     let node = |name: &str, x: f64| InterfaceNode {
         name: name.to_owned(),
         label: Some(12),
@@ -244,7 +244,7 @@ fn metadata(interface_nodes: Vec<InterfaceNode>) -> Metadata {
 
 /// A pipeline that answers every job with the same component.
 #[allow(dead_code, clippy::unnecessary_wraps)]
-pub fn pipeline(_job: &Job, observer: &mut dyn Observer) -> Result<Outcome> {
+pub(crate) fn pipeline(_job: &Job, observer: &mut dyn Observer) -> Result<Outcome> {
     observer.stage("read");
     observer.stage("factor");
     let report = Report {
