@@ -13,7 +13,7 @@ use crate::job::{
 /// One command, ready to run.
 #[derive(Debug)]
 pub(super) enum Command {
-    Reduce(ReduceCommand),
+    Reduce(Box<ReduceCommand>),
     Inspect(InspectCommand),
 }
 
@@ -68,7 +68,7 @@ pub(super) enum Strictness {
 impl Command {
     pub(super) fn build(line: CommandLine) -> Result<Self> {
         match line.command {
-            Typed::Reduce(flags) => build_reduce(*flags).map(Self::Reduce),
+            Typed::Reduce(flags) => build_reduce(*flags).map(|command| Self::Reduce(Box::new(command))),
             Typed::Inspect(InspectFlags { file, json, job }) => {
                 let answer = match (json, job) {
                     (_, true) => InspectAnswer::Job,

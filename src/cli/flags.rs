@@ -121,6 +121,8 @@ pub(super) struct RunFlags {
 }
 
 #[derive(Debug, Args)]
+// One field for each switch that can be typed.
+#[expect(clippy::struct_excessive_bools)]
 pub(super) struct InspectFlags {
     /// Superelement file
     pub(super) file: PathBuf,

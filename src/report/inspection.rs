@@ -156,7 +156,7 @@ fn checks(page: &mut Page, superelement: &Superelement) {
     let row = |check: &CheckSummary| {
         let value = check
             .value
-            .map_or_else(|| "not a number".to_owned(), |value| table::scientific(value, 2));
+            .map_or_else(|| "NaN".to_owned(), |value| table::scientific(value, 2));
         [
             check.id.clone(),
             value,

@@ -244,14 +244,16 @@ impl Completeness {
                 n_counted,
                 n_found,
             } if n_counted == n_found => format!(
-                "the modes are complete: a Sturm count finds {n_counted} below {below_hz:.6} Hz and all were found"
+                "the modes are complete: a Sturm count finds {n_counted} below {} Hz and all were found",
+                table::quantity(*below_hz, 9)
             ),
             Self::SturmCount {
                 below_hz,
                 n_counted,
                 n_found,
             } => format!(
-                "the modes are incomplete: a Sturm count finds {n_counted} below {below_hz:.6} Hz, found were {n_found}"
+                "the modes are incomplete: a Sturm count finds {n_counted} below {} Hz, found were {n_found}",
+                table::quantity(*below_hz, 9)
             ),
         }
     }

@@ -59,7 +59,7 @@ pub(crate) fn count(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (position, digit) in digits.chars().enumerate() {
-        if position > 0 && (digits.len() - position) % 3 == 0 {
+        if position > 0 && (digits.len() - position).is_multiple_of(3) {
             text.push(',');
         }
         text.push(digit);
@@ -93,7 +93,7 @@ pub(crate) fn quantity(value: f64, digits: usize) -> String {
 /// `1.2e-09` with the exponent's sign and two digits, so that columns align.
 pub(crate) fn scientific(value: f64, digits: usize) -> String {
     if value.is_nan() {
-        return "not a number".to_owned();
+        return "NaN".to_owned();
     }
     if value.is_infinite() {
         return if value > 0.0 {

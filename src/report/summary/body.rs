@@ -12,6 +12,9 @@ use crate::verification::check::{ActiveLimit, Check, Verdict};
 /// Longer lists of notes and left-out coordinates are cut; the JSON document has them all.
 const LINES_SHOWN: usize = 8;
 
+/// Longest name of a check: with it a row takes 2 + 4 + 44 + 7 + 6 + 11 + 7 + 6 columns and six gaps of two, 99.
+const NAME: usize = 44;
+
 pub(super) fn write(page: &mut Page, body: &ReportBody) {
     let reduction = &body.reduction;
     let sizes = format!(
@@ -88,7 +91,7 @@ pub(crate) fn mass_properties(page: &mut Page, properties: &MassProperties) {
         let size = cg.iter().fold(0.0_f64, |size, coordinate| size.max(coordinate.abs()));
         page.entry(
             "centre of mass",
-            &cg.map(|coordinate| rounded(coordinate, size)).join("   "),
+            &format!("({})", cg.map(|coordinate| rounded(coordinate, size)).join(", ")),
         );
     }
     if let Some(inertia) = properties.inertia {
@@ -97,9 +100,9 @@ pub(crate) fn mass_properties(page: &mut Page, properties: &MassProperties) {
             .flatten()
             .fold(0.0_f64, |size, term| size.max(term.abs()));
         let term = |name: &str, row: usize, column: usize| format!("{name} {}", rounded(inertia[row][column], size));
-        let diagonal = [term("xx", 0, 0), term("yy", 1, 1), term("zz", 2, 2)].join("   ");
-        let products = [term("xy", 0, 1), term("xz", 0, 2), term("yz", 1, 2)].join("   ");
-        page.entry("inertia", &format!("{diagonal}   {products}"));
+        let diagonal = [term("xx", 0, 0), term("yy", 1, 1), term("zz", 2, 2)].join(", ");
+        let products = [term("xy", 0, 1), term("xz", 0, 2), term("yz", 1, 2)].join(", ");
+        page.entry("inertia", &format!("{diagonal} · {products}"));
     }
 }
 
@@ -196,10 +199,9 @@ fn check_row(check: &Check) -> [String; 7] {
         ActiveLimit::Arithmetic => "arithmetic",
         ActiveLimit::Data => "data",
     };
-    // Rows are 2 + 4 + 36 + 12 + 7 + 11 + 7 + 6 columns and six gaps of two: 97.
     [
         check.id.to_owned(),
-        table::shorten(check.name, 36),
+        table::shorten(check.name, NAME),
         table::scientific(check.value, 2),
         table::scientific(check.limits.value(), 1),
         active.to_owned(),

@@ -1,0 +1,99 @@
+#!/usr/bin/env bash
+# Prepares a machine, builds supel and shows that it works.
+#
+#   ./setup.sh        install what is missing, build the release program
+#   ./setup.sh run    the same, then reduce the bundled example
+#   ./setup.sh test   the same, then run all tests
+set -euo pipefail
+cd "$(dirname "$0")"
+
+# HDF5 and ARPACK-NG are linked; pkg-config finds them; build-essential compiles the vendored METIS.
+readonly packages=(build-essential pkg-config libhdf5-dev libarpack2-dev)
+readonly python_packages=(python3 python3-venv)
+readonly rust_minor=88
+
+say() { printf '\n== %s\n' "$*"; }
+fail() { printf 'setup.sh: %s\n' "$*" >&2; exit 1; }
+
+as_root() {
+    if [ "$(id -u)" -eq 0 ]; then "$@"
+    elif command -v sudo >/dev/null; then sudo "$@"
+    else fail "needs root to run: $*"
+    fi
+}
+
+is_installed() { [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
+
+install_packages() {
+    local package missing=()
+    if ! command -v dpkg-query >/dev/null; then
+        say "not Debian or Ubuntu: make sure that the equivalents of these packages are installed"
+        printf '   %s\n' "${packages[@]}" "${python_packages[@]} (for the Python tests only)"
+        return
+    fi
+    for package in "$@"; do is_installed "$package" || missing+=("$package"); done
+    [ ${#missing[@]} -eq 0 ] && return
+    say "installing ${missing[*]}"
+    as_root apt-get update -q
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
+}
+
+has_rust() {
+    local version
+    version=$(cargo --version 2>/dev/null | sed -n 's/^cargo 1\.\([0-9]*\)\..*/\1/p')
+    [ -n "$version" ] && [ "$version" -ge "$rust_minor" ]
+}
+
+install_rust() {
+    # A toolchain installed by rustup in an earlier shell may not be on the path of this one.
+    [ -f "${CARGO_HOME:-$HOME/.cargo}/env" ] && . "${CARGO_HOME:-$HOME/.cargo}/env"
+    has_rust && return
+    if ! command -v rustup >/dev/null && apt-cache show rustup >/dev/null 2>&1; then
+        install_packages rustup
+    fi
+    if command -v rustup >/dev/null; then
+        say "installing the stable Rust toolchain"
+        rustup default stable
+    fi
+    has_rust || fail "needs cargo 1.$rust_minor or newer; see https://rustup.rs, then run this again"
+}
+
+# The tests that load superelements in Python need numpy and safetensors; without them they are skipped with a message.
+prepare_python() {
+    install_packages "${python_packages[@]}"
+    local python=$PWD/target/venv/bin/python
+    if ! "$python" -c 'import numpy, safetensors' 2>/dev/null; then
+        say "installing numpy and safetensors in target/venv"
+        if ! { python3 -m venv target/venv && "$python" -m pip install --quiet numpy safetensors; }; then
+            echo "setup.sh: target/venv could not be made: the Python tests will be skipped" >&2
+            return
+        fi
+    fi
+    export SUPEL_PYTHON=$python
+}
+
+run_example() {
+    say "supel reduce examples/bracket/job.toml"
+    target/release/supel reduce examples/bracket/job.toml
+}
+
+main() {
+    local goal=${1:-build}
+    case $goal in build|run|test) ;; *) fail "unknown goal '$goal': expected run or test" ;; esac
+    install_packages "${packages[@]}"
+    install_rust
+    say "building supel"
+    cargo build --release --locked
+    case $goal in
+        build) say "target/release/supel is ready" ;;
+        run) run_example ;;
+        test)
+            run_example
+            prepare_python
+            say "running the tests"
+            cargo test --workspace --locked
+            ;;
+    esac
+}
+
+main "$@"

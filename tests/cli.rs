@@ -1,0 +1,429 @@
+//! The command line, in process with a pipeline made by hand, and as a program.
+
+mod sample;
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use supel::cli::{ExitCode, Pipeline, Terminal, run};
+use supel::error::{Error, Result};
+use supel::job::{Coupling, Job, Method, ModeSelection, NodeSelection};
+use supel::outcome::Outcome;
+use supel::report::Observer;
+use supel_runtime::Superelement;
+
+/// What a command left behind.
+struct Ended {
+    code: ExitCode,
+    out: String,
+    err: String,
+}
+
+fn supel_with(pipeline: Pipeline, args: &[&str]) -> Ended {
+    let (mut out, mut err) = (Vec::new(), Vec::new());
+    let args = std::iter::once("supel").chain(args.iter().copied()).map(OsString::from);
+    let code = run(args, pipeline, &mut Terminal::plain(&mut out, &mut err));
+    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+    Ended {
+        code,
+        out: text(out),
+        err: text(err),
+    }
+}
+
+fn supel(args: &[&str]) -> Ended {
+    supel_with(sample::pipeline, args)
+}
+
+/// A folder with a job in it.
+struct Workplace {
+    folder: tempfile::TempDir,
+}
+
+impl Workplace {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("folder");
+        let job = r#"
+[model]
+stiffness = "K.mtx"
+mass = "M.mtx"
+
+[[interface]]
+name = "hub"
+nodes = [12]
+
+[reduction]
+method = "herting"
+modes = { count = 3 }
+
+[write]
+superelement = "bracket.supel"
+"#;
+        std::fs::write(folder.path().join("job.toml"), job).expect("written");
+        Self { folder }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn job(&self) -> String {
+        self.path("job.toml").display().to_string()
+    }
+
+    fn files(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(self.folder.path()).expect("folder");
+        let mut names: Vec<String> = entries
+            .map(|entry| entry.expect("entry").file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+}
+
+fn failing(job: &Job, observer: &mut dyn Observer) -> Result<Outcome> {
+    let outcome = sample::pipeline(job, observer)?;
+    Ok(Outcome {
+        report: sample::full_report(),
+        ..outcome
+    })
+}
+
+fn warning(job: &Job, observer: &mut dyn Observer) -> Result<Outcome> {
+    let mut outcome = sample::pipeline(job, observer)?;
+    outcome.report.body.warnings = sample::full_report().body.warnings;
+    Ok(outcome)
+}
+
+fn panicking(_job: &Job, _observer: &mut dyn Observer) -> Result<Outcome> {
+    panic!("a defect")
+}
+
+/// Says which job it was given, as an error.
+fn echo(job: &Job, _observer: &mut dyn Observer) -> Result<Outcome> {
+    let text = serde_json::to_string(job).expect("json");
+    Err(Error::JobSyntax {
+        path: "echo".into(),
+        line: None,
+        message: text,
+    })
+}
+
+fn echoed(args: &[&str]) -> Job {
+    let ended = supel_with(echo, args);
+    let text = ended
+        .err
+        .strip_prefix("supel: error: echo: ")
+        .unwrap_or_else(|| panic!("{}", ended.err));
+    serde_json::from_str(text).expect("the job")
+}
+
+#[test]
+fn reduce_writes_superelement_and_report_and_prints_the_summary() {
+    let place = Workplace::new();
+    let ended = supel(&["reduce", &place.job(), "--threads", "1"]);
+    assert_eq!(ended.code, ExitCode::Done, "{}", ended.err);
+    assert_eq!(ended.err, "");
+    assert!(ended.out.contains("✓ verified: 2 checks passed"), "{}", ended.out);
+    assert_eq!(place.files(), ["bracket.report.json", "bracket.supel", "job.toml"]);
+    assert_eq!(
+        Superelement::open(&place.path("bracket.supel")).expect("readable"),
+        sample::superelement()
+    );
+    let report: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(place.path("bracket.report.json")).expect("read")).expect("json");
+    assert_eq!(report["run"]["n_threads"], 1);
+    assert_eq!(report["body"]["checks"][1]["id"], "M-26");
+    let stages = report["run"]["stages"].as_array().expect("stages");
+    assert_eq!(
+        stages.iter().map(|stage| &stage["name"]).collect::<Vec<_>>(),
+        ["read", "factor", "write"]
+    );
+    let size = std::fs::metadata(place.path("bracket.supel")).expect("file").len();
+    assert_eq!(report["run"]["file_bytes"], size);
+}
+
+#[test]
+fn json_answer_is_the_report_and_quiet_is_silent() {
+    let place = Workplace::new();
+    let ended = supel(&["reduce", &place.job(), "--json"]);
+    assert_eq!(
+        ended.out,
+        std::fs::read_to_string(place.path("bracket.report.json")).expect("read")
+    );
+    let ended = supel(&["reduce", &place.job(), "--quiet"]);
+    assert_eq!(
+        (ended.code, ended.out.as_str(), ended.err.as_str()),
+        (ExitCode::Done, "", "")
+    );
+    assert_eq!(
+        supel(&["reduce", &place.job(), "--quiet", "--json"]).code,
+        ExitCode::Usage
+    );
+}
+
+#[test]
+fn failed_check_leaves_no_file_but_a_report() {
+    let place = Workplace::new();
+    let ended = supel_with(failing, &["reduce", &place.job()]);
+    assert_eq!(ended.code, ExitCode::CheckFailed);
+    assert_eq!(place.files(), ["bracket.report.json", "job.toml"]);
+    assert!(
+        ended
+            .err
+            .contains("bracket.supel: not written: a check failed – see the report"),
+        "{}",
+        ended.err
+    );
+    assert!(
+        ended.out.contains("✗ not verified: 1 of 4 checks failed: M-16"),
+        "{}",
+        ended.out
+    );
+    let report = std::fs::read_to_string(place.path("bracket.report.json")).expect("read");
+    assert!(report.contains("\"verdict\": \"fail\""));
+}
+
+#[test]
+fn failed_check_keeps_the_file_of_an_earlier_run_and_says_so() {
+    let place = Workplace::new();
+    assert_eq!(supel(&["reduce", &place.job()]).code, ExitCode::Done);
+    let ended = supel_with(failing, &["reduce", &place.job()]);
+    assert_eq!(ended.code, ExitCode::CheckFailed);
+    assert!(
+        ended.err.contains("the file of that name is from an earlier run"),
+        "{}",
+        ended.err
+    );
+    assert!(Superelement::open(&place.path("bracket.supel")).is_ok());
+}
+
+#[test]
+fn unverified_superelement_is_written_on_request_with_code_one() {
+    let place = Workplace::new();
+    let ended = supel_with(failing, &["reduce", &place.job(), "--allow-unverified"]);
+    assert_eq!(ended.code, ExitCode::CheckFailed);
+    assert_eq!(place.files(), ["bracket.report.json", "bracket.supel", "job.toml"]);
+}
+
+#[test]
+fn warnings_fail_only_where_asked() {
+    let place = Workplace::new();
+    assert_eq!(supel_with(warning, &["reduce", &place.job()]).code, ExitCode::Done);
+    let place = Workplace::new();
+    let ended = supel_with(warning, &["reduce", &place.job(), "--strict"]);
+    assert_eq!(ended.code, ExitCode::CheckFailed);
+    assert_eq!(place.files(), ["bracket.report.json", "job.toml"]);
+}
+
+#[test]
+fn left_over_parts_are_reported() {
+    let place = Workplace::new();
+    std::fs::write(place.path(".bracket.supel.1-0.part"), "").expect("written");
+    let ended = supel(&["reduce", &place.job()]);
+    assert!(ended.err.contains(".part: left by an interrupted run"), "{}", ended.err);
+}
+
+#[test]
+fn flags_alone_make_a_job() {
+    let job = echoed(&[
+        "reduce",
+        "--stiffness",
+        "K.mtx.gz",
+        "--mass",
+        "M.mtx.gz",
+        "--nodes",
+        "nodes.csv",
+        "--interface",
+        "hub=12,17,19",
+        "--interface",
+        "rows=rows:0,1",
+        "--rigid-interface",
+        "rim=group:RIM",
+        "--method",
+        "herting",
+        "--up-to-hz",
+        "500",
+        "-o",
+        "x.supel",
+        "--certify",
+        "none",
+        "--memory-gib",
+        "2",
+    ]);
+    let here = std::env::current_dir().expect("folder");
+    assert_eq!(job.model.stiffness, here.join("K.mtx.gz"));
+    assert_eq!(job.model.nodes, Some(here.join("nodes.csv")));
+    assert_eq!(job.interfaces[0].nodes, NodeSelection::Labels(vec![12, 17, 19]));
+    assert_eq!(job.interfaces[1].nodes, NodeSelection::Rows { rows: vec![0, 1] });
+    assert_eq!(job.interfaces[2].nodes.group_name(), Some("RIM"));
+    assert_eq!(job.interfaces[2].coupling, Coupling::Rigid);
+    assert_eq!(job.reduction.modes, ModeSelection::UpTo { up_to_hz: 500.0 });
+    assert_eq!(job.run.memory_gib, Some(2.0));
+    assert_eq!(job.write.superelement, here.join("x.supel"));
+}
+
+#[test]
+fn flags_override_keys_of_the_job() {
+    let place = Workplace::new();
+    let job = echoed(&["reduce", &place.job()]);
+    assert_eq!(job.model.stiffness, place.path("K.mtx"));
+    let changed = echoed(&[
+        "reduce",
+        &place.job(),
+        "--method",
+        "craig-bampton",
+        "--modes",
+        "7",
+        "--interface",
+        "pin=3",
+        "--stiffness",
+        "/other/K.mtx",
+    ]);
+    assert_eq!(changed.reduction.method, Method::CraigBampton);
+    assert_eq!(changed.reduction.modes, ModeSelection::Count { count: 7 });
+    assert_eq!(changed.interfaces.len(), 1);
+    assert_eq!(changed.interfaces[0].name, "pin");
+    assert_eq!(changed.model.stiffness, Path::new("/other/K.mtx"));
+    assert_eq!(changed.model.mass, job.model.mass);
+    assert_eq!(changed.write, job.write);
+}
+
+#[test]
+fn mistakes_on_the_command_line_are_usage_errors() {
+    let refused = |args: &[&str]| {
+        let ended = supel(args);
+        assert_eq!(ended.code, ExitCode::Usage, "{}", ended.err);
+        assert!(ended.err.starts_with("supel: error: "), "{}", ended.err);
+        assert_eq!(ended.out, "");
+        ended.err
+    };
+    let place = Workplace::new();
+    let job = place.job();
+    insta::assert_snapshot!(refused(&["reduce", "--stiffness", "K.mtx"]), @"supel: error: --mass, --method, --up-to-hz or --modes, --output missing – give a job document, or all of --stiffness, --mass, --method, a number of modes and --output");
+    insta::assert_snapshot!(refused(&["reduce", &job, "--interface", "hub"]), @"supel: error: --interface hub: expected NAME=NODES, as in hub=12,17,19");
+    insta::assert_snapshot!(refused(&["reduce", &job, "--interface", "hub=HUB"]), @"supel: error: --interface hub=HUB: expected node labels, group:NAME or rows:0,1,2 after the =");
+    insta::assert_snapshot!(refused(&["reduce", &job, "--interface", "hub=rows:-1"]), @"supel: error: --interface hub=rows:-1: expected row numbers from zero, as in hub=rows:0,1,2");
+    insta::assert_snapshot!(refused(&["reduce", &job, "--up-to-hz", "-3"]), @"supel: error: `reduction.modes.up_to_hz` is -3 – expected a positive number");
+    assert!(refused(&["reduce", &job, "--up-to-hz", "3", "--modes", "4"]).contains("cannot be used with"));
+    assert!(refused(&["reduce", &job, "--threads", "0"]).contains("--threads"));
+    assert!(refused(&["reduce", &job, "--metod", "herting"]).contains("--method"));
+    assert!(refused(&["frobnicate"]).contains("frobnicate"));
+}
+
+#[test]
+fn files_that_are_not_there_are_input_output_errors() {
+    assert_eq!(supel(&["reduce", "no/such/job.toml"]).code, ExitCode::Io);
+    assert_eq!(supel(&["inspect", "no/such/file.supel"]).code, ExitCode::Io);
+    let place = Workplace::new();
+    let output = place.path("missing/x.supel").display().to_string();
+    let ended = supel(&["reduce", &place.job(), "-o", &output]);
+    assert_eq!(ended.code, ExitCode::Io);
+    assert!(ended.err.contains("cannot be written"), "{}", ended.err);
+    assert_eq!(ended.err.lines().count(), 1, "the cause is said twice: {}", ended.err);
+}
+
+#[test]
+fn a_damaged_superelement_is_an_input_error() {
+    let place = Workplace::new();
+    let path = place.path("x.supel");
+    let mut bytes = sample::superelement().to_bytes().expect("bytes").bytes;
+    let last = bytes.len() - 1;
+    bytes[last] ^= 1;
+    std::fs::write(&path, bytes).expect("written");
+    let ended = supel(&["inspect", &path.display().to_string()]);
+    assert_eq!(ended.code, ExitCode::InputData);
+    assert!(
+        ended.err.contains("x.supel: superelement file is damaged"),
+        "{}",
+        ended.err
+    );
+}
+
+#[test]
+fn inspect_shows_what_is_in_the_file() {
+    let place = Workplace::new();
+    let path = place.path("x.supel");
+    sample::superelement().write(&path).expect("written");
+    let file = path.display().to_string();
+    let ended = supel(&["inspect", &file]);
+    assert_eq!(ended.code, ExitCode::Done);
+    insta::assert_snapshot!("inspect_text", ended.out);
+    let json: serde_json::Value = serde_json::from_str(&supel(&["inspect", &file, "--json"]).out).expect("json");
+    assert_eq!(json["sizes"]["n_reduced"], 2);
+    assert_eq!(json["frequencies_hz"][0], 0.5);
+    assert_eq!(json["metadata"]["interface_nodes"][1]["name"], "foot");
+    let job = supel(&["inspect", &file, "--job"]).out;
+    let job = Job::parse(&job, Path::new("job.json")).expect("the job");
+    assert_eq!(job.write.superelement, Path::new("/models/bracket.supel"));
+}
+
+#[test]
+fn a_panic_is_reported_as_a_defect() {
+    let place = Workplace::new();
+    let ended = supel_with(panicking, &["reduce", &place.job()]);
+    assert_eq!(ended.code as u8, 70);
+    assert!(ended.err.contains("this is a defect of supel"), "{}", ended.err);
+    assert_eq!(place.files(), ["job.toml"]);
+}
+
+#[test]
+fn help_is_an_answer() {
+    assert_eq!(supel(&["reduce", "--help"]).code, ExitCode::Done);
+    assert!(supel(&["--version"]).out.starts_with("supel "));
+    // As a program without a terminal: with one, the text would be broken at its width.
+    let mut program = std::process::Command::new(assert_cmd::cargo::cargo_bin!("supel"));
+    let ended = program
+        .args(["reduce", "--help"])
+        .stdin(std::process::Stdio::null())
+        .env_remove("COLUMNS")
+        .output();
+    let help = String::from_utf8(ended.expect("ended").stdout).expect("UTF-8");
+    insta::assert_snapshot!("help_reduce", help);
+}
+
+#[test]
+fn exit_codes_are_those_of_the_contract() {
+    use supel::error::ErrorClass::{InputData, Io, ModelPhysics, NumericalLimit, Resources, Usage};
+    let classes = [
+        (Usage, 2),
+        (InputData, 3),
+        (ModelPhysics, 4),
+        (NumericalLimit, 5),
+        (Resources, 6),
+        (Io, 7),
+    ];
+    for (class, code) in classes {
+        assert_eq!(ExitCode::from(class) as u8, code);
+    }
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_panic() {
+    let mut program = std::process::Command::new(assert_cmd::cargo::cargo_bin!("supel"))
+        .args(["reduce", "--help"])
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .expect("started");
+    drop(program.stdout.take());
+    let ended = program.wait_with_output().expect("ended");
+    assert_eq!(
+        ended.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&ended.stderr)
+    );
+    assert!(ended.stderr.is_empty(), "{}", String::from_utf8_lossy(&ended.stderr));
+}
+
+/// Only a program whose stdout is a terminal colours its answer; this one writes to a pipe.
+#[test]
+fn a_pipe_gets_no_colour() {
+    let ended = std::process::Command::new(assert_cmd::cargo::cargo_bin!("supel"))
+        .args(["reduce", "--interface"])
+        .output()
+        .expect("ended");
+    assert_eq!(ended.status.code(), Some(2));
+    assert!(!ended.stderr.contains(&0x1b));
+}

@@ -1,0 +1,432 @@
+//! The job document: what is accepted, and the one clear message for each mistake.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+use supel::error::{Error, ErrorClass, Result};
+use supel::job::{Coupling, Job, Method, ModeSelection, NodeSelection, Origin, Region};
+
+const FULL: &str = r#"
+[model]
+stiffness = "K.mtx.gz"
+mass      = "model.h5:/M"
+dofs      = "rows.dof"
+nodes     = "mesh/bracket.med"
+units     = "mm-t-s"
+expect    = { mass = 1.5e-3, cg = [0, 0, 41.2] }
+
+[[interface]]
+name     = "hub"
+nodes    = "group:HUB"
+coupling = "rigid"
+origin   = [0, 0, 12.5]
+
+[[interface]]
+name  = "foot"
+nodes = [412, 413]
+dofs  = ["ux", "uy", "uz"]
+
+[[interface]]
+name     = "rim"
+nodes    = { within = { cylinder = { from = [0, 0, 0], to = [0, 0, 1], radius = 5 } } }
+coupling = "rigid"
+
+[reduction]
+method      = "herting"
+modes       = { up_to_hz = 1000 }
+eigensolver = "arpack"
+
+[run]
+certify    = "none"
+memory_gib = 4
+
+[write]
+superelement = "out/bracket.supel"
+report       = "out/bracket.json"
+"#;
+
+fn small() -> Value {
+    json!({
+        "model": { "stiffness": "K.mtx", "mass": "M.mtx" },
+        "interface": [{ "name": "hub", "nodes": [1, 2] }],
+        "reduction": { "method": "craig-bampton", "modes": { "count": 5 } },
+        "write": { "superelement": "x.supel" }
+    })
+}
+
+fn read(document: &Value) -> Result<Job> {
+    let job = Job::parse(&document.to_string(), Path::new("job.json"))?;
+    job.validate().map(|()| job)
+}
+
+/// The small job with one value replaced or added.
+fn with(pointer: &str, value: Value) -> Value {
+    let mut document = small();
+    let (parent, key) = pointer.rsplit_once('/').expect("pointer");
+    match document.pointer_mut(parent).expect("parent") {
+        Value::Object(fields) => drop(fields.insert(key.to_owned(), value)),
+        Value::Array(items) => items.insert(key.parse().expect("index"), value),
+        _ => panic!("{parent} holds no values"),
+    }
+    document
+}
+
+fn message(document: &Value) -> String {
+    let error = read(document).expect_err("a mistake");
+    assert_eq!(error.class(), ErrorClass::Usage);
+    error.to_string()
+}
+
+fn schema() -> jsonschema::Validator {
+    let schema: Value = serde_json::from_str(include_str!("../schemas/job.schema.json")).expect("schema is JSON");
+    jsonschema::validator_for(&schema).expect("schema is a schema")
+}
+
+#[test]
+fn every_key_of_a_toml_job_is_read() {
+    let job = Job::parse(FULL, Path::new("job.toml")).expect("a job");
+    job.validate().expect("valid");
+    assert_eq!(job.model.mass, PathBuf::from("model.h5:/M"));
+    assert_eq!(
+        job.model.expect.as_ref().and_then(|expect| expect.cg),
+        Some([0.0, 0.0, 41.2])
+    );
+    assert_eq!(job.interfaces[0].nodes.group_name(), Some("HUB"));
+    assert_eq!(job.interfaces[0].coupling, Coupling::Rigid);
+    assert_eq!(job.interfaces[0].origin, Origin::Point([0.0, 0.0, 12.5]));
+    assert_eq!(job.interfaces[1].nodes, NodeSelection::Labels(vec![412, 413]));
+    assert_eq!(job.interfaces[2].origin, Origin::Centroid);
+    let rim = Region::Cylinder {
+        from: [0.0; 3],
+        to: [0.0, 0.0, 1.0],
+        radius: 5.0,
+        inner_radius: 0.0,
+    };
+    assert_eq!(job.interfaces[2].nodes, NodeSelection::Region { within: rim });
+    assert_eq!(job.reduction.method, Method::Herting);
+    assert_eq!(job.reduction.modes, ModeSelection::UpTo { up_to_hz: 1000.0 });
+    assert_eq!(job.run.memory_gib, Some(4.0));
+}
+
+#[test]
+fn a_job_survives_json_and_toml() {
+    let job = Job::parse(FULL, Path::new("job.toml")).expect("a job");
+    let text = serde_json::to_string(&job).expect("json");
+    assert!(schema().is_valid(&serde_json::from_str(&text).expect("json")), "{text}");
+    assert_eq!(Job::parse(&text, Path::new("job.json")).expect("its own JSON"), job);
+    let text = toml::to_string(&job).expect("toml");
+    assert_eq!(Job::parse(&text, Path::new("job.toml")).expect("its own TOML"), job);
+}
+
+#[test]
+fn content_decides_where_the_extension_does_not() {
+    assert!(Job::parse(&small().to_string(), Path::new("job")).is_ok());
+    assert!(Job::parse(FULL, Path::new("job.txt")).is_ok());
+}
+
+#[test]
+fn paths_are_relative_to_the_folder_of_the_job() {
+    let folder = tempfile::tempdir().expect("folder");
+    let path = folder.path().join("job.toml");
+    std::fs::write(&path, FULL).expect("written");
+    let job = Job::read(&path).expect("a job");
+    assert_eq!(job.model.stiffness, folder.path().join("K.mtx.gz"));
+    assert_eq!(job.model.mass, folder.path().join("model.h5:/M"));
+    assert_eq!(job.write.superelement, folder.path().join("out/bracket.supel"));
+    assert_eq!(job.write.report_path(), folder.path().join("out/bracket.json"));
+    let small = read(&small()).expect("a job").resolve(folder.path()).expect("resolved");
+    assert_eq!(small.write.report_path(), folder.path().join("x.report.json"));
+}
+
+#[test]
+fn a_missing_job_is_an_input_output_error() {
+    let error = Job::read(Path::new("no/such/job.toml")).expect_err("no file");
+    assert!(matches!(error, Error::Read { .. }));
+    assert_eq!(error.class(), ErrorClass::Io);
+}
+
+#[test]
+fn unknown_keys_are_located_with_a_suggestion() {
+    let text = FULL.replace("stiffness = ", "stifness = ");
+    let error = Job::parse(&text, Path::new("job.toml")).expect_err("a misspelt key");
+    assert_eq!(
+        error.to_string(),
+        "job.toml:3: unknown key `model.stifness` – did you mean `stiffness`?"
+    );
+    let text = FULL.replace("radius = 5", "radios = 5");
+    let error = Job::parse(&text, Path::new("job.toml")).expect_err("a misspelt key");
+    let expected = "job.toml:23: unknown key `interface[2].nodes.within.cylinder.radios` – did you mean `radius`?";
+    assert_eq!(error.to_string(), expected);
+    assert_eq!(
+        message(&with("/interface/0/coupled", "rigid".into())),
+        "job.json: unknown key `interface[0].coupled` – did you mean `coupling`?"
+    );
+    assert_eq!(
+        message(&with("/zzz", 1.into())),
+        "job.json: unknown key `zzz` – remove it; the keys are listed in schemas/job.schema.json"
+    );
+}
+
+#[test]
+fn values_of_the_wrong_kind_are_located() {
+    let wrong = |from: &str, to: &str| {
+        let text = FULL.replace(from, to);
+        assert_ne!(text, FULL);
+        let error = Job::parse(&text, Path::new("job.toml")).expect_err("a wrong value");
+        assert!(matches!(error, Error::JobSyntax { .. }), "{error:?}");
+        error.to_string()
+    };
+    insta::assert_snapshot!(wrong("mass      = \"model.h5:/M\"", ""), @"job.toml:2: missing field `mass`");
+    assert!(wrong("\"herting\"", "\"hurting\"").starts_with("job.toml:27: unknown variant `hurting`"));
+    assert!(wrong("up_to_hz = 1000", "up_to_hz = 1000, count = 4").contains("exactly one of `count` and `up_to_hz`"));
+    assert!(wrong("nodes = [412, 413]", "nodes = 412").contains("\"group:NAME\""));
+    assert!(wrong("origin   = [0, 0, 12.5]", "origin = \"middle\"").contains("\"centroid\" or [x, y, z]"));
+    assert!(wrong("radius = 5", "inner_radius = 5").contains("missing field `radius`"));
+    assert!(wrong("[write]", "[write").starts_with("job.toml:35:"));
+    let error = Job::parse("{\n \"model\": }", Path::new("job.json")).expect_err("not JSON");
+    assert_eq!(error.to_string(), "job.json:2: expected value");
+}
+
+#[test]
+fn numbers_out_of_range_are_refused() {
+    let band = |hz: f64| with("/reduction/modes", json!({ "up_to_hz": hz }));
+    assert_eq!(
+        message(&band(0.0)),
+        "`reduction.modes.up_to_hz` is 0 – expected a positive number"
+    );
+    assert_eq!(
+        message(&band(-5.0)),
+        "`reduction.modes.up_to_hz` is -5 – expected a positive number"
+    );
+    let text = FULL.replace("up_to_hz = 1000", "up_to_hz = nan");
+    let error = Job::parse(&text, Path::new("job.toml"))
+        .and_then(|job| job.validate())
+        .expect_err("nan");
+    assert!(matches!(error, Error::JobNumber { .. }));
+    assert!(
+        read(&with("/reduction/modes", json!({ "count": 0 }))).is_ok(),
+        "no modes is static condensation"
+    );
+    assert!(read(&with("/run", json!({ "memory_gib": 0 }))).is_err());
+    assert!(read(&with("/model/expect", json!({ "mass": -1 }))).is_err());
+}
+
+#[test]
+fn regions_must_hold_something() {
+    let within = |region: Value| with("/interface/0/nodes", json!({ "within": region }));
+    let good = [
+        json!({ "box": { "min": [0, 0, 0], "max": [1, 0, 1] } }),
+        json!({ "plane": { "point": [0, 0, 0], "normal": [0, 0, 2], "tolerance": 0 } }),
+        json!({ "cylinder": { "from": [0, 0, 0], "to": [0, 0, 1], "radius": 2, "inner_radius": 2 } }),
+        json!({ "sphere": { "center": [0, 0, 0], "radius": 1 } }),
+    ];
+    for region in good {
+        assert!(read(&within(region.clone())).is_ok(), "{region}");
+    }
+    let bad = [
+        (
+            json!({ "box": { "min": [0, 2, 0], "max": [1, 1, 1] } }),
+            "box.max` is 1",
+        ),
+        (
+            json!({ "plane": { "point": [0, 0, 0], "normal": [0, 0, 0], "tolerance": 1 } }),
+            "a vector with a direction",
+        ),
+        (
+            json!({ "plane": { "point": [0, 0, 0], "normal": [0, 0, 1], "tolerance": -1 } }),
+            "zero or more",
+        ),
+        (
+            json!({ "cylinder": { "from": [1, 1, 1], "to": [1, 1, 1], "radius": 2 } }),
+            "a vector with a direction",
+        ),
+        (
+            json!({ "cylinder": { "from": [0, 0, 0], "to": [0, 0, 1], "radius": 2, "inner_radius": 3 } }),
+            "at most",
+        ),
+        (
+            json!({ "sphere": { "center": [0, 0, 0], "radius": 0 } }),
+            "a positive number",
+        ),
+    ];
+    for (region, expected) in bad {
+        let message = message(&within(region));
+        assert!(message.contains(expected), "{message}");
+    }
+}
+
+#[test]
+fn names_and_selections_of_interfaces_are_checked() {
+    let second = |name: &str, nodes: Value| with("/interface/1", json!({ "name": name, "nodes": nodes }));
+    assert!(matches!(
+        read(&second("hub", json!([9]))),
+        Err(Error::InterfaceTwice { .. })
+    ));
+    assert!(matches!(read(&second(" ", json!([9]))), Err(Error::JobEmpty { .. })));
+    assert!(matches!(read(&second("b", json!([]))), Err(Error::JobEmpty { .. })));
+    assert!(matches!(
+        read(&second("b", json!({ "rows": [] }))),
+        Err(Error::JobEmpty { .. })
+    ));
+    assert!(matches!(
+        read(&second("b", json!("HUB"))),
+        Err(Error::InterfaceNodes { .. })
+    ));
+    assert!(matches!(
+        read(&second("b", json!("group:"))),
+        Err(Error::InterfaceNodes { .. })
+    ));
+    assert_eq!(
+        message(&second("b", json!([7, 8, 7]))),
+        "interface `b`: node 7 is listed twice – list each once"
+    );
+    assert_eq!(
+        message(&second("b", json!({ "rows": [0, 0] }))),
+        "interface `b`: row 0 is listed twice – list each once"
+    );
+    assert_eq!(
+        message(&second("b", json!([3, 2]))),
+        "interfaces `hub` and `b` both list node 2 – it can belong to one of them"
+    );
+    assert!(matches!(
+        read(&with("/model/stiffness", "".into())),
+        Err(Error::JobEmpty { .. })
+    ));
+}
+
+#[test]
+fn nodes_may_be_shared_direction_by_direction() {
+    let mut document = with("/interface/1", json!({ "name": "b", "nodes": [2], "dofs": ["uz"] }));
+    assert!(matches!(read(&document), Err(Error::InterfaceOverlap { .. })));
+    document["interface"][0]["dofs"] = json!(["ux", "uy"]);
+    assert!(read(&document).is_ok());
+    document["interface"][1]["coupling"] = "rigid".into();
+    assert!(matches!(read(&document), Err(Error::InterfaceOverlap { .. })));
+}
+
+#[test]
+fn keys_that_contradict_the_coupling_are_refused() {
+    assert_eq!(
+        message(&with("/interface/0/origin", json!([0, 0, 0]))),
+        "interface `hub`: `origin` has no meaning for a direct coupling, whose nodes stay where they are – remove it, \
+         or set coupling = \"rigid\""
+    );
+    let rows = |key: &str, value: Value| {
+        let mut document = with("/interface/0/nodes", json!({ "rows": [0, 1] }));
+        document["interface"][0][key] = value;
+        read(&document)
+    };
+    assert!(matches!(
+        rows("coupling", "rigid".into()),
+        Err(Error::InterfaceConflict { .. })
+    ));
+    assert!(matches!(
+        rows("dofs", json!(["ux"])),
+        Err(Error::InterfaceConflict { .. })
+    ));
+    assert!(matches!(
+        read(&with("/interface/0/dofs", json!([]))),
+        Err(Error::JobEmpty { .. })
+    ));
+    assert_eq!(
+        message(&with("/interface/0/dofs", json!(["ux", "ux"]))),
+        "interface `hub`: direction ux is listed twice – list each once"
+    );
+}
+
+#[test]
+fn names_of_outputs_say_what_they_are() {
+    assert_eq!(
+        message(&with("/write/superelement", "x.h5".into())),
+        "`write.superelement` is x.h5 – expected a name that ends in .supel"
+    );
+    assert!(matches!(
+        read(&with("/write/superelement", "out/.supel".into())),
+        Err(Error::OutputName { .. })
+    ));
+    assert!(matches!(
+        read(&with("/write/report", "x.txt".into())),
+        Err(Error::OutputName { .. })
+    ));
+}
+
+/// The small job with one thing changed, some changes allowed and some not.
+fn changed_jobs() -> Vec<Value> {
+    let interface = |value: Value| with("/interface/0", value);
+    vec![
+        small(),
+        with("/zzz", 1.into()),
+        with("/interface", json!([])),
+        with("/interface/0/dofs", json!(["ux", "rz"])),
+        with("/interface/0/dofs", json!(["ux", "up"])),
+        with("/interface/0/dofs", json!([])),
+        with("/interface/0/dofs", json!(["ux", "ux"])),
+        with("/interface/0/coupling", "average".into()),
+        with("/interface/0/origin", "centroid".into()),
+        with("/interface/0/origin", "middle".into()),
+        with(
+            "/interface/0/nodes",
+            json!({ "within": { "sphere": { "center": [0, 0, 0], "radius": 1 } } }),
+        ),
+        with(
+            "/interface/0/nodes",
+            json!({ "within": { "sphere": { "center": [0, 0], "radius": 1 } } }),
+        ),
+        with(
+            "/interface/0/nodes",
+            json!({ "within": { "sphere": { "center": [0, 0, 0], "radius": 0 } } }),
+        ),
+        with("/interface/0/nodes", json!({ "within": { "cone": {} } })),
+        with("/interface/0/nodes", json!({ "rows": [0] })),
+        with("/interface/0/nodes", json!({ "rows": [-1] })),
+        with(
+            "/interface/0/nodes",
+            json!({ "rows": [0], "within": { "box": { "min": [0, 0, 0], "max": [1, 1, 1] } } }),
+        ),
+        with("/interface/0/nodes", json!({})),
+        with("/interface/0/nodes", json!([1.5])),
+        interface(json!({ "nodes": [7] })),
+        interface(json!({ "name": "", "nodes": [7] })),
+        interface(json!({ "name": "a", "nodes": "group:A" })),
+        interface(json!({ "name": "a", "nodes": "A" })),
+        with("/reduction/method", "guyan".into()),
+        with("/reduction/modes", json!({})),
+        with("/reduction/modes", json!({ "count": 3, "up_to_hz": 5 })),
+        with("/reduction/modes", json!({ "count": -3 })),
+        with("/reduction/modes", json!({ "up_to_hz": 0 })),
+        with("/reduction/eigensolver", "arpack".into()),
+        with("/run", json!({ "certify": "full" })),
+        with("/run", json!({ "certify": "count", "memory_gib": 0.5 })),
+        with("/write/superelement", "x.json".into()),
+        with("/write/report", "x.json".into()),
+        with("/model/expect", json!({ "mass": 0 })),
+        with("/model/expect", json!({ "cg": [1, 2, 3] })),
+        with("/model/units", 3.into()),
+    ]
+}
+
+/// What the schema refuses supel refuses, and the other way round: editors that know the schema tell the truth.
+#[test]
+fn schema_and_program_agree() {
+    let schema = schema();
+    let mut n_accepted = 0;
+    for case in changed_jobs() {
+        let found = read(&case);
+        assert_eq!(
+            schema.is_valid(&case),
+            found.is_ok(),
+            "{case}: {:?}",
+            found.err().map(|error| error.to_string())
+        );
+        n_accepted += usize::from(found.is_ok());
+    }
+    assert!((10..26).contains(&n_accepted), "{n_accepted} of the cases are accepted");
+}
+
+#[test]
+fn bundled_example_follows_the_schema() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/bracket/job.toml");
+    let job = Job::read(&path).expect("the example is a job");
+    let document = serde_json::to_value(&job).expect("json");
+    assert!(schema().is_valid(&document), "{document:#}");
+}

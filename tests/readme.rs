@@ -1,0 +1,112 @@
+//! Every command in the README runs, in the order of the page, in a folder of its own.
+
+#![cfg(feature = "hdf5")]
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use supel::job::Job;
+
+const README: &str = include_str!("../README.md");
+
+/// The fenced blocks of the page: language with its marks, and content.
+fn blocks() -> Vec<(&'static str, &'static str)> {
+    let mut blocks = Vec::new();
+    let mut rest = README;
+    while let Some((_, block)) = rest.split_once("\n```") {
+        let (mark, block) = block.split_once('\n').expect("a fence ends its line");
+        let (content, after) = block.split_once("\n```").expect("a block ends");
+        blocks.push((mark, content));
+        rest = after;
+    }
+    blocks
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// A folder with the bundled example, as a copy of the repository has it.
+fn workplace() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("folder");
+    let example = folder.path().join("examples/bracket");
+    std::fs::create_dir_all(&example).expect("folder");
+    for entry in std::fs::read_dir(root().join("examples/bracket")).expect("the bundled example") {
+        let path = entry.expect("entry").path();
+        std::fs::copy(&path, example.join(path.file_name().expect("name"))).expect("copied");
+    }
+    folder
+}
+
+/// The search path with the program under test in front.
+fn search_path() -> std::ffi::OsString {
+    let program = PathBuf::from(assert_cmd::cargo::cargo_bin!("supel"));
+    let folders = program.parent().map(Path::to_owned).into_iter();
+    let others = std::env::var_os("PATH").unwrap_or_default();
+    std::env::join_paths(folders.chain(std::env::split_paths(&others))).expect("a search path")
+}
+
+fn run(folder: &Path, program: &str, args: &[&str]) {
+    let ended = Command::new(program)
+        .args(args)
+        .current_dir(folder)
+        .env("PATH", search_path())
+        .output();
+    let ended = ended.unwrap_or_else(|error| panic!("{program}: {error}"));
+    let (out, err) = (
+        String::from_utf8_lossy(&ended.stdout),
+        String::from_utf8_lossy(&ended.stderr),
+    );
+    assert!(ended.status.success(), "{}\n{out}\n{err}", args.join(" "));
+    assert!(!out.contains("False"), "{out}");
+}
+
+#[test]
+fn every_command_of_the_readme_runs() {
+    let folder = workplace();
+    let python = std::env::var("SUPEL_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    let has_python = Command::new(&python)
+        .args(["-c", "import numpy, safetensors"])
+        .output()
+        .is_ok_and(|ended| ended.status.success());
+    let mut n_run = 0;
+    for (mark, content) in blocks() {
+        match mark {
+            "sh run" => run(folder.path(), "bash", &["-euo", "pipefail", "-c", content]),
+            "python run" if has_python => run(folder.path(), &python, &["-c", content]),
+            "python run" => println!("skipped: {python} has no numpy and safetensors; set SUPEL_PYTHON"),
+            // The continuous integration script runs these.
+            "sh" => assert!(content.starts_with("./setup.sh "), "not marked `run`: {content}"),
+            "toml" => {
+                let job = Job::parse(content, Path::new("job.toml")).expect("a job");
+                job.validate().expect("valid");
+            }
+            _ => panic!("a block of an unknown kind: {mark}"),
+        }
+        n_run += usize::from(mark.ends_with(" run"));
+    }
+    assert_eq!(n_run, 6, "blocks that were run");
+    let again = Job::read(&folder.path().join("again.json")).expect("the job kept in the file is a job");
+    assert_eq!(again.write.superelement.file_name(), Some("small.supel".as_ref()));
+    for name in [
+        "examples/bracket/bracket.supel",
+        "examples/bracket/bracket.report.json",
+        "bracket-cb.supel",
+    ] {
+        assert!(folder.path().join(name).exists(), "{name} was not written");
+    }
+}
+
+#[test]
+fn files_that_the_readme_names_exist() {
+    for name in [
+        "schemas/job.schema.json",
+        "schemas/report.schema.json",
+        "LICENSE-MIT",
+        "LICENSE-APACHE",
+        "setup.sh",
+    ] {
+        assert!(README.contains(name), "{name} is not named");
+        assert!(root().join(name).exists(), "{name} does not exist");
+    }
+}
