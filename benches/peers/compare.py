@@ -107,8 +107,8 @@ def main():
     parser.add_argument("--repeats", type=int, default=3)
     arguments = parser.parse_args()
     arguments.peer = arguments.peer or ["pardiso", "superlu"]
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
+    with tempfile.TemporaryDirectory() as work:
+        folder = pathlib.Path(work)
         for name in INPUTS:
             (folder / name).symlink_to((arguments.pair / name).resolve())
         (folder / "onshape.toml").write_text((HERE / "onshape.toml").read_text())
