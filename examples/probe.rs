@@ -63,7 +63,7 @@ fn main() {
     for (l, e) in m.lambda.iter().zip(&m.errors).take(8) { println!("{:.12e} {:?}", (l * p.scaling.eigenvalue_unit()), e); }
     println!("worst be {:.2e}", m.errors.iter().map(|e| e.backward).fold(0.0, f64::max));
     println!("orth {:?}", modes::mass_orthogonality(&p.mass, m.shapes.as_ref()));
-    let n = factor::count_below(&p, &an, m.shift_above()).unwrap_or_else(|e| panic!("{e}"));
+    let n = factor::count_below(&p, &an, m.shift_above(0.5)).unwrap_or_else(|e| panic!("{e}"));
     println!("{n:?} found {}", m.count() + rigid.count());
     lap("count");
 }

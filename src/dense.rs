@@ -15,12 +15,28 @@ fn parallelism(multiplications: usize) -> Par {
     if multiplications > PARALLEL_ABOVE { Par::rayon(0) } else { Par::Seq }
 }
 
-/// Xᵀ Y.
+/// Rows of a tile of [`gram`]: fixed, so that the order of the sum never depends on the number of threads.
+const GRAM_ROWS: usize = 4096;
+
+/// Xᵀ Y for tall X and Y: tile by tile in parallel, the tiles summed in order.
 pub fn gram(x: MatRef<'_, f64>, y: MatRef<'_, f64>) -> Mat<f64> {
-    let mut product = Mat::zeros(x.ncols(), y.ncols());
-    let par = parallelism(x.nrows() * x.ncols() * y.ncols());
-    matmul(product.as_mut(), Accum::Replace, x.transpose(), y, 1.0, par);
-    product
+    use rayon::prelude::*;
+    let n = x.nrows();
+    let tiles: Vec<Mat<f64>> = (0..n.div_ceil(GRAM_ROWS))
+        .into_par_iter()
+        .map(|tile| {
+            let (start, rows) = (tile * GRAM_ROWS, GRAM_ROWS.min(n - tile * GRAM_ROWS));
+            let mut part = Mat::zeros(x.ncols(), y.ncols());
+            let (x, y) = (x.subrows(start, rows), y.subrows(start, rows));
+            matmul(part.as_mut(), Accum::Replace, x.transpose(), y, 1.0, Par::Seq);
+            part
+        })
+        .collect();
+    let mut sum = Mat::zeros(x.ncols(), y.ncols());
+    for part in &tiles {
+        sum += part;
+    }
+    sum
 }
 
 /// X C.

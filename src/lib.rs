@@ -1,17 +1,141 @@
-//! tmp
+//! supel turns finite element models into superelements that multibody simulations can trust.
+//!
+//! It reads the sparse stiffness and mass matrices of a component, reduces them by the mode-acceleration method of
+//! Sonneville, Brüls and Bauchau, *Modal Reduction Procedures for Flexible Multibody Dynamics* (equation numbers are
+//! theirs), proves what the reduction preserves, and writes a compact superelement file.
+//!
+//! # The straight line
+//!
+//! ```text
+//! input → model → partition → rigid → factor → modes → basis → reduction → verification → output
+//! ```
+//!
+//! One file or folder for each word, one type handed from each to the next. [`reduce`] is this line; nothing else
+//! composes stages.
+//!
+//! | stage | takes | gives |
+//! |---|---|---|
+//! | [`input`] | files | K, M, dof map, nodes as they were read |
+//! | [`model`] | those | symmetric, scaled, checked matrices |
+//! | [`partition`] | the interfaces | K, M on internal and interface dofs, rigid patches applied, in order of elimination |
+//! | [`rigid`] | the partition | U, verified against K; the rank of U_B |
+//! | [`factor`] | K_II | L Lᵀ, solves, counts of eigenvalues |
+//! | [`modes`] | the factor | elastic modes with error bars, certified complete |
+//! | [`basis`] | the modes | Ψ = \[I 0; Ψ_S Ψ_D\] |
+//! | [`reduction`] | Ψ | K̂, M̂, Û, M_F |
+//! | [`verification`] | all of it | checks: value, limit, verdict |
+//! | [`output`] | all of it | the superelement and the report |
+//!
+//! # Invariants
+//!
+//! 1. Only `input`, `output`, `report`, `job`, `cli` and `main` touch files, the clock or the terminal.
+//! 2. The reduction method is matched once, where the modes are chosen. After the basis is built no stage knows it.
+//! 3. A matrix is factored once per shift and solved many times; no inverse is ever formed.
+//! 4. The superelement format has one owner, the crate `supel-runtime`, used by the writer and by every reader.
+//! 5. `supel-runtime` depends on nothing of this crate.
+//! 6. Verification never changes a result. It measures, names the equation and compares with a limit.
+//! 7. The same input gives the same bytes, whatever the number of threads.
+
 pub mod basis;
-pub mod dense;
 pub mod cli;
+pub mod dense;
 pub mod error;
 pub mod factor;
 pub mod input;
 pub mod job;
 pub mod model;
 pub mod modes;
+pub mod outcome;
+pub mod output;
 pub mod partition;
 pub mod reduction;
-pub mod rigid;
-pub mod outcome;
 pub mod report;
+pub mod rigid;
 pub mod sparse;
 pub mod verification;
+
+use basis::Basis;
+use error::Result;
+use factor::{Analysis, Cholesky, Pencil};
+use job::Job;
+use model::Model;
+use modes::Component;
+use outcome::Outcome;
+use output::{InputFacts, Results};
+use partition::Partition;
+use reduction::Reduction;
+use report::{Observer, WorkCounters};
+use verification::Evidence;
+
+/// Reduces a component: the whole method, step by step.
+///
+/// # Errors
+/// Those of the stages; each says what, where, what was found, what was expected and what to do.
+pub fn reduce(job: &Job, observer: &mut dyn Observer) -> Result<Outcome> {
+    // Small dense decompositions use faer's global setting; sequential ones give the same bits on every machine.
+    faer::set_global_parallelism(faer::Par::Seq);
+
+    observer.stage("read");
+    let read = input::read(&job.model)?;
+    let facts = InputFacts::of(&read);
+
+    observer.stage("check");
+    let model = Model::new(read)?;
+
+    observer.stage("partition");
+    let partition = Partition::new(&model, &job.interfaces)?;
+
+    observer.stage("rigid-body modes");
+    let (rigid, n_extra) = rigid::rigid_body_modes(&partition)?;
+    let rank = rigid::interface_rank(&partition, &rigid)?;
+
+    observer.stage("factor");
+    let (k_ii, m_ii) = (partition.internal_stiffness(), partition.internal_mass());
+    let pencil = Pencil { stiffness: &k_ii, mass: &m_ii };
+    let analysis = Analysis::new(pencil)?;
+    factor::refuse_beyond_memory(&analysis, &partition, job)?;
+    let factor = Cholesky::new(&analysis, pencil, 0.0, &|dof| partition.name_of(dof))?;
+
+    observer.stage("constraint modes");
+    let constraint = basis::constraint_modes(&partition, &factor, &rigid);
+
+    observer.stage("modes");
+    let internal = (&k_ii, &m_ii);
+    let component = Component { partition: &partition, internal, factor: &factor, rigid: &rigid, constraint: &constraint };
+    let retained = modes::retained(component, &job.reduction, modes::SEED)?;
+
+    observer.stage("certificate");
+    let (retained, certificate) = modes::certified(component, &analysis, job, retained)?;
+
+    observer.stage("basis");
+    let basis = Basis::new(&constraint, retained.columns.clone(), &m_ii);
+
+    observer.stage("projection");
+    let reduction = Reduction::new(&partition, &basis, &rigid);
+
+    observer.stage("verification");
+    let evidence = Evidence {
+        partition: &partition,
+        internal,
+        rigid: &rigid,
+        rank,
+        constraint: &constraint,
+        retained: &retained,
+        basis: &basis,
+        reduction: &reduction,
+        certificate: certificate.as_ref(),
+        expect: job.model.expect.as_ref(),
+    };
+    let checks = verification::verify(&evidence)?;
+
+    let work = WorkCounters {
+        n_factorisations: 1 + n_extra + certificate.map_or(0, |certificate| certificate.n_factorisations),
+        n_solves: retained.modes.work.solves + partition.n_interface() + rigid.count(),
+        n_restarts: retained.modes.work.restarts,
+        factor_flops: analysis.flops,
+        factor_nonzeros: analysis.nnz_factor as u64,
+    };
+    let (superelement, report) =
+        output::output(&Results { job, input: &facts, model: &model, evidence, checks: &checks, work })?;
+    Ok(Outcome { superelement, report })
+}

@@ -1,5 +1,5 @@
 //! The program `supel`.
 
 fn main() -> std::process::ExitCode {
-    supel::cli::main(supel::outcome::reduce)
+    supel::cli::main(supel::reduce)
 }

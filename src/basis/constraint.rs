@@ -15,6 +15,9 @@ pub struct ConstraintModes {
     pub modes: Mat<f64>,
     /// K̂_BB = [Ψ_S; I]ᵀ K [Ψ_S; I], n_B × n_B: second order in the error of Ψ_S.
     pub stiffness: Mat<f64>,
+    /// max K_BB,ii / K̂_BB,ii: how much larger the terms that cancel in K̂_BB are than what is left of them. Rounding of
+    /// K̂_BB is ε times this.
+    pub cancellation: f64,
     /// Error of equation (24) as solved: max |Ψ_S U_B − U_I| / max |U_I|.
     pub raw_rigid_error: f64,
     /// The same after the correction, and the dof it is worst at.
@@ -42,7 +45,12 @@ pub fn constraint_modes(partition: &Partition, factor: &dyn SolveOperator, rigid
     }
     let rigid_error = rigid_error(modes.as_ref(), u_i, u_b);
     let stiffness = condensed_stiffness(partition, modes.as_ref());
-    ConstraintModes { modes, stiffness, raw_rigid_error, rigid_error }
+    let cancellation = (0..n_b).fold(1.0f64, |worst, i| {
+        let before = partition.stiffness.get(n_i + i, n_i + i).copied().unwrap_or(0.0);
+        let left = stiffness[(i, i)];
+        if left > 0.0 { worst.max(before / left) } else { worst }
+    });
+    ConstraintModes { modes, stiffness, cancellation, raw_rigid_error, rigid_error }
 }
 
 /// U_I − Ψ_S U_B, n_I × n_r.

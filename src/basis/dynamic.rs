@@ -63,6 +63,7 @@ pub(super) struct Independent {
     pub(super) modes: Mat<f64>,
     pub(super) coordinates: Vec<DynamicCoordinate>,
     pub(super) mixing: Mat<f64>,
+    pub(super) kept: Vec<usize>,
     pub(super) dropped: Vec<DroppedColumn>,
 }
 
@@ -73,7 +74,7 @@ pub(super) fn independent(named: DynamicColumns, mass: &SparseMatrix) -> Indepen
     let (n, total) = (named.columns.nrows(), named.columns.ncols());
     let mut basis = Mat::zeros(n, total);
     let mut mixing = Mat::zeros(total, total);
-    let (mut kept, mut dropped) = (Vec::new(), Vec::new());
+    let (mut coordinates, mut kept, mut dropped) = (Vec::new(), Vec::new(), Vec::new());
     for start in (0..total).step_by(PANEL) {
         let width = PANEL.min(total - start);
         let mut panel = named.columns.as_ref().subcols(start, width).to_owned();
@@ -90,7 +91,8 @@ pub(super) fn independent(named: DynamicColumns, mass: &SparseMatrix) -> Indepen
             }
             if step.kept.contains(&j) {
                 basis.as_mut().subcols_mut(kept.len(), 1).copy_from(step.block.as_ref().subcols(j, 1));
-                kept.push(coordinate);
+                kept.push(start + j);
+                coordinates.push(coordinate);
             } else {
                 dropped.push(DroppedColumn { coordinate, remaining: step.remaining[j] });
             }
@@ -99,7 +101,8 @@ pub(super) fn independent(named: DynamicColumns, mass: &SparseMatrix) -> Indepen
     Independent {
         modes: basis.as_ref().subcols(0, kept.len()).to_owned(),
         mixing: mixing.as_ref().subrows(0, kept.len()).to_owned(),
-        coordinates: kept,
+        coordinates,
+        kept,
         dropped,
     }
 }

@@ -27,6 +27,8 @@ pub struct Basis {
     pub coordinates: Vec<DynamicCoordinate>,
     /// Upper triangular R, n_η × (n_η + dropped): named column j = Σ_i Ψ_D[:, i] R_ij.
     pub mixing: Mat<f64>,
+    /// Number, among the named columns, of each column that was kept.
+    pub kept: Vec<usize>,
     /// Columns that depend on others and were left out.
     pub dropped: Vec<DroppedColumn>,
 }
@@ -60,6 +62,7 @@ impl Basis {
             dynamic_modes: independent.modes,
             coordinates: independent.coordinates,
             mixing: independent.mixing,
+            kept: independent.kept,
             dropped: independent.dropped,
         }
     }
@@ -72,6 +75,19 @@ impl Basis {
     /// n_B + n_η.
     pub fn n_reduced(&self) -> usize {
         self.constraint_modes.ncols() + self.n_dynamic()
+    }
+
+    /// C with Ψ_D = (kept named columns) · C, n_η × n_η: the inverse of the triangle that made Ψ_D orthonormal.
+    pub fn mixing_of_kept(&self) -> Mat<f64> {
+        let n = self.n_dynamic();
+        let triangle = Mat::from_fn(n, n, |i, j| self.mixing[(i, self.kept[j])]);
+        let mut inverse = Mat::identity(n, n);
+        faer::linalg::triangular_solve::solve_upper_triangular_in_place(
+            triangle.as_ref(),
+            inverse.as_mut(),
+            faer::Par::Seq,
+        );
+        inverse
     }
 
     /// The retained modes in reduced coordinates, (n_B + n_η) × k: the V̄ of equations (34) and (35).

@@ -12,6 +12,7 @@
 
 mod cholesky;
 mod inertia;
+mod memory;
 mod pattern;
 mod solve;
 
@@ -31,6 +32,7 @@ use crate::sparse::SparseMatrix;
 
 pub use cholesky::Cholesky;
 pub use inertia::{InertiaCount, count_below};
+pub use memory::refuse_beyond_memory;
 pub use solve::SolveOperator;
 
 use pattern::{Part, Triangle};

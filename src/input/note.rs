@@ -1,7 +1,7 @@
 //! What a reader did beyond copying, to be told to the user.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A remark on the input that is no error. Its text is one line for the report.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -68,44 +68,49 @@ impl fmt::Display for InputNote {
                 write!(
                     f,
                     "{}: {count} entries repeat a position and were added to it",
-                    path.display()
+                    file_name(path)
                 )
             }
             Self::Mirrored { path } => {
                 write!(
                     f,
                     "{}: only one triangle is given; it was mirrored, as stiffness and mass are symmetric",
-                    path.display()
+                    file_name(path)
                 )
             }
             Self::OrderFromIndices { path, n } => {
                 write!(
                     f,
                     "{}: no size line; the largest index makes it a matrix of {n} rows",
-                    path.display()
+                    file_name(path)
                 )
             }
             Self::Extended { path, from, to } => {
                 write!(
                     f,
                     "{}: the largest index is {from}; rows up to {to}, the order of the other matrix, are empty",
-                    path.display()
+                    file_name(path)
                 )
             }
             Self::OpenLastLine { path } => {
                 write!(
                     f,
                     "{}: the last line has no line end; check that the file is complete",
-                    path.display()
+                    file_name(path)
                 )
             }
-            Self::DirectionsFromZero { path } => write!(f, "{}: directions count from zero, 0 is ux", path.display()),
+            Self::DirectionsFromZero { path } => write!(f, "{}: directions count from zero, 0 is ux", file_name(path)),
             Self::DefaultOrder { dofs_per_node, nodes } => write!(
                 f,
                 "no dof map: rows are taken as {dofs_per_node} a node, in the order of {}",
-                nodes.display()
+                file_name(nodes)
             ),
-            Self::UnusedNodes { path, count } => write!(f, "{}: {count} nodes have no row", path.display()),
+            Self::UnusedNodes { path, count } => write!(f, "{}: {count} nodes have no row", file_name(path)),
         }
     }
+}
+
+/// The name of a file without its folder: what a note says must not depend on where the files are.
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }

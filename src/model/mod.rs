@@ -1,6 +1,6 @@
 //! The model: two symmetric matrices of one size that passed every check a matrix can pass before it is factored.
 //!
-//! K and M are scaled by powers of two so that their largest diagonal entries lie in [1, 2). The scaling is exact, is
+//! K and M are scaled by even powers of two so that their largest diagonal entries lie in [1, 4). The scaling is exact, is
 //! undone where results leave the tool, and frees every later stage from absolute numbers: a model in N, mm and t and
 //! the same model in other units give the same bits in between.
 
@@ -55,6 +55,11 @@ impl Scaling {
         2f64.powi(self.mass)
     }
 
+    /// Factor from a scaled mass-normalised shape to the user's: one over the root of the mass unit.
+    pub fn shape_unit(&self) -> f64 {
+        2f64.powi(-self.mass / 2)
+    }
+
     /// Factor from a scaled eigenvalue to the user's (rad/s)².
     pub fn eigenvalue_unit(&self) -> f64 {
         2f64.powi(self.stiffness - self.mass)
@@ -95,6 +100,21 @@ pub enum Finding {
         /// How many.
         n_rows: usize,
     },
+}
+
+impl std::fmt::Display for Finding {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Symmetrised { matrix, asymmetry } => {
+                write!(f, "the {matrix} matrix was symmetric to {asymmetry:.1e} only and was replaced by its symmetric part")
+            }
+            Self::MasslessRows { n_rows } => write!(f, "{n_rows} rows have no mass: their frequencies are infinite"),
+            Self::FreeParticles { n_rows } => write!(f, "{n_rows} rows have mass and no stiffness: free particles"),
+            Self::NegativeMassByRounding { n_rows } => {
+                write!(f, "{n_rows} diagonal entries of the mass are negative by rounding")
+            }
+        }
+    }
 }
 
 /// Above this relative asymmetry a finding becomes a warning; below it the asymmetry is rounding of the producer.
@@ -245,13 +265,14 @@ pub fn diagonal(matrix: &SparseMatrix) -> Vec<f64> {
         .collect()
 }
 
-/// Divides by the power of two that brings the largest diagonal entry into [1, 2); returns its exponent.
+/// Divides by the power of four that brings the largest diagonal entry into [1, 4); returns its exponent as a power of
+/// two, which is even, so that the square root of the unit, by which mode shapes scale, is exact as well.
 fn scale_to_unit(matrix: &mut SparseMatrix) -> i32 {
     let largest = diagonal(matrix).iter().fold(0.0f64, |max, value| max.max(value.abs()));
     if largest == 0.0 {
         return 0;
     }
-    let exponent = largest.log2().floor() as i32;
+    let exponent = 2 * (largest.log2() / 2.0).floor() as i32;
     // Two factors, because 2^-exponent itself can leave the range of a double.
     let (half, rest) = (2f64.powi(-(exponent / 2)), 2f64.powi(-(exponent - exponent / 2)));
     for value in matrix.data_mut() {

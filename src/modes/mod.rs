@@ -8,10 +8,12 @@
 //! square of the vector's; each carries the bar that rounding and the digits of the data put on it.
 
 mod equilibration;
+mod certificate;
 mod lanczos;
 mod operator;
 mod quality;
 mod random;
+mod retained;
 mod shifted;
 
 use faer::{Mat, MatRef};
@@ -22,10 +24,12 @@ use crate::model::Precision;
 use crate::rigid::RigidBodyModes;
 use crate::sparse::SparseMatrix;
 
+pub use certificate::{Certificate, certified};
 pub use equilibration::Equilibrated;
 pub use lanczos::{CLUSTER_GAP, EigenWork, Eigenpairs, Problem, Wanted, gram_schmidt, lanczos};
 pub use operator::{Factored, FreeAtZero, ShiftInvert};
 pub use shifted::{Shifted, shifted};
+pub use retained::{Component, Retained, retained};
 pub use quality::{ModeError, mass_orthogonality};
 
 /// Elastic modes of one boundary condition.
@@ -49,16 +53,24 @@ impl Modes {
         self.lambda.len()
     }
 
-    /// A shift in the gap above the highest mode: where a Sturm count is taken.
-    pub fn shift_above(&self) -> f64 {
-        let top = self.lambda.last().copied();
-        match (top, self.next) {
-            (Some(top), Some(next)) => 0.5 * (top + next),
-            (Some(top), None) => 2.0 * top,
-            (None, Some(next)) => 0.5 * next,
-            (None, None) => 1.0,
+    /// A shift in the gap above the highest mode, at this fraction of the gap: where a Sturm count is taken.
+    pub fn shift_above(&self, fraction: f64) -> f64 {
+        match (self.lambda.last().copied(), self.next) {
+            (Some(top), Some(next)) => top + fraction * (next - top),
+            (Some(top), None) => (1.0 + fraction) * top,
+            (None, Some(next)) => fraction * next,
+            (None, None) => fraction,
         }
     }
+}
+
+/// The boundary condition modes are computed under.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Boundary {
+    /// Interface free.
+    FreeInterface,
+    /// Interface held.
+    FixedInterface,
 }
 
 /// A symmetric pencil whose modes are wanted, with what is deflated.

@@ -21,6 +21,8 @@ pub struct InterfaceNode {
     pub directions: Vec<Direction>,
     /// How it couples to the model.
     pub coupling: Coupling,
+    /// Nodes of the model it stands for.
+    pub n_nodes: usize,
 }
 
 /// An interface node with the rows it owns.
@@ -55,7 +57,7 @@ pub(super) fn resolve(model: &Model, interfaces: &[InterfaceJob]) -> Result<Inte
     let mut resolved = Vec::new();
     for job in interfaces {
         match (&job.nodes, job.coupling) {
-            (NodeSelection::Rows { rows }, Coupling::Direct) => resolved.push(from_rows(model, job, rows)?),
+            (NodeSelection::Rows { rows }, Coupling::Direct) => resolved.extend(from_rows(model, &catalogue, job, rows)?),
             (NodeSelection::Rows { .. }, Coupling::Rigid) => {
                 return Err(Error::RigidNeedsCoordinates { interface: job.name.clone() });
             }
@@ -71,10 +73,29 @@ pub(super) fn resolve(model: &Model, interfaces: &[InterfaceJob]) -> Result<Inte
     Ok(Interfaces(resolved))
 }
 
-fn from_rows(model: &Model, job: &InterfaceJob, rows: &[usize]) -> Result<Resolved> {
+/// Rows by number: interface nodes where the rows belong to nodes with coordinates, bare rows otherwise.
+fn from_rows(model: &Model, catalogue: &Catalogue, job: &InterfaceJob, rows: &[usize]) -> Result<Vec<Resolved>> {
     let n = model.n_dofs();
     if let Some(row) = rows.iter().find(|row| **row >= n) {
         return Err(Error::InterfaceRow { interface: job.name.clone(), row: *row, n });
+    }
+    if let (Some(dofs), false) = (&model.dofs, catalogue.positions.is_empty()) {
+        let mut labels: Vec<i64> = Vec::new();
+        let mut directions: HashMap<i64, Vec<Direction>> = HashMap::new();
+        for row in rows {
+            let Dof { node, direction } = dofs[*row];
+            directions.entry(node).or_insert_with(|| {
+                labels.push(node);
+                Vec::new()
+            });
+            directions.entry(node).or_default().push(direction);
+        }
+        let of_node = |label: i64| {
+            let mut listed = directions.get(&label).cloned().unwrap_or_default();
+            listed.sort_unstable();
+            catalogue.direct(&InterfaceJob { dofs: Some(listed), ..job.clone() }, label)
+        };
+        return labels.into_iter().map(of_node).collect();
     }
     let node = InterfaceNode {
         name: job.name.clone(),
@@ -82,8 +103,9 @@ fn from_rows(model: &Model, job: &InterfaceJob, rows: &[usize]) -> Result<Resolv
         position: None,
         directions: Vec::new(),
         coupling: Coupling::Direct,
+        n_nodes: rows.len(),
     };
-    Ok(Resolved { node, rows: Rows::Own(rows.to_vec()) })
+    Ok(vec![Resolved { node, rows: Rows::Own(rows.to_vec()) }])
 }
 
 /// The rows and the position of each node of the model.
@@ -139,7 +161,8 @@ impl Catalogue {
 
     fn direct(&self, job: &InterfaceJob, label: i64) -> Result<Resolved> {
         let of_node = self.rows_of(job, label)?;
-        let directions = job.dofs.clone().unwrap_or_else(|| of_node.keys().copied().collect());
+        let mut directions = job.dofs.clone().unwrap_or_else(|| of_node.keys().copied().collect());
+        directions.sort_unstable();
         let rows = directions
             .iter()
             .map(|direction| {
@@ -155,6 +178,7 @@ impl Catalogue {
             position: self.positions.get(&label).copied(),
             directions,
             coupling: Coupling::Direct,
+            n_nodes: 1,
         };
         Ok(Resolved { node, rows: Rows::Own(rows) })
     }
@@ -176,12 +200,15 @@ impl Catalogue {
             Origin::Centroid => centroid,
             Origin::Point(point) => point,
         };
+        let mut directions = job.dofs.clone().unwrap_or_else(|| Direction::ALL.to_vec());
+        directions.sort_unstable();
         let node = InterfaceNode {
             name: job.name.clone(),
             label: None,
             position: Some(position),
-            directions: job.dofs.clone().unwrap_or_else(|| Direction::ALL.to_vec()),
+            directions,
             coupling: Coupling::Rigid,
+            n_nodes: labels.len(),
         };
         Ok(Resolved { node, rows: Rows::Patch(rows) })
     }

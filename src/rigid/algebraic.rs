@@ -1,8 +1,6 @@
 //! Rigid-body modes from the matrices alone, by inverse iteration on K − σM.
 
-use faer::Mat;
-
-use super::{RigidBodyModes, RigidEnergy, RigidSource, absolute_energy, multiply};
+use super::{RigidBodyModes, RigidEnergy, RigidSource, absolute_energy, largest_residual, multiply};
 use crate::dense;
 use crate::error::Result;
 use crate::factor::{Analysis, Pencil};
@@ -28,16 +26,17 @@ pub fn from_matrices(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
     let orthonormal = found.lowest.shapes.as_ref().subcols(0, found.n_zero).to_owned();
     let forces = multiply(&partition.stiffness, orthonormal.as_ref());
     let magnitudes = absolute_energy(&partition.stiffness, orthonormal.as_ref());
-    let mut energy = RigidEnergy::default();
+    let mut energy = RigidEnergy {
+        largest_residual: largest_residual(&partition.stiffness, orthonormal.as_ref()),
+        ..RigidEnergy::default()
+    };
     for j in 0..found.n_zero {
         let (q, force) = (dense::column(orthonormal.as_ref(), j), dense::column(forces.as_ref(), j));
         energy.largest_quotient = energy.largest_quotient.max(dense::dot(q, force).abs());
-        energy.largest_residual = energy.largest_residual.max(dense::norm(force) * dense::norm(q) / magnitudes[j]);
         energy.noise = energy.noise.max((partition.precision.stiffness + f64::EPSILON) * magnitudes[j]);
     }
-    let modes: Mat<f64> = orthonormal.clone();
     let rigid = RigidBodyModes {
-        modes,
+        modes: orthonormal.clone(),
         mass_orthonormal: multiply(&partition.mass, orthonormal.as_ref()),
         orthonormal,
         source: RigidSource::Algebraic,

@@ -2,7 +2,7 @@
 
 use faer::{Mat, MatRef};
 
-use super::{RigidBodyModes, RigidEnergy, RigidSource, absolute_energy, multiply};
+use super::{RigidBodyModes, RigidEnergy, RigidSource, absolute_energy, largest_residual, multiply};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::model::Bodies;
@@ -101,7 +101,7 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
     let modes = if is_classical { unit_motions(sites, dofs) } else { orthonormal.clone() };
     let energy = RigidEnergy {
         largest_quotient: energies[..n_free].iter().fold(0.0, |max: f64, energy| max.max(energy.abs())),
-        largest_residual: largest_residual(partition, orthonormal.as_ref()),
+        largest_residual: largest_residual(&partition.stiffness, orthonormal.as_ref()),
         noise,
     };
     Ok(Body { modes, orthonormal, is_classical, energy })
@@ -176,16 +176,6 @@ fn energies(partition: &Partition, q: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<
 fn noise(partition: &Partition, q: MatRef<'_, f64>) -> f64 {
     let largest = absolute_energy(&partition.stiffness, q).into_iter().fold(0.0, f64::max);
     (partition.precision.stiffness + f64::EPSILON) * largest
-}
-
-fn largest_residual(partition: &Partition, q: MatRef<'_, f64>) -> f64 {
-    let forces = multiply(&partition.stiffness, q);
-    let magnitudes = absolute_energy(&partition.stiffness, q);
-    // ‖|K||q|‖ ≥ |q|ᵀ|K||q| / ‖q‖ by Cauchy and Schwarz, which makes the quotient below an upper bound.
-    (0..q.ncols()).fold(0.0, |worst: f64, j| {
-        let ratio = dense::norm(dense::column(forces.as_ref(), j)) * dense::norm(dense::column(q, j)) / magnitudes[j];
-        worst.max(ratio)
-    })
 }
 
 /// Tells a component that is held (false) from one whose coordinates are rounded (true).

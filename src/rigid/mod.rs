@@ -21,7 +21,7 @@ use crate::sparse::SparseMatrix;
 
 
 pub use algebraic::from_matrices;
-pub use rank::{InterfaceRank, interface_rank};
+pub use rank::{ILL_CONDITIONED, InterfaceRank, interface_rank};
 
 /// Where rigid-body modes come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,6 +86,17 @@ impl RigidBodyModes {
     }
 }
 
+/// The rigid-body modes, and the factorisations they took: from coordinates none.
+///
+/// # Errors
+/// Those of [`from_coordinates`] and [`from_matrices`].
+pub fn rigid_body_modes(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
+    match from_coordinates(partition)? {
+        Some(rigid) => Ok((rigid, 0)),
+        None => from_matrices(partition),
+    }
+}
+
 /// The rigid-body modes from the coordinates, or `None` where the model has none.
 ///
 /// # Errors
@@ -101,31 +112,39 @@ pub(crate) fn multiply(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> Mat<f64> {
     y
 }
 
-/// Σ_ij |x_i||a_ij||x_j| for each column: what rounding of A is measured by.
-pub(crate) fn absolute_energy(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> Vec<f64> {
+/// |A||X|, n × k: what rounding of A is measured by.
+pub(crate) fn absolute_product(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> Mat<f64> {
     use rayon::prelude::*;
-    const ROWS_PER_TASK: usize = 4096;
-    let (n, k) = (matrix.rows(), x.ncols());
-    let partial: Vec<Vec<f64>> = (0..n.div_ceil(ROWS_PER_TASK))
-        .into_par_iter()
-        .map(|task| {
-            let mut sums = vec![0.0; k];
-            for row in task * ROWS_PER_TASK..((task + 1) * ROWS_PER_TASK).min(n) {
-                let Some(view) = matrix.outer_view(row) else { continue };
-                for (j, sum) in sums.iter_mut().enumerate() {
-                    let column = dense::column(x, j);
-                    let terms = view.iter().map(|(col, value)| value.abs() * column[col].abs());
-                    *sum += column[row].abs() * terms.sum::<f64>();
-                }
+    const ROWS_PER_TASK: usize = 2048;
+    let mut product = Mat::zeros(matrix.rows(), x.ncols());
+    product.as_mut().par_row_chunks_mut(ROWS_PER_TASK).enumerate().for_each(|(task, mut rows)| {
+        for i in 0..rows.nrows() {
+            let Some(view) = matrix.outer_view(task * ROWS_PER_TASK + i) else { continue };
+            for j in 0..x.ncols() {
+                let column = dense::column(x, j);
+                rows[(i, j)] = view.iter().map(|(col, value)| value.abs() * column[col].abs()).sum();
             }
-            sums
-        })
-        .collect();
-    let mut total = vec![0.0; k];
-    for sums in partial {
-        for (total, sum) in total.iter_mut().zip(sums) {
-            *total += sum;
         }
-    }
-    total
+    });
+    product
+}
+
+/// |x|ᵀ|A||x| for each column.
+pub(crate) fn absolute_energy(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> Vec<f64> {
+    let product = absolute_product(matrix, x);
+    let energy = |j: usize| {
+        let terms = dense::column(x, j).iter().zip(dense::column(product.as_ref(), j));
+        terms.map(|(x, p)| x.abs() * p).sum()
+    };
+    (0..x.ncols()).map(energy).collect()
+}
+
+/// The largest ‖Kq‖ / ‖ |K||q| ‖ of the columns.
+fn largest_residual(stiffness: &SparseMatrix, q: MatRef<'_, f64>) -> f64 {
+    let (forces, magnitudes) = (multiply(stiffness, q), absolute_product(stiffness, q));
+    let ratio = |j: usize| {
+        let magnitude = dense::norm(dense::column(magnitudes.as_ref(), j));
+        if magnitude > 0.0 { dense::norm(dense::column(forces.as_ref(), j)) / magnitude } else { 0.0 }
+    };
+    (0..q.ncols()).map(ratio).fold(0.0, f64::max)
 }

@@ -1,0 +1,50 @@
+//! The memory a run will need, known before any number is computed.
+
+use super::Analysis;
+use crate::error::{Error, Result};
+use crate::job::{Certify, Job, ModeSelection};
+use crate::partition::Partition;
+
+/// Bytes of an entry of a sparse matrix: value and column.
+const ENTRY: u64 = 12;
+/// Bytes of a double.
+const DOUBLE: u64 = 8;
+/// Modes assumed for a band whose number of modes is not known yet.
+const MODES_IN_A_BAND: u64 = 50;
+
+/// Refuses a run whose forecast exceeds the memory allowed by the job.
+///
+/// Counted are the matrices, one factor (two where a Sturm count needs a second), the constraint modes and the basis of
+/// the eigensolver: three vectors for each mode and eight blocks of eight.
+///
+/// # Errors
+/// [`Error::MemoryForecast`].
+pub fn refuse_beyond_memory(analysis: &Analysis, partition: &Partition, job: &Job) -> Result<()> {
+    let Some(limit) = job.run.memory_gib else { return Ok(()) };
+    let n = partition.n_dofs() as u64;
+    let n_modes = match job.reduction.modes {
+        ModeSelection::Count { count } => count as u64,
+        ModeSelection::UpTo { .. } => MODES_IN_A_BAND,
+    };
+    // The partitioned matrices, their internal blocks, and one triangle with wide indices while a factor is made.
+    let entries = (partition.stiffness.nnz() + partition.mass.nnz()) as u64;
+    let matrices = 3 * ENTRY * entries;
+    let factors = match job.run.certify {
+        Certify::None => analysis.factor_bytes(),
+        Certify::Count => 2 * analysis.factor_bytes(),
+    };
+    let vectors = DOUBLE * n * (2 * partition.n_interface() as u64 + 5 * n_modes + 64);
+    let needed = matrices.saturating_add(factors).saturating_add(vectors);
+    let available = (limit * f64::from(1 << 30)) as u64;
+    if needed <= available {
+        return Ok(());
+    }
+    let part = |bytes: u64| bytes as f64 / f64::from(1 << 30);
+    let what = format!(
+        "factors {:.1}, matrices {:.1}, vectors {:.1} GiB",
+        part(factors),
+        part(matrices),
+        part(vectors)
+    );
+    Err(Error::MemoryForecast { needed, available, what })
+}

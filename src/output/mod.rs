@@ -1,0 +1,85 @@
+//! What leaves the tool: the superelement and the report, in the user's units.
+//!
+//! The stages work in scaled units; here, and only here, the powers of two are put back. Modal coordinates are scaled so
+//! that named modes are mass-normalised in the user's units.
+
+mod report;
+mod superelement;
+
+use supel_runtime::Superelement;
+
+use crate::error::Result;
+use crate::input::Input;
+use crate::job::Job;
+use crate::model::Model;
+use crate::report::{Report, WorkCounters};
+use crate::verification::Evidence;
+use crate::verification::check::Check;
+
+/// What is remembered of the input after its matrices have gone into the model.
+#[derive(Clone, Debug)]
+pub struct InputFacts {
+    /// Digits and digest of K and M.
+    pub matrices: [MatrixFacts; 2],
+    /// Remarks of the readers.
+    pub notes: Vec<String>,
+}
+
+/// What is remembered of one matrix.
+#[derive(Clone, Debug)]
+pub struct MatrixFacts {
+    /// Stored entries, both triangles.
+    pub n_nonzeros: usize,
+    /// Significant digits.
+    pub digits: u32,
+    /// BLAKE3 of the file.
+    pub digest: String,
+}
+
+impl InputFacts {
+    /// Takes down the facts of an input.
+    pub fn of(input: &Input) -> Self {
+        let facts = |matrix: &crate::input::MatrixInput| MatrixFacts {
+            n_nonzeros: matrix.matrix.nnz(),
+            digits: matrix.digits,
+            digest: matrix.digest.clone(),
+        };
+        Self {
+            matrices: [facts(&input.stiffness), facts(&input.mass)],
+            notes: input.notes.iter().map(ToString::to_string).collect(),
+        }
+    }
+}
+
+/// Everything the output is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct Results<'a> {
+    /// The job.
+    pub job: &'a Job,
+    /// What was read.
+    pub input: &'a InputFacts,
+    /// The checked model.
+    pub model: &'a Model,
+    /// The results of the stages.
+    pub evidence: Evidence<'a>,
+    /// The checks.
+    pub checks: &'a [Check],
+    /// What was done, counted.
+    pub work: WorkCounters,
+}
+
+/// The superelement and its report.
+///
+/// # Errors
+/// A result that the file format refuses, such as a value that is not finite.
+pub fn output(results: &Results<'_>) -> Result<(Superelement, Report)> {
+    let body = report::body(results);
+    let superelement = superelement::superelement(results, body.verdict())?;
+    let run = crate::report::RunFacts { work: results.work, ..Default::default() };
+    Ok((superelement, Report { body, run }))
+}
+
+/// The frequency of an eigenvalue in scaled units, in rad/s.
+fn omega(lambda: f64, unit: f64) -> f64 {
+    (lambda * unit).max(0.0).sqrt()
+}

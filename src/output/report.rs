@@ -1,0 +1,189 @@
+//! The body of the report from the results of the stages.
+
+use std::collections::BTreeSet;
+
+use supel_runtime::Matrix;
+
+use super::{MatrixFacts, Results, omega};
+use crate::basis::DynamicCoordinate;
+use crate::job::{Certify, ModeSelection};
+use crate::model::{ASYMMETRY_WARN, Finding};
+use crate::modes::Boundary;
+use crate::report::{
+    Completeness, DroppedCoordinate, Generator, InterfaceReport, MassProperties, MatrixReport, ModeKind, ModeRow,
+    ModelReport, ReductionReport, ReportBody, RigidBodyModes, RigidBodySource, Warning,
+};
+use crate::rigid::{ILL_CONDITIONED, RigidSource};
+
+pub(super) fn body(results: &Results<'_>) -> ReportBody {
+    ReportBody {
+        generator: Generator::default(),
+        model: model(results),
+        reduction: reduction(results),
+        checks: results.checks.to_vec(),
+        warnings: warnings(results),
+        completeness: completeness(results),
+    }
+}
+
+fn model(results: &Results<'_>) -> ModelReport {
+    let evidence = &results.evidence;
+    let model = results.model;
+    let [stiffness, mass] = &results.input.matrices;
+    let mut notes = results.input.notes.clone();
+    notes.extend(model.findings.iter().map(ToString::to_string));
+    ModelReport {
+        n_dofs: model.n_dofs(),
+        n_nodes: model.dofs.as_ref().map(|dofs| dofs.iter().map(|dof| dof.node).collect::<BTreeSet<_>>().len()),
+        n_bodies: model.bodies.n_bodies,
+        stiffness: matrix(stiffness),
+        mass: matrix(mass),
+        mass_properties: mass_properties(results),
+        rigid_body_modes: RigidBodyModes {
+            count: evidence.rigid.count(),
+            source: match evidence.rigid.source {
+                RigidSource::Geometric => RigidBodySource::Geometric,
+                RigidSource::Algebraic => RigidBodySource::Algebraic,
+            },
+        },
+        units: results.job.model.units.clone(),
+        notes,
+    }
+}
+
+fn matrix(facts: &MatrixFacts) -> MatrixReport {
+    MatrixReport { n_nonzeros: facts.n_nonzeros, digits: facts.digits, digest: facts.digest.clone() }
+}
+
+fn mass_properties(results: &Results<'_>) -> MassProperties {
+    let evidence = &results.evidence;
+    if !evidence.rigid.is_classical {
+        return MassProperties::default();
+    }
+    let m_f = &evidence.reduction.rigid_body_mass;
+    let unit = evidence.partition.scaling.mass_unit();
+    let m_f = Matrix::from_fn(m_f.nrows(), m_f.ncols(), |i, j| m_f[(i, j)] * unit);
+    supel_runtime::mass_properties(&m_f).map_or_else(MassProperties::default, |known| MassProperties {
+        mass: Some(known.mass),
+        cg: Some(known.center_of_mass),
+        inertia: Some(known.inertia),
+    })
+}
+
+fn reduction(results: &Results<'_>) -> ReductionReport {
+    let evidence = &results.evidence;
+    let basis = evidence.basis;
+    let is_relief = |c: &&DynamicCoordinate| matches!(c, DynamicCoordinate::InertiaRelief(_));
+    let n_inertia_relief = basis.coordinates.iter().filter(is_relief).count();
+    ReductionReport {
+        method: results.job.reduction.method,
+        eigensolver: results.job.reduction.eigensolver,
+        interfaces: interfaces(results),
+        n_interface: evidence.partition.n_interface(),
+        n_inertia_relief,
+        n_modes: basis.n_dynamic() - n_inertia_relief,
+        n_reduced: basis.n_reduced(),
+        dropped: basis
+            .dropped
+            .iter()
+            .map(|column| DroppedCoordinate {
+                coordinate: match column.coordinate {
+                    DynamicCoordinate::InertiaRelief(index) => format!("inertia relief {}", index + 1),
+                    DynamicCoordinate::FreeFree(mode) | DynamicCoordinate::FixedInterface(mode) => {
+                        format!("mode {}", mode + 1)
+                    }
+                },
+                reason: format!("depends on the columns before it ({:.1e} of its length is left)", column.remaining),
+            })
+            .collect(),
+        modes: modes(results),
+    }
+}
+
+/// One row for each interface of the job, in its order.
+fn interfaces(results: &Results<'_>) -> Vec<InterfaceReport> {
+    let partition = results.evidence.partition;
+    let mut rows: Vec<InterfaceReport> = Vec::new();
+    for node in &partition.interface {
+        let n_dofs = if node.directions.is_empty() { node.n_nodes } else { node.directions.len() };
+        match rows.last_mut().filter(|row| row.name == node.name) {
+            Some(row) => {
+                row.n_nodes += node.n_nodes;
+                row.n_dofs += n_dofs;
+            }
+            None => rows.push(InterfaceReport {
+                name: node.name.clone(),
+                coupling: node.coupling,
+                n_nodes: node.n_nodes,
+                n_dofs,
+            }),
+        }
+    }
+    rows
+}
+
+fn modes(results: &Results<'_>) -> Vec<ModeRow> {
+    let evidence = &results.evidence;
+    let modes = &evidence.retained.modes;
+    let unit = evidence.partition.scaling.eigenvalue_unit();
+    let kind = match evidence.retained.boundary {
+        Boundary::FreeInterface => ModeKind::FreeInterface,
+        Boundary::FixedInterface => ModeKind::FixedInterface,
+    };
+    let row = |(index, (lambda, error)): (usize, (&f64, &crate::modes::ModeError))| {
+        let frequency_hz = omega(*lambda, unit) / std::f64::consts::TAU;
+        ModeRow {
+            index: index + 1,
+            frequency_hz,
+            error_bar_hz: 0.5 * error.relative_bar * frequency_hz,
+            backward_error: error.backward,
+            kind,
+        }
+    };
+    modes.lambda.iter().zip(&modes.errors).enumerate().map(row).collect()
+}
+
+fn warnings(results: &Results<'_>) -> Vec<Warning> {
+    let evidence = &results.evidence;
+    let mut warnings = Vec::new();
+    let ratio = evidence.rank.singular_ratio;
+    if ratio < ILL_CONDITIONED {
+        warnings.push(Warning {
+            code: "W-INTERFACE-ILL",
+            message: format!(
+                "the interface reacts one rigid-body motion {:.0} times worse than another; digits are lost there",
+                1.0 / ratio
+            ),
+        });
+    }
+    for finding in &results.model.findings {
+        if let Finding::Symmetrised { asymmetry, .. } = finding
+            && *asymmetry > ASYMMETRY_WARN
+        {
+            warnings.push(Warning { code: "W-UNSYMMETRIC", message: finding.to_string() });
+        }
+    }
+    let found = evidence.retained.modes.count();
+    if let ModeSelection::Count { count } = results.job.reduction.modes
+        && found < count
+    {
+        warnings.push(Warning {
+            code: "W-FEWER-MODES",
+            message: format!("{count} modes were asked for; the model has only {found} of finite frequency"),
+        });
+    }
+    warnings
+}
+
+fn completeness(results: &Results<'_>) -> Completeness {
+    let unit = results.evidence.partition.scaling.eigenvalue_unit();
+    match (results.evidence.certificate, results.job.run.certify) {
+        (Some(certificate), _) => Completeness::SturmCount {
+            below_hz: omega(certificate.count.sigma, unit) / std::f64::consts::TAU,
+            n_counted: certificate.n_counted,
+            n_found: certificate.n_found,
+        },
+        (None, Certify::None) => Completeness::NotCertified { reason: "--certify none was asked".to_owned() },
+        (None, Certify::Count) => Completeness::NotCertified { reason: "the count could not be taken".to_owned() },
+    }
+}

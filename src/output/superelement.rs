@@ -1,0 +1,215 @@
+//! The superelement from the results of the stages.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use faer::{Mat, MatRef};
+use supel_runtime::{self as file, Coordinate, Matrix, Metadata, Superelement, Tensors};
+
+use super::{Results, omega};
+use crate::basis::DynamicCoordinate;
+use crate::error::{Error, Result};
+use crate::job::{Job, Method, ModeSelection};
+use crate::modes::Boundary;
+use crate::partition::DofOrigin;
+use crate::rigid::RigidSource;
+use crate::verification::check::{Check, Verdict};
+
+/// Puts the units back and names every coordinate.
+pub(super) fn superelement(results: &Results<'_>, verdict: Verdict) -> Result<Superelement> {
+    let tensors = tensors(results);
+    let metadata = metadata(results, &tensors, verdict);
+    Superelement::new(tensors, metadata).map_err(|error| Error::from_file(&results.job.write.superelement, error))
+}
+
+fn tensors(results: &Results<'_>) -> Tensors {
+    let evidence = &results.evidence;
+    let (reduction, partition) = (evidence.reduction, evidence.partition);
+    let (scaling, n_b) = (partition.scaling, partition.n_interface());
+    let shape = scaling.shape_unit();
+    // A coordinate's unit: one for an interface dof, that of a mass-normalised shape for a modal amplitude.
+    let unit = |i: usize| if i < n_b { 1.0 } else { shape };
+    let both = |a: &Mat<f64>, of: f64| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * of * unit(i) * unit(j));
+    let rows = |a: &Mat<f64>, of: f64| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * of * unit(i));
+    let mut rigid_body_mass = reduction.rigid_body_mass.clone();
+    rigid_body_mass *= faer::Scale(scaling.mass_unit());
+    let nodes = named_nodes(results);
+    Tensors {
+        stiffness: matrix(both(&reduction.stiffness, scaling.stiffness_unit()).as_ref()),
+        mass: matrix(both(&reduction.mass, scaling.mass_unit()).as_ref()),
+        rigid_body_modes: matrix(reduction.rigid_body_modes.as_ref()),
+        rigid_body_mass: matrix(rigid_body_mass.as_ref()),
+        interface_positions: nodes.iter().map(|node| node.position).collect(),
+        interface_frames: vec![[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]; nodes.len()],
+        frequencies: frequencies(results),
+        mixing: mixing(results).as_ref().map(|mixing| matrix(mixing.as_ref())),
+        gravity: reduction.gravity.as_ref().map(|gravity| matrix(rows(gravity, scaling.mass_unit()).as_ref())),
+        ..Tensors::default()
+    }
+}
+
+fn matrix(a: MatRef<'_, f64>) -> Matrix {
+    Matrix::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)])
+}
+
+fn frequencies(results: &Results<'_>) -> Vec<f64> {
+    let unit = results.evidence.partition.scaling.eigenvalue_unit();
+    let mut frequencies: Vec<f64> =
+        results.evidence.retained.modes.lambda.iter().map(|lambda| omega(*lambda, unit)).collect();
+    // Rayleigh quotients of a repeated eigenvalue may come out a rounding apart in the wrong order.
+    frequencies.sort_by(f64::total_cmp);
+    frequencies
+}
+
+/// Stored dynamic modes = named modes · mixing, in the user's units; none where every column is its named mode.
+fn mixing(results: &Results<'_>) -> Option<Mat<f64>> {
+    let evidence = &results.evidence;
+    if evidence.retained.boundary == Boundary::FixedInterface || evidence.basis.n_dynamic() == 0 {
+        return None;
+    }
+    let scaling = evidence.partition.scaling;
+    let mixing = evidence.basis.mixing_of_kept();
+    // A named shape is mass-normalised in the user's units like the stored ones; an inertia-relief mode K_II⁻¹(MU)_I
+    // carries the unit of M over that of K.
+    let named_unit = |coordinate: DynamicCoordinate| match coordinate {
+        DynamicCoordinate::InertiaRelief(_) => 1.0 / scaling.eigenvalue_unit(),
+        DynamicCoordinate::FreeFree(_) | DynamicCoordinate::FixedInterface(_) => scaling.shape_unit(),
+    };
+    let unit: Vec<f64> = evidence.basis.coordinates.iter().map(|c| scaling.shape_unit() / named_unit(*c)).collect();
+    Some(Mat::from_fn(mixing.nrows(), mixing.ncols(), |i, j| mixing[(i, j)] * unit[i]))
+}
+
+/// Interface nodes of the file: those whose position is known. Without coordinates the interface is bare rows.
+fn named_nodes(results: &Results<'_>) -> Vec<file::InterfaceNode> {
+    let interface = &results.evidence.partition.interface;
+    let named = interface.iter().map(|node| {
+        Some(file::InterfaceNode {
+            name: node.name.clone(),
+            label: node.label,
+            dofs: node.directions.iter().map(|direction| direction_of(*direction)).collect(),
+            position: node.position?,
+        })
+    });
+    named.collect::<Option<Vec<_>>>().unwrap_or_default()
+}
+
+fn direction_of(direction: crate::input::Direction) -> file::Direction {
+    file::Direction::ALL[direction as usize]
+}
+
+fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metadata {
+    let evidence = &results.evidence;
+    let interface_nodes = named_nodes(results);
+    let mut coordinates = interface_coordinates(results, &interface_nodes);
+    coordinates.extend(evidence.basis.coordinates.iter().map(|c| dynamic_coordinate(results, tensors, *c)));
+    let dropped = evidence.basis.dropped.iter().map(|column| file::DroppedColumn {
+        column: dynamic_coordinate(results, tensors, column.coordinate),
+        reason: format!(
+            "depends on the columns before it: {:.1e} of its length is left, 1e-8 is needed",
+            column.remaining
+        ),
+    });
+    let classical = evidence.rigid.is_classical.then(|| file::mass_properties(&tensors.rigid_body_mass)).flatten();
+    let [stiffness, mass] = &results.input.matrices;
+    Metadata {
+        generator: file::Generator { name: env!("CARGO_PKG_NAME").into(), version: env!("CARGO_PKG_VERSION").into() },
+        method: match results.job.reduction.method {
+            Method::CraigBampton => file::Method::CraigBampton,
+            Method::Herting => file::Method::Herting,
+        },
+        units: results.job.model.units.clone(),
+        interface_nodes,
+        coordinates,
+        dropped: dropped.collect(),
+        load_names: Vec::new(),
+        validity: file::Validity { band_hz: band(results.job, tensors), assumptions: Vec::new() },
+        flags: BTreeSet::new(),
+        model: file::ModelSummary {
+            n_dofs: results.model.n_dofs() as u64,
+            rigid_body_modes: match evidence.rigid.source {
+                RigidSource::Geometric if evidence.rigid.is_classical => file::RigidBodyModes::Geometric,
+                _ => file::RigidBodyModes::Algebraic,
+            },
+            mass_properties: classical,
+        },
+        inputs: BTreeMap::from([
+            ("stiffness".to_owned(), stiffness.digest.clone()),
+            ("mass".to_owned(), mass.digest.clone()),
+        ]),
+        job: job_document(results.job),
+        verification: verification(results.checks, verdict),
+    }
+}
+
+fn interface_coordinates(results: &Results<'_>, nodes: &[file::InterfaceNode]) -> Vec<Coordinate> {
+    if !nodes.is_empty() {
+        let of_node = |(index, node): (usize, &file::InterfaceNode)| {
+            let dofs = node.dofs.clone();
+            dofs.into_iter().map(move |direction| Coordinate::Interface { node: index, direction })
+        };
+        return nodes.iter().enumerate().flat_map(of_node).collect();
+    }
+    let partition = results.evidence.partition;
+    let rows = partition.dofs[partition.n_internal..].iter().map(|dof| match dof.origin {
+        DofOrigin::Row(row) => Coordinate::InterfaceRow { row: row as u64 },
+        // A rigid node has a position, so that an interface with one is never bare rows.
+        DofOrigin::RigidNode(node, _) => Coordinate::InterfaceRow { row: node as u64 },
+    });
+    rows.collect()
+}
+
+fn dynamic_coordinate(results: &Results<'_>, tensors: &Tensors, coordinate: DynamicCoordinate) -> Coordinate {
+    let errors = &results.evidence.retained.modes.errors;
+    let frequency = |mode: usize| tensors.frequencies[mode] / std::f64::consts::TAU;
+    let bar = |mode: usize| Some(0.5 * errors[mode].relative_bar * frequency(mode)).filter(|bar: &f64| bar.is_finite());
+    match coordinate {
+        DynamicCoordinate::InertiaRelief(index) => Coordinate::InertiaRelief { index },
+        DynamicCoordinate::FreeFree(mode) => {
+            Coordinate::ElasticMode { mode, frequency_hz: frequency(mode), error_bar_hz: bar(mode) }
+        }
+        DynamicCoordinate::FixedInterface(mode) => {
+            Coordinate::FixedInterfaceMode { mode, frequency_hz: frequency(mode), error_bar_hz: bar(mode) }
+        }
+    }
+}
+
+/// From zero to the frequency the modes reach.
+fn band(job: &Job, tensors: &Tensors) -> Option<[f64; 2]> {
+    match job.reduction.modes {
+        ModeSelection::UpTo { up_to_hz } => Some([0.0, up_to_hz]),
+        ModeSelection::Count { .. } => tensors.frequencies.last().map(|omega| [0.0, omega / std::f64::consts::TAU]),
+    }
+}
+
+/// The job with its paths relative to the superelement's folder, so that the file does not depend on where that is.
+fn job_document(job: &Job) -> serde_json::Value {
+    let folder = job.write.superelement.parent().unwrap_or(Path::new("")).to_owned();
+    let mut job = job.clone();
+    let relative = |path: &mut std::path::PathBuf| {
+        if let Ok(inside) = path.strip_prefix(&folder) {
+            *path = inside.to_owned();
+        }
+    };
+    relative(&mut job.model.stiffness);
+    relative(&mut job.model.mass);
+    job.model.dofs.as_mut().map(relative);
+    job.model.nodes.as_mut().map(relative);
+    relative(&mut job.write.superelement);
+    job.write.report.as_mut().map(relative);
+    serde_json::to_value(job).unwrap_or_default()
+}
+
+fn verification(checks: &[Check], verdict: Verdict) -> file::Verification {
+    let verdict_of = |verdict: Verdict| match verdict {
+        Verdict::Pass => file::Verdict::Pass,
+        Verdict::Warn => file::Verdict::Warn,
+        Verdict::Fail => file::Verdict::Fail,
+    };
+    let summary = |check: &Check| file::CheckSummary {
+        id: check.id.to_owned(),
+        value: Some(check.value).filter(|value| value.is_finite()),
+        limit: check.limits.value(),
+        verdict: verdict_of(check.verdict()),
+    };
+    file::Verification { verdict: verdict_of(verdict), checks: checks.iter().map(summary).collect() }
+}
