@@ -91,7 +91,10 @@ pub fn reduce(job: &Job, observer: &mut dyn Observer) -> Result<Outcome> {
 
     observer.stage("factor");
     let (k_ii, m_ii) = (partition.internal_stiffness(), partition.internal_mass());
-    let pencil = Pencil { stiffness: &k_ii, mass: &m_ii };
+    let pencil = Pencil {
+        stiffness: &k_ii,
+        mass: &m_ii,
+    };
     let analysis = Analysis::new(pencil)?;
     factor::refuse_beyond_memory(&analysis, &partition, job)?;
     let factor = Cholesky::new(&analysis, pencil, 0.0, &|dof| partition.name_of(dof))?;
@@ -101,7 +104,13 @@ pub fn reduce(job: &Job, observer: &mut dyn Observer) -> Result<Outcome> {
 
     observer.stage("modes");
     let internal = (&k_ii, &m_ii);
-    let component = Component { partition: &partition, internal, factor: &factor, rigid: &rigid, constraint: &constraint };
+    let component = Component {
+        partition: &partition,
+        internal,
+        factor: &factor,
+        rigid: &rigid,
+        constraint: &constraint,
+    };
     let retained = modes::retained(component, &job.reduction, modes::SEED)?;
 
     observer.stage("certificate");
@@ -135,7 +144,13 @@ pub fn reduce(job: &Job, observer: &mut dyn Observer) -> Result<Outcome> {
         factor_flops: analysis.flops,
         factor_nonzeros: analysis.nnz_factor as u64,
     };
-    let (superelement, report) =
-        output::output(&Results { job, input: &facts, model: &model, evidence, checks: &checks, work })?;
+    let (superelement, report) = output::output(&Results {
+        job,
+        input: &facts,
+        model: &model,
+        evidence,
+        checks: &checks,
+        work,
+    })?;
     Ok(Outcome { superelement, report })
 }

@@ -46,5 +46,9 @@ pub fn refuse_beyond_memory(analysis: &Analysis, partition: &Partition, job: &Jo
         part(matrices),
         part(vectors)
     );
-    Err(Error::MemoryForecast { needed, available, what })
+    Err(Error::MemoryForecast {
+        needed,
+        available,
+        what,
+    })
 }
