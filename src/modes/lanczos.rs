@@ -64,11 +64,11 @@ pub struct EigenWork {
 }
 
 /// Residual ‖OP x − θx‖ over θ at which a pair is taken: the Rayleigh quotient then errs by its square.
-const TOLERANCE: f64 = 1e-12;
+pub(super) const TOLERANCE: f64 = 1e-12;
 /// The same for the pair beyond the wanted ones, of which only λ is used.
 const NEXT_TOLERANCE: f64 = 1e-4;
 /// Rounding of OP in units of ε times its largest eigenvalue: no residual falls below it.
-const ROUNDING: f64 = 16.0;
+pub(super) const ROUNDING: f64 = 16.0;
 /// Eigenvalues nearer than this, relatively, belong to one cluster.
 pub const CLUSTER_GAP: f64 = 1e-6;
 /// Restarts after which an iteration that has not converged never will.
@@ -403,7 +403,7 @@ impl Ritz {
     }
 
     fn same_cluster(&self, a: usize, b: usize, sigma: f64) -> bool {
-        (self.lambda(b, sigma) - self.lambda(a, sigma)).abs() <= CLUSTER_GAP * self.lambda(b, sigma).abs()
+        are_clustered(self.lambda(a, sigma), self.lambda(b, sigma))
     }
 
     /// How many pairs answer the request, or none while the request is not answered.
@@ -425,7 +425,7 @@ impl Ritz {
 
 impl Problem<'_> {
     /// F ← Pᵀ F: takes the rigid-body resultant out of forces.
-    fn equilibrate(&self, forces: MatMut<'_, f64>) {
+    pub(super) fn equilibrate(&self, forces: MatMut<'_, f64>) {
         let [q, mass_q] = self.deflated;
         if q.ncols() > 0 {
             let resultant = dense::gram(q, forces.as_ref());
@@ -434,7 +434,7 @@ impl Problem<'_> {
     }
 
     /// X ← P X: takes the rigid-body motion out of displacements.
-    fn deflate(&self, displacements: MatMut<'_, f64>) {
+    pub(super) fn deflate(&self, displacements: MatMut<'_, f64>) {
         let [q, mass_q] = self.deflated;
         if q.ncols() > 0 {
             let motion = dense::gram(mass_q, displacements.as_ref());
@@ -443,18 +443,23 @@ impl Problem<'_> {
     }
 }
 
+/// Whether an eigenvalue and the next one above belong to one cluster.
+pub(super) fn are_clustered(lower: f64, upper: f64) -> bool {
+    (upper - lower).abs() <= CLUSTER_GAP * upper.abs()
+}
+
 /// Columns of V before a restart: three times the wanted ones and eight blocks converge fifty modes without one.
 fn capacity_for(n_wanted: usize, block: usize, n: usize) -> usize {
     (3 * n_wanted + 8 * block).min(n)
 }
 
-fn product(mass: &SparseMatrix, block: MatRef<'_, f64>) -> Mat<f64> {
+pub(super) fn product(mass: &SparseMatrix, block: MatRef<'_, f64>) -> Mat<f64> {
     let mut out = Mat::zeros(block.nrows(), block.ncols());
     multiply(mass, block, out.as_mut());
     out
 }
 
-fn mass_norm(mass: &SparseMatrix, vector: &Mat<f64>) -> f64 {
+pub(super) fn mass_norm(mass: &SparseMatrix, vector: &Mat<f64>) -> f64 {
     let image = product(mass, vector.as_ref());
     dense::dot(dense::column(vector.as_ref(), 0), dense::column(image.as_ref(), 0)).max(0.0).sqrt()
 }
