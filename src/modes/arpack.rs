@@ -22,7 +22,7 @@ use std::sync::{Mutex, PoisonError};
 use faer::{Mat, MatMut, MatRef};
 
 use super::lanczos::{
-    EigenWork, Eigenpairs, Problem, ROUNDING, TOLERANCE, Wanted, are_clustered, mass_norm, product,
+    EigenWork, Eigenpairs, Problem, RESIDUAL_FLOOR, ROUNDING, TOLERANCE, Wanted, are_clustered, mass_norm, product,
 };
 use super::random::SplitMix64;
 use crate::dense;
@@ -33,8 +33,8 @@ static STATE: Mutex<()> = Mutex::new(());
 /// (2⁻⁵³)^⅔, below which ARPACK measures residuals absolutely.
 const ARPACK_FLOOR: f64 = 2.309_9e-11;
 /// Where s puts the largest θ. ARPACK takes a pair at a residual of TOLERANCE · max(θ, ARPACK_FLOOR); with the largest θ
-/// here, the floor is [`ROUNDING`] ε times the largest θ, below which the rounding of OP lets no residual fall.
-const TARGET: f64 = TOLERANCE * ARPACK_FLOOR / (ROUNDING * f64::EPSILON);
+/// here, the floor is [`RESIDUAL_FLOOR`] ε times the largest θ, as in the Lanczos iteration.
+const TARGET: f64 = TOLERANCE * ARPACK_FLOOR / (RESIDUAL_FLOOR * f64::EPSILON);
 /// Modes asked for beyond the wanted ones, and the least a sweep asks for.
 const SPARE: usize = 4;
 /// Modes asked for first in a band; what has been found is doubled after that.
@@ -53,8 +53,12 @@ const BAD_START: i32 = -9;
 pub(super) fn arpack(problem: Problem<'_>, wanted: Wanted, seed: u64) -> Result<Eigenpairs> {
     // A thread that waits inside a parallel product takes up other work, possibly another search, which would wait for
     // the lock for ever. Threads of its own have no other work.
-    let threads = rayon::ThreadPoolBuilder::new().num_threads(rayon::current_num_threads()).build();
-    let threads = threads.map_err(|_| Error::OutOfMemory { what: "the threads of ARPACK" })?;
+    let threads = rayon::ThreadPoolBuilder::new()
+        .num_threads(rayon::current_num_threads())
+        .build();
+    let threads = threads.map_err(|_| Error::OutOfMemory {
+        what: "the threads of ARPACK",
+    })?;
     threads.install(|| {
         let _alone = STATE.lock().unwrap_or_else(PoisonError::into_inner);
         Search::new(problem, seed).run(wanted)
@@ -81,7 +85,10 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(problem: Problem<'a>, seed: u64) -> Self {
         let [q, mass_q] = problem.deflated;
-        let rows_with_mass = problem.mass.outer_iterator().filter(|row| row.data().iter().any(|value| *value != 0.0));
+        let rows_with_mass = problem
+            .mass
+            .outer_iterator()
+            .filter(|row| row.data().iter().any(|value| *value != 0.0));
         Self {
             problem,
             random: SplitMix64::new(seed),
@@ -112,7 +119,10 @@ impl<'a> Search<'a> {
 
     /// The problem with everything taken out that has been found.
     fn remaining(&self) -> Problem<'_> {
-        Problem { deflated: [self.taken.as_ref(), self.mass_taken.as_ref()], ..self.problem }
+        Problem {
+            deflated: [self.taken.as_ref(), self.mass_taken.as_ref()],
+            ..self.problem
+        }
     }
 
     /// Replaces M x by OP x, without s.
@@ -140,7 +150,10 @@ impl<'a> Search<'a> {
             self.apply(image.as_mut());
             let stretched = mass_norm(mass, &image);
             if !stretched.is_finite() {
-                return Err(Error::Arpack { status: BAD_START, converged: self.theta.len() });
+                return Err(Error::Arpack {
+                    status: BAD_START,
+                    converged: self.theta.len(),
+                });
             }
             if stretched <= ROUNDING * f64::EPSILON * largest {
                 return Ok(None);
@@ -157,16 +170,25 @@ impl<'a> Search<'a> {
         if room == 0 {
             return Ok(());
         }
-        let Some((start, stretch)) = self.start()? else { return Ok(()) };
-        let scale = *self.scale.get_or_insert_with(|| 2f64.powi((TARGET / stretch).log2().round() as i32));
+        let Some((start, stretch)) = self.start()? else {
+            return Ok(());
+        };
+        let scale = *self
+            .scale
+            .get_or_insert_with(|| 2f64.powi((TARGET / stretch).log2().round() as i32));
         if room == 1 {
             // The last direction left is the mode; ARPACK wants two.
             self.take(start.as_ref(), &[stretch]);
             return Ok(());
         }
-        let mut sweep = Sweep::new(start, n_asked.min(room - 1), room)?;
-        loop {
-            let Some((request, source, target)) = sweep.next()? else { break };
+        // Half of what is left, so that restarts keep room to clear the basis of rounding.
+        let mut sweep = Sweep::new(start, n_asked.min(room / 2), room)?;
+        while let Some(Call {
+            request,
+            source,
+            target,
+        }) = sweep.next()?
+        {
             let source = Mat::from_fn(source.len(), 1, |i, _| source[i]);
             let mut result = match request {
                 Request::Mass | Request::Operator => product(self.problem.mass, source.as_ref()),
@@ -180,7 +202,10 @@ impl<'a> Search<'a> {
         }
         self.work.restarts += sweep.n_restarts();
         let (reciprocals, vectors) = sweep.eigenpairs()?;
-        let theta: Vec<f64> = reciprocals.iter().map(|reciprocal| 1.0 / (reciprocal * scale)).collect();
+        let theta: Vec<f64> = reciprocals
+            .iter()
+            .map(|reciprocal| 1.0 / (reciprocal * scale))
+            .collect();
         self.take(vectors.as_ref(), &theta);
         Ok(())
     }
@@ -188,7 +213,10 @@ impl<'a> Search<'a> {
     fn take(&mut self, vectors: MatRef<'_, f64>, theta: &[f64]) {
         let mut vectors = vectors.to_owned();
         self.remaining().deflate(vectors.as_mut());
-        self.mass_taken = beside(self.mass_taken.as_ref(), product(self.problem.mass, vectors.as_ref()).as_ref());
+        self.mass_taken = beside(
+            self.mass_taken.as_ref(),
+            product(self.problem.mass, vectors.as_ref()).as_ref(),
+        );
         self.taken = beside(self.taken.as_ref(), vectors.as_ref());
         self.theta.extend_from_slice(theta);
     }
@@ -243,7 +271,14 @@ enum Request {
     Mass,
 }
 
-/// One call of ARPACK by reverse communication, with all its arrays.
+/// A request with what it is made of and where its answer goes.
+struct Call<'a> {
+    request: Request,
+    source: Vec<f64>,
+    target: &'a mut [f64],
+}
+
+/// One run of ARPACK by reverse communication, with all its arrays.
 struct Sweep {
     n: usize,
     nev: c_int,
@@ -268,7 +303,9 @@ impl Sweep {
         let n = start.nrows();
         let ncv = (2 * nev + 1).max(MIN_BASIS).min(room);
         let length = |value: usize| {
-            c_int::try_from(value).map_err(|_| Error::OutOfMemory { what: "ARPACK, which counts in 32 bits" })
+            c_int::try_from(value).map_err(|_| Error::OutOfMemory {
+                what: "ARPACK, which counts in 32 bits",
+            })
         };
         let mut iparam = [0; 11];
         // Exact shifts, at most so many restarts, blocks of one, mode 3: shift and invert.
@@ -291,8 +328,8 @@ impl Sweep {
         })
     }
 
-    /// Runs ARPACK to its next request: what to compute, from which x (or M x), into which y. None when it is done.
-    fn next(&mut self) -> Result<Option<(Request, Vec<f64>, &mut [f64])>> {
+    /// Runs ARPACK to its next request; none when it is done.
+    fn next(&mut self) -> Result<Option<Call<'_>>> {
         // SAFETY: see the head of the file; every pointer is to an array of this object of the length ARPACK expects.
         unsafe {
             arpack_sys::dsaupd_c(
@@ -323,7 +360,11 @@ impl Sweep {
             _ => return Err(self.failure()),
         };
         let source = self.workd[source..source + self.n].to_vec();
-        Ok(Some((request, source, &mut self.workd[y..y + self.n])))
+        Ok(Some(Call {
+            request,
+            source,
+            target: &mut self.workd[y..y + self.n],
+        }))
     }
 
     fn n_restarts(&self) -> usize {
@@ -335,7 +376,10 @@ impl Sweep {
     }
 
     fn failure(&self) -> Error {
-        Error::Arpack { status: self.info, converged: self.n_converged() }
+        Error::Arpack {
+            status: self.info,
+            converged: self.n_converged(),
+        }
     }
 
     /// 1/θ and x of the converged pairs.

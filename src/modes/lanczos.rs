@@ -68,8 +68,10 @@ pub struct EigenWork {
 pub(super) const TOLERANCE: f64 = 1e-13;
 /// The same for the pair beyond the wanted ones, of which only λ is used.
 const NEXT_TOLERANCE: f64 = 1e-4;
-/// Rounding of OP in units of ε times its largest eigenvalue: no residual falls below it.
+/// Rounding of OP in units of ε times its largest eigenvalue: a θ below it is that of an infinite eigenvalue.
 pub(super) const ROUNDING: f64 = 16.0;
+/// Residuals in the same units that need not fall further; the correction in [`Basis::extract`] takes up the rest.
+pub(super) const RESIDUAL_FLOOR: f64 = 2.0;
 /// Eigenvalues nearer than this, relatively, belong to one cluster.
 pub const CLUSTER_GAP: f64 = 1e-6;
 /// Restarts after which an iteration that has not converged never will.
@@ -306,7 +308,7 @@ impl<'a> Basis<'a> {
                 dense::add_product(vector.as_mut(), -1.0, basis, c.as_ref());
             }
             let after = mass_norm(self.problem.mass, &vector);
-            if !(after > if pass == 0 { LEFT } else { 0.5 } * before) {
+            if after.is_nan() || after <= if pass == 0 { LEFT } else { 0.5 } * before {
                 return None;
             }
             vector.as_mut().col_mut(0).iter_mut().for_each(|value| *value /= after);
@@ -436,7 +438,7 @@ impl Ritz {
     }
 
     fn is_converged(&self, j: usize) -> bool {
-        self.residuals[j] <= (TOLERANCE * self.theta[j]).max(ROUNDING * f64::EPSILON * self.theta[0])
+        self.residuals[j] <= (TOLERANCE * self.theta[j]).max(RESIDUAL_FLOOR * f64::EPSILON * self.theta[0])
     }
 
     fn same_cluster(&self, a: usize, b: usize, sigma: f64) -> bool {
@@ -513,7 +515,7 @@ pub fn gram_schmidt(block: &mut Mat<f64>, mass_block: &mut Mat<f64>, least: f64,
         }
         let square = dense::dot(dense::column(block.as_ref(), j), dense::column(mass_block.as_ref(), j));
         let length = square.max(0.0).sqrt();
-        if !(length > least) {
+        if length.is_nan() || length <= least {
             dependent[j] = true;
             dense::column_mut(block.as_mut(), j).fill(0.0);
             dense::column_mut(mass_block.as_mut(), j).fill(0.0);
