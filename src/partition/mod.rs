@@ -24,7 +24,7 @@ use crate::model::{Model, Precision, Scaling};
 use crate::sparse::SparseMatrix;
 
 pub use interface::InterfaceNode;
-pub use transformation::{ReducedDof, Site, Transformation};
+pub use transformation::{DofOrigin, ReducedDof, Site, Transformation, TransformationRow};
 
 /// The matrices in the order internal, interface, with what is known of each degree of freedom.
 #[derive(Debug)]
