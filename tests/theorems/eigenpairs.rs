@@ -53,8 +53,9 @@ fn elastic_modes_are_orthogonal_in_mass_and_stiffness() {
         let sizes = terms(x.as_ref(), &twin.m_terms, x.as_ref());
         for j in 0..lambda.len() {
             for i in 0..j {
-                // The eigensolver takes a pair at a residual of 1e-12 θ or 16 ε θ₁, where θ = 1/λ.
-                let residual = 2.0 * f64::max(1e-12, 16.0 * EPS * lambda[j] / lambda[0]);
+                // The eigensolver takes a pair at a residual of 1e-12 θ or 16 ε θ₁, where θ = 1/λ. Ten of them: where the
+                // iteration has spanned all of a small model, its last directions are rounding and add to this.
+                let residual = 10.0 * f64::max(1e-12, 16.0 * EPS * lambda[j] / lambda[0]);
                 let (coupling, bound) = (masses[(i, j)].abs(), residual + n * EPS * sizes[(i, j)]);
                 assert!(
                     coupling <= bound,
