@@ -193,7 +193,7 @@ fn refuse_shared_rows(model: &Model, resolved: &[Resolved]) -> Result<()> {
         let (Rows::Own(rows) | Rows::Patch(rows)) = rows;
         for row in rows {
             if let Some(first) = owner.insert(*row, &node.name) {
-                let dof = model.dofs.as_ref().map_or_else(|| format!("row {row}"), |dofs| dofs[*row].to_string());
+                let dof = model.dofs.as_ref().map_or_else(|| format!("row {row} (from zero)"), |dofs| dofs[*row].to_string());
                 return Err(Error::DofTwice { dof, first: first.to_owned(), second: node.name.clone() });
             }
         }
