@@ -331,11 +331,26 @@ fn scale_to_unit(matrix: &mut SparseMatrix) -> i32 {
     if largest == 0.0 {
         return 0;
     }
+<<<<<<< src/model/mod.rs
     let exponent = 2 * (largest.log2() / 2.0).floor() as i32;
+=======
+    let exponent = binary_exponent(largest);
+>>>>>>> /tmp/ft/src/model/mod.rs
     // Two factors, because 2^-exponent itself can leave the range of a double.
     let (half, rest) = (2f64.powi(-(exponent / 2)), 2f64.powi(-(exponent - exponent / 2)));
     for value in matrix.data_mut() {
         *value = *value * half * rest;
     }
     exponent
+}
+
+/// ⌊log₂ x⌋ of a positive number, from its bits: a logarithm rounds up just below a power of two.
+fn binary_exponent(x: f64) -> i32 {
+    const MANTISSA_BITS: u32 = 52;
+    const BIAS: i32 = 1023;
+    // Below the normal numbers the exponent sits in the leading zeros of the mantissa; a factor lifts it out of there.
+    if x < f64::MIN_POSITIVE {
+        return binary_exponent(x * 2f64.powi(64)) - 64;
+    }
+    (x.to_bits() >> MANTISSA_BITS) as i32 - BIAS
 }

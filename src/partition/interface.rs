@@ -268,7 +268,7 @@ fn refuse_shared_rows(model: &Model, resolved: &[Resolved]) -> Result<()> {
                 let dof = model
                     .dofs
                     .as_ref()
-                    .map_or_else(|| format!("row {row}"), |dofs| dofs[*row].to_string());
+                    .map_or_else(|| format!("row {row} (from zero)"), |dofs| dofs[*row].to_string());
                 return Err(Error::DofTwice {
                     dof,
                     first: first.to_owned(),

@@ -196,9 +196,9 @@ fn mass_orthonormal(partition: &Partition, motions: MatRef<'_, f64>) -> Result<M
         let (masses, directions) = dense::symmetric_eigen(modal_mass.as_ref())?;
         let largest = masses.last().copied().unwrap_or(0.0);
         if let Some(mass) = masses.iter().find(|mass| !(**mass > NO_MASS * largest)) {
-            return Err(Error::MasslessRigidMotion {
-                relative_mass: mass / largest,
-            });
+            // A body all without mass has nothing to be relative to.
+            let relative_mass = if largest > 0.0 { mass / largest } else { 0.0 };
+            return Err(Error::MasslessRigidMotion { relative_mass });
         }
         let scaled = Mat::from_fn(masses.len(), masses.len(), |i, j| directions[(i, j)] / masses[j].sqrt());
         q = dense::product(q.as_ref(), scaled.as_ref());

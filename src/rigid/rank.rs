@@ -115,8 +115,9 @@ fn describe(sites: &[Site], motion: &[f64]) -> String {
 /// Translation and rotation about the origin that make up a rigid motion, by least squares.
 fn fit(sites: &[Site], motion: &[f64]) -> Option<[[f64; 3]; 2]> {
     use faer::linalg::solvers::SolveLstsq;
-    // Only the part that moves takes part: a motion of one body of several is zero elsewhere.
-    let moving: Vec<usize> = (0..sites.len()).filter(|dof| motion[*dof] != 0.0).collect();
+    // Only the part that moves takes part: a motion of one body of several is zero elsewhere, but for rounding.
+    let least = 1e-9 * motion.iter().fold(0.0f64, |max, value| max.max(value.abs()));
+    let moving: Vec<usize> = (0..sites.len()).filter(|dof| motion[*dof].abs() > least).collect();
     if moving.len() < 6 {
         return None;
     }
