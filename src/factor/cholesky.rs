@@ -11,17 +11,10 @@ use super::block_solve;
 use super::{Analysis, Pencil, SolveOperator, Triangle};
 use crate::error::{Error, Result};
 
-<<<<<<< src/factor/cholesky.rs
-=======
-/// Right-hand sides solved together by one task. A fixed number: the bits of a solution depend on the width of its
-/// tile, which therefore must not depend on the number of threads.
-const TILE: usize = 8;
-
 /// Pivots below this share of their diagonal entry are rounding: a singular matrix leaves 50 to 500 ε, and a healthy one
 /// of which less were left would have lost all but three digits.
 const SINGULAR: f64 = 1024.0 * f64::EPSILON;
 
->>>>>>> /tmp/ft/src/factor/cholesky.rs
 /// L of K − σM = L Lᵀ.
 #[derive(Debug)]
 pub struct Cholesky<'a> {

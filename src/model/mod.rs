@@ -331,11 +331,7 @@ fn scale_to_unit(matrix: &mut SparseMatrix) -> i32 {
     if largest == 0.0 {
         return 0;
     }
-<<<<<<< src/model/mod.rs
-    let exponent = 2 * (largest.log2() / 2.0).floor() as i32;
-=======
-    let exponent = binary_exponent(largest);
->>>>>>> /tmp/ft/src/model/mod.rs
+    let exponent = 2 * binary_exponent(largest).div_euclid(2);
     // Two factors, because 2^-exponent itself can leave the range of a double.
     let (half, rest) = (2f64.powi(-(exponent / 2)), 2f64.powi(-(exponent - exponent / 2)));
     for value in matrix.data_mut() {

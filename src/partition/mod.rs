@@ -24,11 +24,7 @@ use crate::model::{Model, Precision, Scaling};
 use crate::sparse::SparseMatrix;
 
 pub use interface::InterfaceNode;
-<<<<<<< src/partition/mod.rs
-pub use transformation::{DofOrigin, ReducedDof, Site, Transformation};
-=======
 pub use transformation::{DofOrigin, ReducedDof, Site, Transformation, TransformationRow};
->>>>>>> /tmp/ft/src/partition/mod.rs
 
 /// The matrices in the order internal, interface, with what is known of each degree of freedom.
 #[derive(Debug)]
