@@ -12,7 +12,7 @@
 
 use faer::sparse::linalg::cholesky::supernodal::{SupernodalLltRef, SupernodeRef};
 use faer::{MatMut, MatRef};
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
 /// Columns of the triangle that are solved one by one before the rest is updated.
@@ -65,18 +65,18 @@ fn forward<const W: usize>(node: SupernodeRef<'_, usize, f64>, x: &mut [Row<W>],
     let (size, pattern) = (node.val().ncols(), node.pattern());
     let columns = Columns::of(node.val());
     let top = &mut x[node.start()..node.start() + size];
-    Arch::new().dispatch(
-        #[inline(always)]
-        || solve_triangle(&columns, top),
-    );
+    Kernel::Triangle { columns: &columns, top }.run();
     update.clear();
     update.resize(pattern.len(), [0.0; W]);
     let top = &*top;
     for_chunks(size, update, |first, rows| {
-        Arch::new().dispatch(
-            #[inline(always)]
-            || accumulate_rows(&columns, size + first, top, rows),
-        );
+        Kernel::Rows {
+            columns: &columns,
+            first: size + first,
+            top,
+            rows,
+        }
+        .run();
     });
     for (row, change) in pattern.iter().zip(&*update) {
         for (x, change) in x[*row].iter_mut().zip(change) {
@@ -93,16 +93,17 @@ fn backward<const W: usize>(node: SupernodeRef<'_, usize, f64>, x: &mut [Row<W>]
     below.extend(pattern.iter().map(|row| x[*row]));
     let below = &*below;
     let top = &mut x[node.start()..node.start() + size];
-    for_chunks(below.len(), top, |first, columns_of_chunk| {
-        Arch::new().dispatch(
-            #[inline(always)]
-            || subtract_columns(&columns, first, size, below, columns_of_chunk),
-        );
+    for_chunks(below.len(), top, |first, targets| {
+        Kernel::Columns {
+            columns: &columns,
+            first,
+            size,
+            below,
+            targets,
+        }
+        .run();
     });
-    Arch::new().dispatch(
-        #[inline(always)]
-        || solve_transposed_triangle(&columns, top),
-    );
+    Kernel::TransposedTriangle { columns: &columns, top }.run();
 }
 
 /// Gives chunks of rows to tasks where the work (rows times `depth`) is worth it.
@@ -115,6 +116,68 @@ fn for_chunks<const W: usize>(depth: usize, rows: &mut [Row<W>], work: impl Fn(u
         rows.chunks_mut(CHUNK)
             .enumerate()
             .for_each(|(chunk, rows)| work(chunk * CHUNK, rows));
+    }
+}
+
+/// The four inner loops, compiled for the vector unit that the machine turns out to have.
+enum Kernel<'a, const W: usize> {
+    /// Solves the triangle on top.
+    Triangle {
+        columns: &'a Columns<'a>,
+        top: &'a mut [Row<W>],
+    },
+    /// Multiplies rows of the trapezoid with the solved top.
+    Rows {
+        columns: &'a Columns<'a>,
+        first: usize,
+        top: &'a [Row<W>],
+        rows: &'a mut [Row<W>],
+    },
+    /// Takes the rows below into rows of the top.
+    Columns {
+        columns: &'a Columns<'a>,
+        first: usize,
+        size: usize,
+        below: &'a [Row<W>],
+        targets: &'a mut [Row<W>],
+    },
+    /// Solves the transposed triangle.
+    TransposedTriangle {
+        columns: &'a Columns<'a>,
+        top: &'a mut [Row<W>],
+    },
+}
+
+impl<const W: usize> Kernel<'_, W> {
+    fn run(self) {
+        Arch::new().dispatch(self);
+    }
+}
+
+impl<const W: usize> WithSimd for Kernel<'_, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        match self {
+            Self::Triangle { columns, top } => solve_triangle(columns, top),
+            Self::Rows {
+                columns,
+                first,
+                top,
+                rows,
+            } => accumulate_rows(columns, first, top, rows),
+            Self::Columns {
+                columns,
+                first,
+                size,
+                below,
+                targets,
+            } => {
+                subtract_columns(columns, first, size, below, targets);
+            }
+            Self::TransposedTriangle { columns, top } => solve_transposed_triangle(columns, top),
+        }
     }
 }
 

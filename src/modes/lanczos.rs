@@ -516,9 +516,9 @@ pub(super) fn are_clustered(lower: f64, upper: f64) -> bool {
     (upper - lower).abs() <= CLUSTER_GAP * upper.abs()
 }
 
-/// Columns of V before a restart: three times the wanted ones and eight blocks converge fifty modes without one.
+/// Columns of V before a restart: four times the wanted ones and eight blocks converge fifty modes without one.
 fn capacity_for(n_wanted: usize, block: usize, n: usize) -> usize {
-    (3 * n_wanted + 8 * block).min(n)
+    (4 * n_wanted + 8 * block).min(n)
 }
 
 pub(super) fn product(mass: &SparseMatrix, block: MatRef<'_, f64>) -> Mat<f64> {
