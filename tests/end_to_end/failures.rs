@@ -5,7 +5,7 @@ use supel_models::{Ends, spring};
 
 use crate::place::{Ended, Place, supel};
 
-const FOOT: &str = "--interface foot=1,11,31 --method herting --modes 5";
+const FOOT: &str = "--interface foot=1,11,31,41 --method herting --modes 5";
 
 #[test]
 fn a_matrix_that_is_not_one_is_an_input_error() {
@@ -51,7 +51,7 @@ fn expecting(mass_factor: f64) -> Place {
     let job = format!(
         r#"
 model = {{ stiffness = "K.mtx", mass = "M.mtx", dofs = "dofs.txt", nodes = "nodes.csv", expect = {{ mass = {mass} }} }}
-interface = [{{ name = "foot", nodes = [1, 11, 31] }}]
+interface = [{{ name = "foot", nodes = [1, 11, 31, 41] }}]
 reduction = {{ method = "herting", modes = {{ count = 5 }} }}
 write = {{ superelement = "x.supel" }}
 "#

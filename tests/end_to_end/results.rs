@@ -70,8 +70,8 @@ fn a_band_keeps_the_modes_below_its_end() {
 fn flags_alone_reduce_a_solid_by_both_methods() {
     let place = Place::with_brick();
     let exact = hertz(&spectrum(&steel_brick())[6..11]);
-    // Nodes 1, 5, 11 and 41 are corners of the face x = 0 and one of the other end.
-    let interface = "--interface foot=1,11,31 --rigid-interface head=5,10,15";
+    // The corners of the face x = 0, and three of the opposite one.
+    let interface = "--interface foot=1,11,31,41 --rigid-interface head=5,15,35";
     let by = |method: &str| {
         place
             .reduce(
@@ -84,7 +84,7 @@ fn flags_alone_reduce_a_solid_by_both_methods() {
     let (herting, craig_bampton) = (by("herting"), by("craig-bampton"));
     for superelement in [&herting, &craig_bampton] {
         assert_eq!(superelement.tensors().rigid_body_modes.cols(), 6);
-        assert_eq!(superelement.metadata().interface_nodes.len(), 4);
+        assert_eq!(superelement.metadata().interface_nodes.len(), 5);
     }
     // The rigid patch stiffens the block and the clamps stiffen it further.
     let (free, held) = (frequencies_hz(&herting), frequencies_hz(&craig_bampton));
@@ -96,7 +96,7 @@ fn flags_alone_reduce_a_solid_by_both_methods() {
     place
         .reduce(
             &place.model_flags(),
-            "--interface foot=1,11,31 --method herting --modes 5",
+            "--interface foot=1,11,31,41 --method herting --modes 5",
         )
         .expect(ExitCode::Done);
     assert_close(&frequencies_hz(&place.superelement("x.supel")), &exact, SAME);
@@ -105,7 +105,7 @@ fn flags_alone_reduce_a_solid_by_both_methods() {
 #[test]
 fn without_a_certificate_the_modes_are_the_same_and_the_report_says_so() {
     let place = Place::with_brick();
-    let flags = "--interface foot=1,11,31 --method herting --modes 5";
+    let flags = "--interface foot=1,11,31,41 --method herting --modes 5";
     place.reduce(&place.model_flags(), flags).expect(ExitCode::Done);
     let certified = frequencies_hz(&place.superelement("x.supel"));
     assert_eq!(
@@ -133,13 +133,13 @@ fn a_model_without_coordinates_is_reduced_from_its_matrices() {
     let place = Place::with_brick();
     let end = "--method herting --modes 5";
     place
-        .reduce(&place.model_flags(), &format!("--interface foot=1,11,31 {end}"))
+        .reduce(&place.model_flags(), &format!("--interface foot=1,11,31,41 {end}"))
         .expect(ExitCode::Done);
     let known = place.superelement("x.supel");
     let ended = place
         .reduce(
             &place.matrix_flags(),
-            &format!("--interface foot=rows:0,1,2,30,31,32,90,91,92 {end}"),
+            &format!("--interface foot=rows:0,1,2,30,31,32,90,91,92,120,121,122 {end}"),
         )
         .expect(ExitCode::Done);
     let bare = place.superelement("x.supel");
@@ -166,7 +166,7 @@ fn python_confirms_the_files_of_both_methods() {
     let place = Place::with_brick();
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/superelement_file.py");
     for method in ["herting", "craig-bampton"] {
-        let flags = format!("--interface foot=1,11,31 --rigid-interface head=5,10,15 --method {method} --modes 6");
+        let flags = format!("--interface foot=1,11,31,41 --rigid-interface head=5,15,35 --method {method} --modes 6");
         place.reduce(&place.model_flags(), &flags).expect(ExitCode::Done);
         let ended = Command::new(&python)
             .arg(&script)
@@ -190,7 +190,7 @@ fn python_confirms_the_files_of_both_methods() {
 #[test]
 fn inspect_shows_what_was_reduced() {
     let place = Place::with_brick();
-    let flags = "--interface foot=1,11,31 --method herting --modes 5";
+    let flags = "--interface foot=1,11,31,41 --method herting --modes 5";
     place.reduce(&place.model_flags(), flags).expect(ExitCode::Done);
     let shown = supel(&["inspect", &place.text("x.supel")]).expect(ExitCode::Done);
     assert!(
