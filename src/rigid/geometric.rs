@@ -157,7 +157,7 @@ fn mass_orthonormal(partition: &Partition, motions: MatRef<'_, f64>) -> Result<M
         dense::symmetrise(&mut modal_mass);
         let (masses, directions) = dense::symmetric_eigen(modal_mass.as_ref())?;
         let largest = masses.last().copied().unwrap_or(0.0);
-        if let Some(mass) = masses.iter().find(|mass| !(**mass > NO_MASS * largest)) {
+        if let Some(mass) = masses.iter().find(|mass| mass.is_nan() || **mass <= NO_MASS * largest) {
             return Err(Error::MasslessRigidMotion { relative_mass: mass / largest });
         }
         let scaled = Mat::from_fn(masses.len(), masses.len(), |i, j| directions[(i, j)] / masses[j].sqrt());
