@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde_json::Value;
 use supel::cli::{ExitCode, Terminal, run};
@@ -70,7 +70,7 @@ impl Place {
     #[cfg(feature = "hdf5")]
     pub(crate) fn with_example() -> Self {
         let place = Self::new();
-        let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/bracket");
+        let example = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/bracket");
         for name in ["job.toml", "stiffness.mtx.gz", "mass.mtx.gz", "bracket.med"] {
             fs::copy(example.join(name), place.path(name)).expect("copied");
         }
