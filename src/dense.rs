@@ -12,7 +12,11 @@ use crate::error::{Error, Result};
 const PARALLEL_ABOVE: usize = 1 << 18;
 
 fn parallelism(multiplications: usize) -> Par {
-    if multiplications > PARALLEL_ABOVE { Par::rayon(0) } else { Par::Seq }
+    if multiplications > PARALLEL_ABOVE {
+        Par::rayon(0)
+    } else {
+        Par::Seq
+    }
 }
 
 /// Rows of a tile of [`gram`]: fixed, so that the order of the sum never depends on the number of threads.
@@ -60,8 +64,13 @@ pub fn symmetric_eigen(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>)> {
     if a.nrows() == 0 {
         return Ok((Vec::new(), Mat::zeros(0, 0)));
     }
-    let eigen = a.self_adjoint_eigen(Side::Lower).map_err(|_| Error::DenseEigen { n: a.nrows() })?;
-    Ok((eigen.S().column_vector().iter().copied().collect(), eigen.U().to_owned()))
+    let eigen = a
+        .self_adjoint_eigen(Side::Lower)
+        .map_err(|_| Error::DenseEigen { n: a.nrows() })?;
+    Ok((
+        eigen.S().column_vector().iter().copied().collect(),
+        eigen.U().to_owned(),
+    ))
 }
 
 /// Singular values (descending) and right singular vectors of a matrix with at least as many rows as columns.
@@ -90,7 +99,9 @@ pub fn rank_of_rows(rows: &[[f64; 6]], tolerance: f64) -> usize {
         Some(row) if scale[j] > 0.0 => row[j] / scale[j].sqrt(),
         _ => 0.0,
     });
-    let Ok((singular, _)) = right_singular(scaled.as_ref()) else { return 0 };
+    let Ok((singular, _)) = right_singular(scaled.as_ref()) else {
+        return 0;
+    };
     let largest = singular.first().copied().unwrap_or(0.0);
     singular.iter().filter(|value| **value > tolerance * largest).count()
 }
@@ -135,7 +146,10 @@ pub fn column<'a>(a: MatRef<'a, f64>, j: usize) -> &'a [f64] {
 /// # Panics
 /// If the matrix is not stored by columns.
 pub fn column_mut<'a>(a: MatMut<'a, f64>, j: usize) -> &'a mut [f64] {
-    a.col_mut(j).try_as_col_major_mut().expect("stored by columns").as_slice_mut()
+    a.col_mut(j)
+        .try_as_col_major_mut()
+        .expect("stored by columns")
+        .as_slice_mut()
 }
 
 /// A ← (A + Aᵀ)/2; returns max |A − Aᵀ| / max |A|.

@@ -838,7 +838,9 @@ pub enum Error {
     },
     // ---- model -----------------------------------------------------------------------------------------------------
     /// A matrix is not symmetric.
-    #[error("the {matrix} matrix is not symmetric – worst at row {row}, column {col} – found a relative difference of {asymmetry:.1e} – expected below 1e-6 – leave out follower forces, gyroscopic and friction terms")]
+    #[error(
+        "the {matrix} matrix is not symmetric – worst at row {row}, column {col} – found a relative difference of {asymmetry:.1e} – expected below 1e-6 – leave out follower forces, gyroscopic and friction terms"
+    )]
     Unsymmetric {
         /// `stiffness` or `mass`.
         matrix: &'static str,
@@ -850,7 +852,9 @@ pub enum Error {
         col: usize,
     },
     /// K and M are exchanged.
-    #[error("stiffness and mass are exchanged – a unit translation has relative energy {in_stiffness:.1e} in the stiffness and {in_mass:.1e} in the mass – expected the reverse – exchange the two files")]
+    #[error(
+        "stiffness and mass are exchanged – a unit translation has relative energy {in_stiffness:.1e} in the stiffness and {in_mass:.1e} in the mass – expected the reverse – exchange the two files"
+    )]
     Swapped {
         /// |uᵀKu| / |u|ᵀ|K||u| of a translation.
         in_stiffness: f64,
@@ -858,10 +862,14 @@ pub enum Error {
         in_mass: f64,
     },
     /// M is zero.
-    #[error("the mass matrix is zero – found no entry other than zero – expected a mass – give the mass matrix of the model")]
+    #[error(
+        "the mass matrix is zero – found no entry other than zero – expected a mass – give the mass matrix of the model"
+    )]
     NoMass,
     /// Rows without stiffness and mass.
-    #[error("{n_rows} rows have neither stiffness nor mass – the first is row {row}{dof} – expected none – leave unused and constrained dofs out of both matrices")]
+    #[error(
+        "{n_rows} rows have neither stiffness nor mass – the first is row {row}{dof} – expected none – leave unused and constrained dofs out of both matrices"
+    )]
     EmptyRows {
         /// How many.
         n_rows: usize,
@@ -871,7 +879,9 @@ pub enum Error {
         dof: String,
     },
     /// A zero on the diagonal of K in a row that is not empty.
-    #[error("row {row}{dof} of the stiffness has a zero diagonal and other entries – expected a positive diagonal – this is a constraint multiplier; eliminate constraints before exporting the matrices")]
+    #[error(
+        "row {row}{dof} of the stiffness has a zero diagonal and other entries – expected a positive diagonal – this is a constraint multiplier; eliminate constraints before exporting the matrices"
+    )]
     MultiplierRow {
         /// The row, from one.
         row: usize,
@@ -879,7 +889,9 @@ pub enum Error {
         dof: String,
     },
     /// A negative diagonal entry of K.
-    #[error("row {row}{dof} of the stiffness has the diagonal {value:.3e} – expected a positive one – the structure is unstable or preloaded beyond buckling")]
+    #[error(
+        "row {row}{dof} of the stiffness has the diagonal {value:.3e} – expected a positive one – the structure is unstable or preloaded beyond buckling"
+    )]
     NegativeStiffness {
         /// The row, from one.
         row: usize,
@@ -889,7 +901,9 @@ pub enum Error {
         value: f64,
     },
     /// A negative diagonal entry of M.
-    #[error("row {row}{dof} of the mass has the diagonal {value:.3e} – expected none below zero – check point masses and offsets of the model")]
+    #[error(
+        "row {row}{dof} of the mass has the diagonal {value:.3e} – expected none below zero – check point masses and offsets of the model"
+    )]
     NegativeMass {
         /// The row, from one.
         row: usize,
@@ -899,7 +913,9 @@ pub enum Error {
         value: f64,
     },
     /// Coordinates that do not belong to K.
-    #[error("the coordinates do not belong to the stiffness – translations cost no energy but the rotation about {rotation} costs {energy:.1e} of its terms, most of it at {dof} – expected below {expected:.1e} – check units, axes and local node frames, or leave the nodes out")]
+    #[error(
+        "the coordinates do not belong to the stiffness – translations cost no energy but the rotation about {rotation} costs {energy:.1e} of its terms, most of it at {dof} – expected below {expected:.1e} – check units, axes and local node frames, or leave the nodes out"
+    )]
     CoordinatesDoNotFit {
         /// The axis.
         rotation: &'static str,
@@ -911,7 +927,9 @@ pub enum Error {
         dof: String,
     },
     /// A rigid-body motion whose energy is negative beyond rounding.
-    #[error("a rigid-body motion has the negative energy {energy:.1e} – expected zero within {noise:.1e} – the stiffness is indefinite; check preload and negative springs")]
+    #[error(
+        "a rigid-body motion has the negative energy {energy:.1e} – expected zero within {noise:.1e} – the stiffness is indefinite; check preload and negative springs"
+    )]
     NegativeRigidEnergy {
         /// Its Rayleigh quotient, scaled.
         energy: f64,
@@ -919,38 +937,51 @@ pub enum Error {
         noise: f64,
     },
     /// A rigid-body motion that moves no mass.
-    #[error("a rigid-body motion moves no mass – found a modal mass of {relative_mass:.1e} relative to the largest – expected above 1e-12 – give the massless part of the model its mass")]
+    #[error(
+        "a rigid-body motion moves no mass – found a modal mass of {relative_mass:.1e} relative to the largest – expected above 1e-12 – give the massless part of the model its mass"
+    )]
     MasslessRigidMotion {
         /// Its modal mass over the largest.
         relative_mass: f64,
     },
     /// A small dense eigenproblem did not converge.
-    #[error("a dense eigenproblem of order {n} did not converge – its matrix holds values that are not finite – check the magnitudes of the input")]
+    #[error(
+        "a dense eigenproblem of order {n} did not converge – its matrix holds values that are not finite – check the magnitudes of the input"
+    )]
     DenseEigen {
         /// Its order.
         n: usize,
     },
     // ---- partition -------------------------------------------------------------------------------------------------
     /// No internal dof is left.
-    #[error("no internal degree of freedom is left – found {n_interface} interface dofs – expected at least one internal – take fewer interface nodes")]
+    #[error(
+        "no internal degree of freedom is left – found {n_interface} interface dofs – expected at least one internal – take fewer interface nodes"
+    )]
     NothingToReduce {
         /// Dofs of the partition, all interface.
         n_interface: usize,
     },
     /// Nodes asked for where the model has none.
-    #[error("interface {interface:?} names nodes – the model has no dof map or no nodes – give --dofs and --nodes, or select rows by number")]
+    #[error(
+        "interface {interface:?} names nodes – the model has no dof map or no nodes – give --dofs and --nodes, or select rows by number"
+    )]
     SelectionNeedsNodes {
         /// The interface.
         interface: String,
     },
     /// A rigid patch without coordinates.
-    #[error("interface {interface:?} is rigid – its nodes have no coordinates – expected a node table or mesh with every node of the patch")]
+    #[error(
+        "interface {interface:?} is rigid – its nodes have no coordinates – expected a node table or mesh with every node of the patch"
+    )]
     RigidNeedsCoordinates {
         /// The interface.
         interface: String,
     },
     /// A group the mesh does not have.
-    #[error("interface {interface:?}: the mesh has no group {group:?} – found {} – name one of them", listed(known))]
+    #[error(
+        "interface {interface:?}: the mesh has no group {group:?} – found {} – name one of them",
+        listed(known)
+    )]
     UnknownGroup {
         /// The interface.
         interface: String,
@@ -960,13 +991,17 @@ pub enum Error {
         known: Vec<String>,
     },
     /// A selection without nodes.
-    #[error("interface {interface:?} selects no node – expected at least one – check the list or the region against the coordinates")]
+    #[error(
+        "interface {interface:?} selects no node – expected at least one – check the list or the region against the coordinates"
+    )]
     EmptyInterface {
         /// The interface.
         interface: String,
     },
     /// A node without rows in the matrices.
-    #[error("interface {interface:?}: node {node} has no row in the matrices – expected a free dof – the node is constrained, unused or not in the dof map")]
+    #[error(
+        "interface {interface:?}: node {node} has no row in the matrices – expected a free dof – the node is constrained, unused or not in the dof map"
+    )]
     InterfaceNodeWithoutRows {
         /// The interface.
         interface: String,
@@ -974,7 +1009,9 @@ pub enum Error {
         node: i64,
     },
     /// A dof the node does not have.
-    #[error("interface {interface:?}: {dof} does not exist – expected a direction the node has – solids have no rotations; use coupling = \"rigid\" or list the dofs")]
+    #[error(
+        "interface {interface:?}: {dof} does not exist – expected a direction the node has – solids have no rotations; use coupling = \"rigid\" or list the dofs"
+    )]
     DofMissing {
         /// The interface.
         interface: String,
@@ -992,7 +1029,9 @@ pub enum Error {
         n: usize,
     },
     /// A dof that two interface nodes claim.
-    #[error("{dof} belongs to interface {first:?} and to interface {second:?} – expected one owner – take it out of one of them")]
+    #[error(
+        "{dof} belongs to interface {first:?} and to interface {second:?} – expected one owner – take it out of one of them"
+    )]
     DofTwice {
         /// The dof.
         dof: String,
@@ -1002,7 +1041,9 @@ pub enum Error {
         second: String,
     },
     /// A patch that cannot move in all directions of its node.
-    #[error("interface {interface:?}: its {n_rows} rows can follow only {rank} of {expected} motions of a rigid node – expected three nodes that are not in line – add nodes to the patch or list fewer dofs")]
+    #[error(
+        "interface {interface:?}: its {n_rows} rows can follow only {rank} of {expected} motions of a rigid node – expected three nodes that are not in line – add nodes to the patch or list fewer dofs"
+    )]
     PatchRank {
         /// The interface.
         interface: String,
@@ -1014,7 +1055,9 @@ pub enum Error {
         expected: usize,
     },
     /// The interface leaves a rigid-body motion free.
-    #[error("the interface can react only {rank} of the {n_rigid} rigid-body motions{motion} – expected all – add interface nodes off that axis or give the nodes rotations")]
+    #[error(
+        "the interface can react only {rank} of the {n_rigid} rigid-body motions{motion} – expected all – add interface nodes off that axis or give the nodes rotations"
+    )]
     InterfaceRank {
         /// Motions it reacts.
         rank: usize,
@@ -1025,7 +1068,9 @@ pub enum Error {
     },
     // ---- factor ----------------------------------------------------------------------------------------------------
     /// A pivot of a matrix that should be definite was not positive.
-    #[error("the stiffness with the interface held is not positive definite – elimination stopped at {dof} – expected a positive pivot – the structure has a mechanism there or is unstable")]
+    #[error(
+        "the stiffness with the interface held is not positive definite – elimination stopped at {dof} – expected a positive pivot – the structure has a mechanism there or is unstable"
+    )]
     NotDefinite {
         /// The dof eliminated when it happened.
         dof: String,
@@ -1047,14 +1092,18 @@ pub enum Error {
         what: &'static str,
     },
     /// A pivot of a Sturm count is zero or not a number.
-    #[error("the Sturm count met a pivot without a sign at step {step} – the shift lies on an eigenvalue – ask for one mode more or less")]
+    #[error(
+        "the Sturm count met a pivot without a sign at step {step} – the shift lies on an eigenvalue – ask for one mode more or less"
+    )]
     SturmPivot {
         /// The step of elimination.
         step: usize,
     },
     // ---- modes -----------------------------------------------------------------------------------------------------
     /// Lanczos did not converge.
-    #[error("the eigensolver stalled after {restarts} restarts – found {converged} converged modes – ask for fewer modes or a narrower band")]
+    #[error(
+        "the eigensolver stalled after {restarts} restarts – found {converged} converged modes – ask for fewer modes or a narrower band"
+    )]
     LanczosStalled {
         /// Restarts done.
         restarts: usize,
@@ -1062,7 +1111,9 @@ pub enum Error {
         converged: usize,
     },
     /// More zero-energy motions than rigid-body modes.
-    #[error("the component is a mechanism – found {n_more} motions without energy beside the {n_rigid} rigid-body modes – expected none – close hinges and sliding joints or give them stiffness")]
+    #[error(
+        "the component is a mechanism – found {n_more} motions without energy beside the {n_rigid} rigid-body modes – expected none – close hinges and sliding joints or give them stiffness"
+    )]
     Mechanism {
         /// Rigid-body modes.
         n_rigid: usize,
@@ -1070,7 +1121,9 @@ pub enum Error {
         n_more: usize,
     },
     /// The modes found are not all there are.
-    #[error("modes are missing below {below_hz:.6} Hz – found {found}, the Sturm count says {counted} – restarting found no more – use --eigensolver arpack to compare")]
+    #[error(
+        "modes are missing below {below_hz:.6} Hz – found {found}, the Sturm count says {counted} – restarting found no more – use --eigensolver arpack to compare"
+    )]
     ModesMissing {
         /// Frequency of the shift.
         below_hz: f64,
@@ -1080,7 +1133,9 @@ pub enum Error {
         counted: usize,
     },
     /// The second eigensolver is not built in.
-    #[error("--eigensolver arpack needs the feature \"arpack\", which this program was built without – use --eigensolver lanczos")]
+    #[error(
+        "--eigensolver arpack needs the feature \"arpack\", which this program was built without – use --eigensolver lanczos"
+    )]
     EigensolverMissing,
     /// The second eigensolver failed.
     #[error("ARPACK failed with status {status} after {converged} converged modes – use --eigensolver lanczos")]

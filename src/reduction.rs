@@ -53,8 +53,10 @@ const PANEL: usize = 32;
 impl Reduction {
     /// Projects the partition's matrices on the basis.
     pub fn new(partition: &Partition, basis: &Basis, rigid: &RigidBodyModes) -> Self {
-        let (mut stiffness, mut mass) =
-            rayon::join(|| project(&partition.stiffness, basis), || project(&partition.mass, basis));
+        let (mut stiffness, mut mass) = rayon::join(
+            || project(&partition.stiffness, basis),
+            || project(&partition.mass, basis),
+        );
         let n_b = partition.n_interface();
         let mut measured = Projection {
             stiffness_asymmetry: dense::symmetrise(&mut stiffness),
@@ -92,7 +94,10 @@ fn project(matrix: &SparseMatrix, basis: &Basis) -> Mat<f64> {
     for start in (0..r).step_by(PANEL) {
         let width = PANEL.min(r - start);
         let image = multiply(matrix, panel_of(basis, start, width).as_ref());
-        projected.as_mut().subcols_mut(start, width).copy_from(transpose_apply(basis, image.as_ref()));
+        projected
+            .as_mut()
+            .subcols_mut(start, width)
+            .copy_from(transpose_apply(basis, image.as_ref()));
     }
     projected
 }

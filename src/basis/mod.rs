@@ -55,7 +55,11 @@ pub struct DroppedColumn {
 
 impl Basis {
     /// Puts constraint modes and dynamic columns together; dependent columns are left out by name.
-    pub fn new(constraint: &ConstraintModes, columns: DynamicColumns, internal_mass: &crate::sparse::SparseMatrix) -> Self {
+    pub fn new(
+        constraint: &ConstraintModes,
+        columns: DynamicColumns,
+        internal_mass: &crate::sparse::SparseMatrix,
+    ) -> Self {
         let independent = dynamic::independent(columns, internal_mass);
         Self {
             constraint_modes: constraint.modes.clone(),

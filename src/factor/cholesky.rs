@@ -5,15 +5,15 @@ use faer::sparse::linalg::cholesky::supernodal::{
     SupernodalLltRef, factorize_supernodal_numeric_llt, factorize_supernodal_numeric_llt_scratch,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Conj, MatMut, Par, Spec};
-use rayon::prelude::*;
+use faer::{MatMut, Par, Spec};
 
+use super::block_solve;
 use super::{Analysis, Pencil, SolveOperator, Triangle};
 use crate::error::{Error, Result};
 
-/// Right-hand sides solved together by one task. A fixed number: the bits of a solution depend on the width of its
-/// tile, which therefore must not depend on the number of threads.
-const TILE: usize = 8;
+/// Pivots below this share of their diagonal entry are rounding: a singular matrix leaves 50 to 500 ε, and a healthy one
+/// of which less were left would have lost all but three digits.
+const SINGULAR: f64 = 1024.0 * f64::EPSILON;
 
 /// L of K − σM = L Lᵀ.
 #[derive(Debug)]
@@ -28,21 +28,19 @@ impl<'a> Cholesky<'a> {
     /// Factors K − σM; `name` says what the dof of a step of elimination is called.
     ///
     /// # Errors
-    /// [`Error::NotDefinite`] with the dof at which a pivot was not positive; no memory.
-    pub fn new(
-        analysis: &'a Analysis,
-        pencil: Pencil<'_>,
-        sigma: f64,
-        name: &dyn Fn(usize) -> String,
-    ) -> Result<Self> {
+    /// [`Error::NotDefinite`] with the dof at which a pivot was not positive beyond rounding; no memory.
+    pub fn new(analysis: &'a Analysis, pencil: Pencil<'_>, sigma: f64, name: &dyn Fn(usize) -> String) -> Result<Self> {
         let symbolic = &analysis.symbolic;
         let lower = Triangle::shifted(pencil, sigma);
-        let pattern = SymbolicSparseColMatRef::new_checked(analysis.n, analysis.n, &lower.pointers, None, &lower.indices);
+        let pattern =
+            SymbolicSparseColMatRef::new_checked(analysis.n, analysis.n, &lower.pointers, None, &lower.indices);
         let matrix = SparseColMatRef::new(pattern, lower.values.as_slice());
         let mut values = zeros(symbolic.len_val())?;
         let parameters = Spec::default();
         let scratch = factorize_supernodal_numeric_llt_scratch::<usize, f64>(symbolic, Par::Seq, parameters);
-        let mut memory = MemBuffer::try_new(scratch).map_err(|_| Error::OutOfMemory { what: "the factorisation" })?;
+        let mut memory = MemBuffer::try_new(scratch).map_err(|_| Error::OutOfMemory {
+            what: "the factorisation",
+        })?;
         factorize_supernodal_numeric_llt(
             &mut values,
             matrix,
@@ -52,22 +50,38 @@ impl<'a> Cholesky<'a> {
             MemStack::new(&mut memory),
             parameters,
         )
-        .map_err(|faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }| Error::NotDefinite {
-            dof: name(index),
-        })?;
-        let mut factor = Self { analysis, values, smallest_pivot_ratio: 1.0 };
-        factor.smallest_pivot_ratio = factor.pivot_ratio(&lower);
+        .map_err(
+            |faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }| Error::NotDefinite {
+                dof: name(index),
+            },
+        )?;
+        let mut factor = Self {
+            analysis,
+            values,
+            smallest_pivot_ratio: 1.0,
+        };
+        let (ratio, step) = factor.smallest_pivot(&lower);
+        // Rounding decides the sign of a pivot that should be zero, so a singular matrix may well get this far.
+        if !(ratio > SINGULAR) {
+            return Err(Error::NotDefinite { dof: name(step) });
+        }
+        factor.smallest_pivot_ratio = ratio;
         Ok(factor)
     }
 
-    fn pivot_ratio(&self, lower: &Triangle) -> f64 {
+    /// The smallest ratio of a pivot to its diagonal entry, and the step of elimination it is met at.
+    fn smallest_pivot(&self, lower: &Triangle) -> (f64, usize) {
         let factor = SupernodalLltRef::new(&self.analysis.symbolic, &self.values);
-        let mut smallest = 1.0f64;
+        let mut smallest = (1.0f64, 0);
         for s in 0..self.analysis.symbolic.n_supernodes() {
             let node = factor.supernode(s);
             for j in 0..node.val().ncols() {
-                let diagonal = lower.values[lower.pointers[node.start() + j]];
-                smallest = smallest.min(node.val()[(j, j)].powi(2) / diagonal);
+                let step = node.start() + j;
+                let ratio = node.val()[(j, j)].powi(2) / lower.values[lower.pointers[step]];
+                // A ratio that is not a number is kept, and refused.
+                if !(ratio >= smallest.0) {
+                    smallest = (ratio, step);
+                }
             }
         }
         smallest
@@ -80,19 +94,16 @@ impl SolveOperator for Cholesky<'_> {
     }
 
     fn solve_in_place(&self, block: MatMut<'_, f64>) {
-        let factor = SupernodalLltRef::new(&self.analysis.symbolic, &self.values);
-        block.par_col_chunks_mut(TILE).for_each(|tile| {
-            let scratch = self.analysis.symbolic.solve_in_place_scratch::<f64>(tile.ncols(), Par::Seq);
-            let mut memory = MemBuffer::new(scratch);
-            factor.solve_in_place_with_conj(Conj::No, tile, Par::Seq, MemStack::new(&mut memory));
-        });
+        block_solve::solve_in_place(SupernodalLltRef::new(&self.analysis.symbolic, &self.values), block);
     }
 }
 
 /// A vector of zeros, or an error where there is no memory for it.
 pub(super) fn zeros(len: usize) -> Result<Vec<f64>> {
     let mut values = Vec::new();
-    values.try_reserve_exact(len).map_err(|_| Error::OutOfMemory { what: "the factor" })?;
+    values
+        .try_reserve_exact(len)
+        .map_err(|_| Error::OutOfMemory { what: "the factor" })?;
     values.resize(len, 0.0);
     Ok(values)
 }

@@ -22,7 +22,9 @@ const MODES_IN_A_BAND: u64 = 50;
 /// [`Error::MemoryForecast`].
 pub fn refuse_beyond_memory(analysis: &Analysis, partition: &Partition, job: &Job, resources: Resources) -> Result<()> {
     let allowed = job.run.memory_gib.map(|gib| (gib * f64::from(1 << 30)) as u64);
-    let Some(available) = allowed.or(resources.memory_bytes) else { return Ok(()) };
+    let Some(available) = allowed.or(resources.memory_bytes) else {
+        return Ok(());
+    };
     let n = partition.n_dofs() as u64;
     let n_modes = match job.reduction.modes {
         ModeSelection::Count { count } => count as u64,
@@ -47,5 +49,9 @@ pub fn refuse_beyond_memory(analysis: &Analysis, partition: &Partition, job: &Jo
         part(matrices),
         part(vectors)
     );
-    Err(Error::MemoryForecast { needed, available, what })
+    Err(Error::MemoryForecast {
+        needed,
+        available,
+        what,
+    })
 }

@@ -33,7 +33,10 @@ pub struct Input {
 /// [`Error::DofOrderUnknown`] where they do not fit together.
 pub fn read(model: &ModelJob) -> Result<Input> {
     let mut notes = Vec::new();
-    let (stiffness, mass) = rayon::join(|| read_matrix(&model.stiffness, Role::Stiffness), || read_matrix(&model.mass, Role::Mass));
+    let (stiffness, mass) = rayon::join(
+        || read_matrix(&model.stiffness, Role::Stiffness),
+        || read_matrix(&model.mass, Role::Mass),
+    );
     let (stiffness, mass) = fit_matrices(stiffness?, mass?, &mut notes)?;
     let n = stiffness.matrix.rows();
     let nodes = model.nodes.as_deref().map(read_nodes).transpose()?;
@@ -104,12 +107,18 @@ fn read_hdf5_nodes(path: &Path) -> Result<Nodes> {
 
 #[cfg(not(feature = "hdf5"))]
 fn read_hdf5_matrix(path: &Path, _: Option<&str>, _: Role) -> Result<MatrixInput> {
-    Err(Error::FeatureMissing { path: path.to_owned(), feature: "hdf5" })
+    Err(Error::FeatureMissing {
+        path: path.to_owned(),
+        feature: "hdf5",
+    })
 }
 
 #[cfg(not(feature = "hdf5"))]
 fn read_hdf5_nodes(path: &Path) -> Result<Nodes> {
-    Err(Error::FeatureMissing { path: path.to_owned(), feature: "hdf5" })
+    Err(Error::FeatureMissing {
+        path: path.to_owned(),
+        feature: "hdf5",
+    })
 }
 
 /// File and group of a matrix in HDF5, told by `file.h5:/group`, by the extension or by the content.

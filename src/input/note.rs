@@ -112,5 +112,8 @@ impl fmt::Display for InputNote {
 
 /// The name of a file without its folder: what a note says must not depend on where the files are.
 fn file_name(path: &Path) -> String {
-    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+    path.file_name()
+        .unwrap_or(path.as_os_str())
+        .to_string_lossy()
+        .into_owned()
 }

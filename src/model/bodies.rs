@@ -38,13 +38,18 @@ impl Bodies {
                 *number.entry(root(&mut parent, *node)).or_insert(next)
             })
             .collect();
-        Self { of_row, n_bodies: number.len() }
+        Self {
+            of_row,
+            n_bodies: number.len(),
+        }
     }
 }
 
 /// A dense number for the node of each row, in order of first appearance; every row its own node where no map is known.
 pub fn node_of_row(n_rows: usize, dofs: Option<&[Dof]>) -> Vec<u32> {
-    let Some(dofs) = dofs else { return (0..n_rows as u32).collect() };
+    let Some(dofs) = dofs else {
+        return (0..n_rows as u32).collect();
+    };
     let mut number = HashMap::with_capacity(n_rows / 3 + 1);
     dofs.iter()
         .map(|dof| {

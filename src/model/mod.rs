@@ -106,7 +106,10 @@ impl std::fmt::Display for Finding {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Symmetrised { matrix, asymmetry } => {
-                write!(f, "the {matrix} matrix was symmetric to {asymmetry:.1e} only and was replaced by its symmetric part")
+                write!(
+                    f,
+                    "the {matrix} matrix was symmetric to {asymmetry:.1e} only and was replaced by its symmetric part"
+                )
             }
             Self::MasslessRows { n_rows } => write!(f, "{n_rows} rows have no mass: their frequencies are infinite"),
             Self::FreeParticles { n_rows } => write!(f, "{n_rows} rows have mass and no stiffness: free particles"),
@@ -132,18 +135,38 @@ impl Model {
     /// If K and M differ in size, which reading has ruled out.
     pub fn new(input: Input) -> Result<Self> {
         let mut findings = Vec::new();
-        let precision = Precision { stiffness: data_precision(&input.stiffness), mass: data_precision(&input.mass) };
+        let precision = Precision {
+            stiffness: data_precision(&input.stiffness),
+            mass: data_precision(&input.mass),
+        };
         let dofs = input.dofs;
         let mut stiffness = input.stiffness.matrix;
         let mut mass = input.mass.matrix;
-        assert!(stiffness.rows() == mass.rows(), "K has {} rows, M has {}", stiffness.rows(), mass.rows());
+        assert!(
+            stiffness.rows() == mass.rows(),
+            "K has {} rows, M has {}",
+            stiffness.rows(),
+            mass.rows()
+        );
         symmetrise("stiffness", &mut stiffness, &mut findings)?;
         symmetrise("mass", &mut mass, &mut findings)?;
         check_not_swapped(&stiffness, &mass, dofs.as_deref())?;
         check_diagonals(&stiffness, &mass, dofs.as_deref(), &mut findings)?;
-        let scaling = Scaling { stiffness: scale_to_unit(&mut stiffness), mass: scale_to_unit(&mut mass) };
+        let scaling = Scaling {
+            stiffness: scale_to_unit(&mut stiffness),
+            mass: scale_to_unit(&mut mass),
+        };
         let bodies = Bodies::of(&stiffness, &node_of_row(stiffness.rows(), dofs.as_deref()));
-        Ok(Self { stiffness, mass, scaling, precision, dofs, nodes: input.nodes, bodies, findings })
+        Ok(Self {
+            stiffness,
+            mass,
+            scaling,
+            precision,
+            dofs,
+            nodes: input.nodes,
+            bodies,
+            findings,
+        })
     }
 
     /// Number of degrees of freedom n.
@@ -154,17 +177,29 @@ impl Model {
 
 fn data_precision(matrix: &MatrixInput) -> f64 {
     // Seventeen digits identify every double, sixteen almost every one: both are as good as binary.
-    if matrix.digits >= 16 { f64::EPSILON / 2.0 } else { 0.5 * 10f64.powi(1 - matrix.digits as i32) }
+    if matrix.digits >= 16 {
+        f64::EPSILON / 2.0
+    } else {
+        0.5 * 10f64.powi(1 - matrix.digits as i32)
+    }
 }
 
 fn symmetrise(name: &'static str, matrix: &mut SparseMatrix, findings: &mut Vec<Finding>) -> Result<()> {
     let asymmetry = make_symmetric(matrix);
     if asymmetry.relative > ASYMMETRY_FAIL {
         let (row, col) = asymmetry.worst;
-        return Err(Error::Unsymmetric { matrix: name, asymmetry: asymmetry.relative, row: row + 1, col: col + 1 });
+        return Err(Error::Unsymmetric {
+            matrix: name,
+            asymmetry: asymmetry.relative,
+            row: row + 1,
+            col: col + 1,
+        });
     }
     if asymmetry.relative > 0.0 {
-        findings.push(Finding::Symmetrised { matrix: name, asymmetry: asymmetry.relative });
+        findings.push(Finding::Symmetrised {
+            matrix: name,
+            asymmetry: asymmetry.relative,
+        });
     }
     Ok(())
 }
@@ -175,7 +210,10 @@ fn check_not_swapped(stiffness: &SparseMatrix, mass: &SparseMatrix, dofs: Option
     const NO_ENERGY: f64 = 1e-8;
     const ENERGY: f64 = 1e-2;
     let Some(dofs) = dofs else { return Ok(()) };
-    let translation: Vec<f64> = dofs.iter().map(|dof| if dof.direction.is_rotation() { 0.0 } else { 1.0 }).collect();
+    let translation: Vec<f64> = dofs
+        .iter()
+        .map(|dof| if dof.direction.is_rotation() { 0.0 } else { 1.0 })
+        .collect();
     let relative_energy = |matrix: &SparseMatrix| {
         let (mut energy, mut magnitude) = (0.0f64, 0.0f64);
         for (row, values) in matrix.outer_iterator().enumerate() {
@@ -221,20 +259,35 @@ fn check_diagonals(
         if k_empty {
             particles += 1;
         } else if k_diag[row] == 0.0 {
-            return Err(Error::MultiplierRow { row: row + 1, dof: name_of(dofs, row) });
+            return Err(Error::MultiplierRow {
+                row: row + 1,
+                dof: name_of(dofs, row),
+            });
         } else if k_diag[row] < 0.0 {
-            return Err(Error::NegativeStiffness { row: row + 1, dof: name_of(dofs, row), value: k_diag[row] });
+            return Err(Error::NegativeStiffness {
+                row: row + 1,
+                dof: name_of(dofs, row),
+                value: k_diag[row],
+            });
         }
         if m_empty {
             massless += 1;
         } else if m_diag[row] < -(n as f64) * f64::EPSILON * m_max {
-            return Err(Error::NegativeMass { row: row + 1, dof: name_of(dofs, row), value: m_diag[row] });
+            return Err(Error::NegativeMass {
+                row: row + 1,
+                dof: name_of(dofs, row),
+                value: m_diag[row],
+            });
         } else if m_diag[row] < 0.0 {
             rounding += 1;
         }
     }
     if let Some(first) = empty.first() {
-        return Err(Error::EmptyRows { n_rows: empty.len(), row: first + 1, dof: name_of(dofs, *first) });
+        return Err(Error::EmptyRows {
+            n_rows: empty.len(),
+            row: first + 1,
+            dof: name_of(dofs, *first),
+        });
     }
     let mut note = |n_rows: usize, finding: fn(usize) -> Finding| {
         if n_rows > 0 {
@@ -253,7 +306,9 @@ fn name_of(dofs: Option<&[Dof]>, row: usize) -> String {
 }
 
 fn is_empty_row(matrix: &SparseMatrix, row: usize) -> bool {
-    matrix.outer_view(row).is_none_or(|view| view.data().iter().all(|value| *value == 0.0))
+    matrix
+        .outer_view(row)
+        .is_none_or(|view| view.data().iter().all(|value| *value == 0.0))
 }
 
 /// The diagonal of a matrix, zero where no entry is stored.
@@ -261,7 +316,11 @@ pub fn diagonal(matrix: &SparseMatrix) -> Vec<f64> {
     matrix
         .outer_iterator()
         .enumerate()
-        .map(|(row, view)| view.indices().binary_search(&(row as u32)).map_or(0.0, |at| view.data()[at]))
+        .map(|(row, view)| {
+            view.indices()
+                .binary_search(&(row as u32))
+                .map_or(0.0, |at| view.data()[at])
+        })
         .collect()
 }
 
@@ -272,11 +331,22 @@ fn scale_to_unit(matrix: &mut SparseMatrix) -> i32 {
     if largest == 0.0 {
         return 0;
     }
-    let exponent = 2 * (largest.log2() / 2.0).floor() as i32;
+    let exponent = 2 * binary_exponent(largest).div_euclid(2);
     // Two factors, because 2^-exponent itself can leave the range of a double.
     let (half, rest) = (2f64.powi(-(exponent / 2)), 2f64.powi(-(exponent - exponent / 2)));
     for value in matrix.data_mut() {
         *value = *value * half * rest;
     }
     exponent
+}
+
+/// ⌊log₂ x⌋ of a positive number, from its bits: a logarithm rounds up just below a power of two.
+fn binary_exponent(x: f64) -> i32 {
+    const MANTISSA_BITS: u32 = 52;
+    const BIAS: i32 = 1023;
+    // Below the normal numbers the exponent sits in the leading zeros of the mantissa; a factor lifts it out of there.
+    if x < f64::MIN_POSITIVE {
+        return binary_exponent(x * 2f64.powi(64)) - 64;
+    }
+    (x.to_bits() >> MANTISSA_BITS) as i32 - BIAS
 }

@@ -63,12 +63,15 @@ pub struct EigenWork {
     pub restarts: usize,
 }
 
-/// Residual ‖OP x − θx‖ over θ at which a pair is taken: the Rayleigh quotient then errs by its square.
-const TOLERANCE: f64 = 1e-12;
+/// Residual ‖OP x − θx‖ over θ at which a pair is taken: the Rayleigh quotient then errs by its square, and the backward
+/// error, which is this times λ over the largest one at most, stays below the limit of measure M-01.
+pub(super) const TOLERANCE: f64 = 1e-13;
 /// The same for the pair beyond the wanted ones, of which only λ is used.
 const NEXT_TOLERANCE: f64 = 1e-4;
-/// Rounding of OP in units of ε times its largest eigenvalue: no residual falls below it.
-const ROUNDING: f64 = 16.0;
+/// Rounding of OP in units of ε times its largest eigenvalue: a θ below it is that of an infinite eigenvalue.
+pub(super) const ROUNDING: f64 = 16.0;
+/// Residuals in the same units that need not fall further; the correction in [`Basis::extract`] takes up the rest.
+pub(super) const RESIDUAL_FLOOR: f64 = 2.0;
 /// Eigenvalues nearer than this, relatively, belong to one cluster.
 pub const CLUSTER_GAP: f64 = 1e-6;
 /// Restarts after which an iteration that has not converged never will.
@@ -88,15 +91,21 @@ pub fn lanczos(problem: Problem<'_>, wanted: Wanted, seed: u64) -> Result<Eigenp
     loop {
         while basis.has_room() {
             basis.extend();
-            if let Some(found) = basis.converged(wanted)? {
-                return Ok(found);
+            if let Some((ritz, count)) = basis.converged(wanted)? {
+                if !basis.may_lack_copies(&ritz, count) {
+                    return Ok(basis.extract(&ritz, count));
+                }
+                basis.start_again_beside(&ritz, count);
             }
             if basis.is_exhausted() {
                 return basis.everything(wanted);
             }
         }
         if basis.work.restarts == MAX_RESTARTS {
-            return Err(Error::LanczosStalled { restarts: MAX_RESTARTS, converged: basis.n_converged()? });
+            return Err(Error::LanczosStalled {
+                restarts: MAX_RESTARTS,
+                converged: basis.n_converged()?,
+            });
         }
         basis.restart(wanted)?;
     }
@@ -119,6 +128,8 @@ struct Basis<'a> {
     locked: usize,
     /// Largest m.
     capacity: usize,
+    /// Random start vectors so far.
+    n_starts: usize,
     work: EigenWork,
 }
 
@@ -148,16 +159,23 @@ impl<'a> Basis<'a> {
             size: 0,
             locked: 0,
             capacity,
+            n_starts: 0,
             work: EigenWork::default(),
         };
-        let mut first = Mat::zeros(n, block);
-        basis.random.fill(first.as_mut());
-        // One application of OP removes what M does not see and the directions of very high frequency.
-        basis.problem.deflate(first.as_mut());
-        let mut image = product(problem.mass, first.as_ref());
-        basis.apply(&mut image);
-        let (_, _) = basis.orthonormalise(image);
+        basis.begin(block);
         basis
+    }
+
+    /// Makes W a random block M-orthogonal to V.
+    fn begin(&mut self, block: usize) {
+        let mut first = Mat::zeros(self.vectors.nrows(), block);
+        self.random.fill(first.as_mut());
+        // One application of OP removes what M does not see and the directions of very high frequency.
+        self.problem.deflate(first.as_mut());
+        let mut image = product(self.problem.mass, first.as_ref());
+        self.apply(&mut image);
+        let (_, _) = self.orthonormalise(image);
+        self.n_starts += block;
     }
 
     fn n_next(&self) -> usize {
@@ -196,7 +214,10 @@ impl<'a> Basis<'a> {
         // Locked pairs are exact to the tolerance; their coupling is rounding and would unlock them.
         coefficients.as_mut().subrows_mut(0, self.locked).fill(0.0);
         let mut projected = Mat::zeros(self.size, self.size);
-        projected.as_mut().submatrix_mut(0, 0, before, before).copy_from(&self.projected);
+        projected
+            .as_mut()
+            .submatrix_mut(0, 0, before, before)
+            .copy_from(&self.projected);
         projected.as_mut().subcols_mut(before, block).copy_from(&coefficients);
         for j in before..self.size {
             for i in 0..before {
@@ -225,6 +246,12 @@ impl<'a> Basis<'a> {
         // Twice is enough for orthogonality to rounding; the first pass normalises, so that the second works on columns
         // of unit length however small they were.
         for pass in 0..2 {
+            if pass == 1 {
+                // A column of which little was left has been blown up together with its rounding: the rigid-body motion
+                // in it, and the difference between MW carried along and M times W.
+                self.problem.deflate(block.as_mut());
+                mass_block = product(self.problem.mass, block.as_ref());
+            }
             let c = dense::gram(self.v(), mass_block.as_ref());
             dense::add_product(block.as_mut(), -1.0, self.v(), c.as_ref());
             dense::add_product(coefficients.as_mut(), 1.0, c.as_ref(), coupling.as_ref());
@@ -234,10 +261,15 @@ impl<'a> Basis<'a> {
             coupling = dense::product(r.as_ref(), coupling.as_ref());
         }
         self.replace_dependent(&mut block, &dependent);
-        let kept: Vec<usize> = (0..width).filter(|j| !dependent[*j] || self.holds(block.as_ref(), *j)).collect();
+        let kept: Vec<usize> = (0..width)
+            .filter(|j| !dependent[*j] || self.holds(block.as_ref(), *j))
+            .collect();
         let next = Mat::from_fn(block.nrows(), kept.len(), |i, j| block[(i, kept[j])]);
         let coupling = Mat::from_fn(kept.len(), width, |i, j| coupling[(kept[i], j)]);
-        self.vectors.as_mut().subcols_mut(self.size, kept.len()).copy_from(&next);
+        self.vectors
+            .as_mut()
+            .subcols_mut(self.size, kept.len())
+            .copy_from(&next);
         self.mass_next = product(self.problem.mass, next.as_ref());
         (coefficients, coupling)
     }
@@ -287,7 +319,7 @@ impl<'a> Basis<'a> {
                 dense::add_product(vector.as_mut(), -1.0, basis, c.as_ref());
             }
             let after = mass_norm(self.problem.mass, &vector);
-            if !(after > if pass == 0 { LEFT } else { 0.5 } * before) {
+            if after.is_nan() || after <= if pass == 0 { LEFT } else { 0.5 } * before {
                 return None;
             }
             vector.as_mut().col_mut(0).iter_mut().for_each(|value| *value /= after);
@@ -300,8 +332,14 @@ impl<'a> Basis<'a> {
         let m = ascending.len();
         let s = Mat::from_fn(m, m, |i, j| vectors[(i, m - 1 - j)]);
         let coupled = dense::product(self.coupling.as_ref(), s.as_ref());
-        let residuals = (0..m).map(|j| dense::norm(dense::column(coupled.as_ref(), j))).collect();
-        Ok(Ritz { theta: ascending.into_iter().rev().collect(), s, residuals })
+        let residuals = (0..m)
+            .map(|j| dense::norm(dense::column(coupled.as_ref(), j)))
+            .collect();
+        Ok(Ritz {
+            theta: ascending.into_iter().rev().collect(),
+            s,
+            residuals,
+        })
     }
 
     fn n_converged(&self) -> Result<usize> {
@@ -309,16 +347,36 @@ impl<'a> Basis<'a> {
         Ok((0..ritz.theta.len()).take_while(|j| ritz.is_converged(*j)).count())
     }
 
-    /// The wanted pairs, once they and the one beyond have converged.
-    fn converged(&self, wanted: Wanted) -> Result<Option<Eigenpairs>> {
+    /// The Ritz pairs and the number of wanted ones, once they and the one beyond have converged.
+    fn converged(&self, wanted: Wanted) -> Result<Option<(Ritz, usize)>> {
         if let Wanted::Count(count) = wanted
             && self.size <= count
         {
             return Ok(None);
         }
         let ritz = self.ritz()?;
-        let Some(count) = ritz.count_wanted(wanted, self.problem.operator.shift()) else { return Ok(None) };
-        Ok(Some(self.extract(&ritz, count)))
+        Ok(ritz
+            .count_wanted(wanted, self.problem.operator.shift())
+            .map(|count| (ritz, count)))
+    }
+
+    /// Whether a wanted cluster has as many members as start vectors were used: each finds one copy of a multiple
+    /// eigenvalue, and further copies come from rounding alone.
+    fn may_lack_copies(&self, ritz: &Ritz, count: usize) -> bool {
+        let theta = &ritz.theta[..count];
+        (self.n_starts..=count).any(|end| theta[end - self.n_starts] - theta[end - 1] <= CLUSTER_GAP * theta[end - 1])
+    }
+
+    /// Locks the wanted pairs and starts a new block in the space M-orthogonal to them, where missing copies come first
+    /// and the pair beyond the wanted ones follows.
+    fn start_again_beside(&mut self, ritz: &Ritz, count: usize) {
+        let block = self.n_next();
+        combine_in_place(self.vectors.as_mut(), self.size, ritz.s.as_ref().subcols(0, count));
+        self.size = count;
+        self.locked = count;
+        self.projected = Mat::from_fn(count, count, |i, j| if i == j { ritz.theta[i] } else { 0.0 });
+        self.begin(block);
+        self.coupling = Mat::zeros(self.n_next(), count);
     }
 
     /// All pairs of an exhausted space, as far as wanted.
@@ -330,7 +388,9 @@ impl<'a> Basis<'a> {
             Wanted::Count(count) => (0..n_finite)
                 .find(|j| *j >= count && (*j == 0 || !ritz.same_cluster(*j - 1, *j, sigma)))
                 .unwrap_or(n_finite),
-            Wanted::UpTo(limit) => (0..n_finite).find(|j| ritz.lambda(*j, sigma) > limit).unwrap_or(n_finite),
+            Wanted::UpTo(limit) => (0..n_finite)
+                .find(|j| ritz.lambda(*j, sigma) > limit)
+                .unwrap_or(n_finite),
         };
         Ok(self.extract(&ritz, count))
     }
@@ -342,7 +402,11 @@ impl<'a> Basis<'a> {
         let mut vectors = dense::product(self.v(), s);
         let mut correction = dense::product(self.coupling.as_ref(), s);
         for j in 0..count {
-            correction.as_mut().col_mut(j).iter_mut().for_each(|value| *value /= ritz.theta[j]);
+            correction
+                .as_mut()
+                .col_mut(j)
+                .iter_mut()
+                .for_each(|value| *value /= ritz.theta[j]);
         }
         let next = self.vectors.as_ref().subcols(self.size, self.n_next());
         dense::add_product(vectors.as_mut(), 1.0, next, correction.as_ref());
@@ -363,7 +427,9 @@ impl<'a> Basis<'a> {
             Wanted::Count(count) => count,
             Wanted::UpTo(limit) => {
                 let sigma = self.problem.operator.shift();
-                (0..ritz.n_finite()).take_while(|j| ritz.lambda(*j, sigma) <= limit).count()
+                (0..ritz.n_finite())
+                    .take_while(|j| ritz.lambda(*j, sigma) <= limit)
+                    .count()
             }
         };
         let capacity = capacity_for(n_wanted, block, n);
@@ -373,7 +439,9 @@ impl<'a> Basis<'a> {
             return Ok(());
         }
         self.work.restarts += 1;
-        let keep = (n_wanted + (self.size - n_wanted.min(self.size)) / 2).min(self.size.saturating_sub(block)).max(1);
+        let keep = (n_wanted + (self.size - n_wanted.min(self.size)) / 2)
+            .min(self.size.saturating_sub(block))
+            .max(1);
         self.locked = (0..keep).take_while(|j| ritz.is_converged(*j)).count();
         let s = ritz.s.as_ref().subcols(0, keep);
         combine_in_place(self.vectors.as_mut(), self.size, s);
@@ -399,11 +467,11 @@ impl Ritz {
     }
 
     fn is_converged(&self, j: usize) -> bool {
-        self.residuals[j] <= (TOLERANCE * self.theta[j]).max(ROUNDING * f64::EPSILON * self.theta[0])
+        self.residuals[j] <= (TOLERANCE * self.theta[j]).max(RESIDUAL_FLOOR * f64::EPSILON * self.theta[0])
     }
 
     fn same_cluster(&self, a: usize, b: usize, sigma: f64) -> bool {
-        (self.lambda(b, sigma) - self.lambda(a, sigma)).abs() <= CLUSTER_GAP * self.lambda(b, sigma).abs()
+        are_clustered(self.lambda(a, sigma), self.lambda(b, sigma))
     }
 
     /// How many pairs answer the request, or none while the request is not answered.
@@ -425,7 +493,7 @@ impl Ritz {
 
 impl Problem<'_> {
     /// F ← Pᵀ F: takes the rigid-body resultant out of forces.
-    fn equilibrate(&self, forces: MatMut<'_, f64>) {
+    pub(super) fn equilibrate(&self, forces: MatMut<'_, f64>) {
         let [q, mass_q] = self.deflated;
         if q.ncols() > 0 {
             let resultant = dense::gram(q, forces.as_ref());
@@ -434,7 +502,7 @@ impl Problem<'_> {
     }
 
     /// X ← P X: takes the rigid-body motion out of displacements.
-    fn deflate(&self, displacements: MatMut<'_, f64>) {
+    pub(super) fn deflate(&self, displacements: MatMut<'_, f64>) {
         let [q, mass_q] = self.deflated;
         if q.ncols() > 0 {
             let motion = dense::gram(mass_q, displacements.as_ref());
@@ -443,20 +511,27 @@ impl Problem<'_> {
     }
 }
 
+/// Whether an eigenvalue and the next one above belong to one cluster.
+pub(super) fn are_clustered(lower: f64, upper: f64) -> bool {
+    (upper - lower).abs() <= CLUSTER_GAP * upper.abs()
+}
+
 /// Columns of V before a restart: three times the wanted ones and eight blocks converge fifty modes without one.
 fn capacity_for(n_wanted: usize, block: usize, n: usize) -> usize {
     (3 * n_wanted + 8 * block).min(n)
 }
 
-fn product(mass: &SparseMatrix, block: MatRef<'_, f64>) -> Mat<f64> {
+pub(super) fn product(mass: &SparseMatrix, block: MatRef<'_, f64>) -> Mat<f64> {
     let mut out = Mat::zeros(block.nrows(), block.ncols());
     multiply(mass, block, out.as_mut());
     out
 }
 
-fn mass_norm(mass: &SparseMatrix, vector: &Mat<f64>) -> f64 {
+pub(super) fn mass_norm(mass: &SparseMatrix, vector: &Mat<f64>) -> f64 {
     let image = product(mass, vector.as_ref());
-    dense::dot(dense::column(vector.as_ref(), 0), dense::column(image.as_ref(), 0)).max(0.0).sqrt()
+    dense::dot(dense::column(vector.as_ref(), 0), dense::column(image.as_ref(), 0))
+        .max(0.0)
+        .sqrt()
 }
 
 /// Modified Gram-Schmidt of a narrow block in the M-inner product, MW carried along: block = W R.
@@ -471,7 +546,7 @@ pub fn gram_schmidt(block: &mut Mat<f64>, mass_block: &mut Mat<f64>, least: f64,
         }
         let square = dense::dot(dense::column(block.as_ref(), j), dense::column(mass_block.as_ref(), j));
         let length = square.max(0.0).sqrt();
-        if !(length > least) {
+        if length.is_nan() || length <= least {
             dependent[j] = true;
             dense::column_mut(block.as_mut(), j).fill(0.0);
             dense::column_mut(mass_block.as_mut(), j).fill(0.0);
@@ -479,7 +554,9 @@ pub fn gram_schmidt(block: &mut Mat<f64>, mass_block: &mut Mat<f64>, least: f64,
         }
         r[(j, j)] = length;
         for side in [&mut *block, &mut *mass_block] {
-            dense::column_mut(side.as_mut(), j).iter_mut().for_each(|value| *value /= length);
+            dense::column_mut(side.as_mut(), j)
+                .iter_mut()
+                .for_each(|value| *value /= length);
         }
         for l in j + 1..width {
             let c = dense::dot(dense::column(mass_block.as_ref(), j), dense::column(block.as_ref(), l));
@@ -498,16 +575,20 @@ fn combine_in_place(mut vectors: MatMut<'_, f64>, size: usize, s: MatRef<'_, f64
     use rayon::prelude::*;
     const ROWS_PER_TILE: usize = 2048;
     let width = s.ncols();
-    vectors.as_mut().subcols_mut(0, size).par_row_chunks_mut(ROWS_PER_TILE).for_each(|mut tile| {
-        let mut result = Mat::zeros(tile.nrows(), width);
-        faer::linalg::matmul::matmul(
-            result.as_mut(),
-            faer::Accum::Replace,
-            tile.as_ref(),
-            s,
-            1.0,
-            faer::Par::Seq,
-        );
-        tile.as_mut().subcols_mut(0, width).copy_from(&result);
-    });
+    vectors
+        .as_mut()
+        .subcols_mut(0, size)
+        .par_row_chunks_mut(ROWS_PER_TILE)
+        .for_each(|mut tile| {
+            let mut result = Mat::zeros(tile.nrows(), width);
+            faer::linalg::matmul::matmul(
+                result.as_mut(),
+                faer::Accum::Replace,
+                tile.as_ref(),
+                s,
+                1.0,
+                faer::Par::Seq,
+            );
+            tile.as_mut().subcols_mut(0, width).copy_from(&result);
+        });
 }

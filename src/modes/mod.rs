@@ -7,8 +7,10 @@
 //! Both come from the factor of K_II at shift zero. Eigenvalues are recomputed as Rayleigh quotients, whose error is the
 //! square of the vector's; each carries the bar that rounding and the digits of the data put on it.
 
-mod equilibration;
+#[cfg(feature = "arpack")]
+mod arpack;
 mod certificate;
+mod equilibration;
 mod lanczos;
 mod operator;
 mod quality;
@@ -28,9 +30,9 @@ pub use certificate::{Certificate, certified};
 pub use equilibration::Equilibrated;
 pub use lanczos::{CLUSTER_GAP, EigenWork, Eigenpairs, Problem, Wanted, gram_schmidt, lanczos};
 pub use operator::{Factored, FreeAtZero, ShiftInvert};
-pub use shifted::{Shifted, shifted};
-pub use retained::{Component, Retained, retained};
 pub use quality::{ModeError, mass_orthogonality};
+pub use retained::{Component, Retained, retained};
+pub use shifted::{Shifted, shifted};
 
 /// Elastic modes of one boundary condition.
 #[derive(Clone, Debug)]
@@ -110,7 +112,11 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
         Some(rigid) => [rigid.orthonormal.as_ref(), rigid.mass_orthonormal.as_ref()],
         None => [nothing.as_ref(), nothing.as_ref()],
     };
-    let eigenproblem = Problem { operator, mass: problem.mass, deflated };
+    let eigenproblem = Problem {
+        operator,
+        mass: problem.mass,
+        deflated,
+    };
     let pairs = match request.eigensolver {
         Eigensolver::Lanczos => lanczos(eigenproblem, request.wanted, request.seed)?,
         Eigensolver::Arpack => by_arpack(eigenproblem, request)?,
@@ -118,9 +124,21 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
     let mut shapes = pairs.vectors;
     quality::normalise(problem.mass, &mut shapes);
     let (lambda, errors) = quality::rayleigh_quotients(problem, shapes.as_ref());
-    Ok(Modes { lambda, shapes, errors, next: pairs.next, work: pairs.work })
+    Ok(Modes {
+        lambda,
+        shapes,
+        errors,
+        next: pairs.next,
+        work: pairs.work,
+    })
 }
 
+#[cfg(feature = "arpack")]
+fn by_arpack(problem: Problem<'_>, request: ModeRequest) -> Result<Eigenpairs> {
+    arpack::arpack(problem, request.wanted, request.seed)
+}
+
+#[cfg(not(feature = "arpack"))]
 fn by_arpack(_: Problem<'_>, _: ModeRequest) -> Result<Eigenpairs> {
     Err(crate::error::Error::EigensolverMissing)
 }

@@ -47,15 +47,26 @@ pub fn shifted<'a>(
     problem: ModalProblem<'_>,
     name: &dyn Fn(usize) -> String,
 ) -> Result<Shifted<'a>> {
-    let pencil = Pencil { stiffness: problem.stiffness, mass: problem.mass };
+    let pencil = Pencil {
+        stiffness: problem.stiffness,
+        mass: problem.mass,
+    };
     let (k, m) = (diagonal(problem.stiffness), diagonal(problem.mass));
-    let largest = k.iter().zip(&m).filter(|(_, m)| **m > 0.0).fold(0.0f64, |max, (k, m)| max.max(k / m));
+    let largest = k
+        .iter()
+        .zip(&m)
+        .filter(|(_, m)| **m > 0.0)
+        .fold(0.0f64, |max, (k, m)| max.max(k / m));
     let mut sigma = -FIRST_SHIFT * if largest > 0.0 { largest } else { 1.0 };
     let mut count = LOOK_AT;
     let mut round = 1;
     loop {
         let factor = Cholesky::new(analysis, pencil, sigma, name)?;
-        let request = ModeRequest { wanted: Wanted::Count(count), eigensolver: Eigensolver::Lanczos, seed: SEED };
+        let request = ModeRequest {
+            wanted: Wanted::Count(count),
+            eigensolver: Eigensolver::Lanczos,
+            seed: SEED,
+        };
         let lowest = elastic_modes(problem, &Factored::new(&factor, sigma), request)?;
         let n_zero = lowest.lambda.iter().zip(&lowest.errors).take_while(|(lambda, error)| {
             // The bar is relative to λ and grows without limit as λ goes to zero.
@@ -69,7 +80,13 @@ pub fn shifted<'a>(
         let first_elastic = lowest.lambda.get(n_zero).copied().or(lowest.next);
         let settled = first_elastic.is_none_or(|lambda| WINDOW.contains(&(-sigma / lambda)));
         if (settled && !all_zero) || round == MAX_ROUNDS {
-            return Ok(Shifted { factor, sigma, lowest, n_zero, n_factorisations: round });
+            return Ok(Shifted {
+                factor,
+                sigma,
+                lowest,
+                n_zero,
+                n_factorisations: round,
+            });
         }
         if let Some(lambda) = first_elastic.filter(|lambda| *lambda > 0.0) {
             sigma = -lambda;

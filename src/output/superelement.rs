@@ -43,7 +43,10 @@ fn tensors(results: &Results<'_>) -> Tensors {
         interface_frames: vec![[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]; nodes.len()],
         frequencies: frequencies(results),
         mixing: mixing(results).as_ref().map(|mixing| matrix(mixing.as_ref())),
-        gravity: reduction.gravity.as_ref().map(|gravity| matrix(rows(gravity, scaling.mass_unit()).as_ref())),
+        gravity: reduction
+            .gravity
+            .as_ref()
+            .map(|gravity| matrix(rows(gravity, scaling.mass_unit()).as_ref())),
         ..Tensors::default()
     }
 }
@@ -54,8 +57,14 @@ fn matrix(a: MatRef<'_, f64>) -> Matrix {
 
 fn frequencies(results: &Results<'_>) -> Vec<f64> {
     let unit = results.evidence.partition.scaling.eigenvalue_unit();
-    let mut frequencies: Vec<f64> =
-        results.evidence.retained.modes.lambda.iter().map(|lambda| omega(*lambda, unit)).collect();
+    let mut frequencies: Vec<f64> = results
+        .evidence
+        .retained
+        .modes
+        .lambda
+        .iter()
+        .map(|lambda| omega(*lambda, unit))
+        .collect();
     // Rayleigh quotients of a repeated eigenvalue may come out a rounding apart in the wrong order.
     frequencies.sort_by(f64::total_cmp);
     frequencies
@@ -75,8 +84,15 @@ fn mixing(results: &Results<'_>) -> Option<Mat<f64>> {
         DynamicCoordinate::InertiaRelief(_) => 1.0 / scaling.eigenvalue_unit(),
         DynamicCoordinate::FreeFree(_) | DynamicCoordinate::FixedInterface(_) => scaling.shape_unit(),
     };
-    let unit: Vec<f64> = evidence.basis.coordinates.iter().map(|c| scaling.shape_unit() / named_unit(*c)).collect();
-    Some(Mat::from_fn(mixing.nrows(), mixing.ncols(), |i, j| mixing[(i, j)] * unit[i]))
+    let unit: Vec<f64> = evidence
+        .basis
+        .coordinates
+        .iter()
+        .map(|c| scaling.shape_unit() / named_unit(*c))
+        .collect();
+    Some(Mat::from_fn(mixing.nrows(), mixing.ncols(), |i, j| {
+        mixing[(i, j)] * unit[i]
+    }))
 }
 
 /// Interface nodes of the file: those whose position is known. Without coordinates the interface is bare rows.
@@ -86,7 +102,11 @@ fn named_nodes(results: &Results<'_>) -> Vec<file::InterfaceNode> {
         Some(file::InterfaceNode {
             name: node.name.clone(),
             label: node.label,
-            dofs: node.directions.iter().map(|direction| direction_of(*direction)).collect(),
+            dofs: node
+                .directions
+                .iter()
+                .map(|direction| direction_of(*direction))
+                .collect(),
             position: node.position?,
         })
     });
@@ -101,7 +121,13 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
     let evidence = &results.evidence;
     let interface_nodes = named_nodes(results);
     let mut coordinates = interface_coordinates(results, &interface_nodes);
-    coordinates.extend(evidence.basis.coordinates.iter().map(|c| dynamic_coordinate(results, tensors, *c)));
+    coordinates.extend(
+        evidence
+            .basis
+            .coordinates
+            .iter()
+            .map(|c| dynamic_coordinate(results, tensors, *c)),
+    );
     let dropped = evidence.basis.dropped.iter().map(|column| file::DroppedColumn {
         column: dynamic_coordinate(results, tensors, column.coordinate),
         reason: format!(
@@ -109,10 +135,17 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
             column.remaining
         ),
     });
-    let classical = evidence.rigid.is_classical.then(|| file::mass_properties(&tensors.rigid_body_mass)).flatten();
+    let classical = evidence
+        .rigid
+        .is_classical
+        .then(|| file::mass_properties(&tensors.rigid_body_mass))
+        .flatten();
     let [stiffness, mass] = &results.input.matrices;
     Metadata {
-        generator: file::Generator { name: env!("CARGO_PKG_NAME").into(), version: env!("CARGO_PKG_VERSION").into() },
+        generator: file::Generator {
+            name: env!("CARGO_PKG_NAME").into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+        },
         method: match results.job.reduction.method {
             Method::CraigBampton => file::Method::CraigBampton,
             Method::Herting => file::Method::Herting,
@@ -122,7 +155,10 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
         coordinates,
         dropped: dropped.collect(),
         load_names: Vec::new(),
-        validity: file::Validity { band_hz: band(results.job, tensors), assumptions: Vec::new() },
+        validity: file::Validity {
+            band_hz: band(results.job, tensors),
+            assumptions: Vec::new(),
+        },
         flags: BTreeSet::new(),
         model: file::ModelSummary {
             n_dofs: results.model.n_dofs() as u64,
@@ -145,16 +181,19 @@ fn interface_coordinates(results: &Results<'_>, nodes: &[file::InterfaceNode]) -
     if !nodes.is_empty() {
         let of_node = |(index, node): (usize, &file::InterfaceNode)| {
             let dofs = node.dofs.clone();
-            dofs.into_iter().map(move |direction| Coordinate::Interface { node: index, direction })
+            dofs.into_iter()
+                .map(move |direction| Coordinate::Interface { node: index, direction })
         };
         return nodes.iter().enumerate().flat_map(of_node).collect();
     }
     let partition = results.evidence.partition;
-    let rows = partition.dofs[partition.n_internal..].iter().map(|dof| match dof.origin {
-        DofOrigin::Row(row) => Coordinate::InterfaceRow { row: row as u64 },
-        // A rigid node has a position, so that an interface with one is never bare rows.
-        DofOrigin::RigidNode(node, _) => Coordinate::InterfaceRow { row: node as u64 },
-    });
+    let rows = partition.dofs[partition.n_internal..]
+        .iter()
+        .map(|dof| match dof.origin {
+            DofOrigin::Row(row) => Coordinate::InterfaceRow { row: row as u64 },
+            // A rigid node has a position, so that an interface with one is never bare rows.
+            DofOrigin::RigidNode(node, _) => Coordinate::InterfaceRow { row: node as u64 },
+        });
     rows.collect()
 }
 
@@ -164,12 +203,16 @@ fn dynamic_coordinate(results: &Results<'_>, tensors: &Tensors, coordinate: Dyna
     let bar = |mode: usize| Some(0.5 * errors[mode].relative_bar * frequency(mode)).filter(|bar: &f64| bar.is_finite());
     match coordinate {
         DynamicCoordinate::InertiaRelief(index) => Coordinate::InertiaRelief { index },
-        DynamicCoordinate::FreeFree(mode) => {
-            Coordinate::ElasticMode { mode, frequency_hz: frequency(mode), error_bar_hz: bar(mode) }
-        }
-        DynamicCoordinate::FixedInterface(mode) => {
-            Coordinate::FixedInterfaceMode { mode, frequency_hz: frequency(mode), error_bar_hz: bar(mode) }
-        }
+        DynamicCoordinate::FreeFree(mode) => Coordinate::ElasticMode {
+            mode,
+            frequency_hz: frequency(mode),
+            error_bar_hz: bar(mode),
+        },
+        DynamicCoordinate::FixedInterface(mode) => Coordinate::FixedInterfaceMode {
+            mode,
+            frequency_hz: frequency(mode),
+            error_bar_hz: bar(mode),
+        },
     }
 }
 
@@ -177,7 +220,10 @@ fn dynamic_coordinate(results: &Results<'_>, tensors: &Tensors, coordinate: Dyna
 fn band(job: &Job, tensors: &Tensors) -> Option<[f64; 2]> {
     match job.reduction.modes {
         ModeSelection::UpTo { up_to_hz } => Some([0.0, up_to_hz]),
-        ModeSelection::Count { .. } => tensors.frequencies.last().map(|omega| [0.0, omega / std::f64::consts::TAU]),
+        ModeSelection::Count { .. } => tensors
+            .frequencies
+            .last()
+            .map(|omega| [0.0, omega / std::f64::consts::TAU]),
     }
 }
 
@@ -211,5 +257,8 @@ fn verification(checks: &[Check], verdict: Verdict) -> file::Verification {
         limit: check.limits.value(),
         verdict: verdict_of(check.verdict()),
     };
-    file::Verification { verdict: verdict_of(verdict), checks: checks.iter().map(summary).collect() }
+    file::Verification {
+        verdict: verdict_of(verdict),
+        checks: checks.iter().map(summary).collect(),
+    }
 }

@@ -16,7 +16,11 @@ pub(super) fn congruence(matrix: &SparseMatrix, transformation: &Transformation)
     let tasks: Vec<Vec<Row>> = (0..n)
         .into_par_iter()
         .chunks(ROWS_PER_TASK)
-        .map(|rows| rows.into_iter().map(|row| Row::new(matrix, transformation, &columns[row])).collect())
+        .map(|rows| {
+            rows.into_iter()
+                .map(|row| Row::new(matrix, transformation, &columns[row]))
+                .collect()
+        })
         .collect();
     let n_entries = tasks.iter().flatten().map(|row| row.columns.len()).sum();
     let mut pointers = Vec::with_capacity(n + 1);
@@ -54,7 +58,9 @@ impl Row {
     fn new(matrix: &SparseMatrix, transformation: &Transformation, moved: &[(u32, f64)]) -> Self {
         let mut entries: Vec<(u32, f64)> = Vec::new();
         for (row, factor) in moved {
-            let Some(view) = matrix.outer_view(*row as usize) else { continue };
+            let Some(view) = matrix.outer_view(*row as usize) else {
+                continue;
+            };
             for (col, value) in view.iter() {
                 let scaled = factor * value;
                 let target = transformation.rows[col].entries();
@@ -63,7 +69,10 @@ impl Row {
         }
         // A stable sort keeps the terms of one column in the order of the model, so that their sum is always the same.
         entries.sort_by_key(|(col, _)| *col);
-        let mut row = Self { columns: Vec::with_capacity(entries.len()), values: Vec::with_capacity(entries.len()) };
+        let mut row = Self {
+            columns: Vec::with_capacity(entries.len()),
+            values: Vec::with_capacity(entries.len()),
+        };
         for (col, value) in entries {
             if row.columns.last() == Some(&col) {
                 if let Some(sum) = row.values.last_mut() {

@@ -24,7 +24,7 @@ use crate::model::{Model, Precision, Scaling};
 use crate::sparse::SparseMatrix;
 
 pub use interface::InterfaceNode;
-pub use transformation::{DofOrigin, ReducedDof, Site, Transformation};
+pub use transformation::{DofOrigin, ReducedDof, Site, Transformation, TransformationRow};
 
 /// The matrices in the order internal, interface, with what is known of each degree of freedom.
 #[derive(Debug)]
@@ -59,7 +59,9 @@ impl Partition {
         let transformation = transformation.permuted(&order);
         let n_internal = transformation.n_internal();
         if n_internal == 0 {
-            return Err(Error::NothingToReduce { n_interface: transformation.dofs.len() });
+            return Err(Error::NothingToReduce {
+                n_interface: transformation.dofs.len(),
+            });
         }
         let (stiffness, mass) = rayon::join(
             || congruence::congruence(&model.stiffness, &transformation),
@@ -117,7 +119,9 @@ impl Partition {
             }
             for j in 0..self.n_interface() {
                 // The matrix is symmetric: its rows are its columns.
-                let Some(view) = matrix.outer_view(n_i + j) else { continue };
+                let Some(view) = matrix.outer_view(n_i + j) else {
+                    continue;
+                };
                 for (row, value) in view.iter() {
                     block[(row, j)] += factor * value;
                 }

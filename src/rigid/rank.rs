@@ -37,17 +37,32 @@ pub fn interface_rank(partition: &Partition, rigid: &RigidBodyModes) -> Result<I
         _ => 1.0,
     };
     let u_b = Mat::from_fn(n_b.max(n_r), n_r, |i, j| {
-        if i < n_b { rigid.orthonormal[(n_i + i, j)] * row_scale(i) } else { 0.0 }
+        if i < n_b {
+            rigid.orthonormal[(n_i + i, j)] * row_scale(i)
+        } else {
+            0.0
+        }
     });
     let (singular, v) = dense::right_singular(u_b.as_ref())?;
     let largest = singular.first().copied().unwrap_or(0.0);
-    let rank = singular.iter().filter(|value| **value > RANK_TOLERANCE * largest).count();
+    let rank = singular
+        .iter()
+        .filter(|value| **value > RANK_TOLERANCE * largest)
+        .count();
     if largest == 0.0 || rank < n_r {
         let free = rigid.orthonormal.as_ref() * v.as_ref().subcols(n_r - 1, 1);
-        let motion = partition.sites().map_or_else(String::new, |sites| describe(&sites, dense::column(free.as_ref(), 0)));
-        return Err(Error::InterfaceRank { rank, n_rigid: n_r, motion });
+        let motion = partition
+            .sites()
+            .map_or_else(String::new, |sites| describe(&sites, dense::column(free.as_ref(), 0)));
+        return Err(Error::InterfaceRank {
+            rank,
+            n_rigid: n_r,
+            motion,
+        });
     }
-    Ok(InterfaceRank { singular_ratio: singular[n_r - 1] / largest })
+    Ok(InterfaceRank {
+        singular_ratio: singular[n_r - 1] / largest,
+    })
 }
 
 fn size_of(sites: &[Site]) -> f64 {
@@ -65,7 +80,9 @@ fn size_of(sites: &[Site]) -> f64 {
 
 /// Puts a rigid motion into words: the axis it turns about, or the direction it moves in.
 fn describe(sites: &[Site], motion: &[f64]) -> String {
-    let Some([t, r]) = fit(sites, motion) else { return String::new() };
+    let Some([t, r]) = fit(sites, motion) else {
+        return String::new();
+    };
     let (turning, moving) = (length(r), length(t));
     let size = size_of(sites);
     if turning * size <= 1e-6 * moving {
@@ -74,17 +91,33 @@ fn describe(sites: &[Site], motion: &[f64]) -> String {
     }
     let axis = r.map(|value| value / turning);
     // The point of the axis nearest the origin: (θ × t) / θ².
-    let cross = [r[1] * t[2] - r[2] * t[1], r[2] * t[0] - r[0] * t[2], r[0] * t[1] - r[1] * t[0]];
+    let cross = [
+        r[1] * t[2] - r[2] * t[1],
+        r[2] * t[0] - r[0] * t[2],
+        r[0] * t[1] - r[1] * t[0],
+    ];
     let point = cross.map(|value| value / (turning * turning));
-    let show = |values: [f64; 3]| format!("({:.4}, {:.4}, {:.4})", values[0] + 0.0, values[1] + 0.0, values[2] + 0.0);
-    format!("; free: rotation about the axis through {} along {}", show(point), show(axis))
+    let show = |values: [f64; 3]| {
+        format!(
+            "({:.4}, {:.4}, {:.4})",
+            values[0] + 0.0,
+            values[1] + 0.0,
+            values[2] + 0.0
+        )
+    };
+    format!(
+        "; free: rotation about the axis through {} along {}",
+        show(point),
+        show(axis)
+    )
 }
 
 /// Translation and rotation about the origin that make up a rigid motion, by least squares.
 fn fit(sites: &[Site], motion: &[f64]) -> Option<[[f64; 3]; 2]> {
     use faer::linalg::solvers::SolveLstsq;
-    // Only the part that moves takes part: a motion of one body of several is zero elsewhere.
-    let moving: Vec<usize> = (0..sites.len()).filter(|dof| motion[*dof] != 0.0).collect();
+    // Only the part that moves takes part: a motion of one body of several is zero elsewhere, but for rounding.
+    let least = 1e-9 * motion.iter().fold(0.0f64, |max, value| max.max(value.abs()));
+    let moving: Vec<usize> = (0..sites.len()).filter(|dof| motion[*dof].abs() > least).collect();
     if moving.len() < 6 {
         return None;
     }

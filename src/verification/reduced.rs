@@ -61,7 +61,11 @@ pub(super) fn zero_level(evidence: &Evidence<'_>) -> Limits {
     Limits {
         engineering: 0.0,
         arithmetic: 10.0 * evidence.reduction.n_reduced() as f64 * f64::EPSILON * cancellation,
-        data: if precision > f64::EPSILON { 10.0 * precision * cancellation } else { 0.0 },
+        data: if precision > f64::EPSILON {
+            10.0 * precision * cancellation
+        } else {
+            0.0
+        },
     }
 }
 
@@ -79,11 +83,18 @@ fn further_zero_modes(evidence: &Evidence<'_>) -> Result<usize> {
     }
     let (values, _) = dense::symmetric_eigen(lifted.as_ref())?;
     let largest = values.last().copied().unwrap_or(0.0);
-    Ok(values.iter().filter(|value| **value <= zero_level(evidence).value() * largest).count())
+    Ok(values
+        .iter()
+        .filter(|value| **value <= zero_level(evidence).value() * largest)
+        .count())
 }
 
 fn power_of_two_root(d: f64) -> f64 {
-    if d > 0.0 { 2f64.powi((-0.5 * d.log2()).round() as i32) } else { 1.0 }
+    if d > 0.0 {
+        2f64.powi((-0.5 * d.log2()).round() as i32)
+    } else {
+        1.0
+    }
 }
 
 /// D A D with powers of two D that bring the diagonal of `by` near one.
@@ -99,7 +110,9 @@ fn lowest_eigenvalues(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Res
     let shifted = Mat::from_fn(n, n, |i, j| k[(i, j)] + alpha * m[(i, j)]);
     let scaled_m = equilibrated(m, shifted.as_ref());
     let scaled_k = equilibrated(shifted.as_ref(), shifted.as_ref());
-    let Ok(factor) = scaled_k.llt(Side::Lower) else { return Ok(Vec::new()) };
+    let Ok(factor) = scaled_k.llt(Side::Lower) else {
+        return Ok(Vec::new());
+    };
     let l = factor.L();
     let mut c = scaled_m;
     let par = faer::Par::Seq;
@@ -109,7 +122,12 @@ fn lowest_eigenvalues(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Res
     dense::symmetrise(&mut c);
     let (theta, _) = dense::symmetric_eigen(c.as_ref())?;
     let largest = theta.last().copied().unwrap_or(0.0);
-    Ok(theta.into_iter().rev().take_while(|theta| *theta > f64::EPSILON * largest).map(|theta| 1.0 / theta - alpha).collect())
+    Ok(theta
+        .into_iter()
+        .rev()
+        .take_while(|theta| *theta > f64::EPSILON * largest)
+        .map(|theta| 1.0 / theta - alpha)
+        .collect())
 }
 
 /// M-13, equation (29).
@@ -118,7 +136,11 @@ pub(super) fn block_coupling(evidence: &Evidence<'_>) -> Check {
     let (i, j) = measured.block_coupling_at;
     // The block is Ψ_Dᵀ times the residual of the static solve. Its rounding is that of K_II, which the raw error of
     // equation (24) shows.
-    let limits = Limits { engineering: 1e-10, arithmetic: evidence.constraint.raw_rigid_error, data: 0.0 };
+    let limits = Limits {
+        engineering: 1e-10,
+        arithmetic: evidence.constraint.raw_rigid_error,
+        data: 0.0,
+    };
     Check {
         id: "M-13",
         name: "interface and modes are uncoupled in stiffness",
@@ -158,7 +180,10 @@ pub(super) fn pair_residual(evidence: &Evidence<'_>) -> Check {
             worst = (error, Some(format!("mode {}", j + 1)));
         }
     }
-    let limits = Limits { engineering: 1e-12, ..zero_level(evidence) };
+    let limits = Limits {
+        engineering: 1e-12,
+        ..zero_level(evidence)
+    };
     Check {
         id: "M-14",
         name: "modes are eigenpairs of the reduced model",
@@ -185,7 +210,11 @@ pub(super) fn frequency_difference(evidence: &Evidence<'_>, spectrum: &Spectrum)
     let precision = evidence.partition.precision.stiffness;
     let share = f64::EPSILON / (f64::EPSILON + precision);
     // Both values carry the rounding of their quadratic forms, for which the error bars stand.
-    let limits = Limits { engineering: 1e-9, arithmetic: 10.0 * bars * share, data: 10.0 * bars * (1.0 - share) };
+    let limits = Limits {
+        engineering: 1e-9,
+        arithmetic: 10.0 * bars * share,
+        data: 10.0 * bars * (1.0 - share),
+    };
     Check {
         id: "M-14",
         name: "reduced frequencies equal full ones",
@@ -205,7 +234,11 @@ pub(super) fn symmetry(evidence: &Evidence<'_>) -> Check {
         name: "reduced matrices are symmetric",
         equation: "max |K̂ − K̂ᵀ|/|K̂|, |M̂ − M̂ᵀ|/|M̂| of the projections, which are then made symmetric to the bit",
         value: measured.stiffness_asymmetry.max(measured.mass_asymmetry),
-        limits: Limits { engineering: 1e-12, arithmetic: evidence.constraint.raw_rigid_error, data: 0.0 },
+        limits: Limits {
+            engineering: 1e-12,
+            arithmetic: evidence.constraint.raw_rigid_error,
+            data: 0.0,
+        },
         fail_above: 1e-6,
         worst: None,
     }
@@ -214,7 +247,11 @@ pub(super) fn symmetry(evidence: &Evidence<'_>) -> Check {
 /// M-25, definiteness.
 pub(super) fn definiteness(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check {
     let negative = (-spectrum.lowest_stiffness).max(0.0);
-    let value = if spectrum.mass_is_definite { negative } else { f64::INFINITY };
+    let value = if spectrum.mass_is_definite {
+        negative
+    } else {
+        f64::INFINITY
+    };
     let limits = zero_level(evidence);
     Check {
         id: "M-25",

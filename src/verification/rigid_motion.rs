@@ -15,7 +15,11 @@ pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check {
     let precision = evidence.partition.precision.stiffness;
     let noise = NOISE_FACTOR * energy.noise / first;
     let share = f64::EPSILON / (f64::EPSILON + precision);
-    let limits = Limits { engineering: 1e-8, arithmetic: noise * share, data: noise * (1.0 - share) };
+    let limits = Limits {
+        engineering: 1e-8,
+        arithmetic: noise * share,
+        data: noise * (1.0 - share),
+    };
     Check {
         id: "M-05",
         name: "rigid-body motion costs no energy",
@@ -31,8 +35,16 @@ pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check {
 /// M-05, residual.
 pub(super) fn residual(evidence: &Evidence<'_>) -> Check {
     let precision = evidence.partition.precision.stiffness;
-    let data = if precision > f64::EPSILON { NOISE_FACTOR * precision } else { 0.0 };
-    let limits = Limits { engineering: 1e-14, arithmetic: 0.0, data };
+    let data = if precision > f64::EPSILON {
+        NOISE_FACTOR * precision
+    } else {
+        0.0
+    };
+    let limits = Limits {
+        engineering: 1e-14,
+        arithmetic: 0.0,
+        data,
+    };
     Check {
         id: "M-05",
         name: "rigid-body motion makes no force",
@@ -53,7 +65,10 @@ pub(super) fn carried_by_interface(evidence: &Evidence<'_>) -> Check {
         name: "interface carries rigid-body motion",
         equation: "max |Ψ_S U_B − U_I| / max |U_I| (24), after the correction",
         value,
-        limits: Limits { engineering: 1e-12, ..Limits::default() },
+        limits: Limits {
+            engineering: 1e-12,
+            ..Limits::default()
+        },
         fail_above: 1e-9,
         worst: (value > 0.0).then(|| format!("{}, {raw:.1e} before the correction", evidence.partition.name_of(at))),
     }
@@ -72,7 +87,10 @@ pub(super) fn null_space(evidence: &Evidence<'_>) -> Check {
             worst = (error, Some(format!("rigid-body mode {}", j + 1)));
         }
     }
-    let limits = Limits { engineering: 1e-11, ..zero_level(evidence) };
+    let limits = Limits {
+        engineering: 1e-11,
+        ..zero_level(evidence)
+    };
     Check {
         id: "M-12",
         name: "reduced stiffness lets rigid motion pass",
@@ -93,6 +111,10 @@ pub(super) fn zero_modes(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check 
         value: spectrum.n_zero.abs_diff(evidence.rigid.count()) as f64,
         limits: Limits::default(),
         fail_above: 0.0,
-        worst: Some(format!("{} zero modes, {} rigid-body modes", spectrum.n_zero, evidence.rigid.count())),
+        worst: Some(format!(
+            "{} zero modes, {} rigid-body modes",
+            spectrum.n_zero,
+            evidence.rigid.count()
+        )),
     }
 }

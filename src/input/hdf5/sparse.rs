@@ -38,7 +38,9 @@ pub fn read_matrix(path: &Path, group: Option<&str>, role: MatrixRole) -> Result
     let (compressed, stored_digits) = convention.read(&group)?;
     let digits = significant_digits(compressed.values()).min(stored_digits);
     let n = compressed.check(h5.path(), group.name())?;
-    let (matrix, notes) = compressed.into_triplets(h5.path())?.assemble(n, Declared::General, h5.path())?;
+    let (matrix, notes) = compressed
+        .into_triplets(h5.path())?
+        .assemble(n, Declared::General, h5.path())?;
     Ok(MatrixInput {
         matrix,
         notes,

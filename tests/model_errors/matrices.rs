@@ -1,0 +1,245 @@
+//! The checks that matrices pass before anything is factored.
+
+use supel::error::{Error, ErrorClass};
+use supel::model::{Finding, Model};
+use supel_models as models;
+use supel_models::model::Entry;
+use supel_models::transform::{join, scaled};
+use supel_models::{Ends, Inertia, Material, Section, brick, frame, spring};
+
+use crate::chain::input;
+use crate::{assert_says, refusal};
+
+fn cube() -> models::Model {
+    brick([1, 1, 1], [1.0; 3], &Material::UNIT)
+}
+
+fn refused(model: &models::Model) -> Error {
+    refusal(Model::new(input(model)))
+}
+
+/// The model with the value at a position of both triangles replaced.
+fn with_entry(entries: &[Entry], at: (u32, u32), value: f64) -> Vec<Entry> {
+    let is_there = |entry: &&Entry| (entry.0, entry.1) != at && (entry.1, entry.0) != at;
+    let mut changed: Vec<Entry> = entries.iter().filter(is_there).copied().collect();
+    changed.push((at.0, at.1, value));
+    if at.0 != at.1 {
+        changed.push((at.1, at.0, value));
+    }
+    changed
+}
+
+#[test]
+fn unsymmetric_stiffness() {
+    let mut model = cube();
+    let at = model
+        .stiffness
+        .iter()
+        .position(|entry| (entry.0, entry.1) == (4, 1))
+        .expect("an entry");
+    let largest = model.stiffness.iter().fold(0.0f64, |max, entry| max.max(entry.2.abs()));
+    model.stiffness[at].2 += 1e-3 * largest;
+    let error = refused(&model);
+    let Error::Unsymmetric {
+        matrix: "stiffness",
+        asymmetry,
+        row: 5,
+        col: 2,
+    } = error
+    else {
+        panic!("{error}")
+    };
+    assert!((asymmetry - 1e-3).abs() < 1e-12, "{asymmetry:e}");
+    assert_says(
+        &error,
+        ErrorClass::InputData,
+        &["stiffness", "row 5, column 2", "1.0e-3", "leave out"],
+    );
+}
+
+#[test]
+fn unsymmetric_mass_with_an_entry_on_one_side() {
+    // Nodes 1 and 3 share no element: only the lower triangle has this entry.
+    let mut model = brick([2, 1, 1], [2.0, 1.0, 1.0], &Material::UNIT);
+    let largest = model.mass.iter().fold(0.0f64, |max, entry| max.max(entry.2));
+    model.mass.push((6, 0, 0.5 * largest));
+    let error = refused(&model);
+    let Error::Unsymmetric {
+        matrix: "mass",
+        row,
+        col,
+        ..
+    } = error
+    else {
+        panic!("{error}")
+    };
+    assert_eq!((row.max(col), row.min(col)), (7, 1));
+    assert_says(&error, ErrorClass::InputData, &["mass", "5.0e-1"]);
+}
+
+/// Rounding of the producer is mended and told, not refused.
+#[test]
+fn asymmetry_of_rounding_is_a_finding() {
+    let mut model = cube();
+    let at = model
+        .stiffness
+        .iter()
+        .position(|entry| (entry.0, entry.1) == (4, 1))
+        .expect("an entry");
+    model.stiffness[at].2 *= 1.0 + 1e-13;
+    let model = Model::new(input(&model)).expect("symmetric but for rounding");
+    assert!(
+        matches!(model.findings[..], [Finding::Symmetrised { matrix: "stiffness", asymmetry }] if asymmetry < 1e-12),
+        "{:?}",
+        model.findings
+    );
+}
+
+#[test]
+fn stiffness_and_mass_exchanged() {
+    let model = brick([2, 2, 2], [1.0; 3], &Material::STEEL_SI);
+    let exchanged = models::Model {
+        stiffness: model.mass.clone(),
+        mass: model.stiffness.clone(),
+        ..model
+    };
+    let error = refused(&exchanged);
+    assert!(
+        matches!(error, Error::Swapped { in_stiffness, in_mass } if in_stiffness > 0.9 && in_mass < 1e-12),
+        "{error}"
+    );
+    assert_says(&error, ErrorClass::InputData, &["exchanged", "exchange the two files"]);
+}
+
+#[test]
+fn mass_of_zeros() {
+    for model in [
+        scaled(&cube(), 1.0, 0.0),
+        models::Model {
+            mass: Vec::new(),
+            ..cube()
+        },
+    ] {
+        let error = refused(&model);
+        assert!(matches!(error, Error::NoMass), "{error}");
+        assert_says(&error, ErrorClass::InputData, &["mass", "give the mass matrix"]);
+    }
+}
+
+#[test]
+fn rows_without_stiffness_and_mass() {
+    let model = cube();
+    let keep = |entries: &[Entry]| -> Vec<Entry> {
+        entries
+            .iter()
+            .filter(|entry| ![7, 12].contains(&entry.0) && ![7, 12].contains(&entry.1))
+            .copied()
+            .collect()
+    };
+    let empty = models::Model {
+        stiffness: keep(&model.stiffness),
+        mass: keep(&model.mass),
+        ..model
+    };
+    let error = refused(&empty);
+    assert!(matches!(error, Error::EmptyRows { n_rows: 2, row: 8, .. }), "{error}");
+    assert_says(
+        &error,
+        ErrorClass::InputData,
+        &["2 rows", "row 8 (node 3 uy)", "leave unused"],
+    );
+    let anonymous = models::Model {
+        dofs: Vec::new(),
+        ..empty
+    };
+    assert_says(&refused(&anonymous), ErrorClass::InputData, &["the first is row 8 –"]);
+}
+
+#[test]
+fn constraint_multiplier() {
+    let mut model = spring(4, Ends::Fixed);
+    model.stiffness = with_entry(&model.stiffness, (2, 2), 0.0);
+    let error = refused(&model);
+    assert!(matches!(error, Error::MultiplierRow { row: 3, .. }), "{error}");
+    assert_says(
+        &error,
+        ErrorClass::InputData,
+        &["row 3 (node 3 ux)", "multiplier", "eliminate"],
+    );
+}
+
+#[test]
+fn negative_stiffness() {
+    let mut model = spring(4, Ends::Fixed);
+    model.stiffness = with_entry(&model.stiffness, (1, 1), -0.25);
+    let error = refused(&model);
+    assert!(
+        matches!(
+            error,
+            Error::NegativeStiffness {
+                row: 2,
+                value: -0.25,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    assert_says(
+        &error,
+        ErrorClass::ModelPhysics,
+        &["row 2 (node 2 ux)", "-2.5", "buckling"],
+    );
+}
+
+#[test]
+fn negative_mass() {
+    let mut model = spring(4, Ends::Fixed);
+    model.mass = with_entry(&model.mass, (0, 0), -1.0);
+    let error = refused(&model);
+    assert!(
+        matches!(
+            error,
+            Error::NegativeMass {
+                row: 1,
+                value: -1.0,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    assert_says(
+        &error,
+        ErrorClass::ModelPhysics,
+        &["row 1 (node 1 ux)", "check point masses"],
+    );
+}
+
+#[test]
+fn rows_without_mass_and_free_particles_are_findings() {
+    let nodes = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
+    let section = Section::round(0.1);
+    let lumped = frame(
+        &nodes,
+        &[[0, 1], [1, 2]],
+        &section,
+        &Material::UNIT,
+        Inertia::LumpedTranslations,
+    );
+    let model = Model::new(input(&lumped)).expect("rotations without mass");
+    assert_eq!(model.findings, [Finding::MasslessRows { n_rows: 9 }]);
+    let particle = models::Model {
+        stiffness: Vec::new(),
+        ..spring(1, Ends::Free)
+    };
+    let model = Model::new(input(&join(&spring(3, Ends::Fixed), &particle, &[]))).expect("a free particle");
+    assert_eq!(model.findings, [Finding::FreeParticles { n_rows: 1 }]);
+    assert_eq!(model.bodies.n_bodies, 2);
+}
+
+#[test]
+fn mass_negative_by_rounding_is_a_finding() {
+    let mut model = spring(4, Ends::Fixed);
+    model.mass = with_entry(&model.mass, (2, 2), -1e-17);
+    let model = Model::new(input(&model)).expect("a negative rounding");
+    assert_eq!(model.findings, [Finding::NegativeMassByRounding { n_rows: 1 }]);
+}

@@ -1,0 +1,146 @@
+//! Factorisations, counts and eigensolutions that cannot be had.
+
+use faer::MatMut;
+use supel::error::{Error, ErrorClass};
+use supel::factor::{Analysis, Pencil, count_below};
+use supel::job::Eigensolver;
+use supel::modes::{ModalProblem, ModeRequest, SEED, ShiftInvert, Wanted, elastic_modes};
+use supel_models as models;
+use supel_models::transform::{grounded, supported};
+use supel_models::{Ends, Material, SplitMix64, brick, spring};
+
+use crate::chain::{Method, direct, partition, reduce, rows};
+use crate::rigid_body::hinged_pair;
+use crate::{assert_says, refusal};
+
+/// With the interface on one side of a hinge the other side is loose although every rigid-body motion is reacted.
+#[test]
+fn loose_part_beyond_a_hinge() {
+    for method in [Method::CraigBampton, Method::Herting] {
+        let error = refusal(reduce(&hinged_pair(), &[direct("pins", &[1, 3, 4, 9])], method, 2));
+        assert!(matches!(error, Error::NotDefinite { .. }), "{error}");
+        assert_says(
+            &error,
+            ErrorClass::ModelPhysics,
+            &["elimination stopped at node ", "mechanism"],
+        );
+    }
+}
+
+/// A held component with a spring so negative that it buckles, though every diagonal entry is positive.
+#[test]
+fn buckled_component() {
+    let block = brick([3, 1, 1], [3.0, 1.0, 1.0], &Material::UNIT);
+    let held = supported(&block, |(label, _)| label % 4 == 1);
+    // A beam of this length and section is softer at its tip than 3EI/L³ = 1/108 and a rigid motion of it costs more.
+    let row = held.dofs.iter().position(|dof| *dof == (8, 1)).expect("a dof");
+    let buckled = grounded(&held, row, -2.0 / 108.0);
+    let error = refusal(reduce(&buckled, &[direct("pins", &[2])], Method::CraigBampton, 2));
+    assert!(matches!(error, Error::NotDefinite { .. }), "{error}");
+    assert_says(
+        &error,
+        ErrorClass::ModelPhysics,
+        &["elimination stopped at node ", "positive pivot"],
+    );
+}
+
+/// With the interface on both sides of a hinge everything can be factored; the hinge shows in the condensed stiffness.
+#[test]
+fn hinge_between_interfaces() {
+    let pins = [direct("here", &[1, 2, 4, 7]), direct("there", &[15, 18, 21])];
+    let error = refusal(reduce(&hinged_pair(), &pins, Method::Herting, 2));
+    assert!(matches!(error, Error::Mechanism { n_rigid: 6, n_more: 1 }), "{error}");
+    assert_says(
+        &error,
+        ErrorClass::ModelPhysics,
+        &["1 motions", "6 rigid-body modes", "close hinges"],
+    );
+    // Held at the interface the pair is no mechanism, and Craig-Bampton keeps the hinge in its constraint modes.
+    let chain = reduce(&hinged_pair(), &pins, Method::CraigBampton, 2).expect("a component held at its interface");
+    assert_eq!(chain.rigid.count(), 6);
+}
+
+/// A shift on an eigenvalue of the only internal dof.
+#[test]
+fn sturm_count_on_an_eigenvalue() {
+    let model = spring(2, Ends::Fixed);
+    let partition = partition(&model, &[rows("end", &[1])]).expect("two masses");
+    let (k_ii, m_ii) = (partition.internal_stiffness(), partition.internal_mass());
+    let analysis = Analysis::new(Pencil {
+        stiffness: &k_ii,
+        mass: &m_ii,
+    })
+    .expect("one dof");
+    // K_II = 2 and M_II = 1; counts are taken in scaled units.
+    let sigma = 2.0 / partition.scaling.eigenvalue_unit();
+    let error = refusal(count_below(&partition, &analysis, sigma));
+    assert!(matches!(error, Error::SturmPivot { step: 0 }), "{error}");
+    assert_says(&error, ErrorClass::NumericalLimit, &["step 0", "one mode more or less"]);
+    // λ = 1 and 3 free, 2 held.
+    for (lambda, clamped, free) in [(0.5, 0, 0), (1.5, 0, 1), (2.5, 1, 1), (3.5, 1, 2)] {
+        let count = count_below(&partition, &analysis, lambda / partition.scaling.eigenvalue_unit()).expect("a count");
+        assert_eq!((count.clamped, count.free), (clamped, free), "below {lambda}");
+    }
+}
+
+/// An operator that answers the same load differently each time.
+struct Unreliable {
+    n: usize,
+    random: std::sync::Mutex<SplitMix64>,
+}
+
+impl ShiftInvert for Unreliable {
+    fn n(&self) -> usize {
+        self.n
+    }
+
+    fn shift(&self) -> f64 {
+        0.0
+    }
+
+    fn solve_in_place(&self, mut block: MatMut<'_, f64>) {
+        let mut random = self.random.lock().expect("one thread");
+        for j in 0..block.ncols() {
+            for i in 0..block.nrows() {
+                block[(i, j)] *= 1.0 + 0.1 * random.normal();
+            }
+        }
+    }
+}
+
+#[test]
+fn eigensolver_that_does_not_converge() {
+    let partition = partition(&spring(200, Ends::Fixed), &[]).expect("a chain");
+    let (stiffness, mass) = (&partition.stiffness, &partition.mass);
+    let problem = ModalProblem {
+        stiffness,
+        mass,
+        rigid: None,
+        precision: partition.precision,
+    };
+    let request = ModeRequest {
+        wanted: Wanted::Count(3),
+        eigensolver: Eigensolver::Lanczos,
+        seed: SEED,
+    };
+    let operator = Unreliable {
+        n: 200,
+        random: SplitMix64::new(1).into(),
+    };
+    let error = refusal(elastic_modes(problem, &operator, request));
+    assert!(matches!(error, Error::LanczosStalled { restarts: 1.., .. }), "{error}");
+    assert_says(&error, ErrorClass::NumericalLimit, &["restarts", "ask for fewer modes"]);
+}
+
+/// Magnitudes near the ends of the range of a double are only units.
+#[test]
+fn extreme_units_are_only_units() {
+    let unit = spring(12, Ends::Free);
+    let reference = reduce(&unit, &[direct("end", &[1])], Method::Herting, 3).expect("a chain");
+    for (stiffness, mass) in [(2f64.powi(900), 2f64.powi(-900)), (2f64.powi(-1000), 2f64.powi(1000))] {
+        let model: models::Model = models::transform::scaled(&unit, stiffness, mass);
+        let chain = reduce(&model, &[direct("end", &[1])], Method::Herting, 3).expect("a chain");
+        assert_eq!(chain.reduction.stiffness, reference.reduction.stiffness);
+        assert_eq!(chain.reduction.mass, reference.reduction.mass);
+    }
+}

@@ -1,0 +1,12 @@
+//! The theorems of section 2 of the paper, one test each, on generated models that cover what the theorems range over:
+//! both methods, interfaces of nodes and of rigid patches, free, held and half-held components, singular mass.
+//!
+//! What a test compares with is computed densely from the model's own entries; see `chain`.
+
+mod basis;
+mod cases;
+#[path = "../chain/mod.rs"]
+mod chain;
+mod eigenpairs;
+mod reduction;
+mod rigid_body;
