@@ -104,7 +104,7 @@ fn small_chain() -> (Place, Vec<String>) {
     (place, flags)
 }
 
-const CHAIN: &str = "--interface end=rows:0 --method craig-bampton --modes 1 --threads 1";
+const CHAIN: &str = "--interface ends=rows:0,4 --method craig-bampton --modes 1 --threads 1";
 
 #[test]
 fn a_superelement_cut_anywhere_is_refused() {

@@ -26,7 +26,7 @@ fn herting_keeps_the_modes_of_the_free_component() {
     place
         .reduce(
             &place.matrix_flags(),
-            "--interface end=rows:0 --method herting --modes 4",
+            "--interface ends=rows:0,11 --method herting --modes 4",
         )
         .expect(ExitCode::Done);
     let superelement = place.superelement("x.supel");
@@ -59,7 +59,7 @@ fn a_band_keeps_the_modes_below_its_end() {
     place
         .reduce(
             &place.matrix_flags(),
-            &format!("--interface end=rows:0 --method herting --up-to-hz {end}"),
+            &format!("--interface ends=rows:0,11 --method herting --up-to-hz {end}"),
         )
         .expect(ExitCode::Done);
     assert_close(&frequencies_hz(&place.superelement("x.supel")), &exact[..5], SAME);
