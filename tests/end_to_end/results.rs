@@ -210,3 +210,20 @@ fn inspect_shows_what_was_reduced() {
         "the machine's memory is in the file"
     );
 }
+
+#[cfg(feature = "arpack")]
+#[test]
+fn both_eigensolvers_find_the_same_modes() {
+    let place = Place::with_brick();
+    for method in ["herting", "craig-bampton"] {
+        let flags = format!("--interface foot=1,11,31,41 --method {method} --modes 5");
+        let by = |solver: &str| {
+            place
+                .reduce(&place.model_flags(), &format!("{flags} --eigensolver {solver}"))
+                .expect(ExitCode::Done);
+            frequencies_hz(&place.superelement("x.supel"))
+        };
+        // Rounding that a solve amplifies: ε times the condition of the stiffness, below 1e6 here.
+        assert_close(&by("arpack"), &by("lanczos"), 1e-9);
+    }
+}
