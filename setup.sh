@@ -3,13 +3,14 @@
 #
 #   ./setup.sh        install what is missing, build the release program
 #   ./setup.sh run    the same, then reduce the bundled example
-#   ./setup.sh test   the same, then run all tests
+#   ./setup.sh test   install what is missing, build and run all tests; the bundled example is among them
 set -euo pipefail
 cd "$(dirname "$0")"
 
 # HDF5 and ARPACK-NG are linked; pkg-config finds them; build-essential compiles the vendored METIS.
 readonly packages=(build-essential pkg-config libhdf5-dev libarpack2-dev)
 readonly python_packages=(python3 python3-venv)
+readonly python_modules=(numpy safetensors blake3)
 readonly rust_minor=88
 
 say() { printf '\n== %s\n' "$*"; }
@@ -58,13 +59,13 @@ install_rust() {
     has_rust || fail "needs cargo 1.$rust_minor or newer; see https://rustup.rs, then run this again"
 }
 
-# The tests that load superelements in Python need numpy and safetensors; without them they are skipped with a message.
+# The tests that load superelements in Python need these modules; without them they are skipped with a message.
 prepare_python() {
     install_packages "${python_packages[@]}"
     local python=$PWD/target/venv/bin/python
-    if ! "$python" -c 'import numpy, safetensors' 2>/dev/null; then
-        say "installing numpy and safetensors in target/venv"
-        if ! { python3 -m venv target/venv && "$python" -m pip install --quiet numpy safetensors; }; then
+    if ! "$python" -c 'import numpy, safetensors, blake3' 2>/dev/null; then
+        say "installing ${python_modules[*]} in target/venv"
+        if ! { python3 -m venv target/venv && "$python" -m pip install --quiet "${python_modules[@]}"; }; then
             echo "setup.sh: target/venv could not be made: the Python tests will be skipped" >&2
             return
         fi
@@ -72,9 +73,20 @@ prepare_python() {
     export SUPEL_PYTHON=$python
 }
 
+build_release() {
+    say "building supel"
+    cargo build --release --locked
+}
+
 run_example() {
     say "supel reduce examples/bracket/job.toml"
     target/release/supel reduce examples/bracket/job.toml
+}
+
+# The profile for tests is optimised and checks arithmetic for overflow, so that no release build is needed here.
+run_tests() {
+    say "running the tests"
+    cargo test --workspace --locked --features supel-models/med
 }
 
 main() {
@@ -82,16 +94,20 @@ main() {
     case $goal in build|run|test) ;; *) fail "unknown goal '$goal': expected run or test" ;; esac
     install_packages "${packages[@]}"
     install_rust
-    say "building supel"
-    cargo build --release --locked
     case $goal in
-        build) say "target/release/supel is ready" ;;
-        run) run_example ;;
-        test)
+        build)
+            build_release
+            say "target/release/supel is ready"
+            ;;
+        run)
+            build_release
             run_example
+            say "done; the program is target/release/supel"
+            ;;
+        test)
             prepare_python
-            say "running the tests"
-            cargo test --workspace --locked
+            run_tests
+            say "all tests passed"
             ;;
     esac
 }

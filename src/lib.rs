@@ -60,7 +60,7 @@ use factor::{Analysis, Cholesky, Pencil};
 use job::Job;
 use model::Model;
 use modes::Component;
-use outcome::Outcome;
+use outcome::{Outcome, Resources};
 use output::{InputFacts, Results};
 use partition::Partition;
 use reduction::Reduction;
@@ -69,9 +69,13 @@ use verification::Evidence;
 
 /// Reduces a component: the whole method, step by step.
 ///
+/// What `resources` cannot hold is refused before the first factorisation; nothing of it reaches the outcome.
+///
 /// # Errors
 /// Those of the stages; each says what, where, what was found, what was expected and what to do.
-pub fn reduce(job: &Job, observer: &mut dyn Observer) -> Result<Outcome> {
+// The whole method reads as one list; cut in two it would only be longer.
+#[expect(clippy::too_many_lines)]
+pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Result<Outcome> {
     // Small dense decompositions use faer's global setting; sequential ones give the same bits on every machine.
     faer::set_global_parallelism(faer::Par::Seq);
 
@@ -96,7 +100,7 @@ pub fn reduce(job: &Job, observer: &mut dyn Observer) -> Result<Outcome> {
         mass: &m_ii,
     };
     let analysis = Analysis::new(pencil)?;
-    factor::refuse_beyond_memory(&analysis, &partition, job)?;
+    factor::refuse_beyond_memory(&analysis, &partition, job, resources)?;
     let factor = Cholesky::new(&analysis, pencil, 0.0, &|dof| partition.name_of(dof))?;
 
     observer.stage("constraint modes");

@@ -1,8 +1,15 @@
-//! What a reduction hands back.
+//! What a reduction is given beside the job, and what it hands back.
 
 use supel_runtime::Superelement;
 
 use crate::report::Report;
+
+/// What the machine has to offer; it decides whether a run starts and changes no result.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Resources {
+    /// Memory the run may use, in bytes; unlimited where nobody knows. `run.memory_gib` of the job goes first.
+    pub memory_bytes: Option<u64>,
+}
 
 /// The superelement and the report on it; files, times and memory are filled in by whoever writes them.
 #[derive(Clone, Debug)]

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use supel::cli::{ExitCode, Pipeline, Terminal, run};
 use supel::error::{Error, Result};
 use supel::job::{Coupling, Job, Method, ModeSelection, NodeSelection};
-use supel::outcome::Outcome;
+use supel::outcome::{Outcome, Resources};
 use supel::report::Observer;
 use supel_runtime::Superelement;
 
@@ -81,26 +81,26 @@ superelement = "bracket.supel"
     }
 }
 
-fn failing(job: &Job, observer: &mut dyn Observer) -> Result<Outcome> {
-    let outcome = sample::pipeline(job, observer)?;
+fn failing(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Result<Outcome> {
+    let outcome = sample::pipeline(job, resources, observer)?;
     Ok(Outcome {
         report: sample::full_report(),
         ..outcome
     })
 }
 
-fn warning(job: &Job, observer: &mut dyn Observer) -> Result<Outcome> {
-    let mut outcome = sample::pipeline(job, observer)?;
+fn warning(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Result<Outcome> {
+    let mut outcome = sample::pipeline(job, resources, observer)?;
     outcome.report.body.warnings = sample::full_report().body.warnings;
     Ok(outcome)
 }
 
-fn panicking(_job: &Job, _observer: &mut dyn Observer) -> Result<Outcome> {
+fn panicking(_job: &Job, _resources: Resources, _observer: &mut dyn Observer) -> Result<Outcome> {
     panic!("a defect")
 }
 
 /// Says which job it was given, as an error.
-fn echo(job: &Job, _observer: &mut dyn Observer) -> Result<Outcome> {
+fn echo(job: &Job, _resources: Resources, _observer: &mut dyn Observer) -> Result<Outcome> {
     let text = serde_json::to_string(job).expect("json");
     Err(Error::JobSyntax {
         path: "echo".into(),

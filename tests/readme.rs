@@ -102,6 +102,7 @@ fn files_that_the_readme_names_exist() {
     for name in [
         "schemas/job.schema.json",
         "schemas/report.schema.json",
+        "schemas/superelement.schema.json",
         "LICENSE-MIT",
         "LICENSE-APACHE",
         "setup.sh",

@@ -1,8 +1,8 @@
 //! Deterministic finite element models for the tests and examples of supel.
 //!
 //! Every model is computed, none is read: the same arguments give the same bits on every machine that rounds as
-//! IEEE 754 says. Families with a closed-form spectrum ([`bar`], [`spring`], [`ring`], [`known`]) come with it; the
-//! solids ([`brick`], [`hexahedra`]), membranes ([`membrane`]) and frames ([`frame`]) carry their rigid-body modes to
+//! IEEE 754 says. Families with a closed-form spectrum ([`mod@bar`], [`spring`], [`ring`], [`mod@known`]) come with it; the
+//! solids ([`brick`], [`hexahedra`]), membranes ([`mod@membrane`]) and frames ([`mod@frame`]) carry their rigid-body modes to
 //! rounding. [`transform`] turns one model into another: joined, scaled, rounded.
 
 pub mod bar;

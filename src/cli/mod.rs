@@ -11,6 +11,7 @@ mod command;
 mod exit_code;
 mod flags;
 mod inspect;
+mod memory;
 mod process;
 mod progress;
 mod reduce;
@@ -24,7 +25,7 @@ use clap::Parser;
 
 use crate::error::{Error, Result};
 use crate::job::Job;
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, Resources};
 use crate::report::Observer;
 
 use command::Command;
@@ -33,7 +34,7 @@ pub use answer::Terminal;
 pub use exit_code::ExitCode;
 
 /// The function that turns a job into a superelement and its report.
-pub type Pipeline = fn(&Job, &mut dyn Observer) -> Result<Outcome>;
+pub type Pipeline = fn(&Job, Resources, &mut dyn Observer) -> Result<Outcome>;
 
 /// Runs one command line, `args` with the program's name first, and says how it went.
 ///

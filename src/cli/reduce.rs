@@ -8,9 +8,9 @@ use super::answer::Terminal;
 use super::command::{Answer, ReduceCommand, Strictness, Unverified};
 use super::exit_code::ExitCode;
 use super::progress::StageLine;
-use super::{Pipeline, process};
+use super::{Pipeline, memory, process};
 use crate::error::{Error, Result};
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, Resources};
 use crate::report::{Observer, Report, StageClock, summary};
 use crate::verification::check::{Check, Limits, Verdict};
 
@@ -22,10 +22,13 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
         .map_err(|source| Error::Threads { n_threads, source })?;
     let mut stage_line = StageLine::new(terminal.progress);
     let mut clock = StageClock::new(&mut stage_line);
+    let resources = Resources {
+        memory_bytes: memory::available_bytes(),
+    };
     let Outcome {
         superelement,
         mut report,
-    } = threads.install(|| pipeline(&command.job, &mut clock))?;
+    } = threads.install(|| pipeline(&command.job, resources, &mut clock))?;
     clock.stage("write");
     report.run.n_threads = n_threads;
     let code = write_superelement(command, &superelement, &mut report)?;

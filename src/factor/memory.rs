@@ -3,6 +3,7 @@
 use super::Analysis;
 use crate::error::{Error, Result};
 use crate::job::{Certify, Job, ModeSelection};
+use crate::outcome::Resources;
 use crate::partition::Partition;
 
 /// Bytes of an entry of a sparse matrix: value and column.
@@ -12,15 +13,18 @@ const DOUBLE: u64 = 8;
 /// Modes assumed for a band whose number of modes is not known yet.
 const MODES_IN_A_BAND: u64 = 50;
 
-/// Refuses a run whose forecast exceeds the memory allowed by the job.
+/// Refuses a run whose forecast exceeds the memory allowed by the job, or else what the machine offers.
 ///
 /// Counted are the matrices, one factor (two where a Sturm count needs a second), the constraint modes and the basis of
 /// the eigensolver: three vectors for each mode and eight blocks of eight.
 ///
 /// # Errors
 /// [`Error::MemoryForecast`].
-pub fn refuse_beyond_memory(analysis: &Analysis, partition: &Partition, job: &Job) -> Result<()> {
-    let Some(limit) = job.run.memory_gib else { return Ok(()) };
+pub fn refuse_beyond_memory(analysis: &Analysis, partition: &Partition, job: &Job, resources: Resources) -> Result<()> {
+    let allowed = job.run.memory_gib.map(|gib| (gib * f64::from(1 << 30)) as u64);
+    let Some(available) = allowed.or(resources.memory_bytes) else {
+        return Ok(());
+    };
     let n = partition.n_dofs() as u64;
     let n_modes = match job.reduction.modes {
         ModeSelection::Count { count } => count as u64,
@@ -35,7 +39,6 @@ pub fn refuse_beyond_memory(analysis: &Analysis, partition: &Partition, job: &Jo
     };
     let vectors = DOUBLE * n * (2 * partition.n_interface() as u64 + 5 * n_modes + 64);
     let needed = matrices.saturating_add(factors).saturating_add(vectors);
-    let available = (limit * f64::from(1 << 30)) as u64;
     if needed <= available {
         return Ok(());
     }

@@ -93,9 +93,13 @@ pub enum TransformationRow {
 impl TransformationRow {
     /// The entries of the row.
     pub fn entries(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
-        let (single, several): (Option<(u32, f64)>, &[(u32, f64)]) = match self {
-            Self::Dof(dof) => (Some((*dof, 1.0)), &[]),
-            Self::Rigid(entries) => (None, entries),
+        let single = match self {
+            Self::Dof(dof) => Some((*dof, 1.0)),
+            Self::Rigid(_) => None,
+        };
+        let several = match self {
+            Self::Dof(_) => &[],
+            Self::Rigid(entries) => &**entries,
         };
         single.into_iter().chain(several.iter().copied())
     }
@@ -122,14 +126,14 @@ impl Transformation {
             sites,
         };
         for row in (0..n).filter(|row| !taken[*row]) {
-            builder.own_row(row, false);
+            builder.own_row(row, Part::Internal);
         }
-        for interface_dofs in [false, true] {
+        for part in [Part::Internal, Part::Interface] {
             for (index, resolved) in interfaces.0.iter().enumerate() {
-                match &resolved.rows {
-                    Rows::Own(rows) if interface_dofs => rows.iter().for_each(|row| builder.own_row(*row, true)),
-                    Rows::Own(_) => {}
-                    Rows::Patch(rows) => builder.rigid_node(index, resolved, rows, interface_dofs),
+                match (&resolved.rows, part) {
+                    (Rows::Own(rows), Part::Interface) => rows.iter().for_each(|row| builder.own_row(*row, part)),
+                    (Rows::Own(_), Part::Internal) => {}
+                    (Rows::Patch(rows), _) => builder.rigid_node(index, resolved, rows, part),
                 }
             }
         }
@@ -209,6 +213,13 @@ impl Sites {
     }
 }
 
+/// The two parts of the dofs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Part {
+    Internal,
+    Interface,
+}
+
 struct Builder {
     dofs: Vec<ReducedDof>,
     rows: Vec<TransformationRow>,
@@ -216,34 +227,35 @@ struct Builder {
 }
 
 impl Builder {
-    fn own_row(&mut self, row: usize, is_interface: bool) {
+    fn own_row(&mut self, row: usize, part: Part) {
         self.rows[row] = TransformationRow::Dof(self.dofs.len() as u32);
         self.dofs.push(ReducedDof {
             origin: DofOrigin::Row(row),
-            is_interface,
+            is_interface: part == Part::Interface,
             site: self.sites.of_row.as_ref().map(|sites| sites[row]),
             node: self.sites.node_of_row[row],
             label: self.sites.label_of_row.as_ref().map(|labels| labels[row]),
         });
     }
 
-    /// Adds those directions of a rigid node that are (or are not) interface dofs and that its patch can move in.
-    fn rigid_node(&mut self, index: usize, resolved: &Resolved, rows: &[usize], interface_dofs: bool) {
+    /// Adds the directions of a rigid node that are interface dofs, or those that are not and that its patch can move in.
+    fn rigid_node(&mut self, index: usize, resolved: &Resolved, rows: &[usize], part: Part) {
         let position = resolved.node.position.unwrap_or_default();
         let listed = &resolved.node.directions;
-        let directions: Vec<Direction> = if interface_dofs {
-            listed.clone()
-        } else {
-            let rest = Direction::ALL
-                .into_iter()
-                .filter(|direction| !listed.contains(direction));
-            rest.filter(|direction| self.moves(position, rows, *direction))
-                .collect()
+        let directions: Vec<Direction> = match part {
+            Part::Interface => listed.clone(),
+            Part::Internal => {
+                let rest = Direction::ALL
+                    .into_iter()
+                    .filter(|direction| !listed.contains(direction));
+                rest.filter(|direction| self.moves(position, rows, *direction))
+                    .collect()
+            }
         };
         for direction in directions {
             self.dofs.push(ReducedDof {
                 origin: DofOrigin::RigidNode(index, direction),
-                is_interface: interface_dofs,
+                is_interface: part == Part::Interface,
                 site: Some(Site { position, direction }),
                 node: self.sites.n_nodes + index as u32,
                 label: None,

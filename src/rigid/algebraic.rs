@@ -33,7 +33,7 @@ pub fn from_matrices(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
         largest_residual: largest_residual(&partition.stiffness, orthonormal.as_ref()),
         ..RigidEnergy::default()
     };
-    for j in 0..found.n_zero {
+    for (j, magnitude) in magnitudes.iter().enumerate() {
         let (q, force) = (
             dense::column(orthonormal.as_ref(), j),
             dense::column(forces.as_ref(), j),
@@ -41,7 +41,7 @@ pub fn from_matrices(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
         energy.largest_quotient = energy.largest_quotient.max(dense::dot(q, force).abs());
         energy.noise = energy
             .noise
-            .max((partition.precision.stiffness + f64::EPSILON) * magnitudes[j]);
+            .max((partition.precision.stiffness + f64::EPSILON) * magnitude);
     }
     let rigid = RigidBodyModes {
         modes: orthonormal.clone(),

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use supel::error::Result;
 use supel::job::{Coupling, Eigensolver, Job, Method};
-use supel::outcome::Outcome;
+use supel::outcome::{Outcome, Resources};
 use supel::report::{
     Completeness, DroppedCoordinate, Generator, InterfaceReport, MassProperties, MatrixReport, ModeKind, ModeRow,
     ModelReport, Observer, ReductionReport, Report, ReportBody, RigidBodyModes, RigidBodySource, RunFacts, StageTime,
@@ -244,7 +244,7 @@ fn metadata(interface_nodes: Vec<InterfaceNode>) -> Metadata {
 
 /// A pipeline that answers every job with the same component.
 #[allow(dead_code, clippy::unnecessary_wraps)]
-pub(crate) fn pipeline(_job: &Job, observer: &mut dyn Observer) -> Result<Outcome> {
+pub(crate) fn pipeline(_job: &Job, _resources: Resources, observer: &mut dyn Observer) -> Result<Outcome> {
     observer.stage("read");
     observer.stage("factor");
     let report = Report {

@@ -1,0 +1,150 @@
+//! What ends a run, with which exit code, and what is left on disk.
+
+use supel::cli::ExitCode;
+use supel_models::{Ends, spring};
+
+use crate::place::{Ended, Place, supel};
+
+const FOOT: &str = "--interface foot=1,11,31,41 --method herting --modes 5";
+
+#[test]
+fn a_matrix_that_is_not_one_is_an_input_error() {
+    let place = Place::with_brick();
+    place.write(
+        "M.mtx",
+        b"%%MatrixMarket matrix coordinate real symmetric\n135 135 1\n1 1 one\n",
+    );
+    let ended = place.reduce(&place.model_flags(), FOOT).expect(ExitCode::InputData);
+    assert!(
+        ended.err.contains("M.mtx: line 3") || ended.err.contains("M.mtx:3"),
+        "{}",
+        ended.err
+    );
+    assert!(!place.path("x.supel").exists());
+    assert!(!place.path("x.report.json").exists());
+}
+
+#[test]
+fn an_interface_that_cannot_react_rigid_motion_is_a_physics_error() {
+    let place = Place::with_brick();
+    let ended = place
+        .reduce(&place.model_flags(), "--interface foot=1 --method herting --modes 5")
+        .expect(ExitCode::ModelPhysics);
+    assert!(ended.err.contains("interface"), "{}", ended.err);
+    assert!(!place.path("x.supel").exists());
+}
+
+#[test]
+fn a_run_that_does_not_fit_is_refused() {
+    let place = Place::with_brick();
+    let ended = place
+        .reduce(&place.model_flags(), &format!("{FOOT} --memory-gib 1e-6"))
+        .expect(ExitCode::Resources);
+    assert!(ended.err.contains("GiB"), "{}", ended.err);
+    assert!(!place.path("x.supel").exists());
+}
+
+/// A job for the brick whose expected mass is the true one times a factor.
+fn expecting(mass_factor: f64) -> Place {
+    let place = Place::with_brick();
+    let mass = 7850.0 * 0.31 * 0.23 * mass_factor;
+    let job = format!(
+        r#"
+model = {{ stiffness = "K.mtx", mass = "M.mtx", dofs = "dofs.txt", nodes = "nodes.csv", expect = {{ mass = {mass} }} }}
+interface = [{{ name = "foot", nodes = [1, 11, 31, 41] }}]
+reduction = {{ method = "herting", modes = {{ count = 5 }} }}
+write = {{ superelement = "x.supel" }}
+"#
+    );
+    place.write("job.toml", job.as_bytes());
+    place
+}
+
+fn reduce(place: &Place, flags: &[&str]) -> Ended {
+    let job = place.text("job.toml");
+    supel(&[["reduce", &job].as_slice(), flags].concat())
+}
+
+#[test]
+fn a_failed_check_leaves_a_report_and_no_superelement() {
+    let place = expecting(1.1);
+    let ended = reduce(&place, &[]).expect(ExitCode::CheckFailed);
+    assert!(ended.err.contains("not written: a check failed"), "{}", ended.err);
+    assert!(!place.path("x.supel").exists());
+    let report = place.report("x.report.json");
+    assert_eq!(report["body"]["verdict"], "fail");
+    let failed: Vec<_> = report["body"]["checks"].as_array().expect("checks").iter().collect();
+    let failed: Vec<_> = failed.iter().filter(|check| check["verdict"] == "fail").collect();
+    assert_eq!(failed.len(), 1, "{failed:?}");
+    assert_eq!(failed[0]["id"], "M-16");
+}
+
+#[test]
+fn an_unverified_superelement_says_so_itself() {
+    let place = expecting(1.1);
+    reduce(&place, &["--allow-unverified"]).expect(ExitCode::CheckFailed);
+    let verdict = place.superelement("x.supel").metadata().verification.verdict;
+    assert_eq!(verdict, supel_runtime::Verdict::Fail);
+}
+
+#[test]
+fn a_warning_fails_only_where_asked() {
+    // Between the limit 1e-4 and the failure at 1e-2.
+    let place = expecting(1.001);
+    reduce(&place, &["--strict"]).expect(ExitCode::CheckFailed);
+    assert!(!place.path("x.supel").exists());
+    reduce(&place, &[]).expect(ExitCode::Done);
+    assert_eq!(place.report("x.report.json")["body"]["verdict"], "warn");
+    reduce(&expecting(1.0), &["--strict"]).expect(ExitCode::Done);
+}
+
+fn small_chain() -> (Place, Vec<String>) {
+    let place = Place::with(&spring(5, Ends::Free));
+    let flags = place.matrix_flags();
+    (place, flags)
+}
+
+const CHAIN: &str = "--interface ends=rows:0,4 --method craig-bampton --modes 1 --threads 1";
+
+#[test]
+fn a_superelement_cut_anywhere_is_refused() {
+    let (place, flags) = small_chain();
+    place.reduce(&flags, CHAIN).expect(ExitCode::Done);
+    let whole = place.bytes("x.supel");
+    let cut = place.text("cut.supel");
+    for length in 0..whole.len() {
+        place.write("cut.supel", &whole[..length]);
+        let ended = supel(&["inspect", &cut]);
+        assert_eq!(
+            ended.code,
+            ExitCode::InputData,
+            "{length} bytes: {}{}",
+            ended.out,
+            ended.err
+        );
+        assert!(ended.err.starts_with("supel: error: "), "{}", ended.err);
+    }
+}
+
+#[test]
+fn a_matrix_cut_anywhere_is_refused() {
+    let (place, flags) = small_chain();
+    for name in ["K.mtx", "M.mtx"] {
+        let whole = place.bytes(name);
+        // The last line is `5 5 1e0`; without its end it may still be the same number.
+        let certain = whole.len() - "e0\n".len();
+        for length in 0..certain {
+            place.write(name, &whole[..length]);
+            let ended = place.reduce(&flags, CHAIN);
+            assert_eq!(
+                ended.code,
+                ExitCode::InputData,
+                "{name}, {length} bytes: {}{}",
+                ended.out,
+                ended.err
+            );
+        }
+        place.write(name, &whole);
+    }
+    place.reduce(&flags, CHAIN).expect(ExitCode::Done);
+}

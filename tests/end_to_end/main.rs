@@ -1,0 +1,7 @@
+//! The whole way, from files on disk to files on disk, through the command line.
+
+mod failures;
+mod place;
+mod results;
+#[cfg(feature = "hdf5")]
+mod same_bytes;

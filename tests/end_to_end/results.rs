@@ -1,0 +1,229 @@
+//! What comes out, compared with closed formulae, with other ways in, and with what Python finds in the file.
+
+use std::path::Path;
+use std::process::Command;
+
+use supel::cli::ExitCode;
+use supel_models::{Ends, spectrum, spring, spring_spectrum};
+use supel_runtime::Method;
+
+use crate::place::{Place, assert_close, frequencies_hz, steel_brick, supel};
+
+/// Lanczos and the formulae are both right to some ten roundings of the largest eigenvalue, which is below 1e3 times the
+/// smallest in these models.
+const SAME: f64 = 1e-11;
+
+fn hertz(eigenvalues: &[f64]) -> Vec<f64> {
+    eigenvalues
+        .iter()
+        .map(|value| value.sqrt() / std::f64::consts::TAU)
+        .collect()
+}
+
+#[test]
+fn herting_keeps_the_modes_of_the_free_component() {
+    let place = Place::with(&spring(12, Ends::Free));
+    place
+        .reduce(
+            &place.matrix_flags(),
+            "--interface ends=rows:0,11 --method herting --modes 4",
+        )
+        .expect(ExitCode::Done);
+    let superelement = place.superelement("x.supel");
+    assert_eq!(superelement.metadata().method, Method::Herting);
+    let exact = hertz(&spring_spectrum(12, Ends::Free)[1..5]);
+    assert_close(&frequencies_hz(&superelement), &exact, SAME);
+}
+
+#[test]
+fn craig_bampton_keeps_the_modes_of_the_held_component() {
+    let place = Place::with(&spring(12, Ends::Free));
+    place
+        .reduce(
+            &place.matrix_flags(),
+            "--interface ends=rows:0,11 --method craig-bampton --modes 4",
+        )
+        .expect(ExitCode::Done);
+    let superelement = place.superelement("x.supel");
+    assert_eq!(superelement.metadata().method, Method::CraigBampton);
+    assert_eq!(superelement.tensors().stiffness.rows(), 6);
+    let exact = hertz(&spring_spectrum(10, Ends::Fixed)[..4]);
+    assert_close(&frequencies_hz(&superelement), &exact, SAME);
+}
+
+#[test]
+fn a_band_keeps_the_modes_below_its_end() {
+    let place = Place::with(&spring(12, Ends::Free));
+    let exact = hertz(&spring_spectrum(12, Ends::Free)[1..]);
+    let end = (exact[4] + exact[5]) / 2.0;
+    place
+        .reduce(
+            &place.matrix_flags(),
+            &format!("--interface ends=rows:0,11 --method herting --up-to-hz {end}"),
+        )
+        .expect(ExitCode::Done);
+    assert_close(&frequencies_hz(&place.superelement("x.supel")), &exact[..5], SAME);
+}
+
+/// The modes of a solid by dense rotations, an algorithm that shares nothing with the program's.
+#[test]
+fn flags_alone_reduce_a_solid_by_both_methods() {
+    let place = Place::with_brick();
+    let exact = hertz(&spectrum(&steel_brick())[6..11]);
+    // The corners of the face x = 0, and three of the opposite one.
+    let interface = "--interface foot=1,11,31,41 --rigid-interface head=5,15,35";
+    let by = |method: &str| {
+        place
+            .reduce(
+                &place.model_flags(),
+                &format!("{interface} --method {method} --modes 5"),
+            )
+            .expect(ExitCode::Done);
+        place.superelement("x.supel")
+    };
+    let (herting, craig_bampton) = (by("herting"), by("craig-bampton"));
+    for superelement in [&herting, &craig_bampton] {
+        assert_eq!(superelement.tensors().rigid_body_modes.cols(), 6);
+        assert_eq!(superelement.metadata().interface_nodes.len(), 5);
+    }
+    // The rigid patch stiffens the block and the clamps stiffen it further.
+    let (free, held) = (frequencies_hz(&herting), frequencies_hz(&craig_bampton));
+    assert!(
+        free.iter().zip(&exact).all(|(free, exact)| free > exact),
+        "{free:?}\n{exact:?}"
+    );
+    assert!(held[0] != free[0], "{held:?}");
+    place
+        .reduce(
+            &place.model_flags(),
+            "--interface foot=1,11,31,41 --method herting --modes 5",
+        )
+        .expect(ExitCode::Done);
+    assert_close(&frequencies_hz(&place.superelement("x.supel")), &exact, SAME);
+}
+
+#[test]
+fn without_a_certificate_the_modes_are_the_same_and_the_report_says_so() {
+    let place = Place::with_brick();
+    let flags = "--interface foot=1,11,31,41 --method herting --modes 5";
+    place.reduce(&place.model_flags(), flags).expect(ExitCode::Done);
+    let certified = frequencies_hz(&place.superelement("x.supel"));
+    assert_eq!(
+        place.report("x.report.json")["body"]["completeness"]["is_certified"],
+        true
+    );
+    let ended = place
+        .reduce(&place.model_flags(), &format!("{flags} --certify none"))
+        .expect(ExitCode::Done);
+    assert_eq!(frequencies_hz(&place.superelement("x.supel")), certified);
+    assert_eq!(
+        place.report("x.report.json")["body"]["completeness"]["is_certified"],
+        false
+    );
+    assert!(
+        ended.out.contains("not certified: --certify none was asked"),
+        "{}",
+        ended.out
+    );
+}
+
+/// Without coordinates the rigid-body modes come from the matrices; the component is the same.
+#[test]
+fn a_model_without_coordinates_is_reduced_from_its_matrices() {
+    let place = Place::with_brick();
+    let end = "--method herting --modes 5";
+    place
+        .reduce(&place.model_flags(), &format!("--interface foot=1,11,31,41 {end}"))
+        .expect(ExitCode::Done);
+    let known = place.superelement("x.supel");
+    let ended = place
+        .reduce(
+            &place.matrix_flags(),
+            &format!("--interface foot=rows:0,1,2,30,31,32,90,91,92,120,121,122 {end}"),
+        )
+        .expect(ExitCode::Done);
+    let bare = place.superelement("x.supel");
+    assert!(ended.out.contains("6 modes from the matrices"), "{}", ended.out);
+    let rigid = &place.report("x.report.json")["body"]["model"]["rigid_body_modes"];
+    assert_eq!(rigid["source"], "algebraic");
+    assert_eq!(rigid["count"], 6);
+    assert!(bare.metadata().interface_nodes.is_empty());
+    // Only the noise of the algebraic modes, about 1e-9 of the smallest elastic eigenvalue, may tell them apart.
+    assert_close(&frequencies_hz(&bare), &frequencies_hz(&known), 1e-9);
+}
+
+#[test]
+fn python_confirms_the_files_of_both_methods() {
+    let python = std::env::var_os("SUPEL_PYTHON").unwrap_or_else(|| "python3".into());
+    let probe = Command::new(&python).args(["-c", "import numpy, safetensors"]).output();
+    if !probe.is_ok_and(|probe| probe.status.success()) {
+        println!(
+            "skipped: {} has no numpy and safetensors; set SUPEL_PYTHON",
+            python.display()
+        );
+        return;
+    }
+    let place = Place::with_brick();
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/superelement_file.py");
+    for method in ["herting", "craig-bampton"] {
+        let flags = format!("--interface foot=1,11,31,41 --rigid-interface head=5,15,35 --method {method} --modes 6");
+        place.reduce(&place.model_flags(), &flags).expect(ExitCode::Done);
+        let ended = Command::new(&python)
+            .arg(&script)
+            .arg(place.path("x.supel"))
+            .env("PYTHONUTF8", "1")
+            .output()
+            .expect("started");
+        let text = String::from_utf8_lossy(&ended.stdout).into_owned();
+        assert!(
+            ended.status.success(),
+            "{method}: {text}{}",
+            String::from_utf8_lossy(&ended.stderr)
+        );
+        assert!(
+            text.contains("frequencies: 6 agree") && text.contains("mass properties: mass "),
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn inspect_shows_what_was_reduced() {
+    let place = Place::with_brick();
+    let flags = "--interface foot=1,11,31,41 --method herting --modes 5";
+    place.reduce(&place.model_flags(), flags).expect(ExitCode::Done);
+    let shown = supel(&["inspect", &place.text("x.supel")]).expect(ExitCode::Done);
+    assert!(
+        shown.out.contains("foot") && shown.out.contains("Herting"),
+        "{}",
+        shown.out
+    );
+    let document = supel(&["inspect", &place.text("x.supel"), "--json"]).expect(ExitCode::Done);
+    let document: serde_json::Value = serde_json::from_str(&document.out).expect("JSON");
+    assert_eq!(
+        document["sizes"]["n_reduced"],
+        place.superelement("x.supel").tensors().mass.rows()
+    );
+    assert_eq!(
+        document["metadata"]["job"]["run"].get("memory_gib"),
+        None,
+        "the machine's memory is in the file"
+    );
+}
+
+#[cfg(feature = "arpack")]
+#[test]
+fn both_eigensolvers_find_the_same_modes() {
+    let place = Place::with_brick();
+    for method in ["herting", "craig-bampton"] {
+        let flags = format!("--interface foot=1,11,31,41 --method {method} --modes 5");
+        let by = |solver: &str| {
+            place
+                .reduce(&place.model_flags(), &format!("{flags} --eigensolver {solver}"))
+                .expect(ExitCode::Done);
+            frequencies_hz(&place.superelement("x.supel"))
+        };
+        // Rounding that a solve amplifies: ε times the condition of the stiffness, below 1e6 here.
+        assert_close(&by("arpack"), &by("lanczos"), 1e-9);
+    }
+}
