@@ -63,12 +63,15 @@ pub struct EigenWork {
     pub restarts: usize,
 }
 
-/// Residual ‖OP x − θx‖ over θ at which a pair is taken: the Rayleigh quotient then errs by its square.
-const TOLERANCE: f64 = 1e-12;
+/// Residual ‖OP x − θx‖ over θ at which a pair is taken: the Rayleigh quotient then errs by its square, and the backward
+/// error, which is this times λ over the largest one at most, stays below the limit of measure M-01.
+pub(super) const TOLERANCE: f64 = 1e-13;
 /// The same for the pair beyond the wanted ones, of which only λ is used.
 const NEXT_TOLERANCE: f64 = 1e-4;
-/// Rounding of OP in units of ε times its largest eigenvalue: no residual falls below it.
-const ROUNDING: f64 = 16.0;
+/// Rounding of OP in units of ε times its largest eigenvalue: a θ below it is that of an infinite eigenvalue.
+pub(super) const ROUNDING: f64 = 16.0;
+/// Residuals in the same units that need not fall further; the correction in [`Basis::extract`] takes up the rest.
+pub(super) const RESIDUAL_FLOOR: f64 = 2.0;
 /// Eigenvalues nearer than this, relatively, belong to one cluster.
 pub const CLUSTER_GAP: f64 = 1e-6;
 /// Restarts after which an iteration that has not converged never will.
@@ -88,8 +91,11 @@ pub fn lanczos(problem: Problem<'_>, wanted: Wanted, seed: u64) -> Result<Eigenp
     loop {
         while basis.has_room() {
             basis.extend();
-            if let Some(found) = basis.converged(wanted)? {
-                return Ok(found);
+            if let Some((ritz, count)) = basis.converged(wanted)? {
+                if !basis.may_lack_copies(&ritz, count) {
+                    return Ok(basis.extract(&ritz, count));
+                }
+                basis.start_again_beside(&ritz, count);
             }
             if basis.is_exhausted() {
                 return basis.everything(wanted);
@@ -119,6 +125,8 @@ struct Basis<'a> {
     locked: usize,
     /// Largest m.
     capacity: usize,
+    /// Random start vectors so far.
+    n_starts: usize,
     work: EigenWork,
 }
 
@@ -148,16 +156,23 @@ impl<'a> Basis<'a> {
             size: 0,
             locked: 0,
             capacity,
+            n_starts: 0,
             work: EigenWork::default(),
         };
-        let mut first = Mat::zeros(n, block);
-        basis.random.fill(first.as_mut());
-        // One application of OP removes what M does not see and the directions of very high frequency.
-        basis.problem.deflate(first.as_mut());
-        let mut image = product(problem.mass, first.as_ref());
-        basis.apply(&mut image);
-        let (_, _) = basis.orthonormalise(image);
+        basis.begin(block);
         basis
+    }
+
+    /// Makes W a random block M-orthogonal to V.
+    fn begin(&mut self, block: usize) {
+        let mut first = Mat::zeros(self.vectors.nrows(), block);
+        self.random.fill(first.as_mut());
+        // One application of OP removes what M does not see and the directions of very high frequency.
+        self.problem.deflate(first.as_mut());
+        let mut image = product(self.problem.mass, first.as_ref());
+        self.apply(&mut image);
+        let (_, _) = self.orthonormalise(image);
+        self.n_starts += block;
     }
 
     fn n_next(&self) -> usize {
@@ -225,6 +240,12 @@ impl<'a> Basis<'a> {
         // Twice is enough for orthogonality to rounding; the first pass normalises, so that the second works on columns
         // of unit length however small they were.
         for pass in 0..2 {
+            if pass == 1 {
+                // A column of which little was left has been blown up together with its rounding: the rigid-body motion
+                // in it, and the difference between MW carried along and M times W.
+                self.problem.deflate(block.as_mut());
+                mass_block = product(self.problem.mass, block.as_ref());
+            }
             let c = dense::gram(self.v(), mass_block.as_ref());
             dense::add_product(block.as_mut(), -1.0, self.v(), c.as_ref());
             dense::add_product(coefficients.as_mut(), 1.0, c.as_ref(), coupling.as_ref());
@@ -287,7 +308,7 @@ impl<'a> Basis<'a> {
                 dense::add_product(vector.as_mut(), -1.0, basis, c.as_ref());
             }
             let after = mass_norm(self.problem.mass, &vector);
-            if !(after > if pass == 0 { LEFT } else { 0.5 } * before) {
+            if after.is_nan() || after <= if pass == 0 { LEFT } else { 0.5 } * before {
                 return None;
             }
             vector.as_mut().col_mut(0).iter_mut().for_each(|value| *value /= after);
@@ -309,16 +330,34 @@ impl<'a> Basis<'a> {
         Ok((0..ritz.theta.len()).take_while(|j| ritz.is_converged(*j)).count())
     }
 
-    /// The wanted pairs, once they and the one beyond have converged.
-    fn converged(&self, wanted: Wanted) -> Result<Option<Eigenpairs>> {
+    /// The Ritz pairs and the number of wanted ones, once they and the one beyond have converged.
+    fn converged(&self, wanted: Wanted) -> Result<Option<(Ritz, usize)>> {
         if let Wanted::Count(count) = wanted
             && self.size <= count
         {
             return Ok(None);
         }
         let ritz = self.ritz()?;
-        let Some(count) = ritz.count_wanted(wanted, self.problem.operator.shift()) else { return Ok(None) };
-        Ok(Some(self.extract(&ritz, count)))
+        Ok(ritz.count_wanted(wanted, self.problem.operator.shift()).map(|count| (ritz, count)))
+    }
+
+    /// Whether a wanted cluster has as many members as start vectors were used: each finds one copy of a multiple
+    /// eigenvalue, and further copies come from rounding alone.
+    fn may_lack_copies(&self, ritz: &Ritz, count: usize) -> bool {
+        let theta = &ritz.theta[..count];
+        (self.n_starts..=count).any(|end| theta[end - self.n_starts] - theta[end - 1] <= CLUSTER_GAP * theta[end - 1])
+    }
+
+    /// Locks the wanted pairs and starts a new block in the space M-orthogonal to them, where missing copies come first
+    /// and the pair beyond the wanted ones follows.
+    fn start_again_beside(&mut self, ritz: &Ritz, count: usize) {
+        let block = self.n_next();
+        combine_in_place(self.vectors.as_mut(), self.size, ritz.s.as_ref().subcols(0, count));
+        self.size = count;
+        self.locked = count;
+        self.projected = Mat::from_fn(count, count, |i, j| if i == j { ritz.theta[i] } else { 0.0 });
+        self.begin(block);
+        self.coupling = Mat::zeros(self.n_next(), count);
     }
 
     /// All pairs of an exhausted space, as far as wanted.
@@ -399,11 +438,11 @@ impl Ritz {
     }
 
     fn is_converged(&self, j: usize) -> bool {
-        self.residuals[j] <= (TOLERANCE * self.theta[j]).max(ROUNDING * f64::EPSILON * self.theta[0])
+        self.residuals[j] <= (TOLERANCE * self.theta[j]).max(RESIDUAL_FLOOR * f64::EPSILON * self.theta[0])
     }
 
     fn same_cluster(&self, a: usize, b: usize, sigma: f64) -> bool {
-        (self.lambda(b, sigma) - self.lambda(a, sigma)).abs() <= CLUSTER_GAP * self.lambda(b, sigma).abs()
+        are_clustered(self.lambda(a, sigma), self.lambda(b, sigma))
     }
 
     /// How many pairs answer the request, or none while the request is not answered.
@@ -425,7 +464,7 @@ impl Ritz {
 
 impl Problem<'_> {
     /// F ← Pᵀ F: takes the rigid-body resultant out of forces.
-    fn equilibrate(&self, forces: MatMut<'_, f64>) {
+    pub(super) fn equilibrate(&self, forces: MatMut<'_, f64>) {
         let [q, mass_q] = self.deflated;
         if q.ncols() > 0 {
             let resultant = dense::gram(q, forces.as_ref());
@@ -434,7 +473,7 @@ impl Problem<'_> {
     }
 
     /// X ← P X: takes the rigid-body motion out of displacements.
-    fn deflate(&self, displacements: MatMut<'_, f64>) {
+    pub(super) fn deflate(&self, displacements: MatMut<'_, f64>) {
         let [q, mass_q] = self.deflated;
         if q.ncols() > 0 {
             let motion = dense::gram(mass_q, displacements.as_ref());
@@ -443,18 +482,23 @@ impl Problem<'_> {
     }
 }
 
+/// Whether an eigenvalue and the next one above belong to one cluster.
+pub(super) fn are_clustered(lower: f64, upper: f64) -> bool {
+    (upper - lower).abs() <= CLUSTER_GAP * upper.abs()
+}
+
 /// Columns of V before a restart: three times the wanted ones and eight blocks converge fifty modes without one.
 fn capacity_for(n_wanted: usize, block: usize, n: usize) -> usize {
     (3 * n_wanted + 8 * block).min(n)
 }
 
-fn product(mass: &SparseMatrix, block: MatRef<'_, f64>) -> Mat<f64> {
+pub(super) fn product(mass: &SparseMatrix, block: MatRef<'_, f64>) -> Mat<f64> {
     let mut out = Mat::zeros(block.nrows(), block.ncols());
     multiply(mass, block, out.as_mut());
     out
 }
 
-fn mass_norm(mass: &SparseMatrix, vector: &Mat<f64>) -> f64 {
+pub(super) fn mass_norm(mass: &SparseMatrix, vector: &Mat<f64>) -> f64 {
     let image = product(mass, vector.as_ref());
     dense::dot(dense::column(vector.as_ref(), 0), dense::column(image.as_ref(), 0)).max(0.0).sqrt()
 }
@@ -471,7 +515,7 @@ pub fn gram_schmidt(block: &mut Mat<f64>, mass_block: &mut Mat<f64>, least: f64,
         }
         let square = dense::dot(dense::column(block.as_ref(), j), dense::column(mass_block.as_ref(), j));
         let length = square.max(0.0).sqrt();
-        if !(length > least) {
+        if length.is_nan() || length <= least {
             dependent[j] = true;
             dense::column_mut(block.as_mut(), j).fill(0.0);
             dense::column_mut(mass_block.as_mut(), j).fill(0.0);

@@ -7,6 +7,8 @@
 //! Both come from the factor of K_II at shift zero. Eigenvalues are recomputed as Rayleigh quotients, whose error is the
 //! square of the vector's; each carries the bar that rounding and the digits of the data put on it.
 
+#[cfg(feature = "arpack")]
+mod arpack;
 mod equilibration;
 mod certificate;
 mod lanczos;
@@ -121,6 +123,12 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
     Ok(Modes { lambda, shapes, errors, next: pairs.next, work: pairs.work })
 }
 
+#[cfg(feature = "arpack")]
+fn by_arpack(problem: Problem<'_>, request: ModeRequest) -> Result<Eigenpairs> {
+    arpack::arpack(problem, request.wanted, request.seed)
+}
+
+#[cfg(not(feature = "arpack"))]
 fn by_arpack(_: Problem<'_>, _: ModeRequest) -> Result<Eigenpairs> {
     Err(crate::error::Error::EigensolverMissing)
 }

@@ -1,0 +1,102 @@
+//! What is asked for: counts, bands, nothing.
+
+use supel::modes::Wanted;
+use supel_models::*;
+
+use crate::component::{Component, eigensolvers};
+
+/// Number of modes a band gives, in user units of λ.
+fn in_band(component: &Component, limit: f64) -> Vec<usize> {
+    let wanted = Wanted::UpTo(limit / component.unit());
+    eigensolvers()
+        .iter()
+        .map(|eigensolver| component.modes(wanted, *eigensolver).count())
+        .collect()
+}
+
+#[test]
+fn band_holds_all_modes_up_to_its_edge() {
+    let exact = bar_spectrum(200);
+    let component = Component::new(&bar(200));
+    for count in [1, 15, 16, 17, 33, 70] {
+        let between = 0.5 * (exact[count - 1] + exact[count]);
+        assert!(
+            in_band(&component, between).iter().all(|found| *found == count),
+            "{count} modes below {between}"
+        );
+    }
+}
+
+#[test]
+fn edge_near_an_eigenvalue_is_sharp() {
+    // Eigenvalues are known to a few ε c, c below 1e4 here: 1e-9 away from the edge decides.
+    let exact = bar_spectrum(200);
+    let component = Component::new(&bar(200));
+    for (edge, count) in [(exact[9] * (1.0 + 1e-9), 10), (exact[9] * (1.0 - 1e-9), 9)] {
+        assert!(
+            in_band(&component, edge).iter().all(|found| *found == count),
+            "edge {edge}"
+        );
+    }
+}
+
+#[test]
+fn edge_on_an_eigenvalue_decides_either_way() {
+    let exact = bar_spectrum(200);
+    let component = Component::new(&bar(200));
+    assert!(
+        in_band(&component, exact[9])
+            .iter()
+            .all(|found| (9..=10).contains(found))
+    );
+}
+
+#[test]
+fn edge_inside_a_pair_takes_both() {
+    let exact = ring_spectrum(240, 0.01);
+    let component = Component::new(&ring(240, 0.01));
+    // Rounding puts the edge above, between or below the copies; never is one taken without the other.
+    assert!(in_band(&component, exact[7]).iter().all(|found| [7, 9].contains(found)));
+    assert!(
+        in_band(&component, exact[7] * (1.0 + 1e-9))
+            .iter()
+            .all(|found| *found == 9)
+    );
+}
+
+#[test]
+fn empty_band_gives_no_modes_and_the_next() {
+    let exact = bar_spectrum(200);
+    let component = Component::new(&bar(200));
+    for &eigensolver in eigensolvers() {
+        for wanted in [
+            Wanted::UpTo(0.5 * exact[0] / component.unit()),
+            Wanted::Count(0),
+            Wanted::UpTo(0.0),
+        ] {
+            let modes = component.modes(wanted, eigensolver);
+            assert_eq!((modes.count(), modes.shapes.ncols()), (0, 0), "{eigensolver:?}");
+            let next = modes.next.expect("a next eigenvalue") * component.unit();
+            assert!((next / exact[0] - 1.0).abs() < 1e-7, "{eigensolver:?}: {next}");
+        }
+    }
+}
+
+#[test]
+fn band_above_the_spectrum_holds_it_all() {
+    for n in [1, 2, 5, 30] {
+        let component = Component::new(&spring(n, Ends::Fixed));
+        // The largest eigenvalue of a spring chain is below four.
+        assert!(in_band(&component, 5.0).iter().all(|found| *found == n), "n = {n}");
+    }
+    let free = Component::new(&spring(30, Ends::Free));
+    assert!(in_band(&free, 5.0).iter().all(|found| *found == 29));
+}
+
+#[test]
+fn same_request_gives_the_same_bits() {
+    let component = Component::new(&membrane([10, 6], [5.0, 3.0], &Material::UNIT));
+    let first = component.modes(Wanted::Count(15), supel::job::Eigensolver::Lanczos);
+    let second = component.modes(Wanted::Count(15), supel::job::Eigensolver::Lanczos);
+    assert!(first.shapes == second.shapes && first.lambda == second.lambda && first.work == second.work);
+}
