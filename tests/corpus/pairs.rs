@@ -20,6 +20,15 @@ pub(crate) enum Rows {
     Unconstrained,
 }
 
+/// Whether every run of the tests can afford a pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Size {
+    /// Seconds.
+    Small,
+    /// More than 20 000 dofs: run where the variable `SUPEL_CORPUS_LARGE` is set.
+    Large,
+}
+
 /// Why a pair is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Reason {
@@ -60,6 +69,11 @@ pub(crate) struct Pair {
     pub(crate) source: Source,
     /// Elastic modes compared at most: all of the reference, fewer where a test would take minutes.
     pub(crate) at_most: usize,
+    /// Relative error of the reference where it is known to be worse than its method promises. Found eigenvalues must
+    /// then be enclosed by Sturm counts as narrowly as the reference should have been.
+    pub(crate) reference_error: f64,
+    /// Large pairs take minutes and are asked for by name.
+    pub(crate) size: Size,
     pub(crate) expected: Expected,
 }
 
@@ -73,6 +87,8 @@ impl Pair {
             rows: Rows::All,
             source,
             at_most: usize::MAX,
+            reference_error: 0.0,
+            size: Size::Small,
             expected: Expected::Agrees,
         }
     }
@@ -85,8 +101,12 @@ impl Pair {
         Self { files, ..self }
     }
 
-    const fn at_most(self, at_most: usize) -> Self {
-        Self { at_most, ..self }
+    const fn large(self, at_most: usize) -> Self {
+        Self { at_most, size: Size::Large, ..self }
+    }
+
+    const fn against_poor_reference(self, reference_error: f64) -> Self {
+        Self { reference_error, ..self }
     }
 }
 
@@ -103,7 +123,7 @@ pub(crate) const PAIRS: [Pair; 46] = [
         ..Pair::agrees("ansys_full_beam963", Coordinates)
     },
     Pair::agrees("ccx_acou3", Coordinates),
-    Pair::agrees("ccx_alum_cyl", Coordinates).at_most(6),
+    Pair::agrees("ccx_alum_cyl", Coordinates).large(6),
     Pair::agrees("ccx_beam8f", Coordinates),
     Pair::agrees("ccx_beamf", Coordinates),
     Pair::agrees("ccx_beamf2", Coordinates),
@@ -113,10 +133,12 @@ pub(crate) const PAIRS: [Pair; 46] = [
     Pair::agrees("ccx_dashpot1", Coordinates),
     Pair::agrees("ccx_dloadlin20f", Coordinates),
     Pair::agrees("ccx_dloadlinIf", Matrices),
-    Pair::agrees("ccx_exudyn_conrod", Coordinates),
-    Pair::agrees("ccx_fullseg", Coordinates),
+    // Free, and shifted to a hundredth of the first elastic eigenvalue: solves lose the digits that the rigid-body
+    // component takes, and the references miss their tolerance by three orders of magnitude.
+    Pair::agrees("ccx_exudyn_conrod", Coordinates).against_poor_reference(1e-8),
+    Pair::agrees("ccx_fullseg", Coordinates).against_poor_reference(1e-8),
     Pair::agrees("ccx_mass2", Coordinates),
-    Pair::agrees("ccx_onshape_part", Coordinates).at_most(4),
+    Pair::agrees("ccx_onshape_part", Coordinates).large(4),
     Pair::agrees("ccx_rotor3", Coordinates),
     Pair::agrees("ccx_segmentmass", Coordinates),
     Pair::agrees("ccx_segmenttet", Coordinates),

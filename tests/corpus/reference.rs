@@ -12,6 +12,8 @@ pub(crate) struct Reference {
     /// The lowest eigenvalues above them, ascending.
     pub(crate) elastic: Vec<f64>,
     first: f64,
+    /// √n, which the rounding errors of n steps of a dense solver add up to.
+    accumulation: f64,
     method: Method,
 }
 
@@ -44,16 +46,19 @@ impl Reference {
         } else {
             panic!("{}: unknown method {method:?}", path.display());
         };
-        Self { n_zero, first: all.first().copied().unwrap_or_default(), elastic: all[n_zero..].to_vec(), method }
+        let accumulation = number("n").expect("an order").sqrt();
+        Self { n_zero, accumulation, first: all.first().copied().unwrap_or_default(), elastic: all[n_zero..].to_vec(), method }
     }
 
     /// Relative error of an eigenvalue of the reference.
     pub(crate) fn own_error(&self, lambda: f64) -> f64 {
         let absolute = match self.method {
-            // A backward stable solver errs by ε‖A‖ in every eigenvalue of A.
-            Method::Dense { largest } => f64::EPSILON * largest,
+            // A backward stable solver errs by √n ε‖A‖ in every eigenvalue of A.
+            Method::Dense { largest } => self.accumulation * f64::EPSILON * largest,
             // The same for θ, whose largest is 1/(λ₁ + s); |dλ| = (λ + s)² |dθ|.
-            Method::DenseInverted { shift } => f64::EPSILON * (lambda + shift).powi(2) / (self.first + shift),
+            Method::DenseInverted { shift } => {
+                self.accumulation * f64::EPSILON * (lambda + shift).powi(2) / (self.first + shift)
+            }
             // A residual of 10⁻¹² θ bounds the error of θ; |dλ| = (λ − σ) |dθ| / θ.
             Method::ShiftInvert { shift } => 1e-12 * (lambda - shift),
         };
