@@ -6,8 +6,8 @@
 
 use super::lanczos::Wanted;
 use super::operator::Factored;
-use super::{ModalProblem, ModeRequest, Modes, SEED, elastic_modes};
-use crate::error::Result;
+use super::{ModalProblem, ModeError, ModeRequest, Modes, SEED, elastic_modes};
+use crate::error::{Error, Result};
 use crate::factor::{Analysis, Cholesky, Pencil};
 use crate::job::Eigensolver;
 use crate::model::diagonal;
@@ -27,7 +27,8 @@ pub struct Shifted<'a> {
     pub n_factorisations: usize,
 }
 
-/// The first shift relative to max K_ii / M_ii, which lies within a small factor of the largest eigenvalue.
+/// The first shift relative to the median of K_ii / M_ii. The largest ratio would do where all dofs are alike, but a few
+/// rotations of tiny inertia raise it by many orders of magnitude, and then eigenvalues can no longer be told apart.
 const FIRST_SHIFT: f64 = 1e-6;
 /// Refactorisations before the shift is taken as it is.
 const MAX_ROUNDS: usize = 4;
@@ -41,7 +42,7 @@ const ZERO_WITHIN_BARS: f64 = 10.0;
 /// Factors K − σM of a modal problem with a shift suited to it.
 ///
 /// # Errors
-/// K − σM is not definite, or the eigensolver fails.
+/// K − σM is not definite; an eigenvalue is negative beyond the noise of the data; the eigensolver fails.
 pub fn shifted<'a>(
     analysis: &'a Analysis,
     problem: ModalProblem<'_>,
@@ -51,13 +52,7 @@ pub fn shifted<'a>(
         stiffness: problem.stiffness,
         mass: problem.mass,
     };
-    let (k, m) = (diagonal(problem.stiffness), diagonal(problem.mass));
-    let largest = k
-        .iter()
-        .zip(&m)
-        .filter(|(_, m)| **m > 0.0)
-        .fold(0.0f64, |max, (k, m)| max.max(k / m));
-    let mut sigma = -FIRST_SHIFT * if largest > 0.0 { largest } else { 1.0 };
+    let mut sigma = -FIRST_SHIFT * median_ratio(problem);
     let mut count = LOOK_AT;
     let mut round = 1;
     loop {
@@ -68,11 +63,10 @@ pub fn shifted<'a>(
             seed: SEED,
         };
         let lowest = elastic_modes(problem, &Factored::new(&factor, sigma), request)?;
-        let n_zero = lowest.lambda.iter().zip(&lowest.errors).take_while(|(lambda, error)| {
-            // The bar is relative to λ and grows without limit as λ goes to zero.
-            error.relative_bar * ZERO_WITHIN_BARS >= 1.0 || **lambda <= 0.0
-        });
-        let n_zero = n_zero.count();
+        let zero_modes = lowest.lambda.iter().zip(&lowest.errors);
+        let n_zero = zero_modes
+            .take_while(|(lambda, error)| is_zero(error) || **lambda <= 0.0)
+            .count();
         let all_zero = n_zero == lowest.count() && lowest.next.is_some();
         if all_zero && count < problem.mass.rows() {
             count *= 2;
@@ -80,6 +74,7 @@ pub fn shifted<'a>(
         let first_elastic = lowest.lambda.get(n_zero).copied().or(lowest.next);
         let settled = first_elastic.is_none_or(|lambda| WINDOW.contains(&(-sigma / lambda)));
         if (settled && !all_zero) || round == MAX_ROUNDS {
+            refuse_negative(&lowest)?;
             return Ok(Shifted {
                 factor,
                 sigma,
@@ -92,5 +87,110 @@ pub fn shifted<'a>(
             sigma = -lambda;
         }
         round += 1;
+    }
+}
+
+/// The median of K_ii / M_ii over the dofs that have both; one where none has.
+fn median_ratio(problem: ModalProblem<'_>) -> f64 {
+    let (k, m) = (diagonal(problem.stiffness), diagonal(problem.mass));
+    let mut ratios: Vec<f64> = k
+        .iter()
+        .zip(&m)
+        .filter(|(k, m)| **k > 0.0 && **m > 0.0)
+        .map(|(k, m)| k / m)
+        .collect();
+    ratios.sort_unstable_by(f64::total_cmp);
+    ratios.get(ratios.len() / 2).copied().unwrap_or(1.0)
+}
+
+/// Whether an eigenvalue is zero within its bar, which is relative and grows without limit as λ goes to zero.
+fn is_zero(error: &ModeError) -> bool {
+    let within = error.relative_bar * ZERO_WITHIN_BARS;
+    // A free particle has no terms to cancel: 0/0.
+    within.is_nan() || within >= 1.0
+}
+
+/// An eigenvalue below zero by more than noise belongs to an indefinite K, not to a rigid-body motion.
+fn refuse_negative(modes: &Modes) -> Result<()> {
+    let mut pairs = modes.lambda.iter().zip(&modes.errors);
+    match pairs.find(|(lambda, error)| **lambda < 0.0 && !is_zero(error)) {
+        Some((lambda, error)) => Err(Error::NegativeRigidEnergy {
+            energy: *lambda,
+            noise: error.relative_bar * lambda.abs(),
+        }),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Precision;
+    use crate::sparse::SparseMatrix;
+
+    const BINARY: Precision = Precision {
+        stiffness: f64::EPSILON / 2.0,
+        mass: f64::EPSILON / 2.0,
+    };
+
+    fn diagonal_matrix(values: &[f64]) -> SparseMatrix {
+        let n = values.len();
+        SparseMatrix::new((n, n), (0..=n).collect(), (0..n as u32).collect(), values.to_vec())
+    }
+
+    /// Springs of stiffness one between neighbours, both ends free.
+    fn free_chain(n: usize) -> SparseMatrix {
+        let (mut pointers, mut columns, mut values) = (vec![0], Vec::new(), Vec::new());
+        for row in 0..n {
+            for col in row.saturating_sub(1)..(row + 2).min(n) {
+                let n_springs = if row == 0 || row == n - 1 { 1.0 } else { 2.0 };
+                columns.push(col as u32);
+                values.push(if row == col { n_springs } else { -1.0 });
+            }
+            pointers.push(columns.len());
+        }
+        SparseMatrix::new((n, n), pointers, columns, values)
+    }
+
+    fn with_lowest<T>(stiffness: &SparseMatrix, mass: &SparseMatrix, look: impl Fn(Result<Shifted<'_>>) -> T) -> T {
+        let problem = ModalProblem {
+            stiffness,
+            mass,
+            rigid: None,
+            precision: BINARY,
+        };
+        let analysis = Analysis::new(Pencil { stiffness, mass }).expect("an analysis");
+        look(shifted(&analysis, problem, &|dof| dof.to_string()))
+    }
+
+    #[test]
+    fn tiny_inertia_of_few_dofs_does_not_move_the_shift_away() {
+        let n = 40;
+        let mut masses = vec![1.0; n];
+        masses[n - 1] = 1e-18;
+        with_lowest(&free_chain(n), &diagonal_matrix(&masses), |found| {
+            let found = found.expect("a shift");
+            assert_eq!(found.n_zero, 1);
+            // The last mass is as good as none and follows its neighbour: a free chain of n − 1 equal masses,
+            // λ = 4 sin²(π / 2(n − 1)). The cancelling terms are some λ_max/λ = 600 times larger than the energy, which makes
+            // rounding of 10⁻¹³.
+            let expected = 4.0 * (std::f64::consts::PI / (2.0 * (n - 1) as f64)).sin().powi(2);
+            assert!(
+                (found.lowest.lambda[1] / expected - 1.0).abs() < 1e-12,
+                "{:?}",
+                found.lowest.lambda
+            );
+        });
+    }
+
+    #[test]
+    fn a_negative_eigenvalue_beyond_noise_is_no_zero_mode() {
+        let mut stiffnesses: Vec<f64> = (0..30).map(f64::from).collect();
+        // Above the first shift, so that K − σM is definite, and a million times the rounding of its own terms.
+        stiffnesses[0] = -1e-9;
+        let mass = diagonal_matrix(&[1.0; 30]);
+        with_lowest(&diagonal_matrix(&stiffnesses), &mass, |found| {
+            assert!(matches!(found, Err(Error::NegativeRigidEnergy { .. })), "{found:?}");
+        });
     }
 }
