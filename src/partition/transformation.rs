@@ -93,9 +93,13 @@ pub enum TransformationRow {
 impl TransformationRow {
     /// The entries of the row.
     pub fn entries(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
-        let (single, several): (Option<(u32, f64)>, &[(u32, f64)]) = match self {
-            Self::Dof(dof) => (Some((*dof, 1.0)), &[]),
-            Self::Rigid(entries) => (None, entries),
+        let single = match self {
+            Self::Dof(dof) => Some((*dof, 1.0)),
+            Self::Rigid(_) => None,
+        };
+        let several: &[_] = match self {
+            Self::Dof(_) => &[],
+            Self::Rigid(entries) => entries,
         };
         single.into_iter().chain(several.iter().copied())
     }
@@ -114,14 +118,14 @@ impl Transformation {
         let sites = Sites::new(model);
         let mut builder = Builder { dofs: Vec::with_capacity(n), rows: vec![TransformationRow::Dof(u32::MAX); n], sites };
         for row in (0..n).filter(|row| !taken[*row]) {
-            builder.own_row(row, false);
+            builder.own_row(row, Part::Internal);
         }
-        for interface_dofs in [false, true] {
+        for part in [Part::Internal, Part::Interface] {
             for (index, resolved) in interfaces.0.iter().enumerate() {
                 match &resolved.rows {
-                    Rows::Own(rows) if interface_dofs => rows.iter().for_each(|row| builder.own_row(*row, true)),
+                    Rows::Own(rows) if part == Part::Interface => rows.iter().for_each(|row| builder.own_row(*row, part)),
                     Rows::Own(_) => {}
-                    Rows::Patch(rows) => builder.rigid_node(index, resolved, rows, interface_dofs),
+                    Rows::Patch(rows) => builder.rigid_node(index, resolved, rows, part),
                 }
             }
         }
@@ -183,6 +187,13 @@ impl Sites {
     }
 }
 
+/// The parts of the partition.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Part {
+    Internal,
+    Interface,
+}
+
 struct Builder {
     dofs: Vec<ReducedDof>,
     rows: Vec<TransformationRow>,
@@ -190,22 +201,22 @@ struct Builder {
 }
 
 impl Builder {
-    fn own_row(&mut self, row: usize, is_interface: bool) {
+    fn own_row(&mut self, row: usize, part: Part) {
         self.rows[row] = TransformationRow::Dof(self.dofs.len() as u32);
         self.dofs.push(ReducedDof {
             origin: DofOrigin::Row(row),
-            is_interface,
+            is_interface: part == Part::Interface,
             site: self.sites.of_row.as_ref().map(|sites| sites[row]),
             node: self.sites.node_of_row[row],
             label: self.sites.label_of_row.as_ref().map(|labels| labels[row]),
         });
     }
 
-    /// Adds those directions of a rigid node that are (or are not) interface dofs and that its patch can move in.
-    fn rigid_node(&mut self, index: usize, resolved: &Resolved, rows: &[usize], interface_dofs: bool) {
+    /// Adds those directions of a rigid node that belong to a part and that its patch can move in.
+    fn rigid_node(&mut self, index: usize, resolved: &Resolved, rows: &[usize], part: Part) {
         let position = resolved.node.position.unwrap_or_default();
         let listed = &resolved.node.directions;
-        let directions: Vec<Direction> = if interface_dofs {
+        let directions: Vec<Direction> = if part == Part::Interface {
             listed.clone()
         } else {
             let rest = Direction::ALL.into_iter().filter(|direction| !listed.contains(direction));
@@ -214,7 +225,7 @@ impl Builder {
         for direction in directions {
             self.dofs.push(ReducedDof {
                 origin: DofOrigin::RigidNode(index, direction),
-                is_interface: interface_dofs,
+                is_interface: part == Part::Interface,
                 site: Some(Site { position, direction }),
                 node: self.sites.n_nodes + index as u32,
                 label: None,

@@ -157,7 +157,7 @@ fn mass_orthonormal(partition: &Partition, motions: MatRef<'_, f64>) -> Result<M
         dense::symmetrise(&mut modal_mass);
         let (masses, directions) = dense::symmetric_eigen(modal_mass.as_ref())?;
         let largest = masses.last().copied().unwrap_or(0.0);
-        if let Some(mass) = masses.iter().find(|mass| !(**mass > NO_MASS * largest)) {
+        if let Some(mass) = masses.iter().find(|mass| mass.is_nan() || **mass <= NO_MASS * largest) {
             // A body all without mass has nothing to be relative to.
             let relative_mass = if largest > 0.0 { mass / largest } else { 0.0 };
             return Err(Error::MasslessRigidMotion { relative_mass });
