@@ -62,7 +62,7 @@ impl<'a> Cholesky<'a> {
         };
         let (ratio, step) = factor.smallest_pivot(&lower);
         // Rounding decides the sign of a pivot that should be zero, so a singular matrix may well get this far.
-        if !(ratio > SINGULAR) {
+        if ratio.is_nan() || ratio <= SINGULAR {
             return Err(Error::NotDefinite { dof: name(step) });
         }
         factor.smallest_pivot_ratio = ratio;
@@ -79,7 +79,7 @@ impl<'a> Cholesky<'a> {
                 let step = node.start() + j;
                 let ratio = node.val()[(j, j)].powi(2) / lower.values[lower.pointers[step]];
                 // A ratio that is not a number is kept, and refused.
-                if !(ratio >= smallest.0) {
+                if ratio.is_nan() || ratio < smallest.0 {
                     smallest = (ratio, step);
                 }
             }

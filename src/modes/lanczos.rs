@@ -71,7 +71,7 @@ const NEXT_TOLERANCE: f64 = 1e-4;
 /// Rounding of OP in units of ε times its largest eigenvalue: a θ below it is that of an infinite eigenvalue.
 pub(super) const ROUNDING: f64 = 16.0;
 /// Residuals in the same units that need not fall further; the correction in [`Basis::extract`] takes up the rest.
-pub(super) const RESIDUAL_FLOOR: f64 = 2.0;
+pub(super) const RESIDUAL_FLOOR: f64 = 16.0;
 /// Eigenvalues nearer than this, relatively, belong to one cluster.
 pub const CLUSTER_GAP: f64 = 1e-6;
 /// Restarts after which an iteration that has not converged never will.

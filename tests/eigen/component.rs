@@ -90,11 +90,11 @@ impl Component {
     /// The residual check of every eigenproblem: backward errors, orthogonality, order, and the next eigenvalue above.
     pub(crate) fn check(&self, modes: &Modes) {
         let mass = &self.partition.mass;
-        // A pair is taken at a residual of 1e-13 θ, or of 2 ε times the largest θ; (K − σM) times it is that share of λ M x
+        // A pair is taken at a residual of 1e-13 θ, or of 16 ε times the largest θ; (K − σM) times it is that share of λ M x
         // and at most the same share of the norms the backward error is relative to. A solve adds a few ε per dof.
         let first = modes.lambda.first().copied().unwrap_or(1.0);
         for (j, (error, lambda)) in modes.errors.iter().zip(&modes.lambda).enumerate() {
-            let taken_at = 1e-13 + 2.0 * f64::EPSILON * lambda / first;
+            let taken_at = 1e-13 + 16.0 * f64::EPSILON * lambda / first;
             let bar = taken_at + mass.rows() as f64 * f64::EPSILON;
             assert!(
                 error.backward <= bar,
