@@ -12,11 +12,7 @@ use crate::error::{Error, Result};
 const PARALLEL_ABOVE: usize = 1 << 18;
 
 fn parallelism(multiplications: usize) -> Par {
-    if multiplications > PARALLEL_ABOVE {
-        Par::rayon(0)
-    } else {
-        Par::Seq
-    }
+    if multiplications > PARALLEL_ABOVE { Par::rayon(0) } else { Par::Seq }
 }
 
 /// Rows of a tile of [`gram`]: fixed, so that the order of the sum never depends on the number of threads.
@@ -64,13 +60,11 @@ pub fn symmetric_eigen(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>)> {
     if a.nrows() == 0 {
         return Ok((Vec::new(), Mat::zeros(0, 0)));
     }
-    let eigen = a
-        .self_adjoint_eigen(Side::Lower)
-        .map_err(|_| Error::DenseEigen { n: a.nrows() })?;
-    Ok((
-        eigen.S().column_vector().iter().copied().collect(),
-        eigen.U().to_owned(),
-    ))
+    if !a.is_all_finite() {
+        return Err(Error::DenseEigen { n: a.nrows() });
+    }
+    let eigen = a.self_adjoint_eigen(Side::Lower).map_err(|_| Error::DenseEigen { n: a.nrows() })?;
+    Ok((eigen.S().column_vector().iter().copied().collect(), eigen.U().to_owned()))
 }
 
 /// Singular values (descending) and right singular vectors of a matrix with at least as many rows as columns.
@@ -146,10 +140,7 @@ pub fn column<'a>(a: MatRef<'a, f64>, j: usize) -> &'a [f64] {
 /// # Panics
 /// If the matrix is not stored by columns.
 pub fn column_mut<'a>(a: MatMut<'a, f64>, j: usize) -> &'a mut [f64] {
-    a.col_mut(j)
-        .try_as_col_major_mut()
-        .expect("stored by columns")
-        .as_slice_mut()
+    a.col_mut(j).try_as_col_major_mut().expect("stored by columns").as_slice_mut()
 }
 
 /// A ← (A + Aᵀ)/2; returns max |A − Aᵀ| / max |A|.

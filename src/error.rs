@@ -978,10 +978,7 @@ pub enum Error {
         interface: String,
     },
     /// A group the mesh does not have.
-    #[error(
-        "interface {interface:?}: the mesh has no group {group:?} – found {} – name one of them",
-        listed(known)
-    )]
+    #[error("interface {interface:?}: the mesh has no group {group:?} – found {} – name one of them", listed(known))]
     UnknownGroup {
         /// The interface.
         interface: String,
@@ -1179,10 +1176,7 @@ impl Error {
         match error {
             FileError::Read { path, source } => Self::Read { path, source },
             FileError::Write { path, source } => Self::Write { path, source },
-            source => Self::SuperelementFile {
-                path: path.to_owned(),
-                source,
-            },
+            source => Self::SuperelementFile { path: path.to_owned(), source },
         }
     }
 
@@ -1290,14 +1284,8 @@ impl Error {
             | Self::MissingFlags { .. }
             | Self::FlagText { .. } => ErrorClass::Usage,
             Self::Threads { .. } => ErrorClass::Resources,
-            Self::SuperelementFile {
-                source: FileError::OutOfMemory { .. },
-                ..
-            } => ErrorClass::Resources,
-            Self::SuperelementFile {
-                source: FileError::NotAFile { .. },
-                ..
-            } => ErrorClass::Io,
+            Self::SuperelementFile { source: FileError::OutOfMemory { .. }, .. } => ErrorClass::Resources,
+            Self::SuperelementFile { source: FileError::NotAFile { .. }, .. } => ErrorClass::Io,
             Self::SuperelementFile { .. } => ErrorClass::InputData,
         }
     }

@@ -41,10 +41,7 @@ impl Job {
     ///
     /// [`Error::Read`] where there is no such file, and everything that [`Job::parse`] and [`Job::validate`] find.
     pub fn read(path: &Path) -> Result<Self> {
-        let text = std::fs::read_to_string(path).map_err(|source| Error::Read {
-            path: path.to_owned(),
-            source,
-        })?;
+        let text = std::fs::read_to_string(path).map_err(|source| Error::Read { path: path.to_owned(), source })?;
         let job = Self::parse(&text, path)?;
         job.validate()?;
         job.resolve(path.parent().unwrap_or(Path::new("")))
@@ -83,12 +80,7 @@ impl Job {
 
     fn paths_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
         let model = &mut self.model;
-        let inputs = [
-            Some(&mut model.stiffness),
-            Some(&mut model.mass),
-            model.dofs.as_mut(),
-            model.nodes.as_mut(),
-        ];
+        let inputs = [Some(&mut model.stiffness), Some(&mut model.mass), model.dofs.as_mut(), model.nodes.as_mut()];
         let outputs = [Some(&mut self.write.superelement), self.write.report.as_mut()];
         inputs.into_iter().chain(outputs).flatten()
     }
@@ -180,14 +172,8 @@ impl TryFrom<ModeTable> for ModeSelection {
 
     fn try_from(table: ModeTable) -> std::result::Result<Self, Self::Error> {
         match table {
-            ModeTable {
-                count: Some(count),
-                up_to_hz: None,
-            } => Ok(Self::Count { count }),
-            ModeTable {
-                count: None,
-                up_to_hz: Some(up_to_hz),
-            } => Ok(Self::UpTo { up_to_hz }),
+            ModeTable { count: Some(count), up_to_hz: None } => Ok(Self::Count { count }),
+            ModeTable { count: None, up_to_hz: Some(up_to_hz) } => Ok(Self::UpTo { up_to_hz }),
             _ => Err("expected exactly one of `count` and `up_to_hz`"),
         }
     }
@@ -241,8 +227,6 @@ pub struct WriteJob {
 impl WriteJob {
     /// Where the report goes: as asked, or beside the superelement as `name.report.json`.
     pub fn report_path(&self) -> PathBuf {
-        self.report
-            .clone()
-            .unwrap_or_else(|| self.superelement.with_extension("report.json"))
+        self.report.clone().unwrap_or_else(|| self.superelement.with_extension("report.json"))
     }
 }

@@ -73,8 +73,6 @@ use verification::Evidence;
 ///
 /// # Errors
 /// Those of the stages; each says what, where, what was found, what was expected and what to do.
-// The whole method reads as one list; cut in two it would only be longer.
-#[expect(clippy::too_many_lines)]
 pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Result<Outcome> {
     // Small dense decompositions use faer's global setting; sequential ones give the same bits on every machine.
     faer::set_global_parallelism(faer::Par::Seq);
@@ -95,10 +93,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
 
     observer.stage("factor");
     let (k_ii, m_ii) = (partition.internal_stiffness(), partition.internal_mass());
-    let pencil = Pencil {
-        stiffness: &k_ii,
-        mass: &m_ii,
-    };
+    let pencil = Pencil { stiffness: &k_ii, mass: &m_ii };
     let analysis = Analysis::new(pencil)?;
     factor::refuse_beyond_memory(&analysis, &partition, job, resources)?;
     let factor = Cholesky::new(&analysis, pencil, 0.0, &|dof| partition.name_of(dof))?;
@@ -108,13 +103,8 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
 
     observer.stage("modes");
     let internal = (&k_ii, &m_ii);
-    let component = Component {
-        partition: &partition,
-        internal,
-        factor: &factor,
-        rigid: &rigid,
-        constraint: &constraint,
-    };
+    let component =
+        Component { partition: &partition, internal, factor: &factor, rigid: &rigid, constraint: &constraint };
     let retained = modes::retained(component, &job.reduction, modes::SEED)?;
 
     observer.stage("certificate");
@@ -148,13 +138,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         factor_flops: analysis.flops,
         factor_nonzeros: analysis.nnz_factor as u64,
     };
-    let (superelement, report) = output::output(&Results {
-        job,
-        input: &facts,
-        model: &model,
-        evidence,
-        checks: &checks,
-        work,
-    })?;
+    let (superelement, report) =
+        output::output(&Results { job, input: &facts, model: &model, evidence, checks: &checks, work })?;
     Ok(Outcome { superelement, report })
 }

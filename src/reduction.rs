@@ -37,7 +37,7 @@ pub struct Reduction {
 /// What was measured before it was mended.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Projection {
-    /// max |K̂_Bη| / √(K̂_BB K̂_ηη) over all entries (M-13).
+    /// max |K̂_Bη| / √(K_BB K̂_ηη) over all entries (M-13).
     pub block_coupling: f64,
     /// The entry it is reached at.
     pub block_coupling_at: (usize, usize),
@@ -53,17 +53,15 @@ const PANEL: usize = 32;
 impl Reduction {
     /// Projects the partition's matrices on the basis.
     pub fn new(partition: &Partition, basis: &Basis, rigid: &RigidBodyModes) -> Self {
-        let (mut stiffness, mut mass) = rayon::join(
-            || project(&partition.stiffness, basis),
-            || project(&partition.mass, basis),
-        );
+        let (mut stiffness, mut mass) =
+            rayon::join(|| project(&partition.stiffness, basis), || project(&partition.mass, basis));
         let n_b = partition.n_interface();
         let mut measured = Projection {
             stiffness_asymmetry: dense::symmetrise(&mut stiffness),
             mass_asymmetry: dense::symmetrise(&mut mass),
             ..Projection::default()
         };
-        (measured.block_coupling, measured.block_coupling_at) = uncouple(&mut stiffness, n_b);
+        (measured.block_coupling, measured.block_coupling_at) = uncouple(&mut stiffness, partition);
         let r = basis.n_reduced();
         let u_b = rigid.modes.as_ref().subrows(partition.n_internal, n_b);
         let rigid_body_modes = Mat::from_fn(r, rigid.count(), |i, j| if i < n_b { u_b[(i, j)] } else { 0.0 });
@@ -94,10 +92,7 @@ fn project(matrix: &SparseMatrix, basis: &Basis) -> Mat<f64> {
     for start in (0..r).step_by(PANEL) {
         let width = PANEL.min(r - start);
         let image = multiply(matrix, panel_of(basis, start, width).as_ref());
-        projected
-            .as_mut()
-            .subcols_mut(start, width)
-            .copy_from(transpose_apply(basis, image.as_ref()));
+        projected.as_mut().subcols_mut(start, width).copy_from(transpose_apply(basis, image.as_ref()));
     }
     projected
 }
@@ -127,19 +122,19 @@ fn transpose_apply(basis: &Basis, forces: MatRef<'_, f64>) -> Mat<f64> {
     let mut top = reduced.as_mut().subrows_mut(0, n_b);
     top.copy_from(dense::gram(basis.constraint_modes.as_ref(), internal));
     top += interface;
-    reduced
-        .as_mut()
-        .subrows_mut(n_b, basis.n_dynamic())
-        .copy_from(dense::gram(basis.dynamic_modes.as_ref(), internal));
+    reduced.as_mut().subrows_mut(n_b, basis.n_dynamic()).copy_from(dense::gram(basis.dynamic_modes.as_ref(), internal));
     reduced
 }
 
-/// Sets K̂_Bη to zero and says how large it was, relative to the diagonal.
-fn uncouple(stiffness: &mut Mat<f64>, n_b: usize) -> (f64, (usize, usize)) {
+/// Sets K̂_Bη to zero and says how large it was, relative to the diagonal: for an interface dof that of K_BB, of whose
+/// terms the block is the rounding, for a mode that of K̂_ηη.
+fn uncouple(stiffness: &mut Mat<f64>, partition: &Partition) -> (f64, (usize, usize)) {
+    let (n_i, n_b) = (partition.n_internal, partition.n_interface());
     let mut worst = (0.0, (0, 0));
     for j in n_b..stiffness.ncols() {
         for i in 0..n_b {
-            let size = (stiffness[(i, i)] * stiffness[(j, j)]).abs().sqrt();
+            let uncondensed = partition.stiffness.get(n_i + i, n_i + i).copied().unwrap_or(0.0);
+            let size = (uncondensed * stiffness[(j, j)]).abs().sqrt();
             if size > 0.0 && stiffness[(i, j)].abs() / size > worst.0 {
                 worst = (stiffness[(i, j)].abs() / size, (i, j));
             }

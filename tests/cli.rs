@@ -24,11 +24,7 @@ fn supel_with(pipeline: Pipeline, args: &[&str]) -> Ended {
     let args = std::iter::once("supel").chain(args.iter().copied()).map(OsString::from);
     let code = run(args, pipeline, &mut Terminal::plain(&mut out, &mut err));
     let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
-    Ended {
-        code,
-        out: text(out),
-        err: text(err),
-    }
+    Ended { code, out: text(out), err: text(err) }
 }
 
 fn supel(args: &[&str]) -> Ended {
@@ -73,9 +69,8 @@ superelement = "bracket.supel"
 
     fn files(&self) -> Vec<String> {
         let entries = std::fs::read_dir(self.folder.path()).expect("folder");
-        let mut names: Vec<String> = entries
-            .map(|entry| entry.expect("entry").file_name().to_string_lossy().into_owned())
-            .collect();
+        let mut names: Vec<String> =
+            entries.map(|entry| entry.expect("entry").file_name().to_string_lossy().into_owned()).collect();
         names.sort();
         names
     }
@@ -83,10 +78,7 @@ superelement = "bracket.supel"
 
 fn failing(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Result<Outcome> {
     let outcome = sample::pipeline(job, resources, observer)?;
-    Ok(Outcome {
-        report: sample::full_report(),
-        ..outcome
-    })
+    Ok(Outcome { report: sample::full_report(), ..outcome })
 }
 
 fn warning(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Result<Outcome> {
@@ -102,19 +94,12 @@ fn panicking(_job: &Job, _resources: Resources, _observer: &mut dyn Observer) ->
 /// Says which job it was given, as an error.
 fn echo(job: &Job, _resources: Resources, _observer: &mut dyn Observer) -> Result<Outcome> {
     let text = serde_json::to_string(job).expect("json");
-    Err(Error::JobSyntax {
-        path: "echo".into(),
-        line: None,
-        message: text,
-    })
+    Err(Error::JobSyntax { path: "echo".into(), line: None, message: text })
 }
 
 fn echoed(args: &[&str]) -> Job {
     let ended = supel_with(echo, args);
-    let text = ended
-        .err
-        .strip_prefix("supel: error: echo: ")
-        .unwrap_or_else(|| panic!("{}", ended.err));
+    let text = ended.err.strip_prefix("supel: error: echo: ").unwrap_or_else(|| panic!("{}", ended.err));
     serde_json::from_str(text).expect("the job")
 }
 
@@ -126,19 +111,13 @@ fn reduce_writes_superelement_and_report_and_prints_the_summary() {
     assert_eq!(ended.err, "");
     assert!(ended.out.contains("✓ verified: 2 checks passed"), "{}", ended.out);
     assert_eq!(place.files(), ["bracket.report.json", "bracket.supel", "job.toml"]);
-    assert_eq!(
-        Superelement::open(&place.path("bracket.supel")).expect("readable"),
-        sample::superelement()
-    );
+    assert_eq!(Superelement::open(&place.path("bracket.supel")).expect("readable"), sample::superelement());
     let report: serde_json::Value =
         serde_json::from_slice(&std::fs::read(place.path("bracket.report.json")).expect("read")).expect("json");
     assert_eq!(report["run"]["n_threads"], 1);
     assert_eq!(report["body"]["checks"][1]["id"], "M-26");
     let stages = report["run"]["stages"].as_array().expect("stages");
-    assert_eq!(
-        stages.iter().map(|stage| &stage["name"]).collect::<Vec<_>>(),
-        ["read", "factor", "write"]
-    );
+    assert_eq!(stages.iter().map(|stage| &stage["name"]).collect::<Vec<_>>(), ["read", "factor", "write"]);
     let size = std::fs::metadata(place.path("bracket.supel")).expect("file").len();
     assert_eq!(report["run"]["file_bytes"], size);
 }
@@ -147,19 +126,10 @@ fn reduce_writes_superelement_and_report_and_prints_the_summary() {
 fn json_answer_is_the_report_and_quiet_is_silent() {
     let place = Workplace::new();
     let ended = supel(&["reduce", &place.job(), "--json"]);
-    assert_eq!(
-        ended.out,
-        std::fs::read_to_string(place.path("bracket.report.json")).expect("read")
-    );
+    assert_eq!(ended.out, std::fs::read_to_string(place.path("bracket.report.json")).expect("read"));
     let ended = supel(&["reduce", &place.job(), "--quiet"]);
-    assert_eq!(
-        (ended.code, ended.out.as_str(), ended.err.as_str()),
-        (ExitCode::Done, "", "")
-    );
-    assert_eq!(
-        supel(&["reduce", &place.job(), "--quiet", "--json"]).code,
-        ExitCode::Usage
-    );
+    assert_eq!((ended.code, ended.out.as_str(), ended.err.as_str()), (ExitCode::Done, "", ""));
+    assert_eq!(supel(&["reduce", &place.job(), "--quiet", "--json"]).code, ExitCode::Usage);
 }
 
 #[test]
@@ -168,18 +138,8 @@ fn failed_check_leaves_no_file_but_a_report() {
     let ended = supel_with(failing, &["reduce", &place.job()]);
     assert_eq!(ended.code, ExitCode::CheckFailed);
     assert_eq!(place.files(), ["bracket.report.json", "job.toml"]);
-    assert!(
-        ended
-            .err
-            .contains("bracket.supel: not written: a check failed – see the report"),
-        "{}",
-        ended.err
-    );
-    assert!(
-        ended.out.contains("✗ not verified: 1 of 4 checks failed: M-16"),
-        "{}",
-        ended.out
-    );
+    assert!(ended.err.contains("bracket.supel: not written: a check failed – see the report"), "{}", ended.err);
+    assert!(ended.out.contains("✗ not verified: 1 of 4 checks failed: M-16"), "{}", ended.out);
     let report = std::fs::read_to_string(place.path("bracket.report.json")).expect("read");
     assert!(report.contains("\"verdict\": \"fail\""));
 }
@@ -190,11 +150,7 @@ fn failed_check_keeps_the_file_of_an_earlier_run_and_says_so() {
     assert_eq!(supel(&["reduce", &place.job()]).code, ExitCode::Done);
     let ended = supel_with(failing, &["reduce", &place.job()]);
     assert_eq!(ended.code, ExitCode::CheckFailed);
-    assert!(
-        ended.err.contains("the file of that name is from an earlier run"),
-        "{}",
-        ended.err
-    );
+    assert!(ended.err.contains("the file of that name is from an earlier run"), "{}", ended.err);
     assert!(Superelement::open(&place.path("bracket.supel")).is_ok());
 }
 
@@ -333,11 +289,7 @@ fn a_damaged_superelement_is_an_input_error() {
     std::fs::write(&path, bytes).expect("written");
     let ended = supel(&["inspect", &path.display().to_string()]);
     assert_eq!(ended.code, ExitCode::InputData);
-    assert!(
-        ended.err.contains("x.supel: superelement file is damaged"),
-        "{}",
-        ended.err
-    );
+    assert!(ended.err.contains("x.supel: superelement file is damaged"), "{}", ended.err);
 }
 
 #[test]
@@ -373,11 +325,7 @@ fn help_is_an_answer() {
     assert!(supel(&["--version"]).out.starts_with("supel "));
     // As a program without a terminal: with one, the text would be broken at its width.
     let mut program = std::process::Command::new(assert_cmd::cargo::cargo_bin!("supel"));
-    let ended = program
-        .args(["reduce", "--help"])
-        .stdin(std::process::Stdio::null())
-        .env_remove("COLUMNS")
-        .output();
+    let ended = program.args(["reduce", "--help"]).stdin(std::process::Stdio::null()).env_remove("COLUMNS").output();
     let help = String::from_utf8(ended.expect("ended").stdout).expect("UTF-8");
     insta::assert_snapshot!("help_reduce", help);
 }
@@ -385,14 +333,7 @@ fn help_is_an_answer() {
 #[test]
 fn exit_codes_are_those_of_the_contract() {
     use supel::error::ErrorClass::{InputData, Io, ModelPhysics, NumericalLimit, Resources, Usage};
-    let classes = [
-        (Usage, 2),
-        (InputData, 3),
-        (ModelPhysics, 4),
-        (NumericalLimit, 5),
-        (Resources, 6),
-        (Io, 7),
-    ];
+    let classes = [(Usage, 2), (InputData, 3), (ModelPhysics, 4), (NumericalLimit, 5), (Resources, 6), (Io, 7)];
     for (class, code) in classes {
         assert_eq!(ExitCode::from(class) as u8, code);
     }
@@ -408,12 +349,7 @@ fn a_reader_that_goes_away_is_no_panic() {
         .expect("started");
     drop(program.stdout.take());
     let ended = program.wait_with_output().expect("ended");
-    assert_eq!(
-        ended.status.code(),
-        Some(0),
-        "{}",
-        String::from_utf8_lossy(&ended.stderr)
-    );
+    assert_eq!(ended.status.code(), Some(0), "{}", String::from_utf8_lossy(&ended.stderr));
     assert!(ended.stderr.is_empty(), "{}", String::from_utf8_lossy(&ended.stderr));
 }
 

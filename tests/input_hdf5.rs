@@ -20,10 +20,8 @@ fn fixture(name: &str) -> PathBuf {
 
 /// The shared corpus, or `None` with a message.
 fn corpus(folder: &str) -> Option<PathBuf> {
-    let root = std::env::var_os("SUPEL_CORPUS").map_or_else(
-        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/corpus"),
-        PathBuf::from,
-    );
+    let root = std::env::var_os("SUPEL_CORPUS")
+        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/corpus"), PathBuf::from);
     let path = root.join(folder);
     if path.is_dir() {
         return Some(path);
@@ -89,10 +87,7 @@ fn every_convention_gives_the_same_matrices() {
             let input = stiffness(&path, group).unwrap_or_else(|e| panic!("{file} {group:?}: {e}"));
             assert_eq!(dense(&input), K, "{file}");
             assert_eq!(input.matrix.nnz(), 7, "{file}");
-            assert_eq!(
-                input.digest,
-                blake3::hash(&fs::read(&path).unwrap()).to_hex().to_string()
-            );
+            assert_eq!(input.digest, blake3::hash(&fs::read(&path).unwrap()).to_hex().to_string());
         }
         for group in [None, Some(m)] {
             let input = read_matrix(&path, group, MatrixRole::Mass).unwrap_or_else(|e| panic!("{file} {group:?}: {e}"));
@@ -134,10 +129,7 @@ fn the_only_matrix_is_taken_unless_its_name_says_otherwise() {
     let (_folder, path) = file_with(|f| put_matrix(f, "M", &[0, 1], &[0], &[4.0]));
     assert!(read_matrix(&path, None, MatrixRole::Mass).is_ok());
     let error = stiffness(&path, None).unwrap_err();
-    assert!(
-        matches!(&error, Error::Hdf5AmbiguousMatrix { groups, .. } if groups == &["/M"]),
-        "{error}"
-    );
+    assert!(matches!(&error, Error::Hdf5AmbiguousMatrix { groups, .. } if groups == &["/M"]), "{error}");
     assert!(stiffness(&path, Some("/M")).is_ok(), "an explicit path is obeyed");
 }
 
@@ -150,10 +142,7 @@ fn several_matrices_without_a_telling_name_are_listed() {
     let error = stiffness(&path, None).unwrap_err();
     assert!(matches!(&error, Error::Hdf5AmbiguousMatrix { groups, .. } if groups.len() == 2));
     let text = error.to_string();
-    assert!(
-        text.contains("/a/first, /b/second") && text.contains("made.h5:/a/first"),
-        "{text}"
-    );
+    assert!(text.contains("/a/first, /b/second") && text.contains("made.h5:/a/first"), "{text}");
     assert!(stiffness(&path, Some("b")).is_ok(), "one matrix below the group given");
 }
 
@@ -169,31 +158,16 @@ fn a_file_without_a_matrix_is_refused_with_what_it_holds() {
 fn a_wrong_path_in_the_file_is_refused() {
     let path = fixture("h5sparse.h5");
     let missing = stiffness(&path, Some("/model/X")).unwrap_err();
-    assert!(
-        matches!(&missing, Error::Hdf5Missing { object, kind: "group", .. } if object == "/model/X"),
-        "{missing}"
-    );
+    assert!(matches!(&missing, Error::Hdf5Missing { object, kind: "group", .. } if object == "/model/X"), "{missing}");
     let dataset = stiffness(&path, Some("/model/K/data")).unwrap_err();
-    assert!(
-        matches!(
-            dataset,
-            Error::Hdf5Type {
-                expected: "a group",
-                ..
-            }
-        ),
-        "{dataset}"
-    );
+    assert!(matches!(dataset, Error::Hdf5Type { expected: "a group", .. }), "{dataset}");
 }
 
 #[test]
 fn an_incomplete_group_is_refused() {
     let (_folder, path) = file_with(|f| put_attr(&f.create_group("K").unwrap(), "h5sparse_shape", &[3_i64, 3]));
     let error = stiffness(&path, None).unwrap_err();
-    assert!(
-        matches!(&error, Error::Hdf5Missing { object, kind: "dataset", .. } if object == "/K/indptr"),
-        "{error}"
-    );
+    assert!(matches!(&error, Error::Hdf5Missing { object, kind: "dataset", .. } if object == "/K/indptr"), "{error}");
 }
 
 #[test]
@@ -208,10 +182,7 @@ fn what_is_not_hdf5_is_named() {
         let path = folder.path().join("x.mat");
         fs::write(&path, bytes).unwrap();
         let error = stiffness(&path, None).unwrap_err();
-        assert!(
-            matches!(error, Error::Hdf5Signature { .. }) && error.to_string().contains(expected),
-            "{error}"
-        );
+        assert!(matches!(error, Error::Hdf5Signature { .. }) && error.to_string().contains(expected), "{error}");
     }
 }
 
@@ -240,9 +211,7 @@ fn damaged_values_are_refused_by_the_library() {
     let path = folder.path().join("damaged.h5");
     let mut bytes = fs::read(fixture("anndata.h5ad")).unwrap();
     // The zlib streams of level 4 start with 78 5e; a wrong first byte cannot be inflated.
-    let starts: Vec<usize> = (0..bytes.len() - 1)
-        .filter(|&i| bytes[i..].starts_with(b"\x78\x5e"))
-        .collect();
+    let starts: Vec<usize> = (0..bytes.len() - 1).filter(|&i| bytes[i..].starts_with(b"\x78\x5e")).collect();
     assert!(!starts.is_empty());
     starts.iter().for_each(|&i| bytes[i] = 0);
     fs::write(&path, bytes).unwrap();
@@ -270,32 +239,19 @@ fn values_in_other_files_are_refused() {
         put_matrix(f, "K", &[0, 1], &[0], &[4.0]);
         let group = f.group("K").unwrap();
         group.unlink("data").unwrap();
-        group
-            .new_dataset::<f64>()
-            .shape(1)
-            .external("other.bin", 0, 8)
-            .create("data")
-            .unwrap();
+        group.new_dataset::<f64>().shape(1).external("other.bin", 0, 8).create("data").unwrap();
     });
     let error = stiffness(&path, None).unwrap_err();
-    assert!(
-        matches!(&error, Error::Hdf5ExternalStorage { object, .. } if object == "/K/data"),
-        "{error}"
-    );
+    assert!(matches!(&error, Error::Hdf5ExternalStorage { object, .. } if object == "/K/data"), "{error}");
 }
 
 #[test]
 fn filters_without_a_bound_are_refused() {
-    for (group, expected) in [
-        ("lzf", "lzf"),
-        ("twice", "deflate, a second time"),
-        ("wide", "of more than 32 parameters"),
-    ] {
+    for (group, expected) in
+        [("lzf", "lzf"), ("twice", "deflate, a second time"), ("wide", "of more than 32 parameters")]
+    {
         let error = stiffness(&fixture("filters.h5"), Some(group)).unwrap_err();
-        assert!(
-            matches!(&error, Error::Hdf5Filter { filter, .. } if filter == expected),
-            "{error}"
-        );
+        assert!(matches!(&error, Error::Hdf5Filter { filter, .. } if filter == expected), "{error}");
     }
 }
 
@@ -306,18 +262,10 @@ fn a_promise_that_the_bytes_cannot_keep_is_refused_before_it_is_allocated() {
         put(&group, "indptr", &[0_i64, 1]);
         put(&group, "indices", &[0_i64]);
         // Never written, so that nothing is stored: 8 TiB of fill values.
-        group
-            .new_dataset::<f64>()
-            .chunk(1024)
-            .shape(1_usize << 40)
-            .create("data")
-            .unwrap();
+        group.new_dataset::<f64>().chunk(1024).shape(1_usize << 40).create("data").unwrap();
     });
     let error = stiffness(&path, None).unwrap_err();
-    assert!(
-        matches!(&error, Error::Hdf5Size { object, .. } if object == "/K/data"),
-        "{error}"
-    );
+    assert!(matches!(&error, Error::Hdf5Size { object, .. } if object == "/K/data"), "{error}");
 }
 
 #[test]
@@ -332,16 +280,7 @@ fn groups_that_contain_themselves_end_the_search() {
 #[test]
 fn values_that_are_not_real_numbers_are_refused() {
     let error = stiffness(&fixture("complex.h5"), None).unwrap_err();
-    assert!(
-        matches!(
-            error,
-            Error::Hdf5Type {
-                expected: "real numbers",
-                ..
-            }
-        ),
-        "{error}"
-    );
+    assert!(matches!(error, Error::Hdf5Type { expected: "real numbers", .. }), "{error}");
     let (_folder, path) = file_with(|f| {
         let group = f.create_group("K").unwrap();
         put(&group, "indptr", &[0.0, 1.0]);
@@ -349,16 +288,7 @@ fn values_that_are_not_real_numbers_are_refused() {
         put(&group, "data", &[1.0]);
     });
     let error = stiffness(&path, None).unwrap_err();
-    assert!(
-        matches!(
-            error,
-            Error::Hdf5Type {
-                expected: "whole numbers",
-                ..
-            }
-        ),
-        "{error}"
-    );
+    assert!(matches!(error, Error::Hdf5Type { expected: "whole numbers", .. }), "{error}");
 }
 
 #[test]
@@ -383,14 +313,7 @@ fn a_matrix_that_is_not_square_or_empty_is_refused() {
         put(&empty, "jc", &[0_u64]);
     });
     let refused = |group| stiffness(&path, Some(group)).unwrap_err();
-    assert!(matches!(
-        refused("wide"),
-        Error::Hdf5NotSquare {
-            n_rows: 1,
-            n_cols: 2,
-            ..
-        }
-    ));
+    assert!(matches!(refused("wide"), Error::Hdf5NotSquare { n_rows: 1, n_cols: 2, .. }));
     assert!(matches!(refused("negative"), Error::Hdf5NotSquare { .. }));
     assert!(matches!(refused("three"), Error::Hdf5Shape { .. }));
     assert!(matches!(refused("empty"), Error::Hdf5EmptyMatrix { .. }));
@@ -399,35 +322,20 @@ fn a_matrix_that_is_not_square_or_empty_is_refused() {
 #[test]
 fn lengths_that_differ_are_refused() {
     let error = refusal(&[0, 1, 2], &[0], &[1.0, 2.0]);
-    assert!(
-        matches!(&error, Error::Hdf5Shape { object, .. } if object == "/K/indices"),
-        "{error}"
-    );
+    assert!(matches!(&error, Error::Hdf5Shape { object, .. } if object == "/K/indices"), "{error}");
     let (_folder, path) = file_with(|f| {
         put_matrix(f, "K", &[0, 1], &[0], &[4.0]);
         put_attr(&f.group("K").unwrap(), "shape", &[2_i64, 2]);
     });
     let error = stiffness(&path, None).unwrap_err();
-    assert!(
-        matches!(&error, Error::Hdf5Shape { object, .. } if object == "/K/indptr"),
-        "{error}"
-    );
+    assert!(matches!(&error, Error::Hdf5Shape { object, .. } if object == "/K/indptr"), "{error}");
 }
 
 #[test]
 fn pointers_that_do_not_rise_from_zero_to_the_number_of_entries_are_refused() {
-    for (indptr, at) in [
-        ([1, 1, 2], 0),
-        ([0, 3, 2], 2),
-        ([0, 1, 1], 2),
-        ([0, 1, 3], 2),
-        ([0, -1, 2], 1),
-    ] {
+    for (indptr, at) in [([1, 1, 2], 0), ([0, 3, 2], 2), ([0, 1, 1], 2), ([0, 1, 3], 2), ([0, -1, 2], 1)] {
         let error = refusal(&indptr, &[0, 1], &[1.0, 2.0]);
-        assert!(
-            matches!(error, Error::Hdf5Pointer { position, .. } if position == at),
-            "{indptr:?}: {error}"
-        );
+        assert!(matches!(error, Error::Hdf5Pointer { position, .. } if position == at), "{indptr:?}: {error}");
     }
 }
 
@@ -435,10 +343,7 @@ fn pointers_that_do_not_rise_from_zero_to_the_number_of_entries_are_refused() {
 fn an_index_outside_the_matrix_is_refused() {
     for index in [2, -1, i64::MAX, i64::MIN] {
         let error = refusal(&[0, 1, 2], &[0, index], &[1.0, 2.0]);
-        assert!(
-            matches!(error, Error::Hdf5Index { position: 1, found, .. } if found == index),
-            "{error}"
-        );
+        assert!(matches!(error, Error::Hdf5Index { position: 1, found, .. } if found == index), "{error}");
     }
 }
 
@@ -450,10 +355,7 @@ fn an_unsigned_index_beyond_the_signed_range_is_refused() {
         group.unlink("indices").unwrap();
         put(&group, "indices", &[u64::MAX]);
     });
-    assert!(matches!(
-        stiffness(&path, None).unwrap_err(),
-        Error::Hdf5Index { position: 0, .. }
-    ));
+    assert!(matches!(stiffness(&path, None).unwrap_err(), Error::Hdf5Index { position: 0, .. }));
 }
 
 #[test]
@@ -466,9 +368,8 @@ fn a_value_that_is_not_finite_is_refused_with_its_row_and_column() {
 
 #[test]
 fn every_mesh_format_gives_the_same_points() {
-    let expected: Vec<[f64; 3]> = (0..12)
-        .map(|i| [(i / 4) as f64 * 0.5, (i / 2 % 2) as f64 * 0.25, (i % 2) as f64 * 0.125])
-        .collect();
+    let expected: Vec<[f64; 3]> =
+        (0..12).map(|i| [(i / 4) as f64 * 0.5, (i / 2 % 2) as f64 * 0.25, (i % 2) as f64 * 0.125]).collect();
     for file in ["mesh.hmf", "mesh.xdmf", "mesh.med", "mesh.h5m"] {
         let nodes = read_nodes(&fixture(file)).unwrap_or_else(|e| panic!("{file}: {e}"));
         assert_eq!(nodes.coordinates, expected, "{file}");
@@ -480,10 +381,7 @@ fn every_mesh_format_gives_the_same_points() {
 }
 
 fn group<'a>(nodes: &'a Nodes, name: &str) -> &'a [usize] {
-    nodes
-        .groups
-        .get(name)
-        .unwrap_or_else(|| panic!("no {name} in {:?}", nodes.groups.keys()))
+    nodes.groups.get(name).unwrap_or_else(|| panic!("no {name} in {:?}", nodes.groups.keys()))
 }
 
 #[test]
@@ -525,10 +423,7 @@ fn overwrite<T: hdf5_metno::H5Type>(file: &File, name: &str, values: &[T]) {
 #[test]
 fn a_med_file_with_several_meshes_is_refused() {
     let error = med_refusal(|f| drop(f.create_group("ENS_MAA/OTHER").unwrap()));
-    assert!(
-        matches!(&error, Error::MeshNotOne { found, kind: "mesh", .. } if found.len() == 2),
-        "{error}"
-    );
+    assert!(matches!(&error, Error::MeshNotOne { found, kind: "mesh", .. } if found.len() == 2), "{error}");
     let error = med_refusal(|f| drop(f.create_group("ENS_MAA/BAR/2").unwrap()));
     assert!(matches!(error, Error::MeshNotOne { kind: "step", .. }), "{error}");
 }
@@ -559,29 +454,9 @@ fn med_arrays_that_do_not_fit_are_refused() {
     let corners = med_refusal(|f| overwrite(f, &format!("{STEP}/MAI/HE8/NOD"), &[1; 15]));
     assert!(matches!(corners, Error::Hdf5Shape { .. }), "{corners}");
     let corner = med_refusal(|f| overwrite(f, &format!("{STEP}/MAI/HE8/NOD"), &[13; 16]));
-    assert!(
-        matches!(
-            corner,
-            Error::Hdf5Index {
-                found: 13,
-                first: 1,
-                last: 12,
-                ..
-            }
-        ),
-        "{corner}"
-    );
+    assert!(matches!(corner, Error::Hdf5Index { found: 13, first: 1, last: 12, .. }), "{corner}");
     let names = med_refusal(|f| overwrite(f, "FAS/BAR/NOEUD/FAM_1_FOOT/GRO/NOM", &[1.0]));
-    assert!(
-        matches!(
-            names,
-            Error::Hdf5Type {
-                expected: "names of 80 characters",
-                ..
-            }
-        ),
-        "{names}"
-    );
+    assert!(matches!(names, Error::Hdf5Type { expected: "names of 80 characters", .. }), "{names}");
 }
 
 #[test]
@@ -603,26 +478,13 @@ fn coordinates_that_are_not_finite_are_refused() {
         coordinates[12 + 3] = f64::NAN;
         overwrite(f, &format!("{STEP}/NOE/COO"), &coordinates);
     });
-    assert!(
-        matches!(
-            error,
-            Error::MeshNotFinite {
-                label: 104,
-                axis: 1,
-                ..
-            }
-        ),
-        "{error}"
-    );
+    assert!(matches!(error, Error::MeshNotFinite { label: 104, axis: 1, .. }), "{error}");
 }
 
 #[test]
 fn hdf5_without_a_known_mesh_is_refused_with_what_it_holds() {
     let error = read_nodes(&fixture("mesh.h5")).unwrap_err();
-    assert!(
-        matches!(&error, Error::MeshUnknown { holds, .. } if holds == &["/data0", "/flat"]),
-        "{error}"
-    );
+    assert!(matches!(&error, Error::MeshUnknown { holds, .. } if holds == &["/data0", "/flat"]), "{error}");
 }
 
 #[test]
@@ -643,21 +505,13 @@ fn sets_that_cannot_be_right_are_refused() {
     // A thousand ranges that name all thousand nodes each: in a larger file this would never end.
     let endless = refused(&|f| {
         f.unlink("tstt/nodes/coordinates").unwrap();
-        let nodes = f
-            .new_dataset::<f64>()
-            .shape((1000, 3))
-            .create("tstt/nodes/coordinates")
-            .unwrap();
+        let nodes = f.new_dataset::<f64>().shape((1000, 3)).create("tstt/nodes/coordinates").unwrap();
         nodes.write_raw(&[0.0; 3000]).unwrap();
         overwrite(f, "tstt/sets/contents", &[1, 1000].repeat(1000));
         f.unlink("tstt/sets/list").unwrap();
         let list = f.new_dataset::<i64>().shape((1, 4)).create("tstt/sets/list").unwrap();
         list.write_raw(&[1999, -1, -1, 8]).unwrap();
-        list.new_attr::<i64>()
-            .create("start_id")
-            .unwrap()
-            .write_scalar(&5000)
-            .unwrap();
+        list.new_attr::<i64>().create("start_id").unwrap().write_scalar(&5000).unwrap();
         overwrite(f, "tstt/tags/NEUMANN_SET/id_list", &[5000]);
     });
     assert!(matches!(endless, Error::Hdf5Depth { .. }), "{endless}");
@@ -713,10 +567,7 @@ fn xdmf_nested_very_deeply_is_read_or_refused() {
 #[test]
 fn xdmf_with_no_or_several_geometries_is_refused() {
     let none = xdmf("<Xdmf/>").unwrap_err();
-    assert!(
-        matches!(&none, Error::MeshNotOne { found, .. } if found.is_empty()),
-        "{none}"
-    );
+    assert!(matches!(&none, Error::MeshNotOne { found, .. } if found.is_empty()), "{none}");
     let two =
         "<Xdmf><Geometry><DataItem>0 0 0</DataItem></Geometry><Geometry><DataItem>1 1 1</DataItem></Geometry></Xdmf>";
     assert!(matches!(xdmf(two).unwrap_err(), Error::MeshNotOne { found, .. } if found.len() == 2));
@@ -739,29 +590,13 @@ fn xdmf_geometries_that_are_not_lists_of_points_are_refused() {
     let short = xdmf(&geometry("XYZ", "HDF", "mesh.h5:/flat")).unwrap_err();
     assert!(matches!(short, Error::Hdf5Shape { .. }), "{short}");
     let word = xdmf(&geometry("XYZ", "XML", "0 0 x")).unwrap_err();
-    assert!(
-        matches!(
-            word,
-            Error::Hdf5Type {
-                expected: "real numbers",
-                ..
-            }
-        ),
-        "{word}"
-    );
+    assert!(matches!(word, Error::Hdf5Type { expected: "real numbers", .. }), "{word}");
 }
 
 #[test]
 fn no_cut_of_a_file_panics() {
     let folder = tempfile::tempdir().unwrap();
-    for name in [
-        "matlab.mat",
-        "anndata.h5ad",
-        "plain.h5",
-        "mesh.med",
-        "mesh.h5m",
-        "mesh.hmf",
-    ] {
+    for name in ["matlab.mat", "anndata.h5ad", "plain.h5", "mesh.med", "mesh.h5m", "mesh.hmf"] {
         let bytes = fs::read(fixture(name)).unwrap();
         let path = folder.path().join(name);
         // Every length below the first 100 bytes, then a prime step, so that every structure is cut somewhere.
@@ -798,58 +633,22 @@ fn corpus_matrices_are_read_or_refused_by_name() {
     assert_eq!(counts("MAT_v7.3_sparse.mat", "sparse_eye"), (20, 20));
     assert_eq!(counts("MAT_v7.3_sparse.mat", "sparse_zeros"), (20, 0));
     assert_eq!(counts("MAT_v7.3_sparse.mat", "sparse_logical"), (5, 5));
-    assert_eq!(
-        counts("anndata_v0.5.0_adata.h5ad", "uns/neighbors/connectivities"),
-        (700, 9992)
-    );
-    assert_eq!(
-        counts("anndata_v0.5.0_adata.h5ad", "uns/neighbors/distances"),
-        (700, 6300)
-    );
+    assert_eq!(counts("anndata_v0.5.0_adata.h5ad", "uns/neighbors/connectivities"), (700, 9992));
+    assert_eq!(counts("anndata_v0.5.0_adata.h5ad", "uns/neighbors/distances"), (700, 6300));
     let petsc = read("petsc_matrices_tiny_system_with_x0.mat", None).unwrap();
     assert_eq!((petsc.matrix.rows(), petsc.matrix.nnz()), (4, 10));
 
     let refused = |file, group| read(file, group).unwrap_err();
-    assert!(matches!(
-        refused("MAT_v7.3_sparse.mat", None),
-        Error::Hdf5AmbiguousMatrix { .. }
-    ));
-    assert!(matches!(
-        refused("MAT_v7.3_sparse.mat", Some("sparse_empty")),
-        Error::Hdf5EmptyMatrix { .. }
-    ));
-    assert!(matches!(
-        refused("MAT_v7.3_sparse.mat", Some("sparse_complex")),
-        Error::Hdf5Type { .. }
-    ));
-    assert!(matches!(
-        refused("MAT_v7.3_partial.mat", None),
-        Error::Hdf5NoMatrix { .. }
-    ));
-    assert!(matches!(
-        refused("MAT_v7_sparse.mat", None),
-        Error::Hdf5Signature { .. }
-    ));
-    assert!(matches!(
-        refused("anndata_v0.5.0_adata.h5ad", None),
-        Error::Hdf5AmbiguousMatrix { .. }
-    ));
-    assert!(matches!(
-        refused("anndata_v0.5.0_adata.h5ad", Some("raw.X")),
-        Error::Hdf5NotSquare { .. }
-    ));
-    assert!(matches!(
-        refused("anndata_v0.7.0_adata.h5ad", Some("obsp/sparse")),
-        Error::Hdf5Filter { .. }
-    ));
-    assert!(matches!(
-        refused("mat7.3_tests_testfile6.mat", None),
-        Error::Hdf5NoMatrix { .. }
-    ));
-    assert!(matches!(
-        refused("mat7.3_tests_testfile8.mat", None),
-        Error::Hdf5NoMatrix { .. }
-    ));
+    assert!(matches!(refused("MAT_v7.3_sparse.mat", None), Error::Hdf5AmbiguousMatrix { .. }));
+    assert!(matches!(refused("MAT_v7.3_sparse.mat", Some("sparse_empty")), Error::Hdf5EmptyMatrix { .. }));
+    assert!(matches!(refused("MAT_v7.3_sparse.mat", Some("sparse_complex")), Error::Hdf5Type { .. }));
+    assert!(matches!(refused("MAT_v7.3_partial.mat", None), Error::Hdf5NoMatrix { .. }));
+    assert!(matches!(refused("MAT_v7_sparse.mat", None), Error::Hdf5Signature { .. }));
+    assert!(matches!(refused("anndata_v0.5.0_adata.h5ad", None), Error::Hdf5AmbiguousMatrix { .. }));
+    assert!(matches!(refused("anndata_v0.5.0_adata.h5ad", Some("raw.X")), Error::Hdf5NotSquare { .. }));
+    assert!(matches!(refused("anndata_v0.7.0_adata.h5ad", Some("obsp/sparse")), Error::Hdf5Filter { .. }));
+    assert!(matches!(refused("mat7.3_tests_testfile6.mat", None), Error::Hdf5NoMatrix { .. }));
+    assert!(matches!(refused("mat7.3_tests_testfile8.mat", None), Error::Hdf5NoMatrix { .. }));
 }
 
 #[test]
@@ -880,18 +679,9 @@ fn corpus_meshes_give_their_nodes_or_are_refused_by_name() {
         ("xdmf/meshio/out.xdmf", 4),
     ] {
         let nodes = read_nodes(&folder.join(file)).unwrap_or_else(|e| panic!("{file}: {e}"));
-        assert_eq!(
-            (nodes.coordinates.len(), nodes.labels.len()),
-            (n_nodes, n_nodes),
-            "{file}"
-        );
+        assert_eq!((nodes.coordinates.len(), nodes.labels.len()), (n_nodes, n_nodes), "{file}");
     }
-    for (folder_name, file) in [
-        ("cgns", ".cgns"),
-        ("nastran_h5", ".h5"),
-        ("petsc_dmplex", ".h5"),
-        ("vtkhdf", ".hdf"),
-    ] {
+    for (folder_name, file) in [("cgns", ".cgns"), ("nastran_h5", ".h5"), ("petsc_dmplex", ".h5"), ("vtkhdf", ".hdf")] {
         for entry in fs::read_dir(folder.join(folder_name)).unwrap() {
             let path = entry.unwrap().path();
             assert!(path.to_string_lossy().ends_with(file));
@@ -932,27 +722,13 @@ fn corpus_med_groups_are_read_by_name() {
     let names: Vec<&str> = quad.groups.keys().map(String::as_str).collect();
     assert_eq!(
         names,
-        [
-            "BLOCK",
-            "BOTTOM",
-            "BOTTOM_LEFT",
-            "BOTTOM_RIGHT",
-            "LEFT",
-            "RIGHT",
-            "TOP",
-            "TOP_LEFT",
-            "TOP_RIGHT"
-        ]
+        ["BLOCK", "BOTTOM", "BOTTOM_LEFT", "BOTTOM_RIGHT", "LEFT", "RIGHT", "TOP", "TOP_LEFT", "TOP_RIGHT"]
     );
     let [left, top] = ["LEFT", "TOP"].map(|name| group(&quad, name));
     let corner: Vec<&usize> = left.iter().filter(|n| top.contains(n)).collect();
     assert_eq!(corner, [&group(&quad, "TOP_LEFT")[0]]);
     let hexes = read("AsterReader_hexmeshOverlappingGroups.med");
-    assert!(
-        group(&hexes, "halfhex")
-            .iter()
-            .any(|n| group(&hexes, "mosthex").contains(n))
-    );
+    assert!(group(&hexes, "halfhex").iter().any(|n| group(&hexes, "mosthex").contains(n)));
     let box_ = read("adapy_box.med");
     assert_eq!((group(&box_, "Left").len(), group(&box_, "Right").len()), (4, 4));
     let joint = read("JuliaFEM_joint.med");

@@ -87,21 +87,13 @@ fn every_key_of_a_toml_job_is_read() {
     let job = Job::parse(FULL, Path::new("job.toml")).expect("a job");
     job.validate().expect("valid");
     assert_eq!(job.model.mass, PathBuf::from("model.h5:/M"));
-    assert_eq!(
-        job.model.expect.as_ref().and_then(|expect| expect.cg),
-        Some([0.0, 0.0, 41.2])
-    );
+    assert_eq!(job.model.expect.as_ref().and_then(|expect| expect.cg), Some([0.0, 0.0, 41.2]));
     assert_eq!(job.interfaces[0].nodes.group_name(), Some("HUB"));
     assert_eq!(job.interfaces[0].coupling, Coupling::Rigid);
     assert_eq!(job.interfaces[0].origin, Origin::Point([0.0, 0.0, 12.5]));
     assert_eq!(job.interfaces[1].nodes, NodeSelection::Labels(vec![412, 413]));
     assert_eq!(job.interfaces[2].origin, Origin::Centroid);
-    let rim = Region::Cylinder {
-        from: [0.0; 3],
-        to: [0.0, 0.0, 1.0],
-        radius: 5.0,
-        inner_radius: 0.0,
-    };
+    let rim = Region::Cylinder { from: [0.0; 3], to: [0.0, 0.0, 1.0], radius: 5.0, inner_radius: 0.0 };
     assert_eq!(job.interfaces[2].nodes, NodeSelection::Region { within: rim });
     assert_eq!(job.reduction.method, Method::Herting);
     assert_eq!(job.reduction.modes, ModeSelection::UpTo { up_to_hz: 1000.0 });
@@ -149,10 +141,7 @@ fn a_missing_job_is_an_input_output_error() {
 fn unknown_keys_are_located_with_a_suggestion() {
     let text = FULL.replace("stiffness = ", "stifness = ");
     let error = Job::parse(&text, Path::new("job.toml")).expect_err("a misspelt key");
-    assert_eq!(
-        error.to_string(),
-        "job.toml:3: unknown key `model.stifness` – did you mean `stiffness`?"
-    );
+    assert_eq!(error.to_string(), "job.toml:3: unknown key `model.stifness` – did you mean `stiffness`?");
     let text = FULL.replace("radius = 5", "radios = 5");
     let error = Job::parse(&text, Path::new("job.toml")).expect_err("a misspelt key");
     let expected = "job.toml:23: unknown key `interface[2].nodes.within.cylinder.radios` – did you mean `radius`?";
@@ -190,23 +179,12 @@ fn values_of_the_wrong_kind_are_located() {
 #[test]
 fn numbers_out_of_range_are_refused() {
     let band = |hz: f64| with("/reduction/modes", json!({ "up_to_hz": hz }));
-    assert_eq!(
-        message(&band(0.0)),
-        "`reduction.modes.up_to_hz` is 0 – expected a positive number"
-    );
-    assert_eq!(
-        message(&band(-5.0)),
-        "`reduction.modes.up_to_hz` is -5 – expected a positive number"
-    );
+    assert_eq!(message(&band(0.0)), "`reduction.modes.up_to_hz` is 0 – expected a positive number");
+    assert_eq!(message(&band(-5.0)), "`reduction.modes.up_to_hz` is -5 – expected a positive number");
     let text = FULL.replace("up_to_hz = 1000", "up_to_hz = nan");
-    let error = Job::parse(&text, Path::new("job.toml"))
-        .and_then(|job| job.validate())
-        .expect_err("nan");
+    let error = Job::parse(&text, Path::new("job.toml")).and_then(|job| job.validate()).expect_err("nan");
     assert!(matches!(error, Error::JobNumber { .. }));
-    assert!(
-        read(&with("/reduction/modes", json!({ "count": 0 }))).is_ok(),
-        "no modes is static condensation"
-    );
+    assert!(read(&with("/reduction/modes", json!({ "count": 0 }))).is_ok(), "no modes is static condensation");
     assert!(read(&with("/run", json!({ "memory_gib": 0 }))).is_err());
     assert!(read(&with("/model/expect", json!({ "mass": -1 }))).is_err());
 }
@@ -224,30 +202,12 @@ fn regions_must_hold_something() {
         assert!(read(&within(region.clone())).is_ok(), "{region}");
     }
     let bad = [
-        (
-            json!({ "box": { "min": [0, 2, 0], "max": [1, 1, 1] } }),
-            "box.max` is 1",
-        ),
-        (
-            json!({ "plane": { "point": [0, 0, 0], "normal": [0, 0, 0], "tolerance": 1 } }),
-            "a vector with a direction",
-        ),
-        (
-            json!({ "plane": { "point": [0, 0, 0], "normal": [0, 0, 1], "tolerance": -1 } }),
-            "zero or more",
-        ),
-        (
-            json!({ "cylinder": { "from": [1, 1, 1], "to": [1, 1, 1], "radius": 2 } }),
-            "a vector with a direction",
-        ),
-        (
-            json!({ "cylinder": { "from": [0, 0, 0], "to": [0, 0, 1], "radius": 2, "inner_radius": 3 } }),
-            "at most",
-        ),
-        (
-            json!({ "sphere": { "center": [0, 0, 0], "radius": 0 } }),
-            "a positive number",
-        ),
+        (json!({ "box": { "min": [0, 2, 0], "max": [1, 1, 1] } }), "box.max` is 1"),
+        (json!({ "plane": { "point": [0, 0, 0], "normal": [0, 0, 0], "tolerance": 1 } }), "a vector with a direction"),
+        (json!({ "plane": { "point": [0, 0, 0], "normal": [0, 0, 1], "tolerance": -1 } }), "zero or more"),
+        (json!({ "cylinder": { "from": [1, 1, 1], "to": [1, 1, 1], "radius": 2 } }), "a vector with a direction"),
+        (json!({ "cylinder": { "from": [0, 0, 0], "to": [0, 0, 1], "radius": 2, "inner_radius": 3 } }), "at most"),
+        (json!({ "sphere": { "center": [0, 0, 0], "radius": 0 } }), "a positive number"),
     ];
     for (region, expected) in bad {
         let message = message(&within(region));
@@ -258,28 +218,13 @@ fn regions_must_hold_something() {
 #[test]
 fn names_and_selections_of_interfaces_are_checked() {
     let second = |name: &str, nodes: Value| with("/interface/1", json!({ "name": name, "nodes": nodes }));
-    assert!(matches!(
-        read(&second("hub", json!([9]))),
-        Err(Error::InterfaceTwice { .. })
-    ));
+    assert!(matches!(read(&second("hub", json!([9]))), Err(Error::InterfaceTwice { .. })));
     assert!(matches!(read(&second(" ", json!([9]))), Err(Error::JobEmpty { .. })));
     assert!(matches!(read(&second("b", json!([]))), Err(Error::JobEmpty { .. })));
-    assert!(matches!(
-        read(&second("b", json!({ "rows": [] }))),
-        Err(Error::JobEmpty { .. })
-    ));
-    assert!(matches!(
-        read(&second("b", json!("HUB"))),
-        Err(Error::InterfaceNodes { .. })
-    ));
-    assert!(matches!(
-        read(&second("b", json!("group:"))),
-        Err(Error::InterfaceNodes { .. })
-    ));
-    assert_eq!(
-        message(&second("b", json!([7, 8, 7]))),
-        "interface `b`: node 7 is listed twice – list each once"
-    );
+    assert!(matches!(read(&second("b", json!({ "rows": [] }))), Err(Error::JobEmpty { .. })));
+    assert!(matches!(read(&second("b", json!("HUB"))), Err(Error::InterfaceNodes { .. })));
+    assert!(matches!(read(&second("b", json!("group:"))), Err(Error::InterfaceNodes { .. })));
+    assert_eq!(message(&second("b", json!([7, 8, 7]))), "interface `b`: node 7 is listed twice – list each once");
     assert_eq!(
         message(&second("b", json!({ "rows": [0, 0] }))),
         "interface `b`: row 0 is listed twice – list each once"
@@ -288,10 +233,7 @@ fn names_and_selections_of_interfaces_are_checked() {
         message(&second("b", json!([3, 2]))),
         "interfaces `hub` and `b` both list node 2 – it can belong to one of them"
     );
-    assert!(matches!(
-        read(&with("/model/stiffness", "".into())),
-        Err(Error::JobEmpty { .. })
-    ));
+    assert!(matches!(read(&with("/model/stiffness", "".into())), Err(Error::JobEmpty { .. })));
 }
 
 #[test]
@@ -316,18 +258,9 @@ fn keys_that_contradict_the_coupling_are_refused() {
         document["interface"][0][key] = value;
         read(&document)
     };
-    assert!(matches!(
-        rows("coupling", "rigid".into()),
-        Err(Error::InterfaceConflict { .. })
-    ));
-    assert!(matches!(
-        rows("dofs", json!(["ux"])),
-        Err(Error::InterfaceConflict { .. })
-    ));
-    assert!(matches!(
-        read(&with("/interface/0/dofs", json!([]))),
-        Err(Error::JobEmpty { .. })
-    ));
+    assert!(matches!(rows("coupling", "rigid".into()), Err(Error::InterfaceConflict { .. })));
+    assert!(matches!(rows("dofs", json!(["ux"])), Err(Error::InterfaceConflict { .. })));
+    assert!(matches!(read(&with("/interface/0/dofs", json!([]))), Err(Error::JobEmpty { .. })));
     assert_eq!(
         message(&with("/interface/0/dofs", json!(["ux", "ux"]))),
         "interface `hub`: direction ux is listed twice – list each once"
@@ -340,14 +273,8 @@ fn names_of_outputs_say_what_they_are() {
         message(&with("/write/superelement", "x.h5".into())),
         "`write.superelement` is x.h5 – expected a name that ends in .supel"
     );
-    assert!(matches!(
-        read(&with("/write/superelement", "out/.supel".into())),
-        Err(Error::OutputName { .. })
-    ));
-    assert!(matches!(
-        read(&with("/write/report", "x.txt".into())),
-        Err(Error::OutputName { .. })
-    ));
+    assert!(matches!(read(&with("/write/superelement", "out/.supel".into())), Err(Error::OutputName { .. })));
+    assert!(matches!(read(&with("/write/report", "x.txt".into())), Err(Error::OutputName { .. })));
 }
 
 /// The small job with one thing changed, some changes allowed and some not.
@@ -364,25 +291,13 @@ fn changed_jobs() -> Vec<Value> {
         with("/interface/0/coupling", "average".into()),
         with("/interface/0/origin", "centroid".into()),
         with("/interface/0/origin", "middle".into()),
-        with(
-            "/interface/0/nodes",
-            json!({ "within": { "sphere": { "center": [0, 0, 0], "radius": 1 } } }),
-        ),
-        with(
-            "/interface/0/nodes",
-            json!({ "within": { "sphere": { "center": [0, 0], "radius": 1 } } }),
-        ),
-        with(
-            "/interface/0/nodes",
-            json!({ "within": { "sphere": { "center": [0, 0, 0], "radius": 0 } } }),
-        ),
+        with("/interface/0/nodes", json!({ "within": { "sphere": { "center": [0, 0, 0], "radius": 1 } } })),
+        with("/interface/0/nodes", json!({ "within": { "sphere": { "center": [0, 0], "radius": 1 } } })),
+        with("/interface/0/nodes", json!({ "within": { "sphere": { "center": [0, 0, 0], "radius": 0 } } })),
         with("/interface/0/nodes", json!({ "within": { "cone": {} } })),
         with("/interface/0/nodes", json!({ "rows": [0] })),
         with("/interface/0/nodes", json!({ "rows": [-1] })),
-        with(
-            "/interface/0/nodes",
-            json!({ "rows": [0], "within": { "box": { "min": [0, 0, 0], "max": [1, 1, 1] } } }),
-        ),
+        with("/interface/0/nodes", json!({ "rows": [0], "within": { "box": { "min": [0, 0, 0], "max": [1, 1, 1] } } })),
         with("/interface/0/nodes", json!({})),
         with("/interface/0/nodes", json!([1.5])),
         interface(json!({ "nodes": [7] })),
@@ -412,12 +327,7 @@ fn schema_and_program_agree() {
     let mut n_accepted = 0;
     for case in changed_jobs() {
         let found = read(&case);
-        assert_eq!(
-            schema.is_valid(&case),
-            found.is_ok(),
-            "{case}: {:?}",
-            found.err().map(|error| error.to_string())
-        );
+        assert_eq!(schema.is_valid(&case), found.is_ok(), "{case}: {:?}", found.err().map(|error| error.to_string()));
         n_accepted += usize::from(found.is_ok());
     }
     assert!((10..26).contains(&n_accepted), "{n_accepted} of the cases are accepted");

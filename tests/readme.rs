@@ -47,16 +47,9 @@ fn search_path() -> std::ffi::OsString {
 }
 
 fn run(folder: &Path, program: &str, args: &[&str]) {
-    let ended = Command::new(program)
-        .args(args)
-        .current_dir(folder)
-        .env("PATH", search_path())
-        .output();
+    let ended = Command::new(program).args(args).current_dir(folder).env("PATH", search_path()).output();
     let ended = ended.unwrap_or_else(|error| panic!("{program}: {error}"));
-    let (out, err) = (
-        String::from_utf8_lossy(&ended.stdout),
-        String::from_utf8_lossy(&ended.stderr),
-    );
+    let (out, err) = (String::from_utf8_lossy(&ended.stdout), String::from_utf8_lossy(&ended.stderr));
     assert!(ended.status.success(), "{}\n{out}\n{err}", args.join(" "));
     assert!(!out.contains("False"), "{out}");
 }
@@ -88,11 +81,7 @@ fn every_command_of_the_readme_runs() {
     assert_eq!(n_run, 6, "blocks that were run");
     let again = Job::read(&folder.path().join("again.json")).expect("the job kept in the file is a job");
     assert_eq!(again.write.superelement.file_name(), Some("small.supel".as_ref()));
-    for name in [
-        "examples/bracket/bracket.supel",
-        "examples/bracket/bracket.report.json",
-        "bracket-cb.supel",
-    ] {
+    for name in ["examples/bracket/bracket.supel", "examples/bracket/bracket.report.json", "bracket-cb.supel"] {
         assert!(folder.path().join(name).exists(), "{name} was not written");
     }
 }

@@ -16,10 +16,7 @@ fn document(report: &Report) -> Value {
 }
 
 fn violations(document: &Value) -> Vec<String> {
-    validator()
-        .iter_errors(document)
-        .map(|error| format!("{}: {error}", error.instance_path()))
-        .collect()
+    validator().iter_errors(document).map(|error| format!("{}: {error}", error.instance_path())).collect()
 }
 
 #[test]
@@ -34,9 +31,7 @@ fn report_without_anything_optional_follows_its_schema() {
     report.body.model.n_nodes = None;
     report.body.model.units = None;
     report.body.model.mass_properties = Default::default();
-    report.body.completeness = Completeness::NotCertified {
-        reason: "--certify none was asked".to_owned(),
-    };
+    report.body.completeness = Completeness::NotCertified { reason: "--certify none was asked".to_owned() };
     report.run.peak_memory_bytes = None;
     report.run.file_bytes = None;
     report.run.superelement = None;
@@ -66,17 +61,11 @@ fn schema_is_strict_at_every_object() {
     let validator = validator();
     for place in places {
         let mut more = good.clone();
-        more.pointer_mut(&place)
-            .and_then(Value::as_object_mut)
-            .expect("object")
-            .insert("surplus".into(), 1.into());
+        more.pointer_mut(&place).and_then(Value::as_object_mut).expect("object").insert("surplus".into(), 1.into());
         assert!(!validator.is_valid(&more), "surplus field accepted at `{place}`");
         for key in good.pointer(&place).and_then(Value::as_object).expect("object").keys() {
             let mut less = good.clone();
-            less.pointer_mut(&place)
-                .and_then(Value::as_object_mut)
-                .expect("object")
-                .remove(key);
+            less.pointer_mut(&place).and_then(Value::as_object_mut).expect("object").remove(key);
             assert!(!validator.is_valid(&less), "`{place}` accepted without `{key}`");
         }
     }
@@ -85,17 +74,12 @@ fn schema_is_strict_at_every_object() {
 fn collect_objects(value: &Value, place: String, places: &mut Vec<String>) {
     match value {
         Value::Object(fields) => {
-            fields
-                .iter()
-                .for_each(|(key, field)| collect_objects(field, format!("{place}/{key}"), places));
+            fields.iter().for_each(|(key, field)| collect_objects(field, format!("{place}/{key}"), places));
             places.push(place);
         }
         Value::Array(items) => {
             // One element speaks for a list.
-            items
-                .iter()
-                .take(1)
-                .for_each(|item| collect_objects(item, format!("{place}/0"), places));
+            items.iter().take(1).for_each(|item| collect_objects(item, format!("{place}/0"), places));
         }
         _ => {}
     }
@@ -121,11 +105,7 @@ fn warnings_and_missing_modes_weigh_in_the_verdict() {
     warned.body.warnings = sample::full_report().body.warnings;
     assert_eq!(warned.body.verdict(), Verdict::Warn);
     let mut incomplete = sample::passing_report();
-    incomplete.body.completeness = Completeness::SturmCount {
-        below_hz: 1.0,
-        n_counted: 8,
-        n_found: 7,
-    };
+    incomplete.body.completeness = Completeness::SturmCount { below_hz: 1.0, n_counted: 8, n_found: 7 };
     assert!(!incomplete.body.completeness.is_certified());
     assert_eq!(incomplete.body.verdict(), Verdict::Fail);
 }
@@ -155,11 +135,7 @@ fn summary_fits_the_page_and_colour_changes_no_text() {
     assert!(coloured.contains('\x1b'));
     let mut stripped = String::new();
     for (piece_idx, piece) in coloured.split('\x1b').enumerate() {
-        stripped.push_str(if piece_idx == 0 {
-            piece
-        } else {
-            piece.split_once('m').expect("sequence ends").1
-        });
+        stripped.push_str(if piece_idx == 0 { piece } else { piece.split_once('m').expect("sequence ends").1 });
     }
     // Blanks before a colour's end cannot be trimmed from the line.
     let lines = |text: &str| -> Vec<String> { text.lines().map(|line| line.trim_end().to_owned()).collect() };
@@ -171,18 +147,9 @@ fn report_appears_whole_or_not_at_all() {
     let folder = tempfile::tempdir().expect("folder");
     let path = folder.path().join("a.report.json");
     sample::passing_report().write(&path).expect("written");
-    assert_eq!(
-        std::fs::read_to_string(&path).expect("read"),
-        sample::passing_report().to_json()
-    );
-    assert_eq!(
-        std::fs::read_dir(folder.path()).expect("folder").count(),
-        1,
-        "temporary file left"
-    );
-    let error = sample::passing_report()
-        .write(&folder.path().join("missing/a.json"))
-        .expect_err("no such folder");
+    assert_eq!(std::fs::read_to_string(&path).expect("read"), sample::passing_report().to_json());
+    assert_eq!(std::fs::read_dir(folder.path()).expect("folder").count(), 1, "temporary file left");
+    let error = sample::passing_report().write(&folder.path().join("missing/a.json")).expect_err("no such folder");
     assert_eq!(error.class(), supel::error::ErrorClass::Io);
 }
 
@@ -201,10 +168,7 @@ fn stage_clock_measures_each_stage_once_and_passes_it_on() {
     clock.stage("modes");
     clock.stage("factor");
     let times = clock.finish();
-    assert_eq!(
-        times.iter().map(|time| time.name).collect::<Vec<_>>(),
-        ["factor", "modes"]
-    );
+    assert_eq!(times.iter().map(|time| time.name).collect::<Vec<_>>(), ["factor", "modes"]);
     assert!(times[0].seconds >= 0.02, "{}", times[0].seconds);
     assert!(times[1].seconds < 0.02, "{}", times[1].seconds);
     assert_eq!(names.0, ["factor", "modes", "factor"]);

@@ -32,20 +32,14 @@ fn document(superelement: &Superelement) -> Value {
 
 #[track_caller]
 fn assert_follows(schema: &jsonschema::Validator, document: &Value) {
-    let errors = schema
-        .iter_errors(document)
-        .map(|error| format!("{}: {error}", error.instance_path()));
+    let errors = schema.iter_errors(document).map(|error| format!("{}: {error}", error.instance_path()));
     assert_eq!(errors.collect::<Vec<_>>(), Vec::<String>::new());
 }
 
 #[test]
 fn metadata_of_every_kind_follow_the_schema() {
     let schema = schema();
-    for superelement in [
-        sample::complete(),
-        sample::two_particles(),
-        sample::component(Method::CraigBampton),
-    ] {
+    for superelement in [sample::complete(), sample::two_particles(), sample::component(Method::CraigBampton)] {
         assert_follows(&schema, &document(&superelement));
     }
     let methods = [
@@ -66,18 +60,10 @@ fn metadata_of_every_kind_follow_the_schema() {
         assert_follows(&schema, &document);
     }
     document["flags"] = serde_json::to_value([Flag::SingularMass]).unwrap();
-    let mode = |error_bar_hz| Coordinate::FixedInterfaceMode {
-        mode: 3,
-        frequency_hz: 12.5,
-        error_bar_hz,
-    };
+    let mode = |error_bar_hz| Coordinate::FixedInterfaceMode { mode: 3, frequency_hz: 12.5, error_bar_hz };
     let mut coordinates = vec![mode(None), mode(Some(1e-6)), Coordinate::InertiaRelief { index: 0 }];
     coordinates.push(Coordinate::InterfaceRow { row: 7 });
-    coordinates.push(Coordinate::ElasticMode {
-        mode: 0,
-        frequency_hz: 1.0,
-        error_bar_hz: None,
-    });
+    coordinates.push(Coordinate::ElasticMode { mode: 0, frequency_hz: 1.0, error_bar_hz: None });
     coordinates.extend(Direction::ALL.map(|direction| Coordinate::Interface { node: 0, direction }));
     document["coordinates"] = serde_json::to_value(coordinates).unwrap();
     assert_follows(&schema, &document);
@@ -116,12 +102,7 @@ fn schema_allows_no_other_field_and_misses_none() {
         let fields = good.pointer(&pointer).unwrap().as_object().unwrap();
         for key in fields.keys() {
             let mut document = good.clone();
-            document
-                .pointer_mut(&pointer)
-                .unwrap()
-                .as_object_mut()
-                .unwrap()
-                .remove(key);
+            document.pointer_mut(&pointer).unwrap().as_object_mut().unwrap().remove(key);
             assert!(!schema.is_valid(&document), "`{key}` may be missing at `{pointer}`");
         }
     }
@@ -134,50 +115,28 @@ fn schema_allows_no_other_field_and_misses_none() {
 /// The interpreter is `SUPEL_PYTHON`, or `python3`.
 fn python_check(superelement: &Superelement) -> Option<Output> {
     let interpreter = std::env::var_os("SUPEL_PYTHON").unwrap_or_else(|| "python3".into());
-    let probe = Command::new(&interpreter)
-        .args(["-c", "import numpy, safetensors"])
-        .output();
+    let probe = Command::new(&interpreter).args(["-c", "import numpy, safetensors"]).output();
     if !probe.is_ok_and(|probe| probe.status.success()) {
-        println!(
-            "skipped: {} has no numpy and safetensors; set SUPEL_PYTHON",
-            interpreter.display()
-        );
+        println!("skipped: {} has no numpy and safetensors; set SUPEL_PYTHON", interpreter.display());
         return None;
     }
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("sample.supel");
     superelement.write(&path).unwrap();
     let script = in_project("tests/superelement_file.py");
-    Some(
-        Command::new(&interpreter)
-            .arg(script)
-            .arg(&path)
-            .env("PYTHONUTF8", "1")
-            .output()
-            .unwrap(),
-    )
+    Some(Command::new(&interpreter).arg(script).arg(&path).env("PYTHONUTF8", "1").output().unwrap())
 }
 
 #[test]
 fn python_confirms_good_files() {
     let by_method = [Method::CraigBampton, Method::Herting].map(sample::component);
-    for superelement in by_method
-        .into_iter()
-        .chain([sample::complete(), sample::two_particles()])
-    {
+    for superelement in by_method.into_iter().chain([sample::complete(), sample::two_particles()]) {
         let Some(output) = python_check(&superelement) else {
             return;
         };
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
-        assert!(
-            output.status.success(),
-            "{text}{}",
-            String::from_utf8_lossy(&output.stderr)
-        );
-        assert!(
-            text.contains("frequencies: ") && !text.contains("frequencies: skipped"),
-            "{text}"
-        );
+        assert!(output.status.success(), "{text}{}", String::from_utf8_lossy(&output.stderr));
+        assert!(text.contains("frequencies: ") && !text.contains("frequencies: skipped"), "{text}");
         let has_mass_properties = superelement.metadata().model.mass_properties.is_some();
         assert_eq!(text.contains("mass properties: mass 4,"), has_mass_properties, "{text}");
     }
@@ -188,21 +147,11 @@ fn python_confirms_good_files() {
 fn python_refuses_wrong_physics() {
     type Change = fn(&mut Tensors, &mut Metadata);
     let changes: [(&str, Change); 5] = [
-        ("rigid-body motion is resisted", |t, _| {
-            t.stiffness = changed(&t.stiffness, (4, 4), 1e-3)
-        }),
-        ("the reduced matrices give", |t, _| {
-            t.stiffness = changed(&t.stiffness, (7, 7), 1.0)
-        }),
-        ("differs from rigid_body_mass", |t, _| {
-            t.mass = changed(&t.mass, (5, 5), 1e-6)
-        }),
-        ("centre of mass is", |_, m| {
-            m.model.mass_properties.as_mut().unwrap().center_of_mass[1] += 1e-6
-        }),
-        ("inertia is", |_, m| {
-            m.model.mass_properties.as_mut().unwrap().inertia[0][2] += 1e-6
-        }),
+        ("rigid-body motion is resisted", |t, _| t.stiffness = changed(&t.stiffness, (4, 4), 1e-3)),
+        ("the reduced matrices give", |t, _| t.stiffness = changed(&t.stiffness, (7, 7), 1.0)),
+        ("differs from rigid_body_mass", |t, _| t.mass = changed(&t.mass, (5, 5), 1e-6)),
+        ("centre of mass is", |_, m| m.model.mass_properties.as_mut().unwrap().center_of_mass[1] += 1e-6),
+        ("inertia is", |_, m| m.model.mass_properties.as_mut().unwrap().inertia[0][2] += 1e-6),
     ];
     for (message, change) in changes {
         let (mut tensors, mut metadata) = sample::parts(Method::Herting);

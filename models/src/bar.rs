@@ -64,9 +64,7 @@ pub fn spring_spectrum(n: usize, ends: Ends) -> Vec<f64> {
         Ends::Fixed => (1, n + 1),
         Ends::Free => (0, n),
     };
-    (first..first + n)
-        .map(|k| 4.0 * (k as f64 * PI / (2.0 * parts as f64)).sin().powi(2))
-        .collect()
+    (first..first + n).map(|k| 4.0 * (k as f64 * PI / (2.0 * parts as f64)).sin().powi(2)).collect()
 }
 
 /// RING(N, s): N ≥ 3 unit masses on a closed chain of unit springs, each tied to the ground by a spring s.
@@ -92,9 +90,7 @@ pub fn ring(n: usize, s: f64) -> Model {
 /// Exact eigenvalues of [`ring`], ascending: s + 4 sin²(πk/N).
 pub fn ring_spectrum(n: usize, s: f64) -> Vec<f64> {
     // k and N − k give one value; computing it once makes the pair equal to the bit.
-    (0..n)
-        .map(|i| s + 4.0 * (PI * i.div_ceil(2) as f64 / n as f64).sin().powi(2))
-        .collect()
+    (0..n).map(|i| s + 4.0 * (PI * i.div_ceil(2) as f64 / n as f64).sin().powi(2)).collect()
 }
 
 /// Nodes along x with the direction ux alone.
@@ -134,10 +130,6 @@ mod tests {
     #[test]
     fn ring_pairs_are_equal_to_the_bit() {
         let exact = ring_spectrum(240, 0.01);
-        assert!(
-            (1..239)
-                .step_by(2)
-                .all(|i| exact[i].to_bits() == exact[i + 1].to_bits())
-        );
+        assert!((1..239).step_by(2).all(|i| exact[i].to_bits() == exact[i + 1].to_bits()));
     }
 }

@@ -12,9 +12,7 @@ use crate::model::{Material, Model};
 /// Distance below which nodes of two blocks are one, in mm; cells are millimetres, rounding is 1e-14.
 const TOLERANCE: f64 = 1e-6;
 /// Node planes of the base along y: 10 mm cells, but for the web, 12 mm thick.
-const BASE_Y: [f64; 13] = [
-    -60.0, -50.0, -40.0, -30.0, -20.0, -6.0, 0.0, 6.0, 20.0, 30.0, 40.0, 50.0, 60.0,
-];
+const BASE_Y: [f64; 13] = [-60.0, -50.0, -40.0, -30.0, -20.0, -6.0, 0.0, 6.0, 20.0, 30.0, 40.0, 50.0, 60.0];
 const BASE_THICKNESS: f64 = 12.0;
 const BOLT_CENTRES: [[f64; 2]; 4] = [[-60.0, -40.0], [60.0, -40.0], [60.0, 40.0], [-60.0, 40.0]];
 const BOLT_RADIUS: f64 = 9.0;
@@ -60,57 +58,29 @@ fn base() -> HexMesh {
 
 /// A corner of the base: 40 × 40 with a bolt hole, its outer corner rounded about the hole.
 fn base_corner([x, y]: [f64; 2]) -> HexMesh {
-    let plate = HoledPlate {
-        half_width: 20.0,
-        cells: 4,
-        circles: &[BOLT_RADIUS, 13.0],
-        cells_outward: 1,
-    };
-    plate.mesh(
-        2,
-        |p, q| p * x > 0.0 && q * y > 0.0,
-        |p, q, t| [x + p, y + q, BASE_THICKNESS * t],
-    )
+    let plate = HoledPlate { half_width: 20.0, cells: 4, circles: &[BOLT_RADIUS, 13.0], cells_outward: 1 };
+    plate.mesh(2, |p, q| p * x > 0.0 && q * y > 0.0, |p, q, t| [x + p, y + q, BASE_THICKNESS * t])
 }
 
 /// The upright from the base to the eye, with a window.
 fn web() -> HexMesh {
-    let place = |[x, y, z]: [f64; 3]| {
-        [
-            80.0 * x - 40.0,
-            WEB_HALF_THICKNESS * (2.0 * y - 1.0),
-            BASE_THICKNESS + 60.0 * z,
-        ]
-    };
-    HexMesh::structured([8, 2, 6], place, |[i, _, k]| {
-        !((2..6).contains(&i) && (2..5).contains(&k))
-    })
+    let place =
+        |[x, y, z]: [f64; 3]| [80.0 * x - 40.0, WEB_HALF_THICKNESS * (2.0 * y - 1.0), BASE_THICKNESS + 60.0 * z];
+    HexMesh::structured([8, 2, 6], place, |[i, _, k]| !((2..6).contains(&i) && (2..5).contains(&k)))
 }
 
 /// The eye: square where it meets the web, round above its axis.
 fn eye() -> HexMesh {
-    let plate = HoledPlate {
-        half_width: EYE_HALF_WIDTH,
-        cells: 8,
-        circles: &[BORE_RADIUS, BOSS_RADIUS],
-        cells_outward: 2,
-    };
+    let plate =
+        HoledPlate { half_width: EYE_HALF_WIDTH, cells: 8, circles: &[BORE_RADIUS, BOSS_RADIUS], cells_outward: 2 };
     // The plane is x-z, whose normal by the right-hand rule is −y: the thickness runs from +y to −y.
-    plate.mesh(
-        2,
-        |_, q| q > 0.0,
-        |p, q, t| [p, WEB_HALF_THICKNESS * (1.0 - 2.0 * t), EYE_HEIGHT + q],
-    )
+    plate.mesh(2, |_, q| q > 0.0, |p, q, t| [p, WEB_HALF_THICKNESS * (1.0 - 2.0 * t), EYE_HEIGHT + q])
 }
 
 /// A boss about the bore on one side of the eye, `side` = ±1.
 fn boss(side: f64) -> HexMesh {
-    let plate = HoledPlate {
-        half_width: EYE_HALF_WIDTH,
-        cells: 8,
-        circles: &[BORE_RADIUS, BOSS_RADIUS],
-        cells_outward: 0,
-    };
+    let plate =
+        HoledPlate { half_width: EYE_HALF_WIDTH, cells: 8, circles: &[BORE_RADIUS, BOSS_RADIUS], cells_outward: 0 };
     let (outer, inner) = (side * BOSS_HALF_LENGTH, side * WEB_HALF_THICKNESS);
     let (from, to) = (outer.max(inner), outer.min(inner));
     plate.mesh(1, |_, _| true, |p, q, t| [p, from + (to - from) * t, EYE_HEIGHT + q])
@@ -123,11 +93,7 @@ fn gusset([side_x, side_y]: [f64; 2]) -> HexMesh {
         // Mirrored blocks run through their node planes backwards, so that no cell is turned inside out.
         let away = station(&REACH, if side_y > 0.0 { y } else { 1.0 - y });
         let height = 40.0 - 28.0 * (away - REACH[0]) / (REACH[3] - REACH[0]);
-        [
-            side_x * 35.0 + 10.0 * (x - 0.5),
-            side_y * away,
-            BASE_THICKNESS + height * z,
-        ]
+        [side_x * 35.0 + 10.0 * (x - 0.5), side_y * away, BASE_THICKNESS + height * z]
     };
     HexMesh::structured([1, 3, 4], place, |_| true)
 }
@@ -168,17 +134,9 @@ impl HoledPlate<'_> {
                 return place(self.circles[ring] * p, self.circles[ring] * q, t);
             };
             let last = self.circles[self.circles.len() - 1];
-            let border = if is_round(p, q) {
-                [p, q].map(|c| c * self.half_width)
-            } else {
-                self.square(sector)
-            };
+            let border = if is_round(p, q) { [p, q].map(|c| c * self.half_width) } else { self.square(sector) };
             let share = outward as f64 / self.cells_outward as f64;
-            place(
-                last * p + (border[0] - last * p) * share,
-                last * q + (border[1] - last * q) * share,
-                t,
-            )
+            place(last * p + (border[0] - last * p) * share, last * q + (border[1] - last * q) * share, t)
         };
         let mut mesh = HexMesh::default();
         // Merging closes the ring.

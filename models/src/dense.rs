@@ -46,10 +46,7 @@ fn cholesky(mut a: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     let n = a.len();
     for j in 0..n {
         let pivot = a[j][j] - a[j][..j].iter().map(|x| x * x).sum::<f64>();
-        assert!(
-            pivot > 0.0,
-            "mass matrix is not positive definite at row {j}: pivot {pivot}"
-        );
+        assert!(pivot > 0.0, "mass matrix is not positive definite at row {j}: pivot {pivot}");
         a[j][j] = pivot.sqrt();
         for i in j + 1..n {
             let product: f64 = a[i][..j].iter().zip(&a[j][..j]).map(|(x, y)| x * y).sum();
@@ -100,9 +97,7 @@ fn jacobi(mut a: Vec<Vec<f64>>) -> Vec<f64> {
     let n = a.len();
     let scale = a.iter().flatten().fold(0.0_f64, |largest, x| largest.max(x.abs()));
     for _ in 0..MAX_SWEEPS {
-        let off = (0..n)
-            .flat_map(|i| a[i][..i].iter())
-            .fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        let off = (0..n).flat_map(|i| a[i][..i].iter()).fold(0.0_f64, |largest, x| largest.max(x.abs()));
         if off <= scale * 1e-18 {
             return (0..n).map(|i| a[i][i]).collect();
         }

@@ -34,19 +34,12 @@ pub struct ElementMatrices<const N: usize> {
 /// If the element is turned inside out at a Gauss point.
 pub fn hexahedron(corners: &[[f64; 3]; 8], material: &Material) -> ElementMatrices<24> {
     let (lame, shear) = lame_constants(material);
-    let mut element = ElementMatrices {
-        stiffness: [[0.0; 24]; 24],
-        mass: [[0.0; 24]; 24],
-    };
+    let mut element = ElementMatrices { stiffness: [[0.0; 24]; 24], mass: [[0.0; 24]; 24] };
     for point in HEX_CORNERS.map(|corner| corner.map(|x| x * GAUSS)) {
         let shape = HEX_CORNERS.map(|c| (0..3).map(|d| 1.0 + c[d] * point[d]).product::<f64>() / 8.0);
         let local = HEX_CORNERS.map(|c| {
             let f: [f64; 3] = std::array::from_fn(|d| 1.0 + c[d] * point[d]);
-            [
-                c[0] * f[1] * f[2] / 8.0,
-                f[0] * c[1] * f[2] / 8.0,
-                f[0] * f[1] * c[2] / 8.0,
-            ]
+            [c[0] * f[1] * f[2] / 8.0, f[0] * c[1] * f[2] / 8.0, f[0] * f[1] * c[2] / 8.0]
         });
         let mut jacobian = [[0.0; 3]; 3];
         for (d, x) in local.iter().zip(corners) {
@@ -60,12 +53,7 @@ pub fn hexahedron(corners: &[[f64; 3]; 8], material: &Material) -> ElementMatric
         let gradient = local.map(|d| std::array::from_fn::<f64, 3, _>(|i| (0..3).map(|j| inverse[i][j] * d[j]).sum()));
         for a in 0..8 {
             for b in a..8 {
-                add_block(
-                    &mut element,
-                    (a, b),
-                    &elastic_block(&gradient[a], &gradient[b], lame, shear),
-                    volume,
-                );
+                add_block(&mut element, (a, b), &elastic_block(&gradient[a], &gradient[b], lame, shear), volume);
                 for i in 0..3 {
                     element.mass[3 * a + i][3 * b + i] += material.density * shape[a] * shape[b] * volume;
                 }
@@ -84,10 +72,7 @@ pub fn quadrilateral(corners: &[[f64; 2]; 4], material: &Material, thickness: f6
     let (lame, shear) = lame_constants(material);
     // Plane stress replaces λ by 2λµ/(λ + 2µ).
     let lame = 2.0 * lame * shear / (lame + 2.0 * shear);
-    let mut element = ElementMatrices {
-        stiffness: [[0.0; 8]; 8],
-        mass: [[0.0; 8]; 8],
-    };
+    let mut element = ElementMatrices { stiffness: [[0.0; 8]; 8], mass: [[0.0; 8]; 8] };
     for [r, s] in CORNERS.map(|corner| corner.map(|x| x * GAUSS)) {
         let shape = CORNERS.map(|c| (1.0 + c[0] * r) * (1.0 + c[1] * s) / 4.0);
         let local = CORNERS.map(|c| [c[0] * (1.0 + c[1] * s) / 4.0, c[1] * (1.0 + c[0] * r) / 4.0]);
@@ -104,12 +89,7 @@ pub fn quadrilateral(corners: &[[f64; 2]; 4], material: &Material, thickness: f6
         let volume = area * thickness;
         for a in 0..4 {
             for b in a..4 {
-                add_block(
-                    &mut element,
-                    (a, b),
-                    &elastic_block(&gradient[a], &gradient[b], lame, shear),
-                    volume,
-                );
+                add_block(&mut element, (a, b), &elastic_block(&gradient[a], &gradient[b], lame, shear), volume);
                 for i in 0..2 {
                     element.mass[2 * a + i][2 * b + i] += material.density * shape[a] * shape[b] * volume;
                 }
@@ -122,10 +102,7 @@ pub fn quadrilateral(corners: &[[f64; 2]; 4], material: &Material, thickness: f6
 /// Lamé's λ and µ.
 fn lame_constants(material: &Material) -> (f64, f64) {
     let Material { young, poisson, .. } = *material;
-    (
-        young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)),
-        young / (2.0 * (1.0 + poisson)),
-    )
+    (young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)), young / (2.0 * (1.0 + poisson)))
 }
 
 /// Energy density coupling of two shape functions: λ aᵢbⱼ + µ aⱼbᵢ + µ (a·b) δᵢⱼ.
@@ -161,12 +138,6 @@ fn invert3(m: &[[f64; 3]; 3]) -> ([[f64; 3]; 3], f64) {
         m[r][u] * m[s][v] - m[r][v] * m[s][u]
     };
     let determinant: f64 = (0..3).map(|j| m[0][j] * cofactor(0, j)).sum();
-    assert!(
-        determinant > 0.0,
-        "an element is turned inside out: Jacobian {determinant}"
-    );
-    (
-        std::array::from_fn(|i| std::array::from_fn(|j| cofactor(j, i) / determinant)),
-        determinant,
-    )
+    assert!(determinant > 0.0, "an element is turned inside out: Jacobian {determinant}");
+    (std::array::from_fn(|i| std::array::from_fn(|j| cofactor(j, i) / determinant)), determinant)
 }

@@ -76,22 +76,8 @@ const BENDING: [([usize; 4], f64); 2] = [([1, 5, 7, 11], 1.0), ([2, 4, 8, 10], -
 fn beam_stiffness(section: &Section, material: &Material, length: f64) -> Beam {
     let mut k = [[0.0; 12]; 12];
     let shear_modulus = material.young / (2.0 * (1.0 + material.poisson));
-    add_rod(
-        &mut k,
-        0,
-        [
-            material.young * section.area / length,
-            -material.young * section.area / length,
-        ],
-    );
-    add_rod(
-        &mut k,
-        3,
-        [
-            shear_modulus * section.torsion / length,
-            -shear_modulus * section.torsion / length,
-        ],
-    );
+    add_rod(&mut k, 0, [material.young * section.area / length, -material.young * section.area / length]);
+    add_rod(&mut k, 3, [shear_modulus * section.torsion / length, -shear_modulus * section.torsion / length]);
     for ((rows, sign), second_moment) in BENDING.iter().zip([section.second_moment_z, section.second_moment_y]) {
         let (one, slope) = (material.young * second_moment / length.powi(3), sign * length);
         let shape = [
@@ -194,17 +180,11 @@ mod tests {
         let elements = 16;
         // Along a slanted line, so that the change of axes is tested too.
         let direction = [2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0];
-        let nodes: Vec<[f64; 3]> = (0..=elements)
-            .map(|i| direction.map(|d| d * length * f64::from(i) / f64::from(elements)))
-            .collect();
+        let nodes: Vec<[f64; 3]> =
+            (0..=elements).map(|i| direction.map(|d| d * length * f64::from(i) / f64::from(elements))).collect();
         let edges: Vec<[usize; 2]> = (0..elements as usize).map(|i| [i, i + 1]).collect();
         let lambda = spectrum(&frame(&nodes, &edges, &section, &material, Inertia::Consistent));
-        assert!(
-            lambda[5].abs() < 1e-6 * lambda[6],
-            "six rigid-body modes: {:e} of {:e}",
-            lambda[5],
-            lambda[6]
-        );
+        assert!(lambda[5].abs() < 1e-6 * lambda[6], "six rigid-body modes: {:e} of {:e}", lambda[5], lambda[6]);
         let unit = material.young * section.second_moment_y / (material.density * section.area * length.powi(4));
         for (pair, beta) in [4.730_041, 7.853_205, 10.995_608].into_iter().enumerate() {
             for mode in [6 + 2 * pair, 7 + 2 * pair] {

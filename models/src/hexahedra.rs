@@ -29,14 +29,7 @@ impl HexMesh {
         let mut elements = Vec::new();
         for (k, j, i) in (0..nz).flat_map(|k| (0..ny).flat_map(move |j| (0..nx).map(move |i| (k, j, i)))) {
             if holds([i, j, k]) {
-                let face = |k| {
-                    [
-                        grid(i, j, k),
-                        grid(i + 1, j, k),
-                        grid(i + 1, j + 1, k),
-                        grid(i, j + 1, k),
-                    ]
-                };
+                let face = |k| [grid(i, j, k), grid(i + 1, j, k), grid(i + 1, j + 1, k), grid(i, j + 1, k)];
                 let [[a, b, c, d], [e, f, g, h]] = [face(k), face(k + 1)];
                 elements.push([a, b, c, d, e, f, g, h]);
             }
@@ -45,18 +38,10 @@ impl HexMesh {
         elements.iter().flatten().for_each(|&corner| used[corner] = Some(0));
         for (point, number) in used.iter_mut().enumerate().filter(|(_, number)| number.is_some()) {
             *number = Some(mesh.nodes.len() as u32);
-            let index = [
-                point % (nx + 1),
-                point / (nx + 1) % (ny + 1),
-                point / ((nx + 1) * (ny + 1)),
-            ];
-            mesh.nodes
-                .push(map(std::array::from_fn(|d| index[d] as f64 / cells[d] as f64)));
+            let index = [point % (nx + 1), point / (nx + 1) % (ny + 1), point / ((nx + 1) * (ny + 1))];
+            mesh.nodes.push(map(std::array::from_fn(|d| index[d] as f64 / cells[d] as f64)));
         }
-        mesh.elements = elements
-            .iter()
-            .map(|corners| corners.map(|corner| used[corner].unwrap_or(0)))
-            .collect();
+        mesh.elements = elements.iter().map(|corners| corners.map(|corner| used[corner].unwrap_or(0))).collect();
         mesh
     }
 
@@ -77,21 +62,12 @@ impl HexMesh {
                 })
             })
             .collect();
-        self.elements.extend(
-            other
-                .elements
-                .iter()
-                .map(|corners| corners.map(|corner| numbers[corner as usize])),
-        );
+        self.elements.extend(other.elements.iter().map(|corners| corners.map(|corner| numbers[corner as usize])));
     }
 
     /// Adds the group of the nodes whose position satisfies a condition.
     pub fn add_group(&mut self, name: &str, holds: impl Fn([f64; 3]) -> bool) {
-        let members = (0..)
-            .zip(&self.nodes)
-            .filter(|&(_, &x)| holds(x))
-            .map(|(number, _)| number)
-            .collect();
+        let members = (0..).zip(&self.nodes).filter(|&(_, &x)| holds(x)).map(|(number, _)| number).collect();
         self.groups.insert(name.to_owned(), members);
     }
 
@@ -114,11 +90,7 @@ impl HexMesh {
         }
         let mut model = Model::node_major(self.nodes.clone(), &[0, 1, 2], stiffness, mass);
         let labelled = |members: &Vec<u32>| members.iter().map(|&node| i64::from(node) + 1).collect();
-        model.groups = self
-            .groups
-            .iter()
-            .map(|(name, members)| (name.clone(), labelled(members)))
-            .collect();
+        model.groups = self.groups.iter().map(|(name, members)| (name.clone(), labelled(members))).collect();
         model
     }
 }

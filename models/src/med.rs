@@ -53,9 +53,8 @@ pub fn write(path: &Path, mesh: &HexMesh, description: &str) -> Result<()> {
     attribute(&cells, "CGT", 1_i64)?;
     let hexahedra = cells.create_group("HE8")?;
     mark(&hexahedra)?;
-    let corners: Vec<i64> = (0..8)
-        .flat_map(|corner| mesh.elements.iter().map(move |element| i64::from(element[corner]) + 1))
-        .collect();
+    let corners: Vec<i64> =
+        (0..8).flat_map(|corner| mesh.elements.iter().map(move |element| i64::from(element[corner]) + 1)).collect();
     counted(&hexahedra, "NOD", &corners, mesh.elements.len())?;
 
     write_families(&file.create_group("FAS")?.create_group(MESH)?, &families)
@@ -65,22 +64,12 @@ pub fn write(path: &Path, mesh: &HexMesh, description: &str) -> Result<()> {
 fn families(mesh: &HexMesh) -> (Vec<i64>, Vec<Vec<String>>) {
     let mut groups_of_node: Vec<Vec<String>> = vec![Vec::new(); mesh.nodes.len()];
     for (name, members) in &mesh.groups {
-        members
-            .iter()
-            .for_each(|&node| groups_of_node[node as usize].push(name.clone()));
+        members.iter().for_each(|&node| groups_of_node[node as usize].push(name.clone()));
     }
-    let mut number_of: BTreeMap<Vec<String>, i64> = groups_of_node
-        .iter()
-        .filter(|groups| !groups.is_empty())
-        .map(|groups| (groups.clone(), 0))
-        .collect();
-    (1..)
-        .zip(number_of.values_mut())
-        .for_each(|(number, value)| *value = number);
-    let family_of_node = groups_of_node
-        .iter()
-        .map(|groups| number_of.get(groups).copied().unwrap_or(0))
-        .collect();
+    let mut number_of: BTreeMap<Vec<String>, i64> =
+        groups_of_node.iter().filter(|groups| !groups.is_empty()).map(|groups| (groups.clone(), 0)).collect();
+    (1..).zip(number_of.values_mut()).for_each(|(number, value)| *value = number);
+    let family_of_node = groups_of_node.iter().map(|groups| number_of.get(groups).copied().unwrap_or(0)).collect();
     (family_of_node, number_of.into_keys().collect())
 }
 
@@ -107,11 +96,7 @@ fn write_families(parent: &Group, families: &[Vec<String>]) -> Result<()> {
 
 /// A dataset without times of creation, so that equal input gives equal bytes.
 fn dataset<T: H5Type>(parent: &Group, name: &str, values: &[T]) -> Result<Dataset> {
-    parent
-        .new_dataset_builder()
-        .obj_track_times(false)
-        .with_data(values)
-        .create(name)
+    parent.new_dataset_builder().obj_track_times(false).with_data(values).create(name)
 }
 
 /// A dataset with MED's profile flag and count of entities.

@@ -39,33 +39,19 @@ pub struct Material {
 
 impl Material {
     /// Unit modulus and density, Poisson's ratio 0.3.
-    pub const UNIT: Self = Self {
-        young: 1.0,
-        poisson: 0.3,
-        density: 1.0,
-    };
+    pub const UNIT: Self = Self { young: 1.0, poisson: 0.3, density: 1.0 };
     /// Steel in metre, kilogram, second.
-    pub const STEEL_SI: Self = Self {
-        young: 2.1e11,
-        poisson: 0.3,
-        density: 7850.0,
-    };
+    pub const STEEL_SI: Self = Self { young: 2.1e11, poisson: 0.3, density: 7850.0 };
     /// Steel in millimetre, tonne, second: stresses in MPa.
-    pub const STEEL_MM_T_S: Self = Self {
-        young: 2.1e5,
-        poisson: 0.3,
-        density: 7.85e-9,
-    };
+    pub const STEEL_MM_T_S: Self = Self { young: 2.1e5, poisson: 0.3, density: 7.85e-9 };
 }
 
 impl Model {
     /// A model of nodes labelled 1, 2, … that all have the same directions, rows in node order.
     pub fn node_major(nodes: Vec<[f64; 3]>, directions: &[u8], stiffness: Assembler, mass: Assembler) -> Self {
         let labels: Vec<i64> = (1..).take(nodes.len()).collect();
-        let dofs: Vec<(i64, u8)> = labels
-            .iter()
-            .flat_map(|&node| directions.iter().map(move |&direction| (node, direction)))
-            .collect();
+        let dofs: Vec<(i64, u8)> =
+            labels.iter().flat_map(|&node| directions.iter().map(move |&direction| (node, direction))).collect();
         Self {
             n: dofs.len(),
             stiffness: stiffness.finish(),
@@ -79,12 +65,7 @@ impl Model {
 
     /// Adds the group of the nodes whose position satisfies a condition.
     pub fn add_group(&mut self, name: &str, holds: impl Fn([f64; 3]) -> bool) {
-        let members = self
-            .labels
-            .iter()
-            .zip(&self.nodes)
-            .filter(|&(_, &x)| holds(x))
-            .map(|(&label, _)| label);
+        let members = self.labels.iter().zip(&self.nodes).filter(|&(_, &x)| holds(x)).map(|(&label, _)| label);
         self.groups.insert(name.to_owned(), members.collect());
     }
 

@@ -15,17 +15,10 @@ pub fn join(a: &Model, b: &Model, pairs: &[(i64, i64)]) -> Model {
     let offset = a.labels.iter().copied().max().unwrap_or(0);
     let partner: BTreeMap<i64, i64> = pairs.iter().map(|&(in_a, in_b)| (in_b, in_a)).collect();
     for &(in_a, in_b) in pairs {
-        assert!(
-            a.labels.contains(&in_a) && b.labels.contains(&in_b),
-            "no nodes {in_a} and {in_b} to join"
-        );
+        assert!(a.labels.contains(&in_a) && b.labels.contains(&in_b), "no nodes {in_a} and {in_b} to join");
     }
     let relabel = |label: i64| partner.get(&label).copied().unwrap_or(label + offset);
-    let mut joined = Model {
-        stiffness: Vec::new(),
-        mass: Vec::new(),
-        ..a.clone()
-    };
+    let mut joined = Model { stiffness: Vec::new(), mass: Vec::new(), ..a.clone() };
     let mut row_of: BTreeMap<(i64, u8), u32> = (0..).zip(&a.dofs).map(|(row, &dof)| (dof, row)).collect();
     let mut rows_of_b = Vec::with_capacity(b.n);
     for row in 0..b.n {
@@ -38,20 +31,12 @@ pub fn join(a: &Model, b: &Model, pairs: &[(i64, i64)]) -> Model {
         }
         rows_of_b.push(number);
     }
-    for (&label, &position) in b
-        .labels
-        .iter()
-        .zip(&b.nodes)
-        .filter(|(label, _)| !partner.contains_key(label))
-    {
+    for (&label, &position) in b.labels.iter().zip(&b.nodes).filter(|(label, _)| !partner.contains_key(label)) {
         joined.labels.push(label + offset);
         joined.nodes.push(position);
     }
     for (name, members) in &b.groups {
-        joined.groups.insert(
-            format!("B.{name}"),
-            members.iter().map(|&label| relabel(label)).collect(),
-        );
+        joined.groups.insert(format!("B.{name}"), members.iter().map(|&label| relabel(label)).collect());
     }
     joined.stiffness = direct_sum(&a.stiffness, &b.stiffness, &rows_of_b);
     joined.mass = direct_sum(&a.mass, &b.mass, &rows_of_b);
@@ -61,20 +46,13 @@ pub fn join(a: &Model, b: &Model, pairs: &[(i64, i64)]) -> Model {
 fn direct_sum(a: &[Entry], b: &[Entry], rows_of_b: &[u32]) -> Vec<Entry> {
     let mut sum = Assembler::default();
     sum.extend(a.iter().copied());
-    sum.extend(
-        b.iter()
-            .map(|&(i, j, value)| (rows_of_b[i as usize], rows_of_b[j as usize], value)),
-    );
+    sum.extend(b.iter().map(|&(i, j, value)| (rows_of_b[i as usize], rows_of_b[j as usize], value)));
     sum.finish()
 }
 
 /// The same model at another place.
 pub fn translated(model: &Model, by: [f64; 3]) -> Model {
-    let nodes = model
-        .nodes
-        .iter()
-        .map(|x| std::array::from_fn(|d| x[d] + by[d]))
-        .collect();
+    let nodes = model.nodes.iter().map(|x| std::array::from_fn(|d| x[d] + by[d])).collect();
     Model { nodes, ..model.clone() }
 }
 
@@ -117,18 +95,9 @@ pub fn supported(model: &Model, is_tied: impl Fn((i64, u8)) -> bool) -> Model {
         }
     }
     let keep = |entries: &[Entry]| {
-        entries
-            .iter()
-            .filter_map(|&(i, j, v)| Some((rows[i as usize]?, rows[j as usize]?, v)))
-            .collect()
+        entries.iter().filter_map(|&(i, j, v)| Some((rows[i as usize]?, rows[j as usize]?, v))).collect()
     };
-    Model {
-        n: dofs.len(),
-        stiffness: keep(&model.stiffness),
-        mass: keep(&model.mass),
-        dofs,
-        ..model.clone()
-    }
+    Model { n: dofs.len(), stiffness: keep(&model.stiffness), mass: keep(&model.mass), dofs, ..model.clone() }
 }
 
 /// The model with a spring from one row to the ground.
@@ -136,10 +105,7 @@ pub fn grounded(model: &Model, row: usize, stiffness: f64) -> Model {
     let mut sum = Assembler::default();
     sum.extend(model.stiffness.iter().copied());
     sum.add(row as u32, row as u32, stiffness);
-    Model {
-        stiffness: sum.finish(),
-        ..model.clone()
-    }
+    Model { stiffness: sum.finish(), ..model.clone() }
 }
 
 fn map_values(
@@ -148,11 +114,7 @@ fn map_values(
     mass: impl Fn((u32, u32), f64) -> f64,
 ) -> Model {
     Model {
-        stiffness: model
-            .stiffness
-            .iter()
-            .map(|&(i, j, v)| (i, j, stiffness((i, j), v)))
-            .collect(),
+        stiffness: model.stiffness.iter().map(|&(i, j, v)| (i, j, stiffness((i, j), v))).collect(),
         mass: model.mass.iter().map(|&(i, j, v)| (i, j, mass((i, j), v))).collect(),
         ..model.clone()
     }

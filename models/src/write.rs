@@ -15,9 +15,7 @@ pub fn matrix_market(out: &mut impl Write, n: usize, entries: &[Entry], comment:
     writeln!(out, "%%MatrixMarket matrix coordinate real symmetric")?;
     comment.lines().try_for_each(|line| writeln!(out, "% {line}"))?;
     writeln!(out, "{n} {n} {}", lower.len())?;
-    lower
-        .iter()
-        .try_for_each(|(row, column, value)| writeln!(out, "{} {} {value:e}", column + 1, row + 1))
+    lower.iter().try_for_each(|(row, column, value)| writeln!(out, "{} {} {value:e}", column + 1, row + 1))
 }
 
 /// The same, gzipped without name and time, so that equal input gives equal bytes.
@@ -45,8 +43,5 @@ pub fn nodes_csv(out: &mut impl Write, model: &Model) -> io::Result<()> {
 /// # Errors
 /// Those of the writer.
 pub fn dof_map(out: &mut impl Write, model: &Model) -> io::Result<()> {
-    model
-        .dofs
-        .iter()
-        .try_for_each(|(label, direction)| writeln!(out, "{label}.{}", direction + 1))
+    model.dofs.iter().try_for_each(|(label, direction)| writeln!(out, "{label}.{}", direction + 1))
 }

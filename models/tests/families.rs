@@ -9,10 +9,7 @@ use supel_models::*;
 /// ‖K u‖∞ / (‖K‖∞ ‖u‖∞), the relative null-space error.
 fn relative_force(model: &Model, u: &[f64]) -> f64 {
     let mut row_sums = vec![0.0; model.n];
-    model
-        .stiffness
-        .iter()
-        .for_each(|&(row, _, value)| row_sums[row as usize] += f64::abs(value));
+    model.stiffness.iter().for_each(|&(row, _, value)| row_sums[row as usize] += f64::abs(value));
     largest(&multiply(&model.stiffness, u)) / (largest(&row_sums) * largest(u))
 }
 
@@ -22,17 +19,9 @@ fn largest(x: &[f64]) -> f64 {
 
 fn assert_symmetric_and_sorted(model: &Model) {
     for entries in [&model.stiffness, &model.mass] {
-        assert!(
-            entries.is_sorted_by(|a, b| (a.0, a.1) < (b.0, b.1)),
-            "sorted, each position once"
-        );
+        assert!(entries.is_sorted_by(|a, b| (a.0, a.1) < (b.0, b.1)), "sorted, each position once");
         let by_position: BTreeMap<(u32, u32), u64> = entries.iter().map(|&(i, j, v)| ((i, j), v.to_bits())).collect();
-        assert!(
-            by_position
-                .iter()
-                .all(|(&(i, j), bits)| by_position.get(&(j, i)) == Some(bits)),
-            "symmetric bits"
-        );
+        assert!(by_position.iter().all(|(&(i, j), bits)| by_position.get(&(j, i)) == Some(bits)), "symmetric bits");
     }
 }
 
@@ -66,10 +55,7 @@ fn solids_carry_six_rigid_body_modes() {
 fn solids_have_exactly_six_zero_eigenvalues() {
     let lambda = spectrum(&brick([3, 2, 1], [3.0, 2.0, 1.0], &Material::UNIT));
     let rounding = 1e-13 * lambda[lambda.len() - 1];
-    assert!(
-        lambda[..6].iter().all(|value| value.abs() < rounding) && lambda[6] > 1e9 * rounding,
-        "{lambda:?}"
-    );
+    assert!(lambda[..6].iter().all(|value| value.abs() < rounding) && lambda[6] > 1e9 * rounding, "{lambda:?}");
 }
 
 #[test]
@@ -107,19 +93,9 @@ fn membrane_has_three_rigid_body_modes() {
 fn frame_has_six_rigid_body_modes_and_its_mass() {
     let nodes = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.5], [0.0, 0.0, 2.0]];
     let edges = [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]];
-    let section = Section {
-        second_moment_z: 3e-6,
-        ..Section::round(0.02)
-    };
-    let length: f64 = edges
-        .iter()
-        .map(|&[a, b]| {
-            (0..3)
-                .map(|d| f64::powi(nodes[a][d] - nodes[b][d], 2))
-                .sum::<f64>()
-                .sqrt()
-        })
-        .sum();
+    let section = Section { second_moment_z: 3e-6, ..Section::round(0.02) };
+    let length: f64 =
+        edges.iter().map(|&[a, b]| (0..3).map(|d| f64::powi(nodes[a][d] - nodes[b][d], 2)).sum::<f64>().sqrt()).sum();
     for inertia in [Inertia::Consistent, Inertia::LumpedTranslations] {
         let model = frame(&nodes, &edges, &section, &Material::STEEL_SI, inertia);
         assert_symmetric_and_sorted(&model);
@@ -144,22 +120,15 @@ fn joints_leave_the_right_number_of_zero_modes() {
     let a = brick([1, 1, 1], [1.0, 1.0, 1.0], &Material::UNIT);
     let b = translated(&a, [1.0, 0.0, 0.0]);
     // Nodes 2, 4, 6, 8 of the first are the face x = 1; 1, 3, 5, 7 of the second lie on it.
-    for (pairs, expected) in [
-        (&[][..], 12),
-        (&[(2, 1)][..], 9),
-        (&[(2, 1), (4, 3)][..], 7),
-        (&[(2, 1), (4, 3), (6, 5), (8, 7)][..], 6),
-    ] {
+    for (pairs, expected) in
+        [(&[][..], 12), (&[(2, 1)][..], 9), (&[(2, 1), (4, 3)][..], 7), (&[(2, 1), (4, 3), (6, 5), (8, 7)][..], 6)]
+    {
         let joined = join(&a, &b, pairs);
         assert_symmetric_and_sorted(&joined);
         assert_eq!(joined.n, 48 - 3 * pairs.len());
         assert_eq!(zeros(&joined), expected);
         assert_eq!(joined.labels.len(), joined.nodes.len());
-        let worst = joined
-            .rigid_body_modes()
-            .iter()
-            .map(|u| relative_force(&joined, u))
-            .fold(0.0, f64::max);
+        let worst = joined.rigid_body_modes().iter().map(|u| relative_force(&joined, u)).fold(0.0, f64::max);
         assert!(worst <= 100.0 * f64::EPSILON);
     }
 }
@@ -177,12 +146,9 @@ fn joined_on_a_face_two_bricks_are_one() {
 fn scaling_and_rounding_touch_values_only() {
     let model = brick([2, 1, 1], [2.0, 1.0, 1.0], &Material::UNIT);
     let scales: Vec<f64> = (0..model.n).map(|row| if row % 3 == 0 { 1e3 } else { 0.7 }).collect();
-    for changed in [
-        scaled(&model, 3.0, 0.1),
-        dof_scaled(&model, &scales),
-        rounded(&model, 9),
-        grounded(&model, 0, 1e-3),
-    ] {
+    for changed in
+        [scaled(&model, 3.0, 0.1), dof_scaled(&model, &scales), rounded(&model, 9), grounded(&model, 0, 1e-3)]
+    {
         assert_symmetric_and_sorted(&changed);
         assert_eq!(changed.dofs, model.dofs);
     }
@@ -191,11 +157,7 @@ fn scaling_and_rounding_touch_values_only() {
     assert!(dense::largest_difference(&reference, &same) < 1e-11 * reference[35]);
     let rounded_values = rounded(&model, 3);
     assert!(
-        model
-            .stiffness
-            .iter()
-            .zip(&rounded_values.stiffness)
-            .all(|(a, b)| (a.2 - b.2).abs() <= 5.01e-3 * a.2.abs())
+        model.stiffness.iter().zip(&rounded_values.stiffness).all(|(a, b)| (a.2 - b.2).abs() <= 5.01e-3 * a.2.abs())
     );
     assert_ne!(model, rounded_values);
 }

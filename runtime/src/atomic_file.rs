@@ -27,26 +27,15 @@ impl StagedFile {
     /// [`FileError::NotAFile`] if the name is taken by something that is not a regular file,
     /// [`FileError::Write`] if the system refuses; nothing is left behind in both cases.
     pub fn write(target: &Path, bytes: &[u8]) -> Result<Self> {
-        let name = target.file_name().ok_or_else(|| FileError::NotAFile {
-            path: target.to_owned(),
-        })?;
+        let name = target.file_name().ok_or_else(|| FileError::NotAFile { path: target.to_owned() })?;
         // Renaming onto a device or a pipe would replace it; onto a folder it fails only after all the work.
         if fs::metadata(target).is_ok_and(|found| !found.is_file()) {
-            return Err(FileError::NotAFile {
-                path: target.to_owned(),
-            });
+            return Err(FileError::NotAFile { path: target.to_owned() });
         }
-        let failed = |source| FileError::Write {
-            path: target.to_owned(),
-            source,
-        };
+        let failed = |source| FileError::Write { path: target.to_owned(), source };
         let (mut file, temporary) = create_beside(target, name).map_err(failed)?;
         // From here on the temporary file is removed on every way out.
-        let staged = Self {
-            target: target.to_owned(),
-            temporary,
-            committed: false,
-        };
+        let staged = Self { target: target.to_owned(), temporary, committed: false };
         file.write_all(bytes).and_then(|()| file.sync_all()).map_err(failed)?;
         Ok(staged)
     }
@@ -64,10 +53,7 @@ impl StagedFile {
     /// removed; if it refuses to sync the folder, the new file is in place but might not survive a power cut.
     pub fn commit(mut self) -> Result<()> {
         let target = self.target.clone();
-        let failed = |source| FileError::Write {
-            path: target.clone(),
-            source,
-        };
+        let failed = |source| FileError::Write { path: target.clone(), source };
         fs::rename(&self.temporary, &target).map_err(failed)?;
         self.committed = true;
         sync_folder(folder_of(&target)).map_err(failed)
@@ -99,11 +85,7 @@ pub fn abandoned_parts(target: &Path) -> Vec<PathBuf> {
         let name = path.file_name().unwrap_or_default().as_encoded_bytes();
         name.starts_with(start.as_encoded_bytes()) && name.ends_with(PART.as_bytes())
     };
-    let mut parts = entries
-        .flatten()
-        .map(|entry| entry.path())
-        .filter(is_part)
-        .collect::<Vec<_>>();
+    let mut parts = entries.flatten().map(|entry| entry.path()).filter(is_part).collect::<Vec<_>>();
     parts.sort();
     parts
 }

@@ -35,9 +35,7 @@ impl Dtype {
     }
 
     fn from_name(name: &str) -> Option<Self> {
-        [Self::F64, Self::F32, Self::I64]
-            .into_iter()
-            .find(|dtype| dtype.name() == name)
+        [Self::F64, Self::F32, Self::I64].into_iter().find(|dtype| dtype.name() == name)
     }
 
     fn size(self) -> u64 {
@@ -89,26 +87,17 @@ pub(crate) struct Container<'a> {
 impl<'a> Container<'a> {
     /// Splits a file and parses its header.
     pub(crate) fn split(bytes: &'a [u8]) -> Result<Self> {
-        let (prefix, rest) = bytes
-            .split_first_chunk::<PREFIX>()
-            .ok_or(FileError::TooShort { found: bytes.len() })?;
+        let (prefix, rest) = bytes.split_first_chunk::<PREFIX>().ok_or(FileError::TooShort { found: bytes.len() })?;
         let length = u64::from_le_bytes(*prefix);
         if length > HEADER_LIMIT {
-            return Err(FileError::HeaderTooLarge {
-                found: length,
-                limit: HEADER_LIMIT,
-            });
+            return Err(FileError::HeaderTooLarge { found: length, limit: HEADER_LIMIT });
         }
         let (header, data) = usize::try_from(length)
             .ok()
             .and_then(|length| rest.split_at_checked(length))
-            .ok_or(FileError::HeaderTruncated {
-                found: rest.len(),
-                expected: length,
-            })?;
-        let header = std::str::from_utf8(header).map_err(|source| FileError::HeaderNotUtf8 {
-            offset: PREFIX + source.valid_up_to(),
-        })?;
+            .ok_or(FileError::HeaderTruncated { found: rest.len(), expected: length })?;
+        let header = std::str::from_utf8(header)
+            .map_err(|source| FileError::HeaderNotUtf8 { offset: PREFIX + source.valid_up_to() })?;
         if !header.starts_with('{') {
             return Err(FileError::HeaderNotObject);
         }
@@ -136,11 +125,8 @@ impl<'a> Container<'a> {
 
     /// The tensors by name, after all rules of the layout.
     pub(crate) fn tensors(&self) -> Result<BTreeMap<&'static str, RawTensor<'a>>> {
-        let mut entries = self
-            .entries
-            .iter()
-            .map(|(name, value)| Entry::parse(name, value))
-            .collect::<Result<Vec<_>>>()?;
+        let mut entries =
+            self.entries.iter().map(|(name, value)| Entry::parse(name, value)).collect::<Result<Vec<_>>>()?;
         // Empty tensors share their offset with the next one, hence the end as second key.
         entries.sort_by_key(|entry| (entry.begin, entry.end));
         let mut expected = 0;
@@ -149,10 +135,7 @@ impl<'a> Container<'a> {
             expected = entry.end;
         }
         if u64::try_from(self.data.len()) != Ok(expected) {
-            return Err(FileError::DataLength {
-                found: self.data.len(),
-                expected,
-            });
+            return Err(FileError::DataLength { found: self.data.len(), expected });
         }
         entries.into_iter().map(|entry| entry.attach(self.data)).collect()
     }
@@ -169,49 +152,26 @@ struct Entry {
 
 impl Entry {
     fn parse(name: &str, value: &Value) -> Result<Self> {
-        let malformed = |part: &str| FileError::TensorEntry {
-            tensor: name.to_owned(),
-            part: part.to_owned(),
-        };
+        let malformed = |part: &str| FileError::TensorEntry { tensor: name.to_owned(), part: part.to_owned() };
         let Some(name) = TENSORS.into_iter().find(|known| *known == name) else {
-            return Err(FileError::UnknownTensor {
-                tensor: name.to_owned(),
-            });
+            return Err(FileError::UnknownTensor { tensor: name.to_owned() });
         };
         let parts = value.as_object().ok_or_else(|| malformed("description"))?;
-        if let Some(part) = parts
-            .keys()
-            .find(|part| !["dtype", "shape", "data_offsets"].contains(&part.as_str()))
-        {
+        if let Some(part) = parts.keys().find(|part| !["dtype", "shape", "data_offsets"].contains(&part.as_str())) {
             return Err(malformed(part));
         }
         let integers =
             |part: &str| -> Option<Vec<u64>> { parts.get(part)?.as_array()?.iter().map(Value::as_u64).collect() };
-        let dtype = parts
-            .get("dtype")
-            .and_then(Value::as_str)
-            .ok_or_else(|| malformed("dtype"))?;
-        let dtype = Dtype::from_name(dtype).ok_or_else(|| FileError::UnknownDtype {
-            tensor: name.to_owned(),
-            found: dtype.to_owned(),
-        })?;
+        let dtype = parts.get("dtype").and_then(Value::as_str).ok_or_else(|| malformed("dtype"))?;
+        let dtype = Dtype::from_name(dtype)
+            .ok_or_else(|| FileError::UnknownDtype { tensor: name.to_owned(), found: dtype.to_owned() })?;
         let shape = integers("shape").ok_or_else(|| malformed("shape"))?;
         let shape = shape
             .into_iter()
-            .map(|length| {
-                usize::try_from(length).map_err(|_| FileError::TensorOverflow {
-                    tensor: name.to_owned(),
-                })
-            })
+            .map(|length| usize::try_from(length).map_err(|_| FileError::TensorOverflow { tensor: name.to_owned() }))
             .collect::<Result<Vec<_>>>()?;
         match integers("data_offsets").as_deref() {
-            Some(&[begin, end]) => Ok(Self {
-                name,
-                dtype,
-                shape,
-                begin,
-                end,
-            }),
+            Some(&[begin, end]) => Ok(Self { name, dtype, shape, begin, end }),
             _ => Err(malformed("data_offsets")),
         }
     }
@@ -220,26 +180,16 @@ impl Entry {
     fn check(&self, expected_begin: u64) -> Result<()> {
         let tensor = || self.name.to_owned();
         if self.begin != expected_begin {
-            return Err(FileError::TensorOffset {
-                tensor: tensor(),
-                found: self.begin,
-                expected: expected_begin,
-            });
+            return Err(FileError::TensorOffset { tensor: tensor(), found: self.begin, expected: expected_begin });
         }
         let size = self
             .shape
             .iter()
-            .try_fold(self.dtype.size(), |size, &length| {
-                size.checked_mul(u64::try_from(length).ok()?)
-            })
+            .try_fold(self.dtype.size(), |size, &length| size.checked_mul(u64::try_from(length).ok()?))
             .ok_or_else(|| FileError::TensorOverflow { tensor: tensor() })?;
         let found = i128::from(self.end) - i128::from(self.begin);
         if found != i128::from(size) {
-            return Err(FileError::TensorSize {
-                tensor: tensor(),
-                found,
-                expected: size,
-            });
+            return Err(FileError::TensorSize { tensor: tensor(), found, expected: size });
         }
         Ok(())
     }
@@ -249,18 +199,8 @@ impl Entry {
         let range = usize::try_from(self.begin).ok().zip(usize::try_from(self.end).ok());
         let bytes = range
             .and_then(|(begin, end)| data.get(begin..end))
-            .ok_or(FileError::DataLength {
-                found: data.len(),
-                expected: self.end,
-            })?;
-        Ok((
-            self.name,
-            RawTensor {
-                dtype: self.dtype,
-                shape: self.shape,
-                bytes,
-            },
-        ))
+            .ok_or(FileError::DataLength { found: data.len(), expected: self.end })?;
+        Ok((self.name, RawTensor { dtype: self.dtype, shape: self.shape, bytes }))
     }
 }
 
@@ -277,13 +217,7 @@ pub(crate) struct TensorToWrite {
 pub(crate) fn assemble(metadata: &str, tensors: &[TensorToWrite]) -> Result<Vec<u8>> {
     let mut header = format!("{{\"__metadata__\":{{\"supel\":{}}}", Value::from(metadata));
     let mut offset = 0;
-    for TensorToWrite {
-        name,
-        dtype,
-        shape,
-        bytes,
-    } in tensors
-    {
+    for TensorToWrite { name, dtype, shape, bytes } in tensors {
         let end = offset + bytes.len();
         let dtype = dtype.name();
         header +=
@@ -296,10 +230,7 @@ pub(crate) fn assemble(metadata: &str, tensors: &[TensorToWrite]) -> Result<Vec<
     }
     let length = header.len() as u64;
     if length > HEADER_LIMIT {
-        return Err(FileError::HeaderTooLarge {
-            found: length,
-            limit: HEADER_LIMIT,
-        });
+        return Err(FileError::HeaderTooLarge { found: length, limit: HEADER_LIMIT });
     }
     let mut file = Vec::with_capacity(PREFIX + header.len() + offset);
     file.extend(length.to_le_bytes());

@@ -24,12 +24,8 @@ struct Document<'a> {
 
 /// The document as it is written, with zeros for the digest.
 pub(crate) fn write(metadata: &Metadata) -> Result<String> {
-    serde_json::to_string(&Document {
-        format_version: FORMAT_VERSION,
-        blake3: ZEROS,
-        metadata,
-    })
-    .map_err(|source| FileError::MetadataSchema { source })
+    serde_json::to_string(&Document { format_version: FORMAT_VERSION, blake3: ZEROS, metadata })
+        .map_err(|source| FileError::MetadataSchema { source })
 }
 
 /// A document whose version is known, with the digest it records.
@@ -49,10 +45,7 @@ pub(crate) fn parse(text: &str) -> Result<ParsedDocument> {
     let version = take("format_version");
     if version.as_ref().and_then(Value::as_str) != Some(FORMAT_VERSION) {
         let found = version.map_or_else(|| "none".to_owned(), |version| version.to_string());
-        return Err(FileError::UnknownVersion {
-            found,
-            expected: FORMAT_VERSION,
-        });
+        return Err(FileError::UnknownVersion { found, expected: FORMAT_VERSION });
     }
     match take("blake3") {
         Some(Value::String(digest)) if is_digest(&digest) => Ok(ParsedDocument { digest, rest: document }),
@@ -79,23 +72,14 @@ pub(crate) fn check_digest(file: &[u8], header: &str, recorded: &str) -> Result<
         return Err(FileError::DigestMalformed);
     };
     let found = digest_around(file, PREFIX + place);
-    if found == recorded {
-        Ok(())
-    } else {
-        Err(FileError::DigestMismatch {
-            found,
-            expected: recorded.to_owned(),
-        })
-    }
+    if found == recorded { Ok(()) } else { Err(FileError::DigestMismatch { found, expected: recorded.to_owned() }) }
 }
 
 /// Replaces the zeros of a file just assembled by its digest, and returns it.
 pub(crate) fn seal(file: &mut [u8]) -> Result<String> {
     // The document opens with version and digest, before any text that could hold as many zeros.
-    let place = file
-        .windows(ZEROS.len())
-        .position(|window| window == ZEROS.as_bytes())
-        .ok_or(FileError::DigestMalformed)?;
+    let place =
+        file.windows(ZEROS.len()).position(|window| window == ZEROS.as_bytes()).ok_or(FileError::DigestMalformed)?;
     let digest = digest_around(file, place);
     if let Some(target) = file.get_mut(place..place + ZEROS.len()) {
         target.copy_from_slice(digest.as_bytes());

@@ -10,21 +10,13 @@ use crate::superelement::{Precision, RecoveredDof, Recovery, Tensors};
 
 /// The tensors that are there, in the order of the file.
 pub(crate) fn encode(tensors: &Tensors) -> Vec<TensorToWrite> {
-    TENSORS
-        .into_iter()
-        .filter_map(|name| encode_one(tensors, name))
-        .collect()
+    TENSORS.into_iter().filter_map(|name| encode_one(tensors, name)).collect()
 }
 
 fn encode_one(tensors: &Tensors, name: &'static str) -> Option<TensorToWrite> {
     let doubles = |shape: Vec<usize>, values: &[f64]| {
         let bytes = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-        TensorToWrite {
-            name,
-            dtype: Dtype::F64,
-            shape,
-            bytes,
-        }
+        TensorToWrite { name, dtype: Dtype::F64, shape, bytes }
     };
     let matrix = |matrix: &Matrix| doubles(vec![matrix.rows(), matrix.cols()], matrix.as_slice());
     let nodes = tensors.interface_positions.len();
@@ -39,50 +31,25 @@ fn encode_one(tensors: &Tensors, name: &'static str) -> Option<TensorToWrite> {
         "load_vectors" => matrix(tensors.load_vectors.as_ref()?),
         "frequencies" => doubles(vec![tensors.frequencies.len()], &tensors.frequencies),
         "interface_positions" => doubles(vec![nodes, 3], tensors.interface_positions.as_flattened()),
-        "interface_frames" => doubles(
-            vec![nodes, 3, 3],
-            tensors.interface_frames.as_flattened().as_flattened(),
-        ),
+        "interface_frames" => doubles(vec![nodes, 3, 3], tensors.interface_frames.as_flattened().as_flattened()),
         "recovery_dofs" => recovered_dofs(tensors.recovery.as_ref()?),
         "recovery" => match tensors.recovery.as_ref()? {
-            Recovery {
-                rows,
-                precision: Precision::Double,
-                ..
-            } => matrix(rows),
-            Recovery {
-                rows,
-                precision: Precision::Single,
-                ..
-            } => singles(rows),
+            Recovery { rows, precision: Precision::Double, .. } => matrix(rows),
+            Recovery { rows, precision: Precision::Single, .. } => singles(rows),
         },
         _ => return None,
     })
 }
 
 fn singles(rows: &Matrix) -> TensorToWrite {
-    let bytes = rows
-        .as_slice()
-        .iter()
-        .flat_map(|&value| (value as f32).to_le_bytes())
-        .collect();
-    TensorToWrite {
-        name: "recovery",
-        dtype: Dtype::F32,
-        shape: vec![rows.rows(), rows.cols()],
-        bytes,
-    }
+    let bytes = rows.as_slice().iter().flat_map(|&value| (value as f32).to_le_bytes()).collect();
+    TensorToWrite { name: "recovery", dtype: Dtype::F32, shape: vec![rows.rows(), rows.cols()], bytes }
 }
 
 fn recovered_dofs(recovery: &Recovery) -> TensorToWrite {
     let pairs = recovery.dofs().iter().flat_map(|dof| [dof.node, dof.direction as i64]);
     let bytes = pairs.flat_map(i64::to_le_bytes).collect();
-    TensorToWrite {
-        name: "recovery_dofs",
-        dtype: Dtype::I64,
-        shape: vec![recovery.dofs().len(), 2],
-        bytes,
-    }
+    TensorToWrite { name: "recovery_dofs", dtype: Dtype::I64, shape: vec![recovery.dofs().len(), 2], bytes }
 }
 
 /// Tensors of a file by name.
@@ -118,27 +85,14 @@ fn require<'a, 'b>(raw: &'b RawTensors<'a>, name: &'static str) -> Result<Named<
 }
 
 fn shape<const RANK: usize>((name, tensor): Named) -> Result<[usize; RANK]> {
-    let wrong = |_| FileError::WrongRank {
-        tensor: name,
-        found: tensor.shape.clone(),
-        expected: RANK,
-    };
+    let wrong = |_| FileError::WrongRank { tensor: name, found: tensor.shape.clone(), expected: RANK };
     tensor.shape.as_slice().try_into().map_err(wrong)
 }
 
 fn doubles<'a>((name, tensor): Named<'a, '_>) -> Result<impl Iterator<Item = f64> + use<'a>> {
     match tensor.dtype {
-        Dtype::F64 => Ok(tensor
-            .bytes
-            .as_chunks()
-            .0
-            .iter()
-            .map(|&bytes| f64::from_le_bytes(bytes))),
-        other => Err(FileError::WrongDtype {
-            tensor: name,
-            found: other.name(),
-            expected: "F64",
-        }),
+        Dtype::F64 => Ok(tensor.bytes.as_chunks().0.iter().map(|&bytes| f64::from_le_bytes(bytes))),
+        other => Err(FileError::WrongDtype { tensor: name, found: other.name(), expected: "F64" }),
     }
 }
 
@@ -155,11 +109,7 @@ fn matrix(tensor: Named) -> Result<Matrix> {
 fn positions(tensor: Named) -> Result<Vec<[f64; 3]>> {
     let [k, three] = shape(tensor)?;
     if three != 3 {
-        return Err(FileError::WrongShape {
-            tensor: tensor.0,
-            found: vec![k, three],
-            expected: vec![k, 3],
-        });
+        return Err(FileError::WrongShape { tensor: tensor.0, found: vec![k, three], expected: vec![k, 3] });
     }
     Ok(doubles(tensor)?.collect::<Vec<_>>().as_chunks().0.to_vec())
 }
@@ -167,19 +117,9 @@ fn positions(tensor: Named) -> Result<Vec<[f64; 3]>> {
 fn frames(tensor: Named) -> Result<Vec<[[f64; 3]; 3]>> {
     let found @ [k, ..] = shape::<3>(tensor)?;
     if found != [k, 3, 3] {
-        return Err(FileError::WrongShape {
-            tensor: tensor.0,
-            found: found.to_vec(),
-            expected: vec![k, 3, 3],
-        });
+        return Err(FileError::WrongShape { tensor: tensor.0, found: found.to_vec(), expected: vec![k, 3, 3] });
     }
-    Ok(doubles(tensor)?
-        .collect::<Vec<_>>()
-        .as_chunks::<3>()
-        .0
-        .as_chunks()
-        .0
-        .to_vec())
+    Ok(doubles(tensor)?.collect::<Vec<_>>().as_chunks::<3>().0.as_chunks().0.to_vec())
 }
 
 fn recovery(raw: &RawTensors) -> Result<Option<Recovery>> {
@@ -188,33 +128,21 @@ fn recovery(raw: &RawTensors) -> Result<Option<Recovery>> {
         (None, None) => return Ok(None),
         (None, Some(_)) => return Err(FileError::RecoveryIncomplete { missing: "recovery" }),
         (Some(_), None) => {
-            return Err(FileError::RecoveryIncomplete {
-                missing: "recovery_dofs",
-            });
+            return Err(FileError::RecoveryIncomplete { missing: "recovery_dofs" });
         }
     };
     let dofs = read_recovered_dofs(dofs)?;
     match rows.1.dtype {
         Dtype::F32 => {
             let [n_rows, n_cols] = shape(rows)?;
-            let values = rows
-                .1
-                .bytes
-                .as_chunks()
-                .0
-                .iter()
-                .map(|&bytes| f64::from(f32::from_le_bytes(bytes)));
+            let values = rows.1.bytes.as_chunks().0.iter().map(|&bytes| f64::from(f32::from_le_bytes(bytes)));
             let rows = Matrix::from_row_major(n_rows, n_cols, values.collect())?;
             Recovery::new(rows, dofs, Precision::Single).map(Some)
         }
         Dtype::F64 => Recovery::new(matrix(rows)?, dofs, Precision::Double).map(Some),
         Dtype::I64 => {
             let found = Dtype::I64.name();
-            Err(FileError::WrongDtype {
-                tensor: "recovery",
-                found,
-                expected: "F64 or F32",
-            })
+            Err(FileError::WrongDtype { tensor: "recovery", found, expected: "F64 or F32" })
         }
     }
 }
@@ -222,32 +150,16 @@ fn recovery(raw: &RawTensors) -> Result<Option<Recovery>> {
 fn read_recovered_dofs((name, tensor): Named) -> Result<Vec<RecoveredDof>> {
     let [n_rows, two] = shape((name, tensor))?;
     if tensor.dtype != Dtype::I64 {
-        return Err(FileError::WrongDtype {
-            tensor: name,
-            found: tensor.dtype.name(),
-            expected: "I64",
-        });
+        return Err(FileError::WrongDtype { tensor: name, found: tensor.dtype.name(), expected: "I64" });
     }
     if two != 2 {
-        return Err(FileError::WrongShape {
-            tensor: name,
-            found: vec![n_rows, two],
-            expected: vec![n_rows, 2],
-        });
+        return Err(FileError::WrongShape { tensor: name, found: vec![n_rows, two], expected: vec![n_rows, 2] });
     }
-    let numbers = tensor
-        .bytes
-        .as_chunks()
-        .0
-        .iter()
-        .map(|&bytes| i64::from_le_bytes(bytes))
-        .collect::<Vec<_>>();
+    let numbers = tensor.bytes.as_chunks().0.iter().map(|&bytes| i64::from_le_bytes(bytes)).collect::<Vec<_>>();
     let pairs = numbers.as_chunks().0.iter().enumerate();
     pairs
         .map(|(row, &[node, direction])| {
-            let known = usize::try_from(direction)
-                .ok()
-                .and_then(|direction| Direction::ALL.get(direction));
+            let known = usize::try_from(direction).ok().and_then(|direction| Direction::ALL.get(direction));
             let direction = *known.ok_or(FileError::RecoveryDirection { row, direction })?;
             Ok(RecoveredDof { node, direction })
         })

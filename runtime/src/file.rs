@@ -70,10 +70,7 @@ impl Superelement {
 
 /// The bytes of a regular file, never more than its size says.
 fn read(path: &Path) -> Result<Vec<u8>> {
-    let failed = |source| FileError::Read {
-        path: path.to_owned(),
-        source,
-    };
+    let failed = |source| FileError::Read { path: path.to_owned(), source };
     // Asked before opening: to open a pipe would wait for its writer.
     if !std::fs::metadata(path).map_err(failed)?.is_file() {
         return Err(FileError::NotAFile { path: path.to_owned() });
@@ -82,11 +79,7 @@ fn read(path: &Path) -> Result<Vec<u8>> {
     let size = file.metadata().map_err(failed)?.len();
     let too_large = FileError::OutOfMemory { bytes: size };
     let mut bytes = Vec::new();
-    if usize::try_from(size)
-        .ok()
-        .and_then(|size| bytes.try_reserve_exact(size).ok())
-        .is_none()
-    {
+    if usize::try_from(size).ok().and_then(|size| bytes.try_reserve_exact(size).ok()).is_none() {
         return Err(too_large);
     }
     file.take(size).read_to_end(&mut bytes).map_err(failed)?;

@@ -42,9 +42,5 @@ pub fn mass_properties(rigid_body_mass: &Matrix) -> Option<MassProperties> {
     let steiner = |i: usize, j: usize| mass * (if i == j { c_squared } else { 0.0 } - c[i] * c[j]);
     let about_origin = |i: usize, j: usize| 0.5 * (m_f[(3 + i, 3 + j)] + m_f[(3 + j, 3 + i)]);
     let inertia = std::array::from_fn(|i| std::array::from_fn(|j| about_origin(i, j) - steiner(i, j)));
-    Some(MassProperties {
-        mass,
-        center_of_mass: c,
-        inertia,
-    })
+    Some(MassProperties { mass, center_of_mass: c, inertia })
 }

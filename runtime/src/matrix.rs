@@ -22,20 +22,13 @@ impl Matrix {
         if rows.checked_mul(cols) == Some(data.len()) {
             Ok(Self { rows, cols, data })
         } else {
-            Err(FileError::MatrixSize {
-                rows,
-                cols,
-                found: data.len(),
-            })
+            Err(FileError::MatrixSize { rows, cols, found: data.len() })
         }
     }
 
     /// A matrix whose entry (i, j) is `entry(i, j)`; the way to hand over a column-major matrix.
     pub fn from_fn(rows: usize, cols: usize, mut entry: impl FnMut(usize, usize) -> f64) -> Self {
-        let data = (0..rows)
-            .flat_map(|i| (0..cols).map(move |j| (i, j)))
-            .map(|(i, j)| entry(i, j))
-            .collect();
+        let data = (0..rows).flat_map(|i| (0..cols).map(move |j| (i, j))).map(|(i, j)| entry(i, j)).collect();
         Self { rows, cols, data }
     }
 
@@ -56,11 +49,7 @@ impl Matrix {
 
     /// Row `row`, or `None` outside the matrix.
     pub fn row(&self, row: usize) -> Option<&[f64]> {
-        if row < self.rows {
-            self.data.get(row * self.cols..(row + 1) * self.cols)
-        } else {
-            None
-        }
+        if row < self.rows { self.data.get(row * self.cols..(row + 1) * self.cols) } else { None }
     }
 
     /// All values, row by row.
@@ -78,12 +67,7 @@ impl std::ops::Index<(usize, usize)> for Matrix {
     ///
     /// Panics outside the matrix.
     fn index(&self, (row, col): (usize, usize)) -> &f64 {
-        assert!(
-            row < self.rows && col < self.cols,
-            "({row}, {col}) outside a {} × {} matrix",
-            self.rows,
-            self.cols
-        );
+        assert!(row < self.rows && col < self.cols, "({row}, {col}) outside a {} × {} matrix", self.rows, self.cols);
         &self.data[row * self.cols + col]
     }
 }

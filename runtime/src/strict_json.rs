@@ -20,12 +20,10 @@ pub(crate) enum StrictJsonError {
 pub(crate) fn parse(text: &str) -> Result<Value, StrictJsonError> {
     let duplicate = RefCell::new(None);
     let mut deserializer = serde_json::Deserializer::from_str(text);
-    let parsed = StrictValue { duplicate: &duplicate }
-        .deserialize(&mut deserializer)
-        .and_then(|value| {
-            deserializer.end()?;
-            Ok(value)
-        });
+    let parsed = StrictValue { duplicate: &duplicate }.deserialize(&mut deserializer).and_then(|value| {
+        deserializer.end()?;
+        Ok(value)
+    });
     parsed.map_err(|source| match duplicate.into_inner() {
         Some(key) => StrictJsonError::Duplicate(key),
         None => StrictJsonError::Syntax(source),

@@ -81,11 +81,7 @@ impl Recovery {
     pub fn new(rows: Matrix, dofs: Vec<RecoveredDof>, precision: Precision) -> Result<Self> {
         if rows.rows() != dofs.len() {
             let (found, expected) = (vec![dofs.len(), 2], vec![rows.rows(), 2]);
-            return Err(FileError::WrongShape {
-                tensor: "recovery_dofs",
-                found,
-                expected,
-            });
+            return Err(FileError::WrongShape { tensor: "recovery_dofs", found, expected });
         }
         let rows = match precision {
             Precision::Double => rows,
@@ -147,11 +143,7 @@ impl Superelement {
 
     /// Number of interface coordinates n_B, which come first.
     pub fn n_interface(&self) -> usize {
-        self.metadata
-            .coordinates
-            .iter()
-            .filter(|coordinate| coordinate.is_interface())
-            .count()
+        self.metadata.coordinates.iter().filter(|coordinate| coordinate.is_interface()).count()
     }
 
     /// Number of modal amplitudes n_η, which come last.

@@ -26,14 +26,8 @@ pub(crate) fn check(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
         }
     }
     let verification = &metadata.verification;
-    match verification
-        .checks
-        .iter()
-        .find(|check| check.verdict > verification.verdict)
-    {
-        Some(check) => Err(FileError::Verdict {
-            check: check.id.clone(),
-        }),
+    match verification.checks.iter().find(|check| check.verdict > verification.verdict) {
+        Some(check) => Err(FileError::Verdict { check: check.id.clone() }),
         None => Ok(()),
     }
 }
@@ -57,11 +51,7 @@ fn matrices(tensors: &Tensors) -> impl Iterator<Item = (&'static str, &Matrix)> 
 
 fn check_shapes(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
     let r = metadata.coordinates.len();
-    let n_eta = metadata
-        .coordinates
-        .iter()
-        .filter(|coordinate| !coordinate.is_interface())
-        .count();
+    let n_eta = metadata.coordinates.iter().filter(|coordinate| !coordinate.is_interface()).count();
     let n_rigid = tensors.rigid_body_modes.cols();
     for (tensor, matrix) in matrices(tensors) {
         let found = (matrix.rows(), matrix.cols());
@@ -76,59 +66,28 @@ fn check_shapes(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
         };
         if found != expected {
             let (found, expected) = (vec![found.0, found.1], vec![expected.0, expected.1]);
-            return Err(FileError::WrongShape {
-                tensor,
-                found,
-                expected,
-            });
+            return Err(FileError::WrongShape { tensor, found, expected });
         }
     }
     let k = metadata.interface_nodes.len();
-    let wrong = |tensor, found, expected| {
-        Err(FileError::WrongShape {
-            tensor,
-            found,
-            expected,
-        })
-    };
+    let wrong = |tensor, found, expected| Err(FileError::WrongShape { tensor, found, expected });
     if tensors.interface_positions.len() != k {
-        return wrong(
-            "interface_positions",
-            vec![tensors.interface_positions.len(), 3],
-            vec![k, 3],
-        );
+        return wrong("interface_positions", vec![tensors.interface_positions.len(), 3], vec![k, 3]);
     }
     if tensors.interface_frames.len() != k {
-        return wrong(
-            "interface_frames",
-            vec![tensors.interface_frames.len(), 3, 3],
-            vec![k, 3, 3],
-        );
+        return wrong("interface_frames", vec![tensors.interface_frames.len(), 3, 3], vec![k, 3, 3]);
     }
-    let (names, vectors) = (
-        metadata.load_names.len(),
-        tensors.load_vectors.as_ref().map_or(0, Matrix::cols),
-    );
-    if names == vectors {
-        Ok(())
-    } else {
-        Err(FileError::LoadNames { names, vectors })
-    }
+    let (names, vectors) = (metadata.load_names.len(), tensors.load_vectors.as_ref().map_or(0, Matrix::cols));
+    if names == vectors { Ok(()) } else { Err(FileError::LoadNames { names, vectors }) }
 }
 
 fn check_values(tensors: &Tensors) -> Result<()> {
     let vectors = [
         ("interface_positions", tensors.interface_positions.as_flattened()),
-        (
-            "interface_frames",
-            tensors.interface_frames.as_flattened().as_flattened(),
-        ),
+        ("interface_frames", tensors.interface_frames.as_flattened().as_flattened()),
         ("frequencies", tensors.frequencies.as_slice()),
     ];
-    for (tensor, values) in matrices(tensors)
-        .map(|(name, matrix)| (name, matrix.as_slice()))
-        .chain(vectors)
-    {
+    for (tensor, values) in matrices(tensors).map(|(name, matrix)| (name, matrix.as_slice())).chain(vectors) {
         if let Some((index, &value)) = values.iter().enumerate().find(|(_, value)| !value.is_finite()) {
             return Err(FileError::NotFinite { tensor, index, value });
         }
@@ -143,13 +102,7 @@ fn check_symmetry(tensor: &'static str, matrix: &Matrix) -> Result<()> {
         for col in row + 1..matrix.cols() {
             let (upper, lower) = (matrix[(row, col)], matrix[(col, row)]);
             if upper.to_bits() != lower.to_bits() {
-                return Err(FileError::NotSymmetric {
-                    tensor,
-                    row,
-                    col,
-                    upper,
-                    lower,
-                });
+                return Err(FileError::NotSymmetric { tensor, row, col, upper, lower });
             }
         }
     }
@@ -169,29 +122,20 @@ fn check_metadata_numbers(metadata: &Metadata) -> Result<()> {
         finite(&node.position, &|| format!("interface_nodes[{k}].position"))?;
     }
     let dropped = metadata.dropped.iter().map(|dropped| &dropped.column);
-    for (list, coordinates) in [
-        ("coordinates", metadata.coordinates.iter().collect::<Vec<_>>()),
-        ("dropped", dropped.collect()),
-    ] {
+    for (list, coordinates) in
+        [("coordinates", metadata.coordinates.iter().collect::<Vec<_>>()), ("dropped", dropped.collect())]
+    {
         for (k, coordinate) in coordinates.into_iter().enumerate() {
             finite(&mode_numbers(coordinate), &|| format!("{list}[{k}]"))?;
         }
     }
-    finite(metadata.validity.band_hz.unwrap_or_default().as_slice(), &|| {
-        "validity.band_hz".to_owned()
-    })?;
+    finite(metadata.validity.band_hz.unwrap_or_default().as_slice(), &|| "validity.band_hz".to_owned())?;
     if let Some(properties) = &metadata.model.mass_properties {
-        let numbers = [
-            &[properties.mass],
-            properties.center_of_mass.as_slice(),
-            properties.inertia.as_flattened(),
-        ];
+        let numbers = [&[properties.mass], properties.center_of_mass.as_slice(), properties.inertia.as_flattened()];
         finite(&numbers.concat(), &|| "model.mass_properties".to_owned())?;
     }
     for check in &metadata.verification.checks {
-        finite(&[check.value.unwrap_or(0.0), check.limit], &|| {
-            format!("verification.checks {}", check.id)
-        })?;
+        finite(&[check.value.unwrap_or(0.0), check.limit], &|| format!("verification.checks {}", check.id))?;
     }
     Ok(())
 }
@@ -199,16 +143,10 @@ fn check_metadata_numbers(metadata: &Metadata) -> Result<()> {
 /// Frequency and error bar of a modal coordinate, zeros for the others.
 fn mode_numbers(coordinate: &Coordinate) -> [f64; 2] {
     match *coordinate {
-        Coordinate::ElasticMode {
-            frequency_hz,
-            error_bar_hz,
-            ..
+        Coordinate::ElasticMode { frequency_hz, error_bar_hz, .. }
+        | Coordinate::FixedInterfaceMode { frequency_hz, error_bar_hz, .. } => {
+            [frequency_hz, error_bar_hz.unwrap_or(0.0)]
         }
-        | Coordinate::FixedInterfaceMode {
-            frequency_hz,
-            error_bar_hz,
-            ..
-        } => [frequency_hz, error_bar_hz.unwrap_or(0.0)],
         _ => [0.0; 2],
     }
 }
@@ -219,20 +157,13 @@ fn check_interface(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
     for (node, (position, frame)) in metadata.interface_nodes.iter().zip(places) {
         let name = || node.name.clone();
         if !seen.insert((&node.name, node.label)) {
-            return Err(FileError::InterfaceDuplicate {
-                name: name(),
-                label: node.label,
-            });
+            return Err(FileError::InterfaceDuplicate { name: name(), label: node.label });
         }
         if node.dofs.is_empty() || !node.dofs.is_sorted_by(|a, b| a < b) {
             return Err(FileError::InterfaceDofs { name: name() });
         }
         if node.position != *position {
-            return Err(FileError::InterfacePosition {
-                name: name(),
-                metadata: node.position,
-                tensor: *position,
-            });
+            return Err(FileError::InterfacePosition { name: name(), metadata: node.position, tensor: *position });
         }
         if !is_rotation(frame) {
             return Err(FileError::InterfaceFrame { name: name() });
@@ -245,11 +176,7 @@ fn check_interface(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
 fn is_rotation(frame: &[[f64; 3]; 3]) -> bool {
     let [a, b, c] = frame;
     let dot = |u: &[f64; 3], v: &[f64; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-    let cross = [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ];
+    let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
     let near = |value: f64, target: f64| (value - target).abs() <= FRAME_TOLERANCE;
     let unit = [a, b, c].into_iter().all(|row| near(dot(row, row), 1.0));
     let orthogonal = [(a, b), (a, c), (b, c)].into_iter().all(|(u, v)| near(dot(u, v), 0.0));
@@ -266,21 +193,14 @@ fn check_coordinates(metadata: &Metadata) -> Result<()> {
     let mut n_from_nodes = 0;
     for (node, direction) in from_nodes {
         if coordinates.get(n_from_nodes) != Some(&Coordinate::Interface { node, direction }) {
-            return Err(FileError::CoordinateOrder {
-                coordinate: n_from_nodes,
-            });
+            return Err(FileError::CoordinateOrder { coordinate: n_from_nodes });
         }
         n_from_nodes += 1;
     }
     let rest = coordinates.get(n_from_nodes..).unwrap_or_default();
-    let n_rows = rest
-        .iter()
-        .take_while(|coordinate| matches!(coordinate, Coordinate::InterfaceRow { .. }))
-        .count();
+    let n_rows = rest.iter().take_while(|coordinate| matches!(coordinate, Coordinate::InterfaceRow { .. })).count();
     match rest.iter().skip(n_rows).position(Coordinate::is_interface) {
-        Some(stray) => Err(FileError::CoordinateOrder {
-            coordinate: n_from_nodes + n_rows + stray,
-        }),
+        Some(stray) => Err(FileError::CoordinateOrder { coordinate: n_from_nodes + n_rows + stray }),
         None => Ok(()),
     }
 }
@@ -300,19 +220,11 @@ fn check_modes(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
             continue;
         };
         let (Some(&omega), Some(named @ false)) = (frequencies.get(mode), named.get_mut(mode)) else {
-            return Err(FileError::CoordinateMode {
-                coordinate,
-                mode,
-                n_modes: frequencies.len(),
-            });
+            return Err(FileError::CoordinateMode { coordinate, mode, n_modes: frequencies.len() });
         };
         *named = true;
         if (frequency_hz * std::f64::consts::TAU - omega).abs() > CONVERSION_TOLERANCE * omega {
-            return Err(FileError::CoordinateFrequency {
-                coordinate,
-                frequency_hz,
-                omega,
-            });
+            return Err(FileError::CoordinateFrequency { coordinate, frequency_hz, omega });
         }
     }
     Ok(())

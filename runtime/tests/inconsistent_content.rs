@@ -24,9 +24,7 @@ macro_rules! assert_refused {
 
 /// A copy of a matrix with one other entry.
 fn with(matrix: &Matrix, place: (usize, usize), value: f64) -> Matrix {
-    Matrix::from_fn(matrix.rows(), matrix.cols(), |i, j| {
-        if (i, j) == place { value } else { matrix[(i, j)] }
-    })
+    Matrix::from_fn(matrix.rows(), matrix.cols(), |i, j| if (i, j) == place { value } else { matrix[(i, j)] })
 }
 
 fn zeros(rows: usize, cols: usize) -> Matrix {
@@ -36,14 +34,7 @@ fn zeros(rows: usize, cols: usize) -> Matrix {
 #[test]
 fn matrix_of_too_few_values() {
     let error = Matrix::from_row_major(2, 3, vec![0.0; 5]).unwrap_err();
-    assert_refused!(
-        error,
-        FileError::MatrixSize {
-            rows: 2,
-            cols: 3,
-            found: 5
-        }
-    );
+    assert_refused!(error, FileError::MatrixSize { rows: 2, cols: 3, found: 5 });
     let error = Matrix::from_row_major(usize::MAX, 2, vec![]).unwrap_err();
     assert_refused!(error, FileError::MatrixSize { .. });
 }
@@ -52,14 +43,8 @@ fn matrix_of_too_few_values() {
 fn matrix_hands_out_only_what_it_has() {
     let matrix = Matrix::from_fn(2, 3, |i, j| (10 * i + j) as f64);
     assert_eq!(matrix.as_slice(), [0.0, 1.0, 2.0, 10.0, 11.0, 12.0]);
-    assert_eq!(
-        (matrix.get(1, 2), matrix.get(1, 3), matrix.get(2, 0)),
-        (Some(12.0), None, None)
-    );
-    assert_eq!(
-        (matrix.row(1), matrix.row(2)),
-        (Some([10.0, 11.0, 12.0].as_slice()), None)
-    );
+    assert_eq!((matrix.get(1, 2), matrix.get(1, 3), matrix.get(2, 0)), (Some(12.0), None, None));
+    assert_eq!((matrix.row(1), matrix.row(2)), (Some([10.0, 11.0, 12.0].as_slice()), None));
 }
 
 #[test]
@@ -74,9 +59,7 @@ fn shapes_against_the_coordinates() {
         ("mixing", |t| t.mixing = Some(zeros(9, 9))),
         ("gravity", |t| t.gravity = Some(zeros(9, 2))),
         ("load_vectors", |t| t.load_vectors = Some(zeros(8, 1))),
-        ("recovery", |t| {
-            t.recovery = Recovery::new(zeros(0, 8), vec![], Precision::Double).ok()
-        }),
+        ("recovery", |t| t.recovery = Recovery::new(zeros(0, 8), vec![], Precision::Double).ok()),
         ("interface_positions", |t| t.interface_positions.clear()),
         ("interface_frames", |t| t.interface_frames.clear()),
         ("rigid_body_mass", |t| t.rigid_body_modes = zeros(9, 0)),
@@ -85,13 +68,7 @@ fn shapes_against_the_coordinates() {
         assert_refused!(refusal(|tensors, _| change(tensors)), FileError::WrongShape { tensor, .. } if tensor == name);
     }
     let error = Recovery::new(zeros(2, 9), vec![], Precision::Double).unwrap_err();
-    assert_refused!(
-        error,
-        FileError::WrongShape {
-            tensor: "recovery_dofs",
-            ..
-        }
-    );
+    assert_refused!(error, FileError::WrongShape { tensor: "recovery_dofs", .. });
 }
 
 #[test]
@@ -99,106 +76,45 @@ fn number_in_a_tensor_not_finite() {
     let error = refusal(|tensors, _| tensors.mass = with(&tensors.mass, (1, 2), f64::NAN));
     assert_refused!(error, FileError::NotFinite { tensor: "mass", index: 11, value } if value.is_nan());
     let error = refusal(|tensors, _| tensors.frequencies[2] = f64::INFINITY);
-    assert_refused!(
-        error,
-        FileError::NotFinite {
-            tensor: "frequencies",
-            index: 2,
-            ..
-        }
-    );
+    assert_refused!(error, FileError::NotFinite { tensor: "frequencies", index: 2, .. });
     let error = refusal(|tensors, _| tensors.interface_positions[0][1] = f64::NAN);
-    assert_refused!(
-        error,
-        FileError::NotFinite {
-            tensor: "interface_positions",
-            index: 1,
-            ..
-        }
-    );
+    assert_refused!(error, FileError::NotFinite { tensor: "interface_positions", index: 1, .. });
     let error = refusal(|tensors, _| tensors.interface_frames[0][2][0] = f64::NAN);
-    assert_refused!(
-        error,
-        FileError::NotFinite {
-            tensor: "interface_frames",
-            index: 6,
-            ..
-        }
-    );
+    assert_refused!(error, FileError::NotFinite { tensor: "interface_frames", index: 6, .. });
     // The largest double does not fit the single precision of the sample's recovery.
     let dofs = sample::complete().tensors().recovery.as_ref().unwrap().dofs().to_vec();
     let rows = with(&zeros(3, 9), (0, 1), f64::MAX);
     let error = refusal(|tensors, _| tensors.recovery = Recovery::new(rows, dofs, Precision::Single).ok());
-    assert_refused!(
-        error,
-        FileError::NotFinite {
-            tensor: "recovery",
-            index: 1,
-            ..
-        }
-    );
+    assert_refused!(error, FileError::NotFinite { tensor: "recovery", index: 1, .. });
 }
 
 #[test]
 fn one_bit_of_asymmetry() {
     let next = |value: f64| f64::from_bits(value.to_bits() + 1);
     let error = refusal(|tensors, _| tensors.mass = with(&tensors.mass, (6, 0), next(tensors.mass[(6, 0)])));
-    assert_refused!(
-        error,
-        FileError::NotSymmetric {
-            tensor: "mass",
-            row: 0,
-            col: 6,
-            ..
-        }
-    );
+    assert_refused!(error, FileError::NotSymmetric { tensor: "mass", row: 0, col: 6, .. });
     let error = refusal(|tensors, _| tensors.stiffness = with(&tensors.stiffness, (3, 7), f64::MIN_POSITIVE));
-    assert_refused!(
-        error,
-        FileError::NotSymmetric {
-            tensor: "stiffness",
-            row: 3,
-            col: 7,
-            ..
-        }
-    );
+    assert_refused!(error, FileError::NotSymmetric { tensor: "stiffness", row: 3, col: 7, .. });
 }
 
 #[test]
 fn number_in_the_metadata_not_finite() {
     type Change = fn(&mut Metadata);
     let changes: [(&str, Change); 7] = [
-        ("interface_nodes[0].position", |m| {
-            m.interface_nodes[0].position[2] = f64::NAN
-        }),
+        ("interface_nodes[0].position", |m| m.interface_nodes[0].position[2] = f64::NAN),
         ("coordinates[6]", |m| {
-            m.coordinates[6] = Coordinate::ElasticMode {
-                mode: 0,
-                frequency_hz: f64::NAN,
-                error_bar_hz: None,
-            }
+            m.coordinates[6] = Coordinate::ElasticMode { mode: 0, frequency_hz: f64::NAN, error_bar_hz: None }
         }),
         ("coordinates[7]", |m| {
-            m.coordinates[7] = Coordinate::ElasticMode {
-                mode: 1,
-                frequency_hz: 1.0,
-                error_bar_hz: Some(f64::INFINITY),
-            }
+            m.coordinates[7] = Coordinate::ElasticMode { mode: 1, frequency_hz: 1.0, error_bar_hz: Some(f64::INFINITY) }
         }),
         ("dropped[1]", |m| {
-            m.dropped[1].column = Coordinate::FixedInterfaceMode {
-                mode: 1,
-                frequency_hz: f64::INFINITY,
-                error_bar_hz: None,
-            }
+            m.dropped[1].column =
+                Coordinate::FixedInterfaceMode { mode: 1, frequency_hz: f64::INFINITY, error_bar_hz: None }
         }),
         ("validity.band_hz", |m| m.validity.band_hz = Some([0.0, f64::INFINITY])),
-        ("model.mass_properties", |m| {
-            m.model.mass_properties.as_mut().unwrap().inertia[2][1] = f64::NAN
-        }),
-        ("verification.checks M-12", |m| {
-            m.verification.checks[0].limit = f64::NAN
-        }),
+        ("model.mass_properties", |m| m.model.mass_properties.as_mut().unwrap().inertia[2][1] = f64::NAN),
+        ("verification.checks M-12", |m| m.verification.checks[0].limit = f64::NAN),
     ];
     for (name, change) in changes {
         let error = refusal(|_, metadata| change(metadata));
@@ -218,11 +134,7 @@ fn interface_node_twice() {
 
 #[test]
 fn dofs_of_an_interface_node_out_of_order() {
-    for dofs in [
-        vec![],
-        vec![Direction::Uy, Direction::Ux],
-        vec![Direction::Rz, Direction::Rz],
-    ] {
+    for dofs in [vec![], vec![Direction::Uy, Direction::Ux], vec![Direction::Rz, Direction::Rz]] {
         let error = refusal(|_, metadata| metadata.interface_nodes[0].dofs = dofs);
         assert_refused!(error, FileError::InterfaceDofs { name } if name == "hub");
     }
@@ -261,10 +173,7 @@ fn coordinates_out_of_order() {
     assert_refused!(error, FileError::CoordinateOrder { coordinate: 8 });
     let error = refusal(|tensors, metadata| {
         tensors.mixing = None;
-        metadata.coordinates[8] = Coordinate::Interface {
-            node: 0,
-            direction: Direction::Ux,
-        };
+        metadata.coordinates[8] = Coordinate::Interface { node: 0, direction: Direction::Ux };
     });
     assert_refused!(error, FileError::CoordinateOrder { coordinate: 8 });
     let error = refusal(|_, metadata| metadata.interface_nodes[0].dofs = vec![Direction::Ux, Direction::Uz]);
@@ -274,23 +183,9 @@ fn coordinates_out_of_order() {
 #[test]
 fn mode_without_frequency_or_named_twice() {
     let error = refusal(|_, metadata| metadata.coordinates[7] = metadata.coordinates[6].clone());
-    assert_refused!(
-        error,
-        FileError::CoordinateMode {
-            coordinate: 7,
-            mode: 0,
-            n_modes: 3
-        }
-    );
+    assert_refused!(error, FileError::CoordinateMode { coordinate: 7, mode: 0, n_modes: 3 });
     let error = refusal(|tensors, _| tensors.frequencies.truncate(2));
-    assert_refused!(
-        error,
-        FileError::CoordinateMode {
-            coordinate: 8,
-            mode: 2,
-            n_modes: 2
-        }
-    );
+    assert_refused!(error, FileError::CoordinateMode { coordinate: 8, mode: 2, n_modes: 2 });
 }
 
 #[test]
@@ -319,10 +214,7 @@ fn names_and_vectors_of_the_loads() {
 fn verdict_better_than_a_check() {
     let error = refusal(|_, metadata| metadata.verification.verdict = Verdict::Pass);
     assert_refused!(error, FileError::Verdict { check } if check == "M-12");
-    assert_eq!(
-        Verdict::worst([Verdict::Pass, Verdict::Fail, Verdict::Warn]),
-        Verdict::Fail
-    );
+    assert_eq!(Verdict::worst([Verdict::Pass, Verdict::Fail, Verdict::Warn]), Verdict::Fail);
 }
 
 #[test]

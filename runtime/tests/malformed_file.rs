@@ -18,11 +18,7 @@ fn take_apart(file: &[u8]) -> Parts {
     let mut entries: Map<String, Value> = serde_json::from_slice(&file[8..8 + length]).unwrap();
     let metadata = entries.remove("__metadata__").unwrap();
     let document = serde_json::from_str(metadata["supel"].as_str().unwrap()).unwrap();
-    Parts {
-        entries,
-        document,
-        data: file[8 + length..].to_vec(),
-    }
+    Parts { entries, document, data: file[8 + length..].to_vec() }
 }
 
 fn good() -> Parts {
@@ -80,74 +76,47 @@ fn unchanged_parts_make_a_good_file() {
 
 #[test]
 fn too_short_for_the_prefix() {
-    assert_refused!(
-        Superelement::from_bytes(&[1; 7]).unwrap_err(),
-        FileError::TooShort { found: 7 }
-    );
+    assert_refused!(Superelement::from_bytes(&[1; 7]).unwrap_err(), FileError::TooShort { found: 7 });
 }
 
 #[test]
 fn header_longer_than_any_reader_accepts() {
     let file = [u64::MAX.to_le_bytes(), [b' '; 8]].concat();
-    assert_refused!(
-        Superelement::from_bytes(&file).unwrap_err(),
-        FileError::HeaderTooLarge { found: u64::MAX, .. }
-    );
+    assert_refused!(Superelement::from_bytes(&file).unwrap_err(), FileError::HeaderTooLarge { found: u64::MAX, .. });
     let file = 100_000_001_u64.to_le_bytes();
-    assert_refused!(
-        Superelement::from_bytes(&file).unwrap_err(),
-        FileError::HeaderTooLarge { found: 100_000_001, .. }
-    );
+    assert_refused!(Superelement::from_bytes(&file).unwrap_err(), FileError::HeaderTooLarge { found: 100_000_001, .. });
 }
 
 #[test]
 fn header_cut_off() {
     let file = [&100_000_000_u64.to_le_bytes(), b"{}".as_slice()].concat();
     let error = Superelement::from_bytes(&file).unwrap_err();
-    assert_refused!(
-        error,
-        FileError::HeaderTruncated {
-            found: 2,
-            expected: 100_000_000
-        }
-    );
+    assert_refused!(error, FileError::HeaderTruncated { found: 2, expected: 100_000_000 });
 }
 
 #[test]
 fn header_not_text() {
     let file = [&3_u64.to_le_bytes(), b"{\xff}".as_slice()].concat();
-    assert_refused!(
-        Superelement::from_bytes(&file).unwrap_err(),
-        FileError::HeaderNotUtf8 { offset: 9 }
-    );
+    assert_refused!(Superelement::from_bytes(&file).unwrap_err(), FileError::HeaderNotUtf8 { offset: 9 });
 }
 
 #[test]
 fn header_not_json() {
     for header in ["{", "{\"a\":1}\0\0", "{} x", "{\"a\":}"] {
-        assert_refused!(
-            Superelement::from_bytes(&file_of(header, &[])).unwrap_err(),
-            FileError::HeaderNotJson { .. }
-        );
+        assert_refused!(Superelement::from_bytes(&file_of(header, &[])).unwrap_err(), FileError::HeaderNotJson { .. });
     }
 }
 
 #[test]
 fn header_nested_beyond_reason() {
     let header = format!("{{\"a\":{}", "[".repeat(1_000_000));
-    assert_refused!(
-        Superelement::from_bytes(&file_of(&header, &[])).unwrap_err(),
-        FileError::HeaderNotJson { .. }
-    );
+    assert_refused!(Superelement::from_bytes(&file_of(&header, &[])).unwrap_err(), FileError::HeaderNotJson { .. });
 }
 
 #[test]
 fn header_not_an_object() {
     for header in ["", "[]", " {}", "7"] {
-        assert_refused!(
-            Superelement::from_bytes(&file_of(header, &[])).unwrap_err(),
-            FileError::HeaderNotObject
-        );
+        assert_refused!(Superelement::from_bytes(&file_of(header, &[])).unwrap_err(), FileError::HeaderNotObject);
     }
 }
 
@@ -167,10 +136,7 @@ fn no_metadata() {
         let error = Superelement::from_bytes(&unsealed(&parts, &metadata)).unwrap_err();
         assert_refused!(error, FileError::MetadataMissing);
     }
-    assert_refused!(
-        Superelement::from_bytes(&file_of("{}", &[])).unwrap_err(),
-        FileError::MetadataMissing
-    );
+    assert_refused!(Superelement::from_bytes(&file_of("{}", &[])).unwrap_err(), FileError::MetadataMissing);
 }
 
 #[test]
@@ -273,14 +239,7 @@ fn number_type_of_another_tensor() {
         parts.entries.insert("recovery".into(), entry);
         parts.data.extend([0; 216]);
     });
-    assert_refused!(
-        error,
-        FileError::WrongDtype {
-            tensor: "recovery",
-            found: "I64",
-            ..
-        }
-    );
+    assert_refused!(error, FileError::WrongDtype { tensor: "recovery", found: "I64", .. });
 }
 
 #[test]
@@ -306,11 +265,8 @@ fn tensors_overlap() {
 
 #[test]
 fn product_of_a_shape_overflows() {
-    let cases = [
-        json!([4_294_967_296_u64, 4_294_967_296_u64]),
-        json!([u64::MAX]),
-        json!([2_305_843_009_213_693_952_u64]),
-    ];
+    let cases =
+        [json!([4_294_967_296_u64, 4_294_967_296_u64]), json!([u64::MAX]), json!([2_305_843_009_213_693_952_u64])];
     for shape in cases {
         let error = refusal(|parts| set(parts, "mass", "shape", shape));
         assert_refused!(error, FileError::TensorOverflow { tensor } if tensor == "mass");
@@ -320,14 +276,7 @@ fn product_of_a_shape_overflows() {
 #[test]
 fn bytes_of_a_tensor_do_not_fit_its_shape() {
     let error = refusal(|parts| set(parts, "mass", "shape", json!([9, 8])));
-    assert_refused!(
-        error,
-        FileError::TensorSize {
-            found: 648,
-            expected: 576,
-            ..
-        }
-    );
+    assert_refused!(error, FileError::TensorSize { found: 648, expected: 576, .. });
     let error = refusal(|parts| {
         let begin = parts.entries["mass"]["data_offsets"][0].clone();
         set(parts, "mass", "data_offsets", json!([begin, 0]));
@@ -339,16 +288,8 @@ fn bytes_of_a_tensor_do_not_fit_its_shape() {
 #[test]
 fn offsets_close_to_the_end_of_the_numbers() {
     let huge = 1_u64 << 60;
-    let names = [
-        "damping",
-        "gravity",
-        "mass",
-        "mixing",
-        "load_vectors",
-        "stiffness",
-        "rigid_body_mass",
-        "rigid_body_modes",
-    ];
+    let names =
+        ["damping", "gravity", "mass", "mixing", "load_vectors", "stiffness", "rigid_body_mass", "rigid_body_modes"];
     let mut entries = Map::new();
     let mut begin = 0;
     for name in names {
@@ -396,10 +337,7 @@ fn metadata_against_the_schema() {
         ("model", json!({})),
         ("generator", json!({ "name": "x", "version": "1", "host": "y" })),
         ("coordinates", json!([{ "kind": "interface_row", "row": -1 }])),
-        (
-            "coordinates",
-            json!([{ "kind": "interface_row", "row": 1, "column": 2 }]),
-        ),
+        ("coordinates", json!([{ "kind": "interface_row", "row": 1, "column": 2 }])),
     ];
     for (field, value) in changes {
         let error = refusal(|parts| parts.document[field] = value);
@@ -453,11 +391,7 @@ fn digest_of_other_bytes() {
 
 #[test]
 fn wrong_number_of_dimensions() {
-    let cases = [
-        ("frequencies", json!([3, 1]), 1),
-        ("mass", json!([81]), 2),
-        ("interface_frames", json!([3, 3]), 3),
-    ];
+    let cases = [("frequencies", json!([3, 1]), 1), ("mass", json!([81]), 2), ("interface_frames", json!([3, 3]), 3)];
     for (name, shape, rank) in cases {
         let error = refusal(|parts| set(parts, name, "shape", shape));
         assert_refused!(error, FileError::WrongRank { tensor, expected, .. } if tensor == name && expected == rank);
@@ -481,12 +415,7 @@ fn wrong_inner_dimension() {
 #[test]
 fn recovery_without_its_dofs() {
     let error = refusal(|parts| remove(parts, "recovery_dofs"));
-    assert_refused!(
-        error,
-        FileError::RecoveryIncomplete {
-            missing: "recovery_dofs"
-        }
-    );
+    assert_refused!(error, FileError::RecoveryIncomplete { missing: "recovery_dofs" });
     let error = refusal(|parts| remove(parts, "recovery"));
     assert_refused!(error, FileError::RecoveryIncomplete { missing: "recovery" });
 }
@@ -508,12 +437,5 @@ fn number_in_a_tensor_not_finite() {
         let begin = parts.entries["gravity"]["data_offsets"][0].as_u64().unwrap() as usize;
         parts.data[begin + 16..begin + 24].copy_from_slice(&f64::INFINITY.to_le_bytes());
     });
-    assert_refused!(
-        error,
-        FileError::NotFinite {
-            tensor: "gravity",
-            index: 2,
-            value: f64::INFINITY
-        }
-    );
+    assert_refused!(error, FileError::NotFinite { tensor: "gravity", index: 2, value: f64::INFINITY });
 }

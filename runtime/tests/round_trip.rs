@@ -8,10 +8,7 @@ use supel_runtime::{Method, Superelement, mass_properties};
 
 fn samples() -> Vec<Superelement> {
     let by_method = [Method::CraigBampton, Method::Herting].map(sample::component);
-    by_method
-        .into_iter()
-        .chain([sample::complete(), sample::two_particles()])
-        .collect()
+    by_method.into_iter().chain([sample::complete(), sample::two_particles()]).collect()
 }
 
 #[test]
@@ -27,14 +24,7 @@ fn what_is_written_is_read_back() {
 #[test]
 fn sizes_follow_from_the_coordinates() {
     let superelement = sample::complete();
-    assert_eq!(
-        (
-            superelement.n_coordinates(),
-            superelement.n_interface(),
-            superelement.n_modal()
-        ),
-        (9, 6, 3)
-    );
+    assert_eq!((superelement.n_coordinates(), superelement.n_interface(), superelement.n_modal()), (9, 6, 3));
     assert_eq!(superelement.n_rigid(), 6);
     assert_eq!(sample::two_particles().n_interface(), 1);
 }
@@ -88,10 +78,7 @@ fn file_laid_out_by_the_reference_implementation_is_read() {
     let tensors: Vec<(String, TensorView)> = ours.tensors();
     let theirs = safetensors::serialize(tensors, Some([("supel".to_owned(), document)].into())).unwrap();
     let digest = blake3::hash(&theirs).to_hex().to_string();
-    let place = theirs
-        .windows(64)
-        .position(|window| window == zeros.as_bytes())
-        .unwrap();
+    let place = theirs.windows(64).position(|window| window == zeros.as_bytes()).unwrap();
     let theirs = [&theirs[..place], digest.as_bytes(), &theirs[place + 64..]].concat();
     assert_eq!(Superelement::from_bytes(&theirs).unwrap(), superelement);
 }
@@ -99,30 +86,14 @@ fn file_laid_out_by_the_reference_implementation_is_read() {
 #[test]
 fn single_precision_takes_half_the_bytes_and_rounds() {
     let (mut tensors, metadata) = sample::complete_parts();
-    let single = Superelement::new(tensors.clone(), metadata.clone())
-        .unwrap()
-        .to_bytes()
-        .unwrap()
-        .bytes
-        .len();
+    let single = Superelement::new(tensors.clone(), metadata.clone()).unwrap().to_bytes().unwrap().bytes.len();
     let recovery = tensors.recovery.take().unwrap();
     let (rows, dofs) = (recovery.rows().clone(), recovery.dofs().to_vec());
     tensors.recovery = supel_runtime::Recovery::new(rows, dofs, supel_runtime::Precision::Double).ok();
-    let double = Superelement::new(tensors, metadata)
-        .unwrap()
-        .to_bytes()
-        .unwrap()
-        .bytes
-        .len();
+    let double = Superelement::new(tensors, metadata).unwrap().to_bytes().unwrap().bytes.len();
     // 27 values; the header's padding may differ by up to seven bytes.
     assert!((double - single).abs_diff(27 * 4) <= 7, "{double} against {single}");
-    assert!(
-        recovery
-            .rows()
-            .as_slice()
-            .iter()
-            .all(|&value| f64::from(value as f32) == value)
-    );
+    assert!(recovery.rows().as_slice().iter().all(|&value| f64::from(value as f32) == value));
 }
 
 /// The sample's numbers are exact in binary, so the only roundings are those of a handful of operations.
@@ -144,11 +115,7 @@ fn mass_properties_are_refused_to_what_is_not_geometric() {
     let (tensors, _) = sample::parts(Method::Herting);
     let changed = |i: usize, j: usize, value: f64| {
         let entry = |a, b| {
-            if (a, b) == (i, j) {
-                value
-            } else {
-                tensors.rigid_body_mass[(a, b)]
-            }
+            if (a, b) == (i, j) { value } else { tensors.rigid_body_mass[(a, b)] }
         };
         mass_properties(&Matrix::from_fn(6, 6, entry))
     };
@@ -157,8 +124,5 @@ fn mass_properties_are_refused_to_what_is_not_geometric() {
     assert!(changed(0, 1, 0.1).is_none(), "translations that couple");
     assert!(changed(4, 4, f64::NAN).is_none(), "not a number");
     assert!(mass_properties(&Matrix::from_fn(6, 6, |_, _| 0.0)).is_none(), "no mass");
-    assert!(
-        mass_properties(&Matrix::from_fn(5, 5, |i, j| f64::from(u8::from(i == j)))).is_none(),
-        "five columns"
-    );
+    assert!(mass_properties(&Matrix::from_fn(5, 5, |i, j| f64::from(u8::from(i == j)))).is_none(), "five columns");
 }

@@ -27,11 +27,7 @@ fn written_file_is_read_back_and_leaves_nothing_beside_it() {
     assert_eq!(digest, superelement.to_bytes().unwrap().digest);
     assert_eq!(names_in(folder.path()), ["part ü.supel"]);
     sample::two_particles().write(&path).unwrap();
-    assert_eq!(
-        Superelement::open(&path).unwrap(),
-        sample::two_particles(),
-        "an old file is replaced"
-    );
+    assert_eq!(Superelement::open(&path).unwrap(), sample::two_particles(), "an old file is replaced");
 }
 
 #[test]
@@ -40,11 +36,7 @@ fn staged_file_has_no_name_until_it_is_committed() {
     let path = folder.path().join("a.supel");
     let bytes = sample::two_particles().to_bytes().unwrap().bytes;
     let staged = StagedFile::write(&path, &bytes).unwrap();
-    assert_eq!(
-        staged.path().parent(),
-        path.parent(),
-        "same folder, so that renaming is one step"
-    );
+    assert_eq!(staged.path().parent(), path.parent(), "same folder, so that renaming is one step");
     assert_eq!(Superelement::open(staged.path()).unwrap(), sample::two_particles());
     assert!(!path.exists());
     drop(staged);
@@ -71,10 +63,7 @@ fn folder_that_does_not_exist() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("missing").join("a.supel");
     let error = sample::two_particles().write(&path).unwrap_err();
-    assert!(
-        matches!(&error, FileError::Write { path: named, .. } if *named == path),
-        "{error:?}"
-    );
+    assert!(matches!(&error, FileError::Write { path: named, .. } if *named == path), "{error:?}");
     assert!(error.is_io());
 }
 
@@ -83,11 +72,7 @@ fn name_of_a_folder_or_a_device_or_no_name() {
     let folder = tempfile::tempdir().unwrap();
     for path in [folder.path(), Path::new("/dev/null"), Path::new("/"), Path::new("..")] {
         let error = sample::two_particles().write(path).unwrap_err();
-        assert!(
-            matches!(error, FileError::NotAFile { .. }),
-            "{}: {error:?}",
-            path.display()
-        );
+        assert!(matches!(error, FileError::NotAFile { .. }), "{}: {error:?}", path.display());
     }
     assert!(names_in(folder.path()).is_empty());
 }
@@ -126,10 +111,7 @@ fn file_larger_than_the_memory() {
         return;
     };
     let error = Superelement::open(&folder.path().join("huge.supel")).unwrap_err();
-    assert!(
-        matches!(error, FileError::OutOfMemory { bytes } if bytes == 1 << 62),
-        "{error:?}"
-    );
+    assert!(matches!(error, FileError::OutOfMemory { bytes } if bytes == 1 << 62), "{error:?}");
 }
 
 #[test]
@@ -171,20 +153,13 @@ fn write_with_too_little_room(on_signal: &str) -> (tempfile::TempDir, PathBuf, s
     let path = folder.path().join("a.supel");
     sample::two_particles().write(&path).unwrap();
     let status = std::process::Command::new("sh")
-        .args([
-            "-c",
-            &format!("{on_signal} ulimit -c 0; ulimit -f 1; exec \"$0\" --exact writes_when_told"),
-        ])
+        .args(["-c", &format!("{on_signal} ulimit -c 0; ulimit -f 1; exec \"$0\" --exact writes_when_told")])
         .arg(std::env::current_exe().unwrap())
         .env(TARGET, &path)
         .stdout(std::process::Stdio::null())
         .status()
         .unwrap();
-    assert_eq!(
-        Superelement::open(&path).unwrap(),
-        sample::two_particles(),
-        "the old file is intact"
-    );
+    assert_eq!(Superelement::open(&path).unwrap(), sample::two_particles(), "the old file is intact");
     (folder, path, status)
 }
 
@@ -193,10 +168,7 @@ fn write_with_too_little_room(on_signal: &str) -> (tempfile::TempDir, PathBuf, s
 #[test]
 fn disk_full() {
     let (folder, path, status) = write_with_too_little_room("trap '' XFSZ;");
-    assert!(
-        status.success(),
-        "the write must fail with an error, and only that: {status}"
-    );
+    assert!(status.success(), "the write must fail with an error, and only that: {status}");
     assert_eq!(names_in(folder.path()), ["a.supel"], "the temporary file is removed");
     assert!(abandoned_parts(&path).is_empty());
 }
@@ -211,9 +183,5 @@ fn killed_while_writing() {
     assert_eq!(parts.len(), 1, "{:?}", names_in(folder.path()));
     assert!(parts[0].to_string_lossy().ends_with(".part"));
     sample::complete().write(&path).unwrap();
-    assert_eq!(
-        Superelement::open(&path).unwrap(),
-        sample::complete(),
-        "what was left does not hinder the next writer"
-    );
+    assert_eq!(Superelement::open(&path).unwrap(), sample::complete(), "what was left does not hinder the next writer");
 }

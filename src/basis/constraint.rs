@@ -15,9 +15,6 @@ pub struct ConstraintModes {
     pub modes: Mat<f64>,
     /// K̂_BB = [Ψ_S; I]ᵀ K [Ψ_S; I], n_B × n_B: second order in the error of Ψ_S.
     pub stiffness: Mat<f64>,
-    /// max K_BB,ii / K̂_BB,ii: how much larger the terms that cancel in K̂_BB are than what is left of them. Rounding of
-    /// K̂_BB is ε times this.
-    pub cancellation: f64,
     /// Error of equation (24) as solved: max |Ψ_S U_B − U_I| / max |U_I|.
     pub raw_rigid_error: f64,
     /// The same after the correction, and the dof it is worst at.
@@ -33,9 +30,7 @@ pub fn constraint_modes(partition: &Partition, factor: &dyn SolveOperator, rigid
     let mut modes = partition.interface_columns(0.0).as_ref().subrows(0, n_i).to_owned();
     factor.solve_in_place(modes.as_mut());
     for j in 0..n_b {
-        dense::column_mut(modes.as_mut(), j)
-            .iter_mut()
-            .for_each(|value| *value = -*value);
+        dense::column_mut(modes.as_mut(), j).iter_mut().for_each(|value| *value = -*value);
     }
     let u_i = rigid.orthonormal.as_ref().subrows(0, n_i);
     let u_b = rigid.orthonormal.as_ref().subrows(n_i, n_b);
@@ -43,27 +38,11 @@ pub fn constraint_modes(partition: &Partition, factor: &dyn SolveOperator, rigid
     if rigid.count() > 0 {
         raw_rigid_error = rigid_error(modes.as_ref(), u_i, u_b).0;
         let defect = defect(modes.as_ref(), u_i, u_b);
-        dense::add_product(
-            modes.as_mut(),
-            1.0,
-            defect.as_ref(),
-            left_inverse(partition, u_b).as_ref(),
-        );
+        dense::add_product(modes.as_mut(), 1.0, defect.as_ref(), left_inverse(partition, u_b).as_ref());
     }
     let rigid_error = rigid_error(modes.as_ref(), u_i, u_b);
     let stiffness = condensed_stiffness(partition, modes.as_ref());
-    let cancellation = (0..n_b).fold(1.0f64, |worst, i| {
-        let before = partition.stiffness.get(n_i + i, n_i + i).copied().unwrap_or(0.0);
-        let left = stiffness[(i, i)];
-        if left > 0.0 { worst.max(before / left) } else { worst }
-    });
-    ConstraintModes {
-        modes,
-        stiffness,
-        cancellation,
-        raw_rigid_error,
-        rigid_error,
-    }
+    ConstraintModes { modes, stiffness, raw_rigid_error, rigid_error }
 }
 
 /// U_I − Ψ_S U_B, n_I × n_r.
@@ -78,9 +57,7 @@ fn rigid_error(modes: MatRef<'_, f64>, u_i: MatRef<'_, f64>, u_b: MatRef<'_, f64
     let defect = defect(modes, u_i, u_b);
     let mut worst = (0.0, 0);
     for j in 0..defect.ncols() {
-        let largest = dense::column(u_i, j)
-            .iter()
-            .fold(0.0f64, |max, value| max.max(value.abs()));
+        let largest = dense::column(u_i, j).iter().fold(0.0f64, |max, value| max.max(value.abs()));
         for (i, value) in dense::column(defect.as_ref(), j).iter().enumerate() {
             if value.abs() / largest > worst.0 {
                 worst = (value.abs() / largest, i);
@@ -95,9 +72,7 @@ fn rigid_error(modes: MatRef<'_, f64>, u_i: MatRef<'_, f64>, u_b: MatRef<'_, f64
 fn left_inverse(partition: &Partition, u_b: MatRef<'_, f64>) -> Mat<f64> {
     let (n_i, n_b) = (partition.n_internal, u_b.nrows());
     let diagonal = |i: usize| partition.stiffness.get(n_i + i, n_i + i).copied().unwrap_or(0.0);
-    let weight: Vec<f64> = (0..n_b)
-        .map(|i| if diagonal(i) > 0.0 { diagonal(i).sqrt() } else { 1.0 })
-        .collect();
+    let weight: Vec<f64> = (0..n_b).map(|i| if diagonal(i) > 0.0 { diagonal(i).sqrt() } else { 1.0 }).collect();
     let weighted = Mat::from_fn(n_b, u_b.ncols(), |i, j| weight[i] * u_b[(i, j)]);
     let weights = Mat::from_fn(n_b, n_b, |i, j| if i == j { weight[i] } else { 0.0 });
     weighted.qr().solve_lstsq(&weights)
@@ -107,9 +82,7 @@ fn condensed_stiffness(partition: &Partition, modes: MatRef<'_, f64>) -> Mat<f64
     let (n_i, n_b) = (modes.nrows(), modes.ncols());
     let mut psi = Mat::zeros(partition.n_dofs(), n_b);
     psi.as_mut().subrows_mut(0, n_i).copy_from(modes);
-    psi.as_mut()
-        .subrows_mut(n_i, n_b)
-        .copy_from(Mat::<f64>::identity(n_b, n_b));
+    psi.as_mut().subrows_mut(n_i, n_b).copy_from(Mat::<f64>::identity(n_b, n_b));
     let mut stiffness = dense::gram(psi.as_ref(), multiply(&partition.stiffness, psi.as_ref()).as_ref());
     dense::symmetrise(&mut stiffness);
     stiffness

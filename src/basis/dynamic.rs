@@ -48,25 +48,14 @@ pub fn mode_acceleration_columns(
     let mut columns = Mat::zeros(n_i, n_r + modes.count());
     // The modes of the file, not the orthonormal ones: a coordinate then answers to one named unit acceleration.
     let inertia = multiply(&partition.mass, rigid.modes.as_ref());
-    columns
-        .as_mut()
-        .subcols_mut(0, n_r)
-        .copy_from(inertia.as_ref().subrows(0, n_i));
+    columns.as_mut().subcols_mut(0, n_r).copy_from(inertia.as_ref().subrows(0, n_i));
     factor.solve_in_place(columns.as_mut().subcols_mut(0, n_r));
-    let (x_i, x_b) = (
-        modes.shapes.as_ref().subrows(0, n_i),
-        modes.shapes.as_ref().subrows(n_i, n_b),
-    );
+    let (x_i, x_b) = (modes.shapes.as_ref().subrows(0, n_i), modes.shapes.as_ref().subrows(n_i, n_b));
     let mut accelerated = columns.as_mut().subcols_mut(n_r, modes.count());
     accelerated.copy_from(x_i);
     dense::add_product(accelerated, -1.0, constraint.modes.as_ref(), x_b);
     let relief = (0..n_r).map(DynamicCoordinate::InertiaRelief);
-    DynamicColumns {
-        columns,
-        coordinates: relief
-            .chain((0..modes.count()).map(DynamicCoordinate::FreeFree))
-            .collect(),
-    }
+    DynamicColumns { columns, coordinates: relief.chain((0..modes.count()).map(DynamicCoordinate::FreeFree)).collect() }
 }
 
 /// Columns that are M_II-orthonormal, with the triangle that gives the named ones back.
@@ -101,17 +90,11 @@ pub(super) fn independent(named: DynamicColumns, mass: &SparseMatrix) -> Indepen
                 mixing[(size + slot, start + j)] = step.coupling[(*i, j)] * lengths[j];
             }
             if step.kept.contains(&j) {
-                basis
-                    .as_mut()
-                    .subcols_mut(kept.len(), 1)
-                    .copy_from(step.block.as_ref().subcols(j, 1));
+                basis.as_mut().subcols_mut(kept.len(), 1).copy_from(step.block.as_ref().subcols(j, 1));
                 kept.push(start + j);
                 coordinates.push(coordinate);
             } else {
-                dropped.push(DroppedColumn {
-                    coordinate,
-                    remaining: step.remaining[j],
-                });
+                dropped.push(DroppedColumn { coordinate, remaining: step.remaining[j] });
             }
         }
     }
@@ -132,9 +115,7 @@ fn scale_to_unit_mass(panel: &mut Mat<f64>, mass: &SparseMatrix) -> Vec<f64> {
         let square = dense::dot(dense::column(panel.as_ref(), j), dense::column(images.as_ref(), j));
         let length = square.max(0.0).sqrt();
         let factor = if length > 0.0 { 1.0 / length } else { 0.0 };
-        dense::column_mut(panel.as_mut(), j)
-            .iter_mut()
-            .for_each(|value| *value *= factor);
+        dense::column_mut(panel.as_mut(), j).iter_mut().for_each(|value| *value *= factor);
         lengths.push(length);
     }
     lengths
@@ -168,11 +149,5 @@ fn orthonormalise(basis: MatRef<'_, f64>, panel: Mat<f64>, mass: &SparseMatrix) 
         }
         coupling = dense::product(r.as_ref(), coupling.as_ref());
     }
-    Step {
-        block,
-        coefficients,
-        coupling,
-        kept: (0..width).filter(|j| !dependent[*j]).collect(),
-        remaining,
-    }
+    Step { block, coefficients, coupling, kept: (0..width).filter(|j| !dependent[*j]).collect(), remaining }
 }

@@ -24,12 +24,7 @@ pub(super) enum Progress {
 impl<'a> Terminal<'a> {
     /// Streams that are no terminal: no colour, no progress.
     pub fn plain(out: &'a mut dyn Write, err: &'a mut dyn Write) -> Self {
-        Self {
-            out,
-            err,
-            paint: Paint::Plain,
-            progress: Progress::Hidden,
-        }
+        Self { out, err, paint: Paint::Plain, progress: Progress::Hidden }
     }
 
     /// The streams of the process: colour and progress where a person looks on and `NO_COLOR` is not set.
@@ -37,17 +32,8 @@ impl<'a> Terminal<'a> {
         let is_colour_refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         let is_colourful = std::io::stdout().is_terminal() && !is_colour_refused;
         let paint = if is_colourful { Paint::Colour } else { Paint::Plain };
-        let progress = if std::io::stderr().is_terminal() {
-            Progress::Shown
-        } else {
-            Progress::Hidden
-        };
-        Self {
-            out,
-            err,
-            paint,
-            progress,
-        }
+        let progress = if std::io::stderr().is_terminal() { Progress::Shown } else { Progress::Hidden };
+        Self { out, err, paint, progress }
     }
 
     /// Writes to stdout. A reader that has gone away (`supel … | head`) is no error: the exit code still tells how

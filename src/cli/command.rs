@@ -82,28 +82,14 @@ impl Command {
 }
 
 fn build_reduce(flags: ReduceFlags) -> Result<ReduceCommand> {
-    let ReduceFlags {
-        job,
-        model,
-        reduction,
-        output,
-        run,
-    } = flags;
+    let ReduceFlags { job, model, reduction, output, run } = flags;
     let answer = match (output.json, output.quiet) {
         (true, _) => Answer::Json,
         (false, true) => Answer::Nothing,
         (false, false) => Answer::Text,
     };
-    let unverified = if output.allow_unverified {
-        Unverified::Written
-    } else {
-        Unverified::Refused
-    };
-    let strictness = if output.strict {
-        Strictness::Strict
-    } else {
-        Strictness::Normal
-    };
+    let unverified = if output.allow_unverified { Unverified::Written } else { Unverified::Refused };
+    let strictness = if output.strict { Strictness::Strict } else { Strictness::Normal };
     let mut job = match job {
         Some(path) => override_job(Job::read(&path)?, model, &reduction, output)?,
         None => one_off_job(model, &reduction, output)?,
@@ -114,13 +100,7 @@ fn build_reduce(flags: ReduceFlags) -> Result<ReduceCommand> {
     let n_threads = run.threads.map_or_else(process::available_threads, usize::from);
     // Paths of the document are absolute already; those of flags are relative to where the command was typed.
     let job = job.resolve(Path::new(""))?;
-    Ok(ReduceCommand {
-        job,
-        n_threads,
-        answer,
-        unverified,
-        strictness,
-    })
+    Ok(ReduceCommand { job, n_threads, answer, unverified, strictness })
 }
 
 fn override_job(mut job: Job, model: ModelFlags, reduction: &ReductionFlags, output: OutputFlags) -> Result<Job> {
@@ -142,13 +122,9 @@ fn override_job(mut job: Job, model: ModelFlags, reduction: &ReductionFlags, out
 
 fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlags) -> Result<Job> {
     let interfaces = interfaces(&model)?;
-    let (Some(stiffness), Some(mass), Some(method), Some(modes), Some(superelement)) = (
-        &model.stiffness,
-        &model.mass,
-        reduction.method,
-        mode_selection(reduction),
-        &output.output,
-    ) else {
+    let (Some(stiffness), Some(mass), Some(method), Some(modes), Some(superelement)) =
+        (&model.stiffness, &model.mass, reduction.method, mode_selection(reduction), &output.output)
+    else {
         let flags = [
             ("--stiffness", model.stiffness.is_some()),
             ("--mass", model.mass.is_some()),
@@ -156,13 +132,8 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
             ("--up-to-hz or --modes", mode_selection(reduction).is_some()),
             ("--output", output.output.is_some()),
         ];
-        let missing = flags
-            .into_iter()
-            .filter(|(_, is_given)| !is_given)
-            .map(|(flag, _)| flag);
-        return Err(Error::MissingFlags {
-            flags: missing.collect(),
-        });
+        let missing = flags.into_iter().filter(|(_, is_given)| !is_given).map(|(flag, _)| flag);
+        return Err(Error::MissingFlags { flags: missing.collect() });
     };
     Ok(Job {
         model: ModelJob {
@@ -180,10 +151,7 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
             eigensolver: reduction.eigensolver.map(Into::into).unwrap_or_default(),
         },
         run: RunJob::default(),
-        write: WriteJob {
-            superelement: superelement.clone(),
-            report: output.report,
-        },
+        write: WriteJob { superelement: superelement.clone(), report: output.report },
     })
 }
 
@@ -200,26 +168,14 @@ fn mode_selection(reduction: &ReductionFlags) -> Option<ModeSelection> {
 
 /// The interfaces of the flags: the direct ones, then the rigid ones, each in the order typed.
 fn interfaces(model: &ModelFlags) -> Result<Vec<InterfaceJob>> {
-    let direct = model
-        .interface
-        .iter()
-        .map(|text| interface("--interface", text, Coupling::Direct));
-    let rigid = model
-        .rigid_interface
-        .iter()
-        .map(|text| interface("--rigid-interface", text, Coupling::Rigid));
+    let direct = model.interface.iter().map(|text| interface("--interface", text, Coupling::Direct));
+    let rigid = model.rigid_interface.iter().map(|text| interface("--rigid-interface", text, Coupling::Rigid));
     direct.chain(rigid).collect()
 }
 
 fn interface(flag: &'static str, text: &str, coupling: Coupling) -> Result<InterfaceJob> {
-    let wrong = |expected| Error::FlagText {
-        flag,
-        text: text.to_owned(),
-        expected,
-    };
-    let (name, nodes) = text
-        .split_once('=')
-        .ok_or_else(|| wrong("NAME=NODES, as in hub=12,17,19"))?;
+    let wrong = |expected| Error::FlagText { flag, text: text.to_owned(), expected };
+    let (name, nodes) = text.split_once('=').ok_or_else(|| wrong("NAME=NODES, as in hub=12,17,19"))?;
     let nodes = if nodes.starts_with("group:") {
         NodeSelection::Group(nodes.to_owned())
     } else if let Some(rows) = nodes.strip_prefix("rows:") {
@@ -229,13 +185,7 @@ fn interface(flag: &'static str, text: &str, coupling: Coupling) -> Result<Inter
         let labels = numbers(nodes).ok_or_else(|| wrong("node labels, group:NAME or rows:0,1,2 after the ="))?;
         NodeSelection::Labels(labels)
     };
-    Ok(InterfaceJob {
-        name: name.to_owned(),
-        nodes,
-        coupling,
-        origin: Origin::Centroid,
-        dofs: None,
-    })
+    Ok(InterfaceJob { name: name.to_owned(), nodes, coupling, origin: Origin::Centroid, dofs: None })
 }
 
 fn numbers<T: std::str::FromStr>(text: &str) -> Option<Vec<T>> {

@@ -13,10 +13,7 @@ pub(super) fn available_bytes() -> Option<u64> {
 
 /// The same with the system's files below `root`.
 fn available_below(root: &Path) -> Option<u64> {
-    let free = [system_bytes(root), control_group_bytes(root)]
-        .into_iter()
-        .flatten()
-        .min()?;
+    let free = [system_bytes(root), control_group_bytes(root)].into_iter().flatten().min()?;
     Some((free as f64 * USABLE) as u64)
 }
 
@@ -42,12 +39,8 @@ const V1: Version = Version {
     usage: "memory.usage_in_bytes",
     reclaimable: "total_inactive_file ",
 };
-const V2: Version = Version {
-    mount: "sys/fs/cgroup",
-    limit: "memory.max",
-    usage: "memory.current",
-    reclaimable: "inactive_file ",
-};
+const V2: Version =
+    Version { mount: "sys/fs/cgroup", limit: "memory.max", usage: "memory.current", reclaimable: "inactive_file " };
 
 /// The least that the control groups of this process leave, from its own up to the outermost.
 fn control_group_bytes(root: &Path) -> Option<u64> {
@@ -77,9 +70,7 @@ fn left_in(folder: &Path, version: &Version) -> Option<u64> {
     let limit = number(folder.join(version.limit))?;
     let used = number(folder.join(version.usage))?;
     let facts = fs::read_to_string(folder.join("memory.stat")).unwrap_or_default();
-    let reclaimable = facts
-        .lines()
-        .find_map(|line| line.strip_prefix(version.reclaimable)?.trim().parse::<u64>().ok());
+    let reclaimable = facts.lines().find_map(|line| line.strip_prefix(version.reclaimable)?.trim().parse::<u64>().ok());
     Some(limit.saturating_sub(used.saturating_sub(reclaimable.unwrap_or(0))))
 }
 
@@ -98,10 +89,7 @@ mod tests {
         root
     }
 
-    const MEMINFO: (&str, &str) = (
-        "proc/meminfo",
-        "MemTotal: 9000 kB\nMemFree: 10 kB\nMemAvailable:    1000 kB\n",
-    );
+    const MEMINFO: (&str, &str) = ("proc/meminfo", "MemTotal: 9000 kB\nMemFree: 10 kB\nMemAvailable:    1000 kB\n");
 
     #[test]
     fn without_control_groups_nine_tenths_of_what_is_available() {
@@ -134,10 +122,7 @@ mod tests {
             ("proc/self/cgroup", "5:cpu,memory:/docker/abc\n3:pids:/docker/abc\n"),
             ("sys/fs/cgroup/memory/memory.limit_in_bytes", "20000\n"),
             ("sys/fs/cgroup/memory/memory.usage_in_bytes", "15000\n"),
-            (
-                "sys/fs/cgroup/memory/memory.stat",
-                "inactive_file 1\ntotal_inactive_file 5000\n",
-            ),
+            ("sys/fs/cgroup/memory/memory.stat", "inactive_file 1\ntotal_inactive_file 5000\n"),
         ]);
         assert_eq!(available_below(root.path()), Some(9000));
     }

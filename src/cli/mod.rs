@@ -99,11 +99,7 @@ fn complain(error: &Error, terminal: &mut Terminal<'_>) {
 /// A command line run against the real streams; what `main` calls.
 pub fn main(pipeline: Pipeline) -> std::process::ExitCode {
     let (mut out, mut err) = (std::io::stdout().lock(), std::io::stderr());
-    let code = run(
-        std::env::args_os(),
-        pipeline,
-        &mut Terminal::of_process(&mut out, &mut err),
-    );
+    let code = run(std::env::args_os(), pipeline, &mut Terminal::of_process(&mut out, &mut err));
     // A reader that has gone away needs no answer, and nobody is left to be told.
     let _ = out.flush();
     std::process::ExitCode::from(code as u8)

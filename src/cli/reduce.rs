@@ -22,13 +22,8 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
         .map_err(|source| Error::Threads { n_threads, source })?;
     let mut stage_line = StageLine::new(terminal.progress);
     let mut clock = StageClock::new(&mut stage_line);
-    let resources = Resources {
-        memory_bytes: memory::available_bytes(),
-    };
-    let Outcome {
-        superelement,
-        mut report,
-    } = threads.install(|| pipeline(&command.job, resources, &mut clock))?;
+    let resources = Resources { memory_bytes: memory::available_bytes() };
+    let Outcome { superelement, mut report } = threads.install(|| pipeline(&command.job, resources, &mut clock))?;
     clock.stage("write");
     report.run.n_threads = n_threads;
     let code = write_superelement(command, &superelement, &mut report)?;
@@ -63,11 +58,7 @@ fn write_superelement(command: &ReduceCommand, superelement: &Superelement, repo
         report.run.superelement = Some(path.to_owned());
         report.run.file_bytes = Some(sealed.bytes.len() as u64);
     }
-    Ok(if is_verified {
-        ExitCode::Done
-    } else {
-        ExitCode::CheckFailed
-    })
+    Ok(if is_verified { ExitCode::Done } else { ExitCode::CheckFailed })
 }
 
 /// M-26: the written file, read back, is the superelement in memory to the last bit.
@@ -96,21 +87,11 @@ fn explain(command: &ReduceCommand, code: ExitCode, terminal: &mut Terminal<'_>)
             Strictness::Normal => "a check failed",
             Strictness::Strict => "a check failed or warned, with --strict",
         };
-        let earlier = if path.exists() {
-            "; the file of that name is from an earlier run"
-        } else {
-            ""
-        };
+        let earlier = if path.exists() { "; the file of that name is from an earlier run" } else { "" };
         let advice = "see the report, or write it anyway with --allow-unverified";
-        terminal.complain(&format!(
-            "supel: {}: not written: {cause}{earlier} – {advice}",
-            path.display()
-        ));
+        terminal.complain(&format!("supel: {}: not written: {cause}{earlier} – {advice}", path.display()));
     }
     for part in abandoned_parts(path) {
-        terminal.complain(&format!(
-            "supel: {}: left by an interrupted run – it can be removed",
-            part.display()
-        ));
+        terminal.complain(&format!("supel: {}: left by an interrupted run – it can be removed", part.display()));
     }
 }

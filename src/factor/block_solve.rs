@@ -70,13 +70,7 @@ fn forward<const W: usize>(node: SupernodeRef<'_, usize, f64>, x: &mut [Row<W>],
     update.resize(pattern.len(), [0.0; W]);
     let top = &*top;
     for_chunks(size, update, |first, rows| {
-        Kernel::Rows {
-            columns: &columns,
-            first: size + first,
-            top,
-            rows,
-        }
-        .run();
+        Kernel::Rows { columns: &columns, first: size + first, top, rows }.run();
     });
     for (row, change) in pattern.iter().zip(&*update) {
         for (x, change) in x[*row].iter_mut().zip(change) {
@@ -94,14 +88,7 @@ fn backward<const W: usize>(node: SupernodeRef<'_, usize, f64>, x: &mut [Row<W>]
     let below = &*below;
     let top = &mut x[node.start()..node.start() + size];
     for_chunks(below.len(), top, |first, targets| {
-        Kernel::Columns {
-            columns: &columns,
-            first,
-            size,
-            below,
-            targets,
-        }
-        .run();
+        Kernel::Columns { columns: &columns, first, size, below, targets }.run();
     });
     Kernel::TransposedTriangle { columns: &columns, top }.run();
 }
@@ -109,43 +96,22 @@ fn backward<const W: usize>(node: SupernodeRef<'_, usize, f64>, x: &mut [Row<W>]
 /// Gives chunks of rows to tasks where the work (rows times `depth`) is worth it.
 fn for_chunks<const W: usize>(depth: usize, rows: &mut [Row<W>], work: impl Fn(usize, &mut [Row<W>]) + Sync) {
     if depth * rows.len() > PARALLEL_ABOVE {
-        rows.par_chunks_mut(CHUNK)
-            .enumerate()
-            .for_each(|(chunk, rows)| work(chunk * CHUNK, rows));
+        rows.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, rows)| work(chunk * CHUNK, rows));
     } else {
-        rows.chunks_mut(CHUNK)
-            .enumerate()
-            .for_each(|(chunk, rows)| work(chunk * CHUNK, rows));
+        rows.chunks_mut(CHUNK).enumerate().for_each(|(chunk, rows)| work(chunk * CHUNK, rows));
     }
 }
 
 /// The four inner loops, compiled for the vector unit that the machine turns out to have.
 enum Kernel<'a, const W: usize> {
     /// Solves the triangle on top.
-    Triangle {
-        columns: &'a Columns<'a>,
-        top: &'a mut [Row<W>],
-    },
+    Triangle { columns: &'a Columns<'a>, top: &'a mut [Row<W>] },
     /// Multiplies rows of the trapezoid with the solved top.
-    Rows {
-        columns: &'a Columns<'a>,
-        first: usize,
-        top: &'a [Row<W>],
-        rows: &'a mut [Row<W>],
-    },
+    Rows { columns: &'a Columns<'a>, first: usize, top: &'a [Row<W>], rows: &'a mut [Row<W>] },
     /// Takes the rows below into rows of the top.
-    Columns {
-        columns: &'a Columns<'a>,
-        first: usize,
-        size: usize,
-        below: &'a [Row<W>],
-        targets: &'a mut [Row<W>],
-    },
+    Columns { columns: &'a Columns<'a>, first: usize, size: usize, below: &'a [Row<W>], targets: &'a mut [Row<W>] },
     /// Solves the transposed triangle.
-    TransposedTriangle {
-        columns: &'a Columns<'a>,
-        top: &'a mut [Row<W>],
-    },
+    TransposedTriangle { columns: &'a Columns<'a>, top: &'a mut [Row<W>] },
 }
 
 impl<const W: usize> Kernel<'_, W> {
@@ -161,19 +127,8 @@ impl<const W: usize> WithSimd for Kernel<'_, W> {
     fn with_simd<S: Simd>(self, _: S) {
         match self {
             Self::Triangle { columns, top } => solve_triangle(columns, top),
-            Self::Rows {
-                columns,
-                first,
-                top,
-                rows,
-            } => accumulate_rows(columns, first, top, rows),
-            Self::Columns {
-                columns,
-                first,
-                size,
-                below,
-                targets,
-            } => {
+            Self::Rows { columns, first, top, rows } => accumulate_rows(columns, first, top, rows),
+            Self::Columns { columns, first, size, below, targets } => {
                 subtract_columns(columns, first, size, below, targets);
             }
             Self::TransposedTriangle { columns, top } => solve_transposed_triangle(columns, top),

@@ -38,9 +38,7 @@ impl<'a> Cholesky<'a> {
         let mut values = zeros(symbolic.len_val())?;
         let parameters = Spec::default();
         let scratch = factorize_supernodal_numeric_llt_scratch::<usize, f64>(symbolic, Par::Seq, parameters);
-        let mut memory = MemBuffer::try_new(scratch).map_err(|_| Error::OutOfMemory {
-            what: "the factorisation",
-        })?;
+        let mut memory = MemBuffer::try_new(scratch).map_err(|_| Error::OutOfMemory { what: "the factorisation" })?;
         factorize_supernodal_numeric_llt(
             &mut values,
             matrix,
@@ -50,16 +48,10 @@ impl<'a> Cholesky<'a> {
             MemStack::new(&mut memory),
             parameters,
         )
-        .map_err(
-            |faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }| Error::NotDefinite {
-                dof: name(index),
-            },
-        )?;
-        let mut factor = Self {
-            analysis,
-            values,
-            smallest_pivot_ratio: 1.0,
-        };
+        .map_err(|faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }| {
+            Error::NotDefinite { dof: name(index) }
+        })?;
+        let mut factor = Self { analysis, values, smallest_pivot_ratio: 1.0 };
         let (ratio, step) = factor.smallest_pivot(&lower);
         // Rounding decides the sign of a pivot that should be zero, so a singular matrix may well get this far.
         if ratio.is_nan() || ratio <= SINGULAR {
@@ -101,9 +93,7 @@ impl SolveOperator for Cholesky<'_> {
 /// A vector of zeros, or an error where there is no memory for it.
 pub(super) fn zeros(len: usize) -> Result<Vec<f64>> {
     let mut values = Vec::new();
-    values
-        .try_reserve_exact(len)
-        .map_err(|_| Error::OutOfMemory { what: "the factor" })?;
+    values.try_reserve_exact(len).map_err(|_| Error::OutOfMemory { what: "the factor" })?;
     values.resize(len, 0.0);
     Ok(values)
 }

@@ -40,10 +40,7 @@ pub struct InertiaCount {
 /// No memory for the second factor; pivots that are not numbers, which means that σ hits an eigenvalue exactly.
 pub fn count_below(partition: &Partition, analysis: &Analysis, sigma: f64) -> Result<InertiaCount> {
     let (stiffness, mass) = (partition.internal_stiffness(), partition.internal_mass());
-    let pencil = Pencil {
-        stiffness: &stiffness,
-        mass: &mass,
-    };
+    let pencil = Pencil { stiffness: &stiffness, mass: &mass };
     let factor = Indefinite::new(analysis, pencil, sigma)?;
     let signs = factor.signs()?;
     let (below_free, schur_gap) = factor.schur_signs(partition, sigma)?;
@@ -78,10 +75,7 @@ struct Signs {
 impl<'a> Indefinite<'a> {
     fn new(analysis: &'a Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<Self> {
         let (symbolic, n) = (&analysis.symbolic, analysis.n);
-        let scale: Vec<f64> = crate::model::diagonal(pencil.stiffness)
-            .into_iter()
-            .map(power_of_two_root)
-            .collect();
+        let scale: Vec<f64> = crate::model::diagonal(pencil.stiffness).into_iter().map(power_of_two_root).collect();
         let lower = Triangle::shifted_and_scaled(pencil, sigma, &scale);
         let largest = lower.values.iter().fold(0.0, |max: f64, value| max.max(value.abs()));
         let pattern = SymbolicSparseColMatRef::new_checked(n, n, &lower.pointers, None, &lower.indices);
@@ -96,9 +90,7 @@ impl<'a> Indefinite<'a> {
         };
         let parameters = Spec::default();
         let scratch = factorize_supernodal_numeric_intranode_lblt_scratch::<usize, f64>(symbolic, Par::Seq, parameters);
-        let mut memory = MemBuffer::try_new(scratch).map_err(|_| Error::OutOfMemory {
-            what: "the Sturm count",
-        })?;
+        let mut memory = MemBuffer::try_new(scratch).map_err(|_| Error::OutOfMemory { what: "the Sturm count" })?;
         factorize_supernodal_numeric_intranode_lblt(
             &mut factor.values,
             &mut factor.subdiagonal,
@@ -121,10 +113,7 @@ impl<'a> Indefinite<'a> {
     /// Signs of the pivots of B.
     fn signs(&self) -> Result<Signs> {
         let factor = self.as_ref();
-        let mut signs = Signs {
-            negative: 0,
-            growth: 0.0,
-        };
+        let mut signs = Signs { negative: 0, growth: 0.0 };
         let mut largest_pivot = 0.0f64;
         for s in 0..self.analysis.symbolic.n_supernodes() {
             let node = factor.supernode(s);
@@ -142,11 +131,7 @@ impl<'a> Indefinite<'a> {
                 } else {
                     let next = node.val()[(j + 1, j + 1)];
                     // One of each sign unless the determinant is positive; then both have the sign of the trace.
-                    signs.negative += if d * next - below * below < 0.0 {
-                        1
-                    } else {
-                        2 * usize::from(d < 0.0)
-                    };
+                    signs.negative += if d * next - below * below < 0.0 { 1 } else { 2 * usize::from(d < 0.0) };
                     j += 2;
                 }
             }
@@ -161,14 +146,10 @@ impl<'a> Indefinite<'a> {
             let row = self.forward[i];
             block[(row, j)] * self.scale[row]
         });
-        let scratch = self
-            .analysis
-            .symbolic
-            .solve_in_place_scratch::<f64>(x.ncols(), Par::Seq);
+        let scratch = self.analysis.symbolic.solve_in_place_scratch::<f64>(x.ncols(), Par::Seq);
         let mut memory = MemBuffer::new(scratch);
         let stack = MemStack::new(&mut memory);
-        self.as_ref()
-            .solve_in_place_no_numeric_permute_with_conj(Conj::No, x.as_mut(), Par::Seq, stack);
+        self.as_ref().solve_in_place_no_numeric_permute_with_conj(Conj::No, x.as_mut(), Par::Seq, stack);
         Mat::from_fn(x.nrows(), x.ncols(), |i, j| x[(self.inverse[i], j)] * self.scale[i])
     }
 
@@ -188,21 +169,12 @@ impl<'a> Indefinite<'a> {
         let scaled = Mat::from_fn(n_b, n_b, |i, j| schur[(i, j)] * scale[i] * scale[j]);
         let (eigenvalues, _) = dense::symmetric_eigen(scaled.as_ref())?;
         let largest = eigenvalues.iter().fold(0.0f64, |max, value| max.max(value.abs()));
-        let smallest = eigenvalues
-            .iter()
-            .fold(f64::INFINITY, |min, value| min.min(value.abs()));
-        Ok((
-            eigenvalues.iter().filter(|value| **value < 0.0).count(),
-            smallest / largest,
-        ))
+        let smallest = eigenvalues.iter().fold(f64::INFINITY, |min, value| min.min(value.abs()));
+        Ok((eigenvalues.iter().filter(|value| **value < 0.0).count(), smallest / largest))
     }
 }
 
 /// The power of two nearest 1/√|d|; one for zero.
 fn power_of_two_root(d: f64) -> f64 {
-    if d == 0.0 || !d.is_finite() {
-        1.0
-    } else {
-        2f64.powi((-0.5 * d.abs().log2()).round() as i32)
-    }
+    if d == 0.0 || !d.is_finite() { 1.0 } else { 2f64.powi((-0.5 * d.abs().log2()).round() as i32) }
 }

@@ -43,15 +43,7 @@ pub fn refuse_beyond_memory(analysis: &Analysis, partition: &Partition, job: &Jo
         return Ok(());
     }
     let part = |bytes: u64| bytes as f64 / f64::from(1 << 30);
-    let what = format!(
-        "factors {:.1}, matrices {:.1}, vectors {:.1} GiB",
-        part(factors),
-        part(matrices),
-        part(vectors)
-    );
-    Err(Error::MemoryForecast {
-        needed,
-        available,
-        what,
-    })
+    let what =
+        format!("factors {:.1}, matrices {:.1}, vectors {:.1} GiB", part(factors), part(matrices), part(vectors));
+    Err(Error::MemoryForecast { needed, available, what })
 }

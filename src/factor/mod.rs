@@ -71,9 +71,8 @@ impl Analysis {
         let mut column_counts = vec![0usize; n];
         let scratch = prefactorize_symbolic_cholesky_scratch::<usize>(n, upper.indices.len())
             .or(factorize_supernodal_symbolic_cholesky_scratch::<usize>(n));
-        let mut memory = MemBuffer::try_new(scratch).map_err(|_| Error::OutOfMemory {
-            what: "the symbolic factorisation",
-        })?;
+        let mut memory =
+            MemBuffer::try_new(scratch).map_err(|_| Error::OutOfMemory { what: "the symbolic factorisation" })?;
         let stack = MemStack::new(&mut memory);
         let tree = prefactorize_symbolic_cholesky(&mut tree, &mut column_counts, pattern, stack);
         let symbolic = factorize_supernodal_symbolic_cholesky(
@@ -83,17 +82,10 @@ impl Analysis {
             stack,
             SymbolicSupernodalParams { relax: None },
         )
-        .map_err(|_| Error::OutOfMemory {
-            what: "the structure of the factor",
-        })?;
+        .map_err(|_| Error::OutOfMemory { what: "the structure of the factor" })?;
         let nnz_factor = column_counts.iter().map(|count| *count as f64).sum();
         let flops = column_counts.iter().map(|count| (*count as f64).powi(2)).sum();
-        Ok(Self {
-            symbolic,
-            n,
-            nnz_factor,
-            flops,
-        })
+        Ok(Self { symbolic, n, nnz_factor, flops })
     }
 
     /// Order of the matrix.

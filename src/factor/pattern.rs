@@ -34,25 +34,18 @@ impl Triangle {
 
     /// D (K − σM) D with a diagonal D.
     pub(super) fn shifted_and_scaled(pencil: Pencil<'_>, sigma: f64, scale: &[f64]) -> Self {
-        Self::build(pencil, Part::FromDiagonal, |row, col, k, m| {
-            Some((k - sigma * m) * scale[row] * scale[col])
-        })
+        Self::build(pencil, Part::FromDiagonal, |row, col, k, m| Some((k - sigma * m) * scale[row] * scale[col]))
     }
 
     fn build(pencil: Pencil<'_>, part: Part, value: impl Fn(usize, usize, f64, f64) -> Option<f64>) -> Self {
         let n = pencil.stiffness.rows();
         let capacity = pencil.stiffness.nnz() / 2 + n;
-        let mut triangle = Self {
-            pointers: Vec::with_capacity(n + 1),
-            indices: Vec::with_capacity(capacity),
-            values: Vec::new(),
-        };
+        let mut triangle =
+            Self { pointers: Vec::with_capacity(n + 1), indices: Vec::with_capacity(capacity), values: Vec::new() };
         triangle.pointers.push(0);
         for row in 0..n {
-            let ((k_cols, k_values), (m_cols, m_values)) = (
-                part_of_row(pencil.stiffness, row, part),
-                part_of_row(pencil.mass, row, part),
-            );
+            let ((k_cols, k_values), (m_cols, m_values)) =
+                (part_of_row(pencil.stiffness, row, part), part_of_row(pencil.mass, row, part));
             let (mut at_k, mut at_m) = (0, 0);
             while at_k < k_cols.len() || at_m < m_cols.len() {
                 let next_k = k_cols.get(at_k).copied().unwrap_or(u32::MAX);

@@ -36,11 +36,7 @@ pub(super) struct HeadReader<'a> {
 impl<'a> HeadReader<'a> {
     /// At the first line of a file.
     pub(super) fn new(path: &'a Path) -> Self {
-        Self {
-            path,
-            n_lines: 0,
-            banner: None,
-        }
+        Self { path, n_lines: 0, banner: None }
     }
 
     /// Lines taken so far.
@@ -58,13 +54,7 @@ impl<'a> HeadReader<'a> {
                 Some(declared) => self.size_line(trimmed, declared)?,
                 None if trimmed[0].is_ascii_digit() => {
                     let first = whole_numbers(trimmed);
-                    return Ok((
-                        taken,
-                        Some(Head::Headerless {
-                            first,
-                            line: self.n_lines + 1,
-                        }),
-                    ));
+                    return Ok((taken, Some(Head::Headerless { first, line: self.n_lines + 1 })));
                 }
                 None => {
                     self.banner = self.banner_line(trimmed)?;
@@ -84,15 +74,8 @@ impl<'a> HeadReader<'a> {
     pub(super) fn ended_early(&self) -> Error {
         let path = self.path.to_owned();
         match self.banner {
-            Some(_) => Error::MatrixSizeLine {
-                path,
-                line: self.n_lines + 1,
-                found: "end of file".into(),
-            },
-            None => Error::NoData {
-                path,
-                expected: "a matrix in Matrix Market form, or lines `row column value`",
-            },
+            Some(_) => Error::MatrixSizeLine { path, line: self.n_lines + 1, found: "end of file".into() },
+            None => Error::NoData { path, expected: "a matrix in Matrix Market form, or lines `row column value`" },
         }
     }
 
@@ -106,11 +89,7 @@ impl<'a> HeadReader<'a> {
         let (path, line) = (self.path.to_owned(), self.n_lines + 1);
         let words: Vec<&str> = text.split_ascii_whitespace().collect();
         let ["%%matrixmarket", object, format, field, symmetry] = words[..] else {
-            return Err(Error::MatrixBanner {
-                path,
-                line,
-                found: excerpt(text.as_bytes()),
-            });
+            return Err(Error::MatrixBanner { path, line, found: excerpt(text.as_bytes()) });
         };
         let supported: [(&str, &[&str]); 4] = [
             (object, &["matrix"]),
@@ -119,17 +98,9 @@ impl<'a> HeadReader<'a> {
             (symmetry, &["symmetric", "general"]),
         ];
         if let Some((found, _)) = supported.into_iter().find(|(found, known)| !known.contains(found)) {
-            return Err(Error::MatrixFlavour {
-                path,
-                line,
-                found: excerpt(found.as_bytes()),
-            });
+            return Err(Error::MatrixFlavour { path, line, found: excerpt(found.as_bytes()) });
         }
-        Ok(Some(if symmetry == "symmetric" {
-            Declared::Symmetric
-        } else {
-            Declared::General
-        }))
+        Ok(Some(if symmetry == "symmetric" { Declared::Symmetric } else { Declared::General }))
     }
 
     /// The size line, or `None` for a comment.
@@ -139,11 +110,7 @@ impl<'a> HeadReader<'a> {
         }
         let line = self.n_lines + 1;
         let Some([rows, cols, n_entries]) = whole_numbers(text) else {
-            return Err(Error::MatrixSizeLine {
-                path: self.path.to_owned(),
-                line,
-                found: excerpt(text),
-            });
+            return Err(Error::MatrixSizeLine { path: self.path.to_owned(), line, found: excerpt(text) });
         };
         let n = square_order(self.path, line, rows, cols)?;
         Ok(Some(Head::Coordinate { n, n_entries, declared }))
@@ -153,20 +120,10 @@ impl<'a> HeadReader<'a> {
 /// The order of a matrix of this many rows and columns.
 pub(super) fn square_order(path: &Path, line: u64, rows: u64, cols: u64) -> Result<u32> {
     if rows != cols {
-        return Err(Error::MatrixNotSquare {
-            path: path.to_owned(),
-            line,
-            rows,
-            cols,
-        });
+        return Err(Error::MatrixNotSquare { path: path.to_owned(), line, rows, cols });
     }
     let order = u32::try_from(rows).ok().filter(|&n| n > 0 && n as usize <= MAX_ORDER);
-    order.ok_or_else(|| Error::MatrixOrder {
-        path: path.to_owned(),
-        line,
-        n: rows,
-        limit: MAX_ORDER as u64,
-    })
+    order.ok_or_else(|| Error::MatrixOrder { path: path.to_owned(), line, n: rows, limit: MAX_ORDER as u64 })
 }
 
 /// A line that holds no numbers on purpose. Percent is Matrix Market's, the others are usual in bare tables.
@@ -182,11 +139,7 @@ pub(super) fn excerpt(text: &[u8]) -> String {
         .take(LONGEST)
         .map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c })
         .collect();
-    if shown.chars().count() == LONGEST {
-        shown + "…"
-    } else {
-        shown
-    }
+    if shown.chars().count() == LONGEST { shown + "…" } else { shown }
 }
 
 /// Exactly three whole numbers.

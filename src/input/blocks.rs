@@ -75,26 +75,15 @@ fn produce(path: &Path, mut source: Source, block_bytes: usize, sender: &SyncSen
         }
         is_first = false;
         if n_read == 0 {
-            let last_line = if block.is_empty() {
-                LastLine::Terminated
-            } else {
-                LastLine::Open
-            };
+            let last_line = if block.is_empty() { LastLine::Terminated } else { LastLine::Open };
             // A receiver that went away has its own error to report.
             let _ = sender.send(block);
-            return Ok(Ending {
-                digest: source.digest(),
-                last_line,
-            });
+            return Ok(Ending { digest: source.digest(), last_line });
         }
         let end = block.iter().rposition(|&byte| byte == b'\n').map_or(0, |at| at + 1);
         if block.len() - end > MAX_LINE_BYTES {
             let line = n_lines + count_lines(&block[..end]) + 1;
-            return Err(Error::LineTooLong {
-                path: path.to_owned(),
-                line,
-                limit: MAX_LINE_BYTES,
-            });
+            return Err(Error::LineTooLong { path: path.to_owned(), line, limit: MAX_LINE_BYTES });
         }
         if end == 0 {
             continue;
@@ -104,10 +93,7 @@ fn produce(path: &Path, mut source: Source, block_bytes: usize, sender: &SyncSen
         block.truncate(end);
         n_lines += count_lines(&block);
         if sender.send(block).is_err() {
-            return Ok(Ending {
-                digest: source.digest(),
-                last_line: LastLine::Terminated,
-            });
+            return Ok(Ending { digest: source.digest(), last_line: LastLine::Terminated });
         }
         block = next;
     }
@@ -137,7 +123,5 @@ fn fill(source: &mut Source, block: &mut Vec<u8>, block_bytes: usize) -> std::io
 
 fn count_lines(text: &[u8]) -> u64 {
     // Sums of a byte each are what the vector units count in.
-    text.chunks(255)
-        .map(|part| u64::from(part.iter().map(|&byte| u8::from(byte == b'\n')).sum::<u8>()))
-        .sum()
+    text.chunks(255).map(|part| u64::from(part.iter().map(|&byte| u8::from(byte == b'\n')).sum::<u8>())).sum()
 }

@@ -35,9 +35,7 @@ const MIN_DISTINCT_SHORT: usize = 20;
 ///
 /// Looks at about 2000 values spread over the slice; zeros do not count.
 pub fn significant_digits(values: &[f64]) -> u32 {
-    let sample: Vec<f64> = spread(values)
-        .filter(|value| value.is_finite() && *value != 0.0)
-        .collect();
+    let sample: Vec<f64> = spread(values).filter(|value| value.is_finite() && *value != 0.0).collect();
     if sample.is_empty() {
         return DOUBLE_DIGITS;
     }
@@ -50,11 +48,7 @@ pub fn significant_digits(values: &[f64]) -> u32 {
         let is_single = sample.iter().all(|&value| f64::from(value as f32) == value);
         return if is_single { SINGLE_DIGITS } else { DOUBLE_DIGITS };
     }
-    let is_from_text = if is_short {
-        is_rounded(&distinct, digits)
-    } else {
-        n_mantissas(&distinct) >= MIN_DISTINCT
-    };
+    let is_from_text = if is_short { is_rounded(&distinct, digits) } else { n_mantissas(&distinct) >= MIN_DISTINCT };
     if is_from_text { digits } else { DOUBLE_DIGITS }
 }
 
@@ -87,11 +81,7 @@ impl Decimal {
 }
 
 fn n_mantissas(distinct: &BTreeSet<Decimal>) -> usize {
-    distinct
-        .iter()
-        .map(|decimal| decimal.mantissa)
-        .collect::<BTreeSet<_>>()
-        .len()
+    distinct.iter().map(|decimal| decimal.mantissa).collect::<BTreeSet<_>>().len()
 }
 
 /// Whether numbers of at most `digits` digits look rounded relative to their size: below the highest decade, too, most
@@ -130,10 +120,7 @@ mod tests {
     #[test]
     fn printed_values_carry_the_digits_of_the_print() {
         for n_digits in 3..=15 {
-            assert_eq!(
-                significant_digits(&printed(&scattered(5000), n_digits)),
-                n_digits as u32
-            );
+            assert_eq!(significant_digits(&printed(&scattered(5000), n_digits)), n_digits as u32);
         }
     }
 
@@ -148,14 +135,7 @@ mod tests {
     fn exact_short_values_are_exact() {
         let integers: Vec<f64> = (0..2000).map(|k| f64::from(k * k % 99_991)).collect();
         let hundredths: Vec<f64> = integers.iter().map(|value| value / 100.0).collect();
-        for values in [
-            vec![2.0, -1.0, 2.0],
-            vec![0.25; 50],
-            vec![0.0; 5],
-            vec![],
-            integers,
-            hundredths,
-        ] {
+        for values in [vec![2.0, -1.0, 2.0], vec![0.25; 50], vec![0.0; 5], vec![], integers, hundredths] {
             assert_eq!(significant_digits(&values), 17, "{:?}", &values[..values.len().min(3)]);
         }
     }

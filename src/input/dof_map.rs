@@ -36,14 +36,8 @@ pub(super) enum DirectionBase {
 /// Reads a dof map, plain or gzipped.
 pub(super) fn read(path: &Path) -> Result<ReadDofs> {
     let first = open_first_line(path, EXPECTED)?;
-    let is_table = first
-        .text
-        .contains(|c: char| c.is_alphabetic() || matches!(c, ',' | ';' | '\t'));
-    let read = if is_table {
-        read_table(path, first)?
-    } else {
-        read_lines(path, first)?
-    };
+    let is_table = first.text.contains(|c: char| c.is_alphabetic() || matches!(c, ',' | ';' | '\t'));
+    let read = if is_table { read_table(path, first)? } else { read_lines(path, first)? };
     check_repeated(path, &read.dofs)?;
     Ok(read)
 }
@@ -58,11 +52,7 @@ pub(super) fn default_order(nodes: &Nodes, nodes_path: &Path, n: usize) -> Resul
         _ => &[][..],
     };
     if directions.is_empty() {
-        return Err(Error::DofOrderUnknown {
-            nodes: nodes_path.to_owned(),
-            n_nodes,
-            n,
-        });
+        return Err(Error::DofOrderUnknown { nodes: nodes_path.to_owned(), n_nodes, n });
     }
     let at_node = |&node: &i64| directions.iter().map(move |&direction| Dof { node, direction });
     Ok(nodes.labels.iter().flat_map(at_node).collect())
@@ -70,22 +60,12 @@ pub(super) fn default_order(nodes: &Nodes, nodes_path: &Path, n: usize) -> Resul
 
 /// Checks that every node of a dof map has a position; returns how many nodes no row uses.
 pub(super) fn check_nodes(dofs: &[Dof], path: &Path, nodes: &Nodes, nodes_path: &Path) -> Result<usize> {
-    let index_of: HashMap<i64, usize> = nodes
-        .labels
-        .iter()
-        .enumerate()
-        .map(|(index, &label)| (label, index))
-        .collect();
+    let index_of: HashMap<i64, usize> = nodes.labels.iter().enumerate().map(|(index, &label)| (label, index)).collect();
     let mut is_used = vec![false; nodes.labels.len()];
     for (row, dof) in dofs.iter().enumerate() {
         let Some(&index) = index_of.get(&dof.node) else {
             let (path, nodes) = (path.to_owned(), nodes_path.to_owned());
-            return Err(Error::DofNodeMissing {
-                path,
-                row: row + 1,
-                node: dof.node,
-                nodes,
-            });
+            return Err(Error::DofNodeMissing { path, row: row + 1, node: dof.node, nodes });
         };
         is_used[index] = true;
     }
@@ -103,10 +83,7 @@ fn read_lines(path: &Path, mut first: FirstLine) -> Result<ReadDofs> {
         line += 1;
         let n_read = first.rest.by_ref().take(MAX_LINE_BYTES).read_until(b'\n', &mut bytes);
         if n_read.map_err(|error| read_error(path, error))? == 0 {
-            return Ok(ReadDofs {
-                dofs,
-                base: DirectionBase::One,
-            });
+            return Ok(ReadDofs { dofs, base: DirectionBase::One });
         }
         let text = bytes.trim_ascii();
         if !text.is_empty() {
@@ -116,16 +93,10 @@ fn read_lines(path: &Path, mut first: FirstLine) -> Result<ReadDofs> {
 }
 
 fn parse_line(path: &Path, line: u64, text: &str) -> Result<Dof> {
-    let parts = text
-        .split_once('.')
-        .and_then(|(node, direction)| Some((node.parse::<i64>().ok()?, direction)));
+    let parts = text.split_once('.').and_then(|(node, direction)| Some((node.parse::<i64>().ok()?, direction)));
     let Some((node, direction)) = parts.filter(|(_, direction)| direction.bytes().all(|byte| byte.is_ascii_digit()))
     else {
-        return Err(Error::DofText {
-            path: path.to_owned(),
-            line,
-            found: excerpt(text.as_bytes()),
-        });
+        return Err(Error::DofText { path: path.to_owned(), line, found: excerpt(text.as_bytes()) });
     };
     match numbered(direction, DirectionBase::One) {
         Some(direction) => Ok(Dof { node, direction }),
@@ -145,42 +116,20 @@ fn read_table(path: &Path, first: FirstLine) -> Result<ReadDofs> {
         if let Some(column) = row_column {
             check_row_number(path, &row, column, rows.len() as u64, &mut first_number)?;
         }
-        rows.push((
-            row.line,
-            row.integer(node_column)?,
-            row.text(direction_column).to_lowercase(),
-        ));
+        rows.push((row.line, row.integer(node_column)?, row.text(direction_column).to_lowercase()));
     }
     if rows.is_empty() {
-        return Err(Error::NoData {
-            path: path.to_owned(),
-            expected: "rows of node and direction below the header",
-        });
+        return Err(Error::NoData { path: path.to_owned(), expected: "rows of node and direction below the header" });
     }
-    let says_zero = ["0=", "0 =", "0-based", "zero"]
-        .iter()
-        .any(|mark| header.contains(mark));
+    let says_zero = ["0=", "0 =", "0-based", "zero"].iter().any(|mark| header.contains(mark));
     let has_zero = rows.iter().any(|(.., direction)| direction == "0");
-    let base = if says_zero || has_zero {
-        DirectionBase::Zero
-    } else {
-        DirectionBase::One
-    };
-    let expected = if base == DirectionBase::Zero {
-        DIRECTIONS_FROM_ZERO
-    } else {
-        DIRECTIONS_OR_NAMES
-    };
-    let dofs = rows.iter().map(
-        |(line, node, text)| match numbered(text, base).or_else(|| named(text)) {
-            Some(direction) => Ok(Dof { node: *node, direction }),
-            None => Err(direction_error(path, *line, *node, text, expected)),
-        },
-    );
-    Ok(ReadDofs {
-        dofs: dofs.collect::<Result<_>>()?,
-        base,
-    })
+    let base = if says_zero || has_zero { DirectionBase::Zero } else { DirectionBase::One };
+    let expected = if base == DirectionBase::Zero { DIRECTIONS_FROM_ZERO } else { DIRECTIONS_OR_NAMES };
+    let dofs = rows.iter().map(|(line, node, text)| match numbered(text, base).or_else(|| named(text)) {
+        Some(direction) => Ok(Dof { node: *node, direction }),
+        None => Err(direction_error(path, *line, *node, text, expected)),
+    });
+    Ok(ReadDofs { dofs: dofs.collect::<Result<_>>()?, base })
 }
 
 fn is_direction_column(name: &str) -> bool {
@@ -196,21 +145,12 @@ fn check_row_number(path: &Path, row: &Row<'_>, column: usize, n_before: u64, fi
         return Ok(());
     }
     let found = excerpt(row.text(column).as_bytes());
-    Err(Error::DofRowOrder {
-        path: path.to_owned(),
-        line: row.line,
-        found,
-        expected,
-    })
+    Err(Error::DofRowOrder { path: path.to_owned(), line: row.line, found, expected })
 }
 
 fn numbered(text: &str, base: DirectionBase) -> Option<Direction> {
     let number: usize = text.parse().ok()?;
-    let index = if base == DirectionBase::Zero {
-        number
-    } else {
-        number.checked_sub(1)?
-    };
+    let index = if base == DirectionBase::Zero { number } else { number.checked_sub(1)? };
     Direction::ALL.get(index).copied()
 }
 
@@ -229,13 +169,7 @@ fn named(text: &str) -> Option<Direction> {
 }
 
 fn direction_error(path: &Path, line: u64, node: i64, found: &str, expected: &'static str) -> Error {
-    Error::DofDirection {
-        path: path.to_owned(),
-        line,
-        node,
-        found: excerpt(found.as_bytes()),
-        expected,
-    }
+    Error::DofDirection { path: path.to_owned(), line, node, found: excerpt(found.as_bytes()), expected }
 }
 
 fn check_repeated(path: &Path, dofs: &[Dof]) -> Result<()> {
@@ -244,13 +178,7 @@ fn check_repeated(path: &Path, dofs: &[Dof]) -> Result<()> {
         if let Some(first) = rows.insert(dof, row) {
             let Dof { node, direction } = dof;
             let path = path.to_owned();
-            return Err(Error::DofRepeated {
-                path,
-                row: row + 1,
-                first_row: first + 1,
-                node,
-                direction,
-            });
+            return Err(Error::DofRepeated { path, row: row + 1, first_row: first + 1, node, direction });
         }
     }
     Ok(())

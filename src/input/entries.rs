@@ -27,23 +27,10 @@ pub(super) struct Fault {
 
 #[derive(Debug)]
 enum What {
-    Field {
-        field: &'static str,
-        found: String,
-        expected: &'static str,
-    },
-    Excess {
-        found: String,
-    },
-    Index {
-        field: &'static str,
-        found: u64,
-    },
-    NonFinite {
-        row: u64,
-        col: u64,
-        found: String,
-    },
+    Field { field: &'static str, found: String, expected: &'static str },
+    Excess { found: String },
+    Index { field: &'static str, found: u64 },
+    NonFinite { row: u64, col: u64, found: String },
     Surplus,
 }
 
@@ -61,10 +48,7 @@ pub(super) fn parse_entries(text: &[u8], n: u32, max_entries: u64) -> Result<Ent
         cursor.skip_blanks();
         match cursor.peek() {
             None => {
-                return Ok(Entries {
-                    triplets,
-                    n_lines: line,
-                });
+                return Ok(Entries { triplets, n_lines: line });
             }
             Some(b'\n') => {
                 cursor.at += 1;
@@ -72,10 +56,7 @@ pub(super) fn parse_entries(text: &[u8], n: u32, max_entries: u64) -> Result<Ent
             }
             Some(_) if is_comment(cursor.rest()) => cursor.skip_line(),
             Some(_) if triplets.len() as u64 >= max_entries => {
-                return Err(Fault {
-                    line,
-                    what: What::Surplus,
-                });
+                return Err(Fault { line, what: What::Surplus });
             }
             Some(_) => {
                 let (row, col, value) = cursor.entry(n).map_err(|what| Fault { line, what })?;
@@ -90,28 +71,10 @@ impl Fault {
     pub(super) fn into_error(self, path: &Path, n_before: u64, n: u32, declared: u64) -> Error {
         let (path, line) = (path.to_owned(), n_before + self.line + 1);
         match self.what {
-            What::Field { field, found, expected } => Error::EntryField {
-                path,
-                line,
-                field,
-                found,
-                expected,
-            },
+            What::Field { field, found, expected } => Error::EntryField { path, line, field, found, expected },
             What::Excess { found } => Error::EntryExcess { path, line, found },
-            What::Index { field, found } => Error::EntryIndex {
-                path,
-                line,
-                field,
-                found,
-                n: n.into(),
-            },
-            What::NonFinite { row, col, found } => Error::NonFinite {
-                path,
-                line,
-                row,
-                col,
-                found,
-            },
+            What::Index { field, found } => Error::EntryIndex { path, line, field, found, n: n.into() },
+            What::NonFinite { row, col, found } => Error::NonFinite { path, line, row, col, found },
             What::Surplus => Error::EntriesSurplus { path, line, declared },
         }
     }
@@ -154,11 +117,7 @@ impl<'a> Cursor<'a> {
         let value = self.value()?;
         if !value.is_finite() {
             let found = excerpt(&self.text[start..self.at]);
-            return Err(What::NonFinite {
-                row: u64::from(row) + 1,
-                col: u64::from(col) + 1,
-                found,
-            });
+            return Err(What::NonFinite { row: u64::from(row) + 1, col: u64::from(col) + 1, found });
         }
         self.skip_blanks();
         if !matches!(self.peek(), None | Some(b'\n')) {
@@ -177,11 +136,7 @@ impl<'a> Cursor<'a> {
         }
         if self.at == start || !self.at_field_end() {
             self.at = start;
-            return Err(What::Field {
-                field,
-                found: self.found(),
-                expected: "a whole number from 1",
-            });
+            return Err(What::Field { field, found: self.found(), expected: "a whole number from 1" });
         }
         match u32::try_from(found) {
             Ok(index @ 1..) if index <= n => Ok(index - 1),
@@ -205,11 +160,7 @@ impl<'a> Cursor<'a> {
                 self.at += field.len();
                 Ok(value)
             }
-            None => Err(What::Field {
-                field: "value",
-                found: self.found(),
-                expected: "a number",
-            }),
+            None => Err(What::Field { field: "value", found: self.found(), expected: "a number" }),
         }
     }
 
@@ -220,21 +171,14 @@ impl<'a> Cursor<'a> {
     /// The field that starts here, without moving.
     fn field(&self) -> &'a [u8] {
         let rest = self.rest();
-        let length = rest
-            .iter()
-            .position(|byte| byte.is_ascii_whitespace())
-            .unwrap_or(rest.len());
+        let length = rest.iter().position(|byte| byte.is_ascii_whitespace()).unwrap_or(rest.len());
         &rest[..length]
     }
 
     /// What stands here, for a message.
     fn found(&self) -> String {
         let field = self.field();
-        if field.is_empty() {
-            "end of line".into()
-        } else {
-            excerpt(field)
-        }
+        if field.is_empty() { "end of line".into() } else { excerpt(field) }
     }
 }
 
@@ -244,9 +188,6 @@ fn fortran_number(field: &[u8]) -> Option<f64> {
     if field.len() > LONGEST {
         return None;
     }
-    let marked: Vec<u8> = field
-        .iter()
-        .map(|&byte| if matches!(byte, b'd' | b'D') { b'e' } else { byte })
-        .collect();
+    let marked: Vec<u8> = field.iter().map(|&byte| if matches!(byte, b'd' | b'D') { b'e' } else { byte }).collect();
     fast_float2::parse(&marked).ok()
 }

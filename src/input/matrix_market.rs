@@ -46,13 +46,8 @@ pub(super) fn read(path: &Path) -> Result<TextMatrix> {
 
 /// Reads a matrix in blocks of about this many bytes. The block size changes no result.
 pub(super) fn read_in_blocks(path: &Path, block_bytes: usize) -> Result<TextMatrix> {
-    let mut reading = Reading {
-        path,
-        head_reader: HeadReader::new(path),
-        head: None,
-        triplets: Triplets::default(),
-        n_lines: 0,
-    };
+    let mut reading =
+        Reading { path, head_reader: HeadReader::new(path), head: None, triplets: Triplets::default(), n_lines: 0 };
     let ending = for_each_batch(path, block_bytes, |batch| reading.take(batch))?;
     let Some(head) = reading.head else {
         return Err(reading.head_reader.ended_early());
@@ -71,18 +66,8 @@ pub(super) fn read_in_blocks(path: &Path, block_bytes: usize) -> Result<TextMatr
     check_emptiness(path, n, triplets.len())?;
     let (matrix, notes) = triplets.assemble(n as usize, declared, path)?;
     let digits = significant_digits(matrix.data());
-    let input = MatrixInput {
-        matrix,
-        notes,
-        digits,
-        path: path.to_owned(),
-        digest: ending.digest,
-    };
-    Ok(TextMatrix {
-        input,
-        order,
-        last_line: ending.last_line,
-    })
+    let input = MatrixInput { matrix, notes, digits, path: path.to_owned(), digest: ending.digest };
+    Ok(TextMatrix { input, order, last_line: ending.last_line })
 }
 
 /// What was read so far.
@@ -118,11 +103,7 @@ impl Reading<'_> {
             let left = declared - self.triplets.len() as u64;
             let entries = entries.and_then(|entries| {
                 // Parsed again to find the line of the first one too many.
-                if entries.triplets.len() as u64 > left {
-                    parse_entries(text, n, left)
-                } else {
-                    Ok(entries)
-                }
+                if entries.triplets.len() as u64 > left { parse_entries(text, n, left) } else { Ok(entries) }
             });
             let entries = entries.map_err(|fault| fault.into_error(self.path, self.n_lines, n, declared))?;
             self.triplets.append(&entries.triplets);
@@ -141,9 +122,7 @@ fn headerless_order(
 ) -> Result<(u32, OrderSource)> {
     let largest = |from: usize| {
         let rows = triplets.rows.iter().skip(from);
-        rows.chain(triplets.cols.iter().skip(from))
-            .max()
-            .map_or(0, |&index| u64::from(index) + 1)
+        rows.chain(triplets.cols.iter().skip(from)).max().map_or(0, |&index| u64::from(index) + 1)
     };
     if let Some([rows, cols, declared]) = first {
         let n_rest = triplets.len() as u64 - 1;
@@ -166,22 +145,14 @@ fn check_count(path: &Path, declared: u64, found: u64) -> Result<()> {
     if found == declared {
         return Ok(());
     }
-    Err(Error::EntryCount {
-        path: path.to_owned(),
-        declared,
-        found,
-    })
+    Err(Error::EntryCount { path: path.to_owned(), declared, found })
 }
 
 /// Refuses to make row pointers of a size that only an index or the size line promises.
 fn check_emptiness(path: &Path, n: u32, n_entries: usize) -> Result<()> {
     let (n, entries) = (u64::from(n), n_entries as u64);
     if n > FREE_ORDER && n / MAX_ROWS_PER_ENTRY > entries {
-        return Err(Error::MatrixMostlyEmpty {
-            path: path.to_owned(),
-            n,
-            entries,
-        });
+        return Err(Error::MatrixMostlyEmpty { path: path.to_owned(), n, entries });
     }
     Ok(())
 }

@@ -33,10 +33,8 @@ pub struct Input {
 /// [`Error::DofOrderUnknown`] where they do not fit together.
 pub fn read(model: &ModelJob) -> Result<Input> {
     let mut notes = Vec::new();
-    let (stiffness, mass) = rayon::join(
-        || read_matrix(&model.stiffness, Role::Stiffness),
-        || read_matrix(&model.mass, Role::Mass),
-    );
+    let (stiffness, mass) =
+        rayon::join(|| read_matrix(&model.stiffness, Role::Stiffness), || read_matrix(&model.mass, Role::Mass));
     let (stiffness, mass) = fit_matrices(stiffness?, mass?, &mut notes)?;
     let n = stiffness.matrix.rows();
     let nodes = model.nodes.as_deref().map(read_nodes).transpose()?;
@@ -46,21 +44,12 @@ pub fn read(model: &ModelJob) -> Result<Input> {
         (None, Some((nodes, path))) => {
             let dofs = dof_map::default_order(nodes, path, n)?;
             let dofs_per_node = n / nodes.labels.len();
-            notes.push(InputNote::DefaultOrder {
-                dofs_per_node,
-                nodes: path.to_owned(),
-            });
+            notes.push(InputNote::DefaultOrder { dofs_per_node, nodes: path.to_owned() });
             Some(dofs)
         }
         (None, None) => None,
     };
-    Ok(Input {
-        stiffness,
-        mass,
-        dofs,
-        nodes,
-        notes,
-    })
+    Ok(Input { stiffness, mass, dofs, nodes, notes })
 }
 
 /// A matrix from whichever kind of file.
@@ -107,18 +96,12 @@ fn read_hdf5_nodes(path: &Path) -> Result<Nodes> {
 
 #[cfg(not(feature = "hdf5"))]
 fn read_hdf5_matrix(path: &Path, _: Option<&str>, _: Role) -> Result<MatrixInput> {
-    Err(Error::FeatureMissing {
-        path: path.to_owned(),
-        feature: "hdf5",
-    })
+    Err(Error::FeatureMissing { path: path.to_owned(), feature: "hdf5" })
 }
 
 #[cfg(not(feature = "hdf5"))]
 fn read_hdf5_nodes(path: &Path) -> Result<Nodes> {
-    Err(Error::FeatureMissing {
-        path: path.to_owned(),
-        feature: "hdf5",
-    })
+    Err(Error::FeatureMissing { path: path.to_owned(), feature: "hdf5" })
 }
 
 /// File and group of a matrix in HDF5, told by `file.h5:/group`, by the extension or by the content.
@@ -134,10 +117,7 @@ fn hdf5_location(path: &Path) -> Option<(PathBuf, Option<String>)> {
 }
 
 fn has_extension(path: &Path, known: &[&str]) -> bool {
-    let extension = path
-        .extension()
-        .and_then(|extension| extension.to_str())
-        .unwrap_or_default();
+    let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     known.iter().any(|name| extension.eq_ignore_ascii_case(name))
 }
 
@@ -150,9 +130,7 @@ fn is_hdf5(path: &Path) -> bool {
     }
     let mut start = Vec::new();
     let file = std::fs::File::open(path);
-    let is_read = file
-        .and_then(|file| file.take(512 + SIGNATURE.len() as u64).read_to_end(&mut start))
-        .is_ok();
+    let is_read = file.and_then(|file| file.take(512 + SIGNATURE.len() as u64).read_to_end(&mut start)).is_ok();
     is_read && (start.starts_with(SIGNATURE) || start.get(512..).is_some_and(|rest| rest.starts_with(SIGNATURE)))
 }
 
@@ -169,12 +147,7 @@ fn fit_matrices(stiffness: Matrix, mass: Matrix, notes: &mut Vec<InputNote>) -> 
     }
     if n_stiffness != n_mass {
         let (stiffness, mass) = (stiffness.path, mass.path);
-        return Err(Error::SizeMismatch {
-            stiffness,
-            n_stiffness,
-            mass,
-            n_mass,
-        });
+        return Err(Error::SizeMismatch { stiffness, n_stiffness, mass, n_mass });
     }
     Ok((stiffness, mass))
 }
@@ -182,73 +155,39 @@ fn fit_matrices(stiffness: Matrix, mass: Matrix, notes: &mut Vec<InputNote>) -> 
 fn take_notes(matrix: Matrix, notes: &mut Vec<InputNote>) -> (MatrixInput, OrderSource) {
     let (input, order) = match matrix {
         Matrix::Hdf5(input) => (input, OrderSource::SizeLine),
-        Matrix::Text(TextMatrix {
-            input,
-            order,
-            last_line,
-        }) => {
+        Matrix::Text(TextMatrix { input, order, last_line }) => {
             if order == OrderSource::LargestIndex {
-                notes.push(InputNote::OrderFromIndices {
-                    path: input.path.clone(),
-                    n: input.matrix.rows(),
-                });
+                notes.push(InputNote::OrderFromIndices { path: input.path.clone(), n: input.matrix.rows() });
             }
             if last_line == LastLine::Open {
-                notes.push(InputNote::OpenLastLine {
-                    path: input.path.clone(),
-                });
+                notes.push(InputNote::OpenLastLine { path: input.path.clone() });
             }
             (input, order)
         }
     };
     if input.notes.n_duplicates > 0 {
-        notes.push(InputNote::Duplicates {
-            path: input.path.clone(),
-            count: input.notes.n_duplicates,
-        });
+        notes.push(InputNote::Duplicates { path: input.path.clone(), count: input.notes.n_duplicates });
     }
     if input.notes.mirrored {
-        notes.push(InputNote::Mirrored {
-            path: input.path.clone(),
-        });
+        notes.push(InputNote::Mirrored { path: input.path.clone() });
     }
     (input, order)
 }
 
 /// Adds empty rows and columns up to the order n.
 fn extend(input: MatrixInput, n: usize, notes: &mut Vec<InputNote>) -> MatrixInput {
-    let MatrixInput {
-        matrix,
-        notes: assembly,
-        digits,
-        path,
-        digest,
-    } = input;
-    notes.push(InputNote::Extended {
-        path: path.clone(),
-        from: matrix.rows(),
-        to: n,
-    });
+    let MatrixInput { matrix, notes: assembly, digits, path, digest } = input;
+    notes.push(InputNote::Extended { path: path.clone(), from: matrix.rows(), to: n });
     let (mut pointers, indices, data) = matrix.into_raw_storage();
     pointers.resize(n + 1, indices.len());
     let matrix = SparseMatrix::new((n, n), pointers, indices, data);
-    MatrixInput {
-        matrix,
-        notes: assembly,
-        digits,
-        path,
-        digest,
-    }
+    MatrixInput { matrix, notes: assembly, digits, path, digest }
 }
 
 fn read_dofs(path: &Path, n: usize, nodes: Option<(&Nodes, &Path)>, notes: &mut Vec<InputNote>) -> Result<DofMap> {
     let read = dof_map::read(path)?;
     if read.dofs.len() != n {
-        return Err(Error::DofCount {
-            path: path.to_owned(),
-            found: read.dofs.len(),
-            n,
-        });
+        return Err(Error::DofCount { path: path.to_owned(), found: read.dofs.len(), n });
     }
     if read.base == DirectionBase::Zero {
         notes.push(InputNote::DirectionsFromZero { path: path.to_owned() });
@@ -256,10 +195,7 @@ fn read_dofs(path: &Path, n: usize, nodes: Option<(&Nodes, &Path)>, notes: &mut 
     if let Some((nodes, nodes_path)) = nodes {
         let count = dof_map::check_nodes(&read.dofs, path, nodes, nodes_path)?;
         if count > 0 {
-            notes.push(InputNote::UnusedNodes {
-                path: nodes_path.to_owned(),
-                count,
-            });
+            notes.push(InputNote::UnusedNodes { path: nodes_path.to_owned(), count });
         }
     }
     Ok(read.dofs)

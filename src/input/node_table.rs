@@ -23,25 +23,13 @@ pub(super) fn read(path: &Path) -> Result<Nodes> {
     while let Some(row) = table.next_row()? {
         let node = row.integer(label_column)?;
         if let Some(first_line) = lines.insert(node, row.line) {
-            return Err(Error::NodeRepeated {
-                path: path.to_owned(),
-                line: row.line,
-                node,
-                first_line,
-            });
+            return Err(Error::NodeRepeated { path: path.to_owned(), line: row.line, node, first_line });
         }
         nodes.labels.push(node);
-        nodes.coordinates.push([
-            row.number(columns[0])?,
-            row.number(columns[1])?,
-            row.number(columns[2])?,
-        ]);
+        nodes.coordinates.push([row.number(columns[0])?, row.number(columns[1])?, row.number(columns[2])?]);
     }
     if nodes.labels.is_empty() {
-        return Err(Error::NoData {
-            path: path.to_owned(),
-            expected: "rows of node, x, y, z below the header",
-        });
+        return Err(Error::NoData { path: path.to_owned(), expected: "rows of node, x, y, z below the header" });
     }
     Ok(nodes)
 }

@@ -65,11 +65,7 @@ impl fmt::Display for InputNote {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Duplicates { path, count } => {
-                write!(
-                    f,
-                    "{}: {count} entries repeat a position and were added to it",
-                    file_name(path)
-                )
+                write!(f, "{}: {count} entries repeat a position and were added to it", file_name(path))
             }
             Self::Mirrored { path } => {
                 write!(
@@ -79,11 +75,7 @@ impl fmt::Display for InputNote {
                 )
             }
             Self::OrderFromIndices { path, n } => {
-                write!(
-                    f,
-                    "{}: no size line; the largest index makes it a matrix of {n} rows",
-                    file_name(path)
-                )
+                write!(f, "{}: no size line; the largest index makes it a matrix of {n} rows", file_name(path))
             }
             Self::Extended { path, from, to } => {
                 write!(
@@ -93,18 +85,12 @@ impl fmt::Display for InputNote {
                 )
             }
             Self::OpenLastLine { path } => {
-                write!(
-                    f,
-                    "{}: the last line has no line end; check that the file is complete",
-                    file_name(path)
-                )
+                write!(f, "{}: the last line has no line end; check that the file is complete", file_name(path))
             }
             Self::DirectionsFromZero { path } => write!(f, "{}: directions count from zero, 0 is ux", file_name(path)),
-            Self::DefaultOrder { dofs_per_node, nodes } => write!(
-                f,
-                "no dof map: rows are taken as {dofs_per_node} a node, in the order of {}",
-                file_name(nodes)
-            ),
+            Self::DefaultOrder { dofs_per_node, nodes } => {
+                write!(f, "no dof map: rows are taken as {dofs_per_node} a node, in the order of {}", file_name(nodes))
+            }
             Self::UnusedNodes { path, count } => write!(f, "{}: {count} nodes have no row", file_name(path)),
         }
     }
@@ -112,8 +98,5 @@ impl fmt::Display for InputNote {
 
 /// The name of a file without its folder: what a note says must not depend on where the files are.
 fn file_name(path: &Path) -> String {
-    path.file_name()
-        .unwrap_or(path.as_os_str())
-        .to_string_lossy()
-        .into_owned()
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }

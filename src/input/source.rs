@@ -34,27 +34,17 @@ enum Stream {
 impl Source {
     /// Opens a regular file.
     pub(super) fn open(path: &Path) -> Result<Self> {
-        let read_error = |source| Error::Read {
-            path: path.to_owned(),
-            source,
-        };
+        let read_error = |source| Error::Read { path: path.to_owned(), source };
         let is_file = std::fs::metadata(path).map_err(read_error)?.is_file();
         if !is_file {
             return Err(Error::NotAFile { path: path.to_owned() });
         }
         let file = File::open(path).map_err(read_error)?;
-        let digest = DigestReader {
-            file,
-            hasher: blake3::Hasher::new(),
-            n_read: 0,
-        };
+        let digest = DigestReader { file, hasher: blake3::Hasher::new(), n_read: 0 };
         let mut reader = BufReader::with_capacity(READ_AHEAD, digest);
         let is_gzip = reader.fill_buf().map_err(read_error)?.starts_with(&[0x1f, 0x8b]);
-        let stream = if is_gzip {
-            Stream::Gzip(Box::new(MultiGzDecoder::new(reader)))
-        } else {
-            Stream::Plain(Box::new(reader))
-        };
+        let stream =
+            if is_gzip { Stream::Gzip(Box::new(MultiGzDecoder::new(reader))) } else { Stream::Plain(Box::new(reader)) };
         Ok(Self { stream, inflated: 0 })
     }
 
@@ -72,17 +62,9 @@ impl Source {
 
     fn check_inflation(&self) -> std::io::Result<()> {
         let compressed = self.file().n_read;
-        let limit = if self.inflated > LARGE {
-            MAX_RATIO_LARGE
-        } else {
-            MAX_RATIO
-        };
+        let limit = if self.inflated > LARGE { MAX_RATIO_LARGE } else { MAX_RATIO };
         if self.inflated > SMALL && self.inflated / limit > compressed {
-            let inflation = Inflation {
-                compressed,
-                inflated: self.inflated,
-                limit,
-            };
+            let inflation = Inflation { compressed, inflated: self.inflated, limit };
             return Err(std::io::Error::other(inflation));
         }
         Ok(())
@@ -116,16 +98,7 @@ fn damage(error: std::io::Error) -> std::io::Error {
 pub(super) fn read_error(path: &Path, error: std::io::Error) -> Error {
     let path: PathBuf = path.to_owned();
     match error.downcast::<Inflation>() {
-        Ok(Inflation {
-            compressed,
-            inflated,
-            limit,
-        }) => Error::GzipInflation {
-            path,
-            compressed,
-            inflated,
-            limit,
-        },
+        Ok(Inflation { compressed, inflated, limit }) => Error::GzipInflation { path, compressed, inflated, limit },
         Err(error) => match error.downcast::<Damage>() {
             Ok(Damage(source)) => Error::GzipDamaged { path, source },
             Err(source) => Error::Read { path, source },

@@ -48,30 +48,16 @@ pub(super) fn open_first_line(path: &Path, expected: &'static str) -> Result<Fir
         line += 1;
         match n_read.map_err(|error| read_error(path, error))? as u64 {
             0 => {
-                return Err(Error::NoData {
-                    path: path.to_owned(),
-                    expected,
-                });
+                return Err(Error::NoData { path: path.to_owned(), expected });
             }
             MAX_ROW_BYTES => {
-                return Err(Error::LineTooLong {
-                    path: path.to_owned(),
-                    line,
-                    limit: MAX_ROW_BYTES as usize,
-                });
+                return Err(Error::LineTooLong { path: path.to_owned(), line, limit: MAX_ROW_BYTES as usize });
             }
             _ => {}
         }
-        let text = bytes
-            .strip_prefix(b"\xef\xbb\xbf".as_slice())
-            .unwrap_or(&bytes)
-            .trim_ascii();
+        let text = bytes.strip_prefix(b"\xef\xbb\xbf".as_slice()).unwrap_or(&bytes).trim_ascii();
         if !text.is_empty() && !text.starts_with(b"%") {
-            return Ok(FirstLine {
-                text: String::from_utf8_lossy(text).into_owned(),
-                line,
-                rest,
-            });
+            return Ok(FirstLine { text: String::from_utf8_lossy(text).into_owned(), line, rest });
         }
     }
 }
@@ -80,13 +66,9 @@ impl Table {
     /// A table whose header is the first line of data.
     pub(super) fn new(path: &Path, first: FirstLine) -> Self {
         let header_text = first.text.trim_start_matches('#');
-        let delimiter = [b';', b'\t', b',']
-            .into_iter()
-            .find(|&mark| header_text.contains(char::from(mark)));
+        let delimiter = [b';', b'\t', b','].into_iter().find(|&mark| header_text.contains(char::from(mark)));
         let delimiter = delimiter.unwrap_or(b',');
-        let header = header_text
-            .split(char::from(delimiter))
-            .map(|name| name.trim().trim_matches('"').to_owned());
+        let header = header_text.split(char::from(delimiter)).map(|name| name.trim().trim_matches('"').to_owned());
         // A line feed behind every row lets its number be told from where the next one starts.
         let rest: Box<dyn Read> = Box::new(LineFeeds(first.rest).chain(b"\n".as_slice()));
         let rows = csv::ReaderBuilder::new()
@@ -127,36 +109,20 @@ impl Table {
 
     /// Name of a column, in lower case.
     pub(super) fn name(&self, column: usize) -> String {
-        self.header
-            .get(column)
-            .map(|name| name.to_lowercase())
-            .unwrap_or_default()
+        self.header.get(column).map(|name| name.to_lowercase()).unwrap_or_default()
     }
 
     /// The next row, or `None` at the end.
     pub(super) fn next_row(&mut self) -> Result<Option<Row<'_>>> {
-        let is_row = self
-            .rows
-            .read_record(&mut self.record)
-            .map_err(|error| self.row_error(error))?;
+        let is_row = self.rows.read_record(&mut self.record).map_err(|error| self.row_error(error))?;
         if !is_row {
             return Ok(None);
         }
         let line = self.n_header_lines + self.rows.position().line() - 1;
-        let row = Row {
-            path: &self.path,
-            header: &self.header,
-            record: &self.record,
-            line,
-        };
+        let row = Row { path: &self.path, header: &self.header, record: &self.record, line };
         if row.record.len() < self.header.len() {
             let (found, expected) = (row.record.len() as u64, self.header.len() as u64);
-            return Err(Error::TableRow {
-                path: self.path.clone(),
-                line,
-                found,
-                expected,
-            });
+            return Err(Error::TableRow { path: self.path.clone(), line, found, expected });
         }
         Ok(Some(row))
     }
@@ -196,16 +162,12 @@ impl Row<'_> {
 
     /// A whole number.
     pub(super) fn integer(&self, column: usize) -> Result<i64> {
-        self.text(column)
-            .parse()
-            .map_err(|_| self.field_error(column, "a whole number"))
+        self.text(column).parse().map_err(|_| self.field_error(column, "a whole number"))
     }
 
     /// A finite number.
     pub(super) fn number(&self, column: usize) -> Result<f64> {
-        let value = fast_float2::parse::<f64, _>(self.text(column))
-            .ok()
-            .filter(|value| value.is_finite());
+        let value = fast_float2::parse::<f64, _>(self.text(column)).ok().filter(|value| value.is_finite());
         value.ok_or_else(|| self.field_error(column, "a finite number"))
     }
 }
@@ -233,8 +195,5 @@ impl<R: Read> Read for LineFeeds<R> {
 
 /// Names that a column of node labels has.
 pub(super) fn is_node_column(name: &str) -> bool {
-    matches!(
-        name,
-        "node" | "nodes" | "node_id" | "nodeid" | "node id" | "nid" | "grid" | "label" | "id"
-    )
+    matches!(name, "node" | "nodes" | "node_id" | "nodeid" | "node id" | "nid" | "grid" | "label" | "id")
 }

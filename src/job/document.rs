@@ -18,10 +18,7 @@ const KEYS: &[(&str, &[&str])] = &[
     ("interface[].nodes.within", &["box", "plane", "cylinder", "sphere"]),
     ("interface[].nodes.within.box", &["min", "max"]),
     ("interface[].nodes.within.plane", &["point", "normal", "tolerance"]),
-    (
-        "interface[].nodes.within.cylinder",
-        &["from", "to", "radius", "inner_radius"],
-    ),
+    ("interface[].nodes.within.cylinder", &["from", "to", "radius", "inner_radius"]),
     ("interface[].nodes.within.sphere", &["center", "radius"]),
     ("reduction", &["method", "modes", "eigensolver"]),
     ("reduction.modes", &["count", "up_to_hz"]),
@@ -88,11 +85,7 @@ fn toml_table(table: &toml::de::DeTable<'_>, text: &str) -> Tree {
     let entry = |(key, value): (&toml::Spanned<_>, &toml::Spanned<toml::de::DeValue<'_>>)| {
         let name: &toml::de::DeString<'_> = key.get_ref();
         let line = Some(line_at(text, key.span().start));
-        Entry {
-            key: name.to_string(),
-            line,
-            value: toml_value(value.get_ref(), text),
-        }
+        Entry { key: name.to_string(), line, value: toml_value(value.get_ref(), text) }
     };
     let mut entries: Vec<Entry> = table.iter().map(entry).collect();
     // The table is sorted by key; the first mistake of the document is the one to report.
@@ -113,13 +106,7 @@ fn toml_value(value: &toml::de::DeValue<'_>, text: &str) -> Tree {
 fn json_tree(value: &serde_json::Value) -> Tree {
     match value {
         serde_json::Value::Object(map) => Tree::Table(
-            map.iter()
-                .map(|(key, value)| Entry {
-                    key: key.clone(),
-                    line: None,
-                    value: json_tree(value),
-                })
-                .collect(),
+            map.iter().map(|(key, value)| Entry { key: key.clone(), line: None, value: json_tree(value) }).collect(),
         ),
         serde_json::Value::Array(items) => Tree::List(items.iter().map(json_tree).collect()),
         _ => Tree::Leaf,
@@ -146,12 +133,7 @@ fn check_keys_below(tree: &Tree, pattern: &str, place: &str, path: &Path) -> Res
                 let here = join(place, &entry.key);
                 if !known.contains(&entry.key.as_str()) {
                     let suggestion = nearest(&entry.key, known);
-                    return Err(Error::JobKey {
-                        path: path.to_owned(),
-                        line: entry.line,
-                        key: here,
-                        suggestion,
-                    });
+                    return Err(Error::JobKey { path: path.to_owned(), line: entry.line, key: here, suggestion });
                 }
                 check_keys_below(&entry.value, &join(pattern, &entry.key), &here, path)
             })
@@ -160,11 +142,7 @@ fn check_keys_below(tree: &Tree, pattern: &str, place: &str, path: &Path) -> Res
 }
 
 fn join(place: &str, key: &str) -> String {
-    if place.is_empty() {
-        key.to_owned()
-    } else {
-        format!("{place}.{key}")
-    }
+    if place.is_empty() { key.to_owned() } else { format!("{place}.{key}") }
 }
 
 fn nearest(key: &str, known: &[&str]) -> Option<String> {
@@ -233,10 +211,7 @@ mod tests {
             return alternatives(schema, target.unwrap_or_else(|| panic!("{reference} leads nowhere")));
         }
         match value.get("oneOf").and_then(serde_json::Value::as_array) {
-            Some(branches) => branches
-                .iter()
-                .flat_map(|branch| alternatives(schema, branch))
-                .collect(),
+            Some(branches) => branches.iter().flat_map(|branch| alternatives(schema, branch)).collect(),
             None => vec![value],
         }
     }

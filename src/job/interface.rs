@@ -118,11 +118,7 @@ mod centroid {
 
     pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
         let word = String::deserialize(deserializer)?;
-        if word == "centroid" {
-            Ok(())
-        } else {
-            Err(D::Error::custom("expected \"centroid\" or [x, y, z]"))
-        }
+        if word == "centroid" { Ok(()) } else { Err(D::Error::custom("expected \"centroid\" or [x, y, z]")) }
     }
 }
 
@@ -170,14 +166,8 @@ impl<'de> de::Visitor<'de> for SelectionVisitor {
 
     fn visit_map<A: de::MapAccess<'de>>(self, table: A) -> Result<Self::Value, A::Error> {
         match SelectionTable::deserialize(de::value::MapAccessDeserializer::new(table))? {
-            SelectionTable {
-                within: Some(within),
-                rows: None,
-            } => Ok(NodeSelection::Region { within }),
-            SelectionTable {
-                within: None,
-                rows: Some(rows),
-            } => Ok(NodeSelection::Rows { rows }),
+            SelectionTable { within: Some(within), rows: None } => Ok(NodeSelection::Region { within }),
+            SelectionTable { within: None, rows: Some(rows) } => Ok(NodeSelection::Rows { rows }),
             _ => Err(de::Error::custom("expected exactly one of `within` and `rows`")),
         }
     }

@@ -20,10 +20,7 @@ pub(super) fn validate(job: &Job) -> Result<()> {
         positive("run.memory_gib", memory)?;
     }
     output("write.superelement", &job.write.superelement, ".supel")?;
-    job.write
-        .report
-        .as_deref()
-        .map_or(Ok(()), |path| output("write.report", path, ".json"))
+    job.write.report.as_deref().map_or(Ok(()), |path| output("write.report", path, ".json"))
 }
 
 fn model(job: &Job) -> Result<()> {
@@ -36,10 +33,7 @@ fn model(job: &Job) -> Result<()> {
     ];
     for (key, path) in files {
         if path.is_some_and(|path| path.as_os_str().is_empty()) {
-            return Err(Error::JobEmpty {
-                key: key.to_owned(),
-                expected: "the name of a file",
-            });
+            return Err(Error::JobEmpty { key: key.to_owned(), expected: "the name of a file" });
         }
     }
     let Some(expect) = &model.expect else { return Ok(()) };
@@ -53,16 +47,11 @@ fn interfaces(interfaces: &[InterfaceJob]) -> Result<()> {
     for (interface_idx, interface) in interfaces.iter().enumerate() {
         let place = format!("interface[{interface_idx}]");
         if interface.name.trim().is_empty() {
-            return Err(Error::JobEmpty {
-                key: format!("{place}.name"),
-                expected: "a name",
-            });
+            return Err(Error::JobEmpty { key: format!("{place}.name"), expected: "a name" });
         }
         let earlier = interfaces.iter().take(interface_idx);
         if earlier.clone().any(|other| other.name == interface.name) {
-            return Err(Error::InterfaceTwice {
-                name: interface.name.clone(),
-            });
+            return Err(Error::InterfaceTwice { name: interface.name.clone() });
         }
         selection(interface, &place)?;
         directions(interface, &place)?;
@@ -75,30 +64,22 @@ fn interfaces(interfaces: &[InterfaceJob]) -> Result<()> {
 fn selection(interface: &InterfaceJob, place: &str) -> Result<()> {
     let key = format!("{place}.nodes");
     let repeats = |what: Option<String>| match what {
-        Some(what) => Err(Error::InterfaceRepeats {
-            interface: interface.name.clone(),
-            what,
-        }),
+        Some(what) => Err(Error::InterfaceRepeats { interface: interface.name.clone(), what }),
         None => Ok(()),
     };
     match &interface.nodes {
-        NodeSelection::Labels(labels) if labels.is_empty() => Err(Error::JobEmpty {
-            key,
-            expected: "the labels of one or more nodes",
-        }),
-        NodeSelection::Rows { rows } if rows.is_empty() => Err(Error::JobEmpty {
-            key: key + ".rows",
-            expected: "the numbers of one or more rows",
-        }),
+        NodeSelection::Labels(labels) if labels.is_empty() => {
+            Err(Error::JobEmpty { key, expected: "the labels of one or more nodes" })
+        }
+        NodeSelection::Rows { rows } if rows.is_empty() => {
+            Err(Error::JobEmpty { key: key + ".rows", expected: "the numbers of one or more rows" })
+        }
         NodeSelection::Labels(labels) => repeats(first_repeated(labels).map(|label| format!("node {label}"))),
         NodeSelection::Rows { rows } => repeats(first_repeated(rows).map(|row| format!("row {row}"))),
         NodeSelection::Region { within } => region(within, &format!("{key}.within")),
         NodeSelection::Group(text) => match interface.nodes.group_name() {
             Some(name) if !name.is_empty() => Ok(()),
-            _ => Err(Error::InterfaceNodes {
-                interface: interface.name.clone(),
-                text: text.clone(),
-            }),
+            _ => Err(Error::InterfaceNodes { interface: interface.name.clone(), text: text.clone() }),
         },
     }
 }
@@ -124,28 +105,19 @@ fn directions(interface: &InterfaceJob, place: &str) -> Result<()> {
 
 fn coupling(interface: &InterfaceJob, place: &str) -> Result<()> {
     let conflict = |key, situation, remedy| {
-        Err(Error::InterfaceConflict {
-            interface: interface.name.clone(),
-            key,
-            situation,
-            remedy,
-        })
+        Err(Error::InterfaceConflict { interface: interface.name.clone(), key, situation, remedy })
     };
     let is_rows = matches!(interface.nodes, NodeSelection::Rows { .. });
     match (&interface.origin, interface.coupling) {
-        (_, Coupling::Rigid) if is_rows => conflict(
-            "coupling = \"rigid\"",
-            "rows, which have no position",
-            ", or give nodes",
-        ),
+        (_, Coupling::Rigid) if is_rows => {
+            conflict("coupling = \"rigid\"", "rows, which have no position", ", or give nodes")
+        }
         (_, Coupling::Direct) if is_rows && interface.dofs.is_some() => {
             conflict("dofs", "rows, each of which is one degree of freedom", "")
         }
-        (Origin::Point(_), Coupling::Direct) => conflict(
-            "origin",
-            "a direct coupling, whose nodes stay where they are",
-            ", or set coupling = \"rigid\"",
-        ),
+        (Origin::Point(_), Coupling::Direct) => {
+            conflict("origin", "a direct coupling, whose nodes stay where they are", ", or set coupling = \"rigid\"")
+        }
         (Origin::Point(point), Coupling::Rigid) => finite(&format!("{place}.origin"), point),
         (Origin::Centroid, _) => Ok(()),
     }
@@ -158,11 +130,7 @@ fn overlap(first: &InterfaceJob, second: &InterfaceJob) -> Result<()> {
         Some(directions) => directions.contains(&direction),
         None => true,
     };
-    if direct
-        && !Direction::ALL
-            .iter()
-            .any(|direction| claims(first, *direction) && claims(second, *direction))
-    {
+    if direct && !Direction::ALL.iter().any(|direction| claims(first, *direction) && claims(second, *direction)) {
         return Ok(());
     }
     let shared = match (&first.nodes, &second.nodes) {
@@ -174,11 +142,7 @@ fn overlap(first: &InterfaceJob, second: &InterfaceJob) -> Result<()> {
         _ => None,
     };
     match shared {
-        Some(what) => Err(Error::InterfaceOverlap {
-            first: first.name.clone(),
-            second: second.name.clone(),
-            what,
-        }),
+        Some(what) => Err(Error::InterfaceOverlap { first: first.name.clone(), second: second.name.clone(), what }),
         None => Ok(()),
     }
 }
@@ -189,43 +153,25 @@ fn region(region: &Region, place: &str) -> Result<()> {
             finite(&format!("{place}.box.min"), min)?;
             finite(&format!("{place}.box.max"), max)?;
             match min.iter().zip(max).find(|(low, high)| low > high) {
-                Some((_, high)) => Err(number(
-                    format!("{place}.box.max"),
-                    *high,
-                    "no coordinate smaller than that of `min`",
-                )),
+                Some((_, high)) => {
+                    Err(number(format!("{place}.box.max"), *high, "no coordinate smaller than that of `min`"))
+                }
                 None => Ok(()),
             }
         }
-        Region::Plane {
-            point,
-            normal,
-            tolerance,
-        } => {
+        Region::Plane { point, normal, tolerance } => {
             finite(&format!("{place}.plane.point"), point)?;
             direction(&format!("{place}.plane.normal"), normal)?;
             not_negative(&format!("{place}.plane.tolerance"), *tolerance)
         }
-        Region::Cylinder {
-            from,
-            to,
-            radius,
-            inner_radius,
-        } => {
+        Region::Cylinder { from, to, radius, inner_radius } => {
             finite(&format!("{place}.cylinder.from"), from)?;
             finite(&format!("{place}.cylinder.to"), to)?;
-            direction(
-                &format!("{place}.cylinder.to"),
-                &std::array::from_fn(|axis| to[axis] - from[axis]),
-            )?;
+            direction(&format!("{place}.cylinder.to"), &std::array::from_fn(|axis| to[axis] - from[axis]))?;
             positive(&format!("{place}.cylinder.radius"), *radius)?;
             not_negative(&format!("{place}.cylinder.inner_radius"), *inner_radius)?;
             if inner_radius > radius {
-                return Err(number(
-                    format!("{place}.cylinder.inner_radius"),
-                    *inner_radius,
-                    "at most `radius`",
-                ));
+                return Err(number(format!("{place}.cylinder.inner_radius"), *inner_radius, "at most `radius`"));
             }
             Ok(())
         }
@@ -242,31 +188,15 @@ fn output(key: &'static str, path: &Path, expected: &'static str) -> Result<()> 
         .file_name()
         .and_then(|name| name.to_str())
         .is_some_and(|name| name.strip_suffix(expected).is_some_and(|stem| !stem.is_empty()));
-    if is_named {
-        Ok(())
-    } else {
-        Err(Error::OutputName {
-            key,
-            path: path.to_owned(),
-            expected,
-        })
-    }
+    if is_named { Ok(()) } else { Err(Error::OutputName { key, path: path.to_owned(), expected }) }
 }
 
 fn positive(key: &str, value: f64) -> Result<()> {
-    if value.is_finite() && value > 0.0 {
-        Ok(())
-    } else {
-        Err(number(key.to_owned(), value, POSITIVE))
-    }
+    if value.is_finite() && value > 0.0 { Ok(()) } else { Err(number(key.to_owned(), value, POSITIVE)) }
 }
 
 fn not_negative(key: &str, value: f64) -> Result<()> {
-    if value.is_finite() && value >= 0.0 {
-        Ok(())
-    } else {
-        Err(number(key.to_owned(), value, "zero or more"))
-    }
+    if value.is_finite() && value >= 0.0 { Ok(()) } else { Err(number(key.to_owned(), value, "zero or more")) }
 }
 
 fn finite(key: &str, values: &[f64; 3]) -> Result<()> {

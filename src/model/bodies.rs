@@ -38,10 +38,7 @@ impl Bodies {
                 *number.entry(root(&mut parent, *node)).or_insert(next)
             })
             .collect();
-        Self {
-            of_row,
-            n_bodies: number.len(),
-        }
+        Self { of_row, n_bodies: number.len() }
     }
 }
 

@@ -135,38 +135,18 @@ impl Model {
     /// If K and M differ in size, which reading has ruled out.
     pub fn new(input: Input) -> Result<Self> {
         let mut findings = Vec::new();
-        let precision = Precision {
-            stiffness: data_precision(&input.stiffness),
-            mass: data_precision(&input.mass),
-        };
+        let precision = Precision { stiffness: data_precision(&input.stiffness), mass: data_precision(&input.mass) };
         let dofs = input.dofs;
         let mut stiffness = input.stiffness.matrix;
         let mut mass = input.mass.matrix;
-        assert!(
-            stiffness.rows() == mass.rows(),
-            "K has {} rows, M has {}",
-            stiffness.rows(),
-            mass.rows()
-        );
+        assert!(stiffness.rows() == mass.rows(), "K has {} rows, M has {}", stiffness.rows(), mass.rows());
         symmetrise("stiffness", &mut stiffness, &mut findings)?;
         symmetrise("mass", &mut mass, &mut findings)?;
         check_not_swapped(&stiffness, &mass, dofs.as_deref())?;
         check_diagonals(&stiffness, &mass, dofs.as_deref(), &mut findings)?;
-        let scaling = Scaling {
-            stiffness: scale_to_unit(&mut stiffness),
-            mass: scale_to_unit(&mut mass),
-        };
+        let scaling = Scaling { stiffness: scale_to_unit(&mut stiffness), mass: scale_to_unit(&mut mass) };
         let bodies = Bodies::of(&stiffness, &node_of_row(stiffness.rows(), dofs.as_deref()));
-        Ok(Self {
-            stiffness,
-            mass,
-            scaling,
-            precision,
-            dofs,
-            nodes: input.nodes,
-            bodies,
-            findings,
-        })
+        Ok(Self { stiffness, mass, scaling, precision, dofs, nodes: input.nodes, bodies, findings })
     }
 
     /// Number of degrees of freedom n.
@@ -177,29 +157,17 @@ impl Model {
 
 fn data_precision(matrix: &MatrixInput) -> f64 {
     // Seventeen digits identify every double, sixteen almost every one: both are as good as binary.
-    if matrix.digits >= 16 {
-        f64::EPSILON / 2.0
-    } else {
-        0.5 * 10f64.powi(1 - matrix.digits as i32)
-    }
+    if matrix.digits >= 16 { f64::EPSILON / 2.0 } else { 0.5 * 10f64.powi(1 - matrix.digits as i32) }
 }
 
 fn symmetrise(name: &'static str, matrix: &mut SparseMatrix, findings: &mut Vec<Finding>) -> Result<()> {
     let asymmetry = make_symmetric(matrix);
     if asymmetry.relative > ASYMMETRY_FAIL {
         let (row, col) = asymmetry.worst;
-        return Err(Error::Unsymmetric {
-            matrix: name,
-            asymmetry: asymmetry.relative,
-            row: row + 1,
-            col: col + 1,
-        });
+        return Err(Error::Unsymmetric { matrix: name, asymmetry: asymmetry.relative, row: row + 1, col: col + 1 });
     }
     if asymmetry.relative > 0.0 {
-        findings.push(Finding::Symmetrised {
-            matrix: name,
-            asymmetry: asymmetry.relative,
-        });
+        findings.push(Finding::Symmetrised { matrix: name, asymmetry: asymmetry.relative });
     }
     Ok(())
 }
@@ -210,10 +178,7 @@ fn check_not_swapped(stiffness: &SparseMatrix, mass: &SparseMatrix, dofs: Option
     const NO_ENERGY: f64 = 1e-8;
     const ENERGY: f64 = 1e-2;
     let Some(dofs) = dofs else { return Ok(()) };
-    let translation: Vec<f64> = dofs
-        .iter()
-        .map(|dof| if dof.direction.is_rotation() { 0.0 } else { 1.0 })
-        .collect();
+    let translation: Vec<f64> = dofs.iter().map(|dof| if dof.direction.is_rotation() { 0.0 } else { 1.0 }).collect();
     let relative_energy = |matrix: &SparseMatrix| {
         let (mut energy, mut magnitude) = (0.0f64, 0.0f64);
         for (row, values) in matrix.outer_iterator().enumerate() {
@@ -259,35 +224,20 @@ fn check_diagonals(
         if k_empty {
             particles += 1;
         } else if k_diag[row] == 0.0 {
-            return Err(Error::MultiplierRow {
-                row: row + 1,
-                dof: name_of(dofs, row),
-            });
+            return Err(Error::MultiplierRow { row: row + 1, dof: name_of(dofs, row) });
         } else if k_diag[row] < 0.0 {
-            return Err(Error::NegativeStiffness {
-                row: row + 1,
-                dof: name_of(dofs, row),
-                value: k_diag[row],
-            });
+            return Err(Error::NegativeStiffness { row: row + 1, dof: name_of(dofs, row), value: k_diag[row] });
         }
         if m_empty {
             massless += 1;
         } else if m_diag[row] < -(n as f64) * f64::EPSILON * m_max {
-            return Err(Error::NegativeMass {
-                row: row + 1,
-                dof: name_of(dofs, row),
-                value: m_diag[row],
-            });
+            return Err(Error::NegativeMass { row: row + 1, dof: name_of(dofs, row), value: m_diag[row] });
         } else if m_diag[row] < 0.0 {
             rounding += 1;
         }
     }
     if let Some(first) = empty.first() {
-        return Err(Error::EmptyRows {
-            n_rows: empty.len(),
-            row: first + 1,
-            dof: name_of(dofs, *first),
-        });
+        return Err(Error::EmptyRows { n_rows: empty.len(), row: first + 1, dof: name_of(dofs, *first) });
     }
     let mut note = |n_rows: usize, finding: fn(usize) -> Finding| {
         if n_rows > 0 {
@@ -306,9 +256,7 @@ fn name_of(dofs: Option<&[Dof]>, row: usize) -> String {
 }
 
 fn is_empty_row(matrix: &SparseMatrix, row: usize) -> bool {
-    matrix
-        .outer_view(row)
-        .is_none_or(|view| view.data().iter().all(|value| *value == 0.0))
+    matrix.outer_view(row).is_none_or(|view| view.data().iter().all(|value| *value == 0.0))
 }
 
 /// The diagonal of a matrix, zero where no entry is stored.
@@ -316,11 +264,7 @@ pub fn diagonal(matrix: &SparseMatrix) -> Vec<f64> {
     matrix
         .outer_iterator()
         .enumerate()
-        .map(|(row, view)| {
-            view.indices()
-                .binary_search(&(row as u32))
-                .map_or(0.0, |at| view.data()[at])
-        })
+        .map(|(row, view)| view.indices().binary_search(&(row as u32)).map_or(0.0, |at| view.data()[at]))
         .collect()
 }
 

@@ -25,10 +25,7 @@ pub fn make_symmetric(matrix: &mut SparseMatrix) -> Asymmetry {
             worst = one_sided;
         }
     }
-    Asymmetry {
-        relative: if largest > 0.0 { worst.0 / largest } else { 0.0 },
-        worst: worst.1,
-    }
+    Asymmetry { relative: if largest > 0.0 { worst.0 / largest } else { 0.0 }, worst: worst.1 }
 }
 
 /// Averages every pair (i, j), (j, i) in one pass; false where the pattern is not symmetric.
@@ -110,13 +107,7 @@ mod tests {
     fn unequal_pair_is_averaged_and_measured() {
         let mut a = matrix(&[(0, 0, 2.0), (0, 1, 1.0), (1, 0, 0.5), (1, 1, 3.0), (2, 2, 4.0)]);
         let found = make_symmetric(&mut a);
-        assert_eq!(
-            found,
-            Asymmetry {
-                relative: 0.125,
-                worst: (1, 0)
-            }
-        );
+        assert_eq!(found, Asymmetry { relative: 0.125, worst: (1, 0) });
         assert_eq!((a.get(0, 1), a.get(1, 0)), (Some(&0.75), Some(&0.75)));
     }
 

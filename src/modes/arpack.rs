@@ -53,12 +53,8 @@ const BAD_START: i32 = -9;
 pub(super) fn arpack(problem: Problem<'_>, wanted: Wanted, seed: u64) -> Result<Eigenpairs> {
     // A thread that waits inside a parallel product takes up other work, possibly another search, which would wait for
     // the lock for ever. Threads of its own have no other work.
-    let threads = rayon::ThreadPoolBuilder::new()
-        .num_threads(rayon::current_num_threads())
-        .build();
-    let threads = threads.map_err(|_| Error::OutOfMemory {
-        what: "the threads of ARPACK",
-    })?;
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(rayon::current_num_threads()).build();
+    let threads = threads.map_err(|_| Error::OutOfMemory { what: "the threads of ARPACK" })?;
     threads.install(|| {
         let _alone = STATE.lock().unwrap_or_else(PoisonError::into_inner);
         Search::new(problem, seed).run(wanted)
@@ -85,10 +81,7 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(problem: Problem<'a>, seed: u64) -> Self {
         let [q, mass_q] = problem.deflated;
-        let rows_with_mass = problem
-            .mass
-            .outer_iterator()
-            .filter(|row| row.data().iter().any(|value| *value != 0.0));
+        let rows_with_mass = problem.mass.outer_iterator().filter(|row| row.data().iter().any(|value| *value != 0.0));
         Self {
             problem,
             random: SplitMix64::new(seed),
@@ -119,10 +112,7 @@ impl<'a> Search<'a> {
 
     /// The problem with everything taken out that has been found.
     fn remaining(&self) -> Problem<'_> {
-        Problem {
-            deflated: [self.taken.as_ref(), self.mass_taken.as_ref()],
-            ..self.problem
-        }
+        Problem { deflated: [self.taken.as_ref(), self.mass_taken.as_ref()], ..self.problem }
     }
 
     /// Replaces M x by OP x, without s.
@@ -150,10 +140,7 @@ impl<'a> Search<'a> {
             self.apply(image.as_mut());
             let stretched = mass_norm(mass, &image);
             if !stretched.is_finite() {
-                return Err(Error::Arpack {
-                    status: BAD_START,
-                    converged: self.theta.len(),
-                });
+                return Err(Error::Arpack { status: BAD_START, converged: self.theta.len() });
             }
             if stretched <= ROUNDING * f64::EPSILON * largest {
                 return Ok(None);
@@ -173,9 +160,7 @@ impl<'a> Search<'a> {
         let Some((start, stretch)) = self.start()? else {
             return Ok(());
         };
-        let scale = *self
-            .scale
-            .get_or_insert_with(|| 2f64.powi((TARGET / stretch).log2().round() as i32));
+        let scale = *self.scale.get_or_insert_with(|| 2f64.powi((TARGET / stretch).log2().round() as i32));
         if room == 1 {
             // The last direction left is the mode; ARPACK wants two.
             self.take(start.as_ref(), &[stretch]);
@@ -183,12 +168,7 @@ impl<'a> Search<'a> {
         }
         // Half of what is left, so that restarts keep room to clear the basis of rounding.
         let mut sweep = Sweep::new(start, n_asked.min(room / 2), room)?;
-        while let Some(Call {
-            request,
-            source,
-            target,
-        }) = sweep.next()?
-        {
+        while let Some(Call { request, source, target }) = sweep.next()? {
             let source = Mat::from_fn(source.len(), 1, |i, _| source[i]);
             let mut result = match request {
                 Request::Mass | Request::Operator => product(self.problem.mass, source.as_ref()),
@@ -202,10 +182,7 @@ impl<'a> Search<'a> {
         }
         self.work.restarts += sweep.n_restarts();
         let (reciprocals, vectors) = sweep.eigenpairs()?;
-        let theta: Vec<f64> = reciprocals
-            .iter()
-            .map(|reciprocal| 1.0 / (reciprocal * scale))
-            .collect();
+        let theta: Vec<f64> = reciprocals.iter().map(|reciprocal| 1.0 / (reciprocal * scale)).collect();
         self.take(vectors.as_ref(), &theta);
         Ok(())
     }
@@ -213,10 +190,7 @@ impl<'a> Search<'a> {
     fn take(&mut self, vectors: MatRef<'_, f64>, theta: &[f64]) {
         let mut vectors = vectors.to_owned();
         self.remaining().deflate(vectors.as_mut());
-        self.mass_taken = beside(
-            self.mass_taken.as_ref(),
-            product(self.problem.mass, vectors.as_ref()).as_ref(),
-        );
+        self.mass_taken = beside(self.mass_taken.as_ref(), product(self.problem.mass, vectors.as_ref()).as_ref());
         self.taken = beside(self.taken.as_ref(), vectors.as_ref());
         self.theta.extend_from_slice(theta);
     }
@@ -303,9 +277,7 @@ impl Sweep {
         let n = start.nrows();
         let ncv = (2 * nev + 1).max(MIN_BASIS).min(room);
         let length = |value: usize| {
-            c_int::try_from(value).map_err(|_| Error::OutOfMemory {
-                what: "ARPACK, which counts in 32 bits",
-            })
+            c_int::try_from(value).map_err(|_| Error::OutOfMemory { what: "ARPACK, which counts in 32 bits" })
         };
         let mut iparam = [0; 11];
         // Exact shifts, at most so many restarts, blocks of one, mode 3: shift and invert.
@@ -360,11 +332,7 @@ impl Sweep {
             _ => return Err(self.failure()),
         };
         let source = self.workd[source..source + self.n].to_vec();
-        Ok(Some(Call {
-            request,
-            source,
-            target: &mut self.workd[y..y + self.n],
-        }))
+        Ok(Some(Call { request, source, target: &mut self.workd[y..y + self.n] }))
     }
 
     fn n_restarts(&self) -> usize {
@@ -376,10 +344,7 @@ impl Sweep {
     }
 
     fn failure(&self) -> Error {
-        Error::Arpack {
-            status: self.info,
-            converged: self.n_converged(),
-        }
+        Error::Arpack { status: self.info, converged: self.n_converged() }
     }
 
     /// 1/θ and x of the converged pairs.

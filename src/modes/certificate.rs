@@ -54,13 +54,7 @@ pub fn certified(
     let second = count(&again)?;
     if second.holds() {
         let n_factorisations = first.n_factorisations + second.n_factorisations;
-        return Ok((
-            again,
-            Some(Certificate {
-                n_factorisations,
-                ..second
-            }),
-        ));
+        return Ok((again, Some(Certificate { n_factorisations, ..second })));
     }
     let unit = component.partition.scaling.eigenvalue_unit();
     Err(Error::ModesMissing {
@@ -90,15 +84,8 @@ fn certify(
             Boundary::FixedInterface => (count.clamped, modes.count()),
         };
         if boundary == Boundary::FixedInterface || count.schur_gap > SCHUR_GAP {
-            return Ok(Certificate {
-                count,
-                n_counted,
-                n_found,
-                n_factorisations: attempt + 1,
-            });
+            return Ok(Certificate { count, n_counted, n_found, n_factorisations: attempt + 1 });
         }
     }
-    last.and(Err(Error::SturmPivot {
-        step: partition.n_internal,
-    }))
+    last.and(Err(Error::SturmPivot { step: partition.n_internal }))
 }

@@ -25,24 +25,14 @@ impl Equilibrated {
     pub fn of(stiffness: &SparseMatrix, mass: &SparseMatrix) -> Self {
         let scale: Vec<f64> = diagonal(stiffness)
             .into_iter()
-            .map(|d| {
-                if d > 0.0 {
-                    2f64.powi((-0.5 * d.log2()).round() as i32)
-                } else {
-                    1.0
-                }
-            })
+            .map(|d| if d > 0.0 { 2f64.powi((-0.5 * d.log2()).round() as i32) } else { 1.0 })
             .collect();
         let norm = |matrix: &SparseMatrix| {
             let rows = matrix.outer_iterator().enumerate();
             rows.map(|(row, view)| scale[row] * view.iter().map(|(col, value)| scale[col] * value.abs()).sum::<f64>())
                 .fold(0.0, f64::max)
         };
-        Self {
-            stiffness_norm: norm(stiffness),
-            mass_norm: norm(mass),
-            scale,
-        }
+        Self { stiffness_norm: norm(stiffness), mass_norm: norm(mass), scale }
     }
 
     /// Normwise backward error of (λ, x) with residual r: ‖Dr‖ / ((‖DKD‖ + |λ|‖DMD‖) ‖D⁻¹x‖), measure M-01.
@@ -52,27 +42,14 @@ impl Equilibrated {
         dense::norm(&r) / ((self.stiffness_norm + lambda.abs() * self.mass_norm) * dense::norm(&x))
     }
 
-    /// The same of a small dense pencil.
-    pub fn of_dense(stiffness: MatRef<'_, f64>, mass: MatRef<'_, f64>) -> Self {
+    /// The same of a small dense pencil in given scales.
+    pub fn of_dense(stiffness: MatRef<'_, f64>, mass: MatRef<'_, f64>, scale: Vec<f64>) -> Self {
         let n = stiffness.nrows();
-        let scale: Vec<f64> = (0..n)
-            .map(|i| {
-                if stiffness[(i, i)] > 0.0 {
-                    2f64.powi((-0.5 * stiffness[(i, i)].log2()).round() as i32)
-                } else {
-                    1.0
-                }
-            })
-            .collect();
         let norm = |matrix: MatRef<'_, f64>| {
             (0..n).fold(0.0, |max: f64, j| {
                 max.max(scale[j] * (0..n).map(|i| scale[i] * matrix[(i, j)].abs()).sum::<f64>())
             })
         };
-        Self {
-            stiffness_norm: norm(stiffness),
-            mass_norm: norm(mass),
-            scale,
-        }
+        Self { stiffness_norm: norm(stiffness), mass_norm: norm(mass), scale }
     }
 }

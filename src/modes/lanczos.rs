@@ -102,10 +102,7 @@ pub fn lanczos(problem: Problem<'_>, wanted: Wanted, seed: u64) -> Result<Eigenp
             }
         }
         if basis.work.restarts == MAX_RESTARTS {
-            return Err(Error::LanczosStalled {
-                restarts: MAX_RESTARTS,
-                converged: basis.n_converged()?,
-            });
+            return Err(Error::LanczosStalled { restarts: MAX_RESTARTS, converged: basis.n_converged()? });
         }
         basis.restart(wanted)?;
     }
@@ -214,10 +211,7 @@ impl<'a> Basis<'a> {
         // Locked pairs are exact to the tolerance; their coupling is rounding and would unlock them.
         coefficients.as_mut().subrows_mut(0, self.locked).fill(0.0);
         let mut projected = Mat::zeros(self.size, self.size);
-        projected
-            .as_mut()
-            .submatrix_mut(0, 0, before, before)
-            .copy_from(&self.projected);
+        projected.as_mut().submatrix_mut(0, 0, before, before).copy_from(&self.projected);
         projected.as_mut().subcols_mut(before, block).copy_from(&coefficients);
         for j in before..self.size {
             for i in 0..before {
@@ -261,15 +255,10 @@ impl<'a> Basis<'a> {
             coupling = dense::product(r.as_ref(), coupling.as_ref());
         }
         self.replace_dependent(&mut block, &dependent);
-        let kept: Vec<usize> = (0..width)
-            .filter(|j| !dependent[*j] || self.holds(block.as_ref(), *j))
-            .collect();
+        let kept: Vec<usize> = (0..width).filter(|j| !dependent[*j] || self.holds(block.as_ref(), *j)).collect();
         let next = Mat::from_fn(block.nrows(), kept.len(), |i, j| block[(i, kept[j])]);
         let coupling = Mat::from_fn(kept.len(), width, |i, j| coupling[(kept[i], j)]);
-        self.vectors
-            .as_mut()
-            .subcols_mut(self.size, kept.len())
-            .copy_from(&next);
+        self.vectors.as_mut().subcols_mut(self.size, kept.len()).copy_from(&next);
         self.mass_next = product(self.problem.mass, next.as_ref());
         (coefficients, coupling)
     }
@@ -332,14 +321,8 @@ impl<'a> Basis<'a> {
         let m = ascending.len();
         let s = Mat::from_fn(m, m, |i, j| vectors[(i, m - 1 - j)]);
         let coupled = dense::product(self.coupling.as_ref(), s.as_ref());
-        let residuals = (0..m)
-            .map(|j| dense::norm(dense::column(coupled.as_ref(), j)))
-            .collect();
-        Ok(Ritz {
-            theta: ascending.into_iter().rev().collect(),
-            s,
-            residuals,
-        })
+        let residuals = (0..m).map(|j| dense::norm(dense::column(coupled.as_ref(), j))).collect();
+        Ok(Ritz { theta: ascending.into_iter().rev().collect(), s, residuals })
     }
 
     fn n_converged(&self) -> Result<usize> {
@@ -355,9 +338,7 @@ impl<'a> Basis<'a> {
             return Ok(None);
         }
         let ritz = self.ritz()?;
-        Ok(ritz
-            .count_wanted(wanted, self.problem.operator.shift())
-            .map(|count| (ritz, count)))
+        Ok(ritz.count_wanted(wanted, self.problem.operator.shift()).map(|count| (ritz, count)))
     }
 
     /// Whether a wanted cluster has as many members as start vectors were used: each finds one copy of a multiple
@@ -388,9 +369,7 @@ impl<'a> Basis<'a> {
             Wanted::Count(count) => (0..n_finite)
                 .find(|j| *j >= count && (*j == 0 || !ritz.same_cluster(*j - 1, *j, sigma)))
                 .unwrap_or(n_finite),
-            Wanted::UpTo(limit) => (0..n_finite)
-                .find(|j| ritz.lambda(*j, sigma) > limit)
-                .unwrap_or(n_finite),
+            Wanted::UpTo(limit) => (0..n_finite).find(|j| ritz.lambda(*j, sigma) > limit).unwrap_or(n_finite),
         };
         Ok(self.extract(&ritz, count))
     }
@@ -402,11 +381,7 @@ impl<'a> Basis<'a> {
         let mut vectors = dense::product(self.v(), s);
         let mut correction = dense::product(self.coupling.as_ref(), s);
         for j in 0..count {
-            correction
-                .as_mut()
-                .col_mut(j)
-                .iter_mut()
-                .for_each(|value| *value /= ritz.theta[j]);
+            correction.as_mut().col_mut(j).iter_mut().for_each(|value| *value /= ritz.theta[j]);
         }
         let next = self.vectors.as_ref().subcols(self.size, self.n_next());
         dense::add_product(vectors.as_mut(), 1.0, next, correction.as_ref());
@@ -427,9 +402,7 @@ impl<'a> Basis<'a> {
             Wanted::Count(count) => count,
             Wanted::UpTo(limit) => {
                 let sigma = self.problem.operator.shift();
-                (0..ritz.n_finite())
-                    .take_while(|j| ritz.lambda(*j, sigma) <= limit)
-                    .count()
+                (0..ritz.n_finite()).take_while(|j| ritz.lambda(*j, sigma) <= limit).count()
             }
         };
         let capacity = capacity_for(n_wanted, block, n);
@@ -439,9 +412,7 @@ impl<'a> Basis<'a> {
             return Ok(());
         }
         self.work.restarts += 1;
-        let keep = (n_wanted + (self.size - n_wanted.min(self.size)) / 2)
-            .min(self.size.saturating_sub(block))
-            .max(1);
+        let keep = (n_wanted + (self.size - n_wanted.min(self.size)) / 2).min(self.size.saturating_sub(block)).max(1);
         self.locked = (0..keep).take_while(|j| ritz.is_converged(*j)).count();
         let s = ritz.s.as_ref().subcols(0, keep);
         combine_in_place(self.vectors.as_mut(), self.size, s);
@@ -529,9 +500,7 @@ pub(super) fn product(mass: &SparseMatrix, block: MatRef<'_, f64>) -> Mat<f64> {
 
 pub(super) fn mass_norm(mass: &SparseMatrix, vector: &Mat<f64>) -> f64 {
     let image = product(mass, vector.as_ref());
-    dense::dot(dense::column(vector.as_ref(), 0), dense::column(image.as_ref(), 0))
-        .max(0.0)
-        .sqrt()
+    dense::dot(dense::column(vector.as_ref(), 0), dense::column(image.as_ref(), 0)).max(0.0).sqrt()
 }
 
 /// Modified Gram-Schmidt of a narrow block in the M-inner product, MW carried along: block = W R.
@@ -554,9 +523,7 @@ pub fn gram_schmidt(block: &mut Mat<f64>, mass_block: &mut Mat<f64>, least: f64,
         }
         r[(j, j)] = length;
         for side in [&mut *block, &mut *mass_block] {
-            dense::column_mut(side.as_mut(), j)
-                .iter_mut()
-                .for_each(|value| *value /= length);
+            dense::column_mut(side.as_mut(), j).iter_mut().for_each(|value| *value /= length);
         }
         for l in j + 1..width {
             let c = dense::dot(dense::column(mass_block.as_ref(), j), dense::column(block.as_ref(), l));
@@ -575,20 +542,9 @@ fn combine_in_place(mut vectors: MatMut<'_, f64>, size: usize, s: MatRef<'_, f64
     use rayon::prelude::*;
     const ROWS_PER_TILE: usize = 2048;
     let width = s.ncols();
-    vectors
-        .as_mut()
-        .subcols_mut(0, size)
-        .par_row_chunks_mut(ROWS_PER_TILE)
-        .for_each(|mut tile| {
-            let mut result = Mat::zeros(tile.nrows(), width);
-            faer::linalg::matmul::matmul(
-                result.as_mut(),
-                faer::Accum::Replace,
-                tile.as_ref(),
-                s,
-                1.0,
-                faer::Par::Seq,
-            );
-            tile.as_mut().subcols_mut(0, width).copy_from(&result);
-        });
+    vectors.as_mut().subcols_mut(0, size).par_row_chunks_mut(ROWS_PER_TILE).for_each(|mut tile| {
+        let mut result = Mat::zeros(tile.nrows(), width);
+        faer::linalg::matmul::matmul(result.as_mut(), faer::Accum::Replace, tile.as_ref(), s, 1.0, faer::Par::Seq);
+        tile.as_mut().subcols_mut(0, width).copy_from(&result);
+    });
 }

@@ -43,6 +43,8 @@ pub struct Modes {
     pub shapes: Mat<f64>,
     /// How well each is known.
     pub errors: Vec<ModeError>,
+    /// The end of the band that was searched, where one was asked for.
+    pub searched_to: Option<f64>,
     /// The next eigenvalue above, where there is one.
     pub next: Option<f64>,
     /// What they cost.
@@ -55,13 +57,14 @@ impl Modes {
         self.lambda.len()
     }
 
-    /// A shift in the gap above the highest mode, at this fraction of the gap: where a Sturm count is taken.
+    /// A shift above the highest mode and the band that was searched, and below the next mode, at this fraction of the
+    /// way: where a Sturm count is taken.
     pub fn shift_above(&self, fraction: f64) -> f64 {
-        match (self.lambda.last().copied(), self.next) {
-            (Some(top), Some(next)) => top + fraction * (next - top),
-            (Some(top), None) => (1.0 + fraction) * top,
-            (None, Some(next)) => fraction * next,
-            (None, None) => fraction,
+        let top = self.lambda.last().copied().into_iter().chain(self.searched_to).fold(0.0, f64::max);
+        match self.next.filter(|next| *next > top) {
+            Some(next) => top + fraction * (next - top),
+            None if top > 0.0 => (1.0 + fraction) * top,
+            None => fraction,
         }
     }
 }
@@ -112,11 +115,7 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
         Some(rigid) => [rigid.orthonormal.as_ref(), rigid.mass_orthonormal.as_ref()],
         None => [nothing.as_ref(), nothing.as_ref()],
     };
-    let eigenproblem = Problem {
-        operator,
-        mass: problem.mass,
-        deflated,
-    };
+    let eigenproblem = Problem { operator, mass: problem.mass, deflated };
     let pairs = match request.eigensolver {
         Eigensolver::Lanczos => lanczos(eigenproblem, request.wanted, request.seed)?,
         Eigensolver::Arpack => by_arpack(eigenproblem, request)?,
@@ -128,6 +127,10 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
         lambda,
         shapes,
         errors,
+        searched_to: match request.wanted {
+            Wanted::Count(_) => None,
+            Wanted::UpTo(limit) => Some(limit),
+        },
         next: pairs.next,
         work: pairs.work,
     })

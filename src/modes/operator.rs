@@ -86,12 +86,7 @@ impl<'a> FreeAtZero<'a> {
         rigid: &RigidBodyModes,
     ) -> Result<Self> {
         let schur = Schur::new(schur, rigid.orthonormal.as_ref().subrows(factor.n(), schur.nrows()))?;
-        Ok(Self {
-            factor,
-            stiffness,
-            constraint_modes,
-            schur,
-        })
+        Ok(Self { factor, stiffness, constraint_modes, schur })
     }
 }
 
@@ -99,44 +94,22 @@ impl Schur {
     fn new(schur: MatRef<'_, f64>, u_b: MatRef<'_, f64>) -> Result<Self> {
         let n_b = schur.nrows();
         let scale: Vec<f64> = (0..n_b)
-            .map(|i| {
-                if schur[(i, i)] > 0.0 {
-                    2f64.powi((-0.5 * schur[(i, i)].log2()).round() as i32)
-                } else {
-                    1.0
-                }
-            })
+            .map(|i| if schur[(i, i)] > 0.0 { 2f64.powi((-0.5 * schur[(i, i)].log2()).round() as i32) } else { 1.0 })
             .collect();
         let mut scaled = Mat::from_fn(n_b, n_b, |i, j| schur[(i, j)] * scale[i] * scale[j]);
         // In scaled coordinates the null space is D⁻¹ U_B.
         let unscaled = Mat::from_fn(n_b, u_b.ncols(), |i, j| u_b[(i, j)] / scale[i]);
-        let rigid = if u_b.ncols() > 0 {
-            unscaled.qr().compute_thin_Q()
-        } else {
-            Mat::zeros(n_b, 0)
-        };
+        let rigid = if u_b.ncols() > 0 { unscaled.qr().compute_thin_Q() } else { Mat::zeros(n_b, 0) };
         // The diagonal is near one, so adding Z Zᵀ lifts the null space to the size of the rest.
         dense::add_product(scaled.as_mut(), 1.0, rigid.as_ref(), rigid.transpose());
         dense::symmetrise(&mut scaled);
         let (eigenvalues, _) = dense::symmetric_eigen(scaled.as_ref())?;
-        let (least, most) = (
-            eigenvalues.first().copied().unwrap_or(1.0),
-            eigenvalues.last().copied().unwrap_or(1.0),
-        );
+        let (least, most) = (eigenvalues.first().copied().unwrap_or(1.0), eigenvalues.last().copied().unwrap_or(1.0));
         if least <= n_b as f64 * f64::EPSILON * most {
-            let n_more = eigenvalues
-                .iter()
-                .filter(|value| **value <= n_b as f64 * f64::EPSILON * most)
-                .count();
-            return Err(Error::Mechanism {
-                n_rigid: u_b.ncols(),
-                n_more,
-            });
+            let n_more = eigenvalues.iter().filter(|value| **value <= n_b as f64 * f64::EPSILON * most).count();
+            return Err(Error::Mechanism { n_rigid: u_b.ncols(), n_more });
         }
-        let factor = scaled.llt(Side::Lower).map_err(|_| Error::Mechanism {
-            n_rigid: u_b.ncols(),
-            n_more: 1,
-        })?;
+        let factor = scaled.llt(Side::Lower).map_err(|_| Error::Mechanism { n_rigid: u_b.ncols(), n_more: 1 })?;
         Ok(Self { scale, rigid, factor })
     }
 
@@ -174,12 +147,7 @@ impl ShiftInvert for FreeAtZero<'_> {
             }
         }
         let x_b = self.schur.solve(loads.as_ref());
-        dense::add_product(
-            block.as_mut().subrows_mut(0, n_i),
-            1.0,
-            self.constraint_modes,
-            x_b.as_ref(),
-        );
+        dense::add_product(block.as_mut().subrows_mut(0, n_i), 1.0, self.constraint_modes, x_b.as_ref());
         block.subrows_mut(n_i, n_b).copy_from(&x_b);
     }
 }

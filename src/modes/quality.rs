@@ -25,26 +25,17 @@ pub(super) fn normalise(mass: &SparseMatrix, shapes: &mut Mat<f64>) {
         let column = dense::column(shapes.as_ref(), j);
         let length = dense::dot(column, dense::column(images.as_ref(), j)).max(0.0).sqrt();
         // The first of the largest components decides the sign, so that it does not flip from run to run.
-        let largest = column
-            .iter()
-            .fold(0.0f64, |max, value| if value.abs() > max.abs() { *value } else { max });
+        let largest = column.iter().fold(0.0f64, |max, value| if value.abs() > max.abs() { *value } else { max });
         let factor = largest.signum() / length;
-        dense::column_mut(shapes.as_mut(), j)
-            .iter_mut()
-            .for_each(|value| *value *= factor);
+        dense::column_mut(shapes.as_mut(), j).iter_mut().for_each(|value| *value *= factor);
     }
 }
 
 /// λ = xᵀKx of M-orthonormal shapes, and what is known of their errors.
 pub(super) fn rayleigh_quotients(problem: ModalProblem<'_>, shapes: MatRef<'_, f64>) -> (Vec<f64>, Vec<ModeError>) {
-    let (forces, momenta) = rayon::join(
-        || multiply(problem.stiffness, shapes),
-        || multiply(problem.mass, shapes),
-    );
-    let (stiffness_terms, mass_terms) = rayon::join(
-        || absolute_energy(problem.stiffness, shapes),
-        || absolute_energy(problem.mass, shapes),
-    );
+    let (forces, momenta) = rayon::join(|| multiply(problem.stiffness, shapes), || multiply(problem.mass, shapes));
+    let (stiffness_terms, mass_terms) =
+        rayon::join(|| absolute_energy(problem.stiffness, shapes), || absolute_energy(problem.mass, shapes));
     let norms = Equilibrated::of(problem.stiffness, problem.mass);
     let rounding = f64::EPSILON;
     (0..shapes.ncols())
@@ -54,10 +45,7 @@ pub(super) fn rayleigh_quotients(problem: ModalProblem<'_>, shapes: MatRef<'_, f
             let modal_mass = dense::dot(x, momentum);
             let lambda = dense::dot(x, force) / modal_mass;
             let residual: Vec<f64> = force.iter().zip(momentum).map(|(f, p)| f - lambda * p).collect();
-            let (k_share, m_share) = (
-                stiffness_terms[j] / (lambda.abs() * modal_mass),
-                mass_terms[j] / modal_mass,
-            );
+            let (k_share, m_share) = (stiffness_terms[j] / (lambda.abs() * modal_mass), mass_terms[j] / modal_mass);
             let error = ModeError {
                 backward: norms.backward_error(lambda, x, &residual),
                 cancellation: k_share + m_share,

@@ -40,32 +40,14 @@ pub struct Retained {
 /// # Errors
 /// The eigensolver does not converge; a mechanism.
 pub fn retained(component: Component<'_>, job: &ReductionJob, seed: u64) -> Result<Retained> {
-    let Component {
-        partition,
-        internal,
-        factor,
-        rigid,
-        constraint,
-    } = component;
-    let request = ModeRequest {
-        wanted: wanted(job.modes, partition),
-        eigensolver: job.eigensolver,
-        seed,
-    };
+    let Component { partition, internal, factor, rigid, constraint } = component;
+    let request = ModeRequest { wanted: wanted(job.modes, partition), eigensolver: job.eigensolver, seed };
     match job.method {
         Method::CraigBampton => {
-            let problem = ModalProblem {
-                stiffness: internal.0,
-                mass: internal.1,
-                rigid: None,
-                precision: partition.precision,
-            };
+            let problem =
+                ModalProblem { stiffness: internal.0, mass: internal.1, rigid: None, precision: partition.precision };
             let modes = elastic_modes(problem, &Factored::new(factor, 0.0), request)?;
-            Ok(Retained {
-                columns: fixed_interface_columns(&modes),
-                modes,
-                boundary: Boundary::FixedInterface,
-            })
+            Ok(Retained { columns: fixed_interface_columns(&modes), modes, boundary: Boundary::FixedInterface })
         }
         Method::Herting => {
             let problem = ModalProblem {
@@ -78,11 +60,7 @@ pub fn retained(component: Component<'_>, job: &ReductionJob, seed: u64) -> Resu
             let operator = FreeAtZero::new(factor, &partition.stiffness, constraint.modes.as_ref(), schur, rigid)?;
             let modes = elastic_modes(problem, &operator, request)?;
             let columns = mode_acceleration_columns(partition, factor, constraint, rigid, &modes);
-            Ok(Retained {
-                modes,
-                boundary: Boundary::FreeInterface,
-                columns,
-            })
+            Ok(Retained { modes, boundary: Boundary::FreeInterface, columns })
         }
     }
 }

@@ -48,25 +48,16 @@ pub fn shifted<'a>(
     problem: ModalProblem<'_>,
     name: &dyn Fn(usize) -> String,
 ) -> Result<Shifted<'a>> {
-    let pencil = Pencil {
-        stiffness: problem.stiffness,
-        mass: problem.mass,
-    };
+    let pencil = Pencil { stiffness: problem.stiffness, mass: problem.mass };
     let mut sigma = -FIRST_SHIFT * median_ratio(problem);
     let mut count = LOOK_AT;
     let mut round = 1;
     loop {
         let factor = Cholesky::new(analysis, pencil, sigma, name)?;
-        let request = ModeRequest {
-            wanted: Wanted::Count(count),
-            eigensolver: Eigensolver::Lanczos,
-            seed: SEED,
-        };
+        let request = ModeRequest { wanted: Wanted::Count(count), eigensolver: Eigensolver::Lanczos, seed: SEED };
         let lowest = elastic_modes(problem, &Factored::new(&factor, sigma), request)?;
         let zero_modes = lowest.lambda.iter().zip(&lowest.errors);
-        let n_zero = zero_modes
-            .take_while(|(lambda, error)| is_zero(error) || **lambda <= 0.0)
-            .count();
+        let n_zero = zero_modes.take_while(|(lambda, error)| is_zero(error) || **lambda <= 0.0).count();
         let all_zero = n_zero == lowest.count() && lowest.next.is_some();
         if all_zero && count < problem.mass.rows() {
             count *= 2;
@@ -75,13 +66,7 @@ pub fn shifted<'a>(
         let settled = first_elastic.is_none_or(|lambda| WINDOW.contains(&(-sigma / lambda)));
         if (settled && !all_zero) || round == MAX_ROUNDS {
             refuse_negative(&lowest)?;
-            return Ok(Shifted {
-                factor,
-                sigma,
-                lowest,
-                n_zero,
-                n_factorisations: round,
-            });
+            return Ok(Shifted { factor, sigma, lowest, n_zero, n_factorisations: round });
         }
         if let Some(lambda) = first_elastic.filter(|lambda| *lambda > 0.0) {
             sigma = -lambda;
@@ -93,12 +78,7 @@ pub fn shifted<'a>(
 /// The median of K_ii / M_ii over the dofs that have both; one where none has.
 fn median_ratio(problem: ModalProblem<'_>) -> f64 {
     let (k, m) = (diagonal(problem.stiffness), diagonal(problem.mass));
-    let mut ratios: Vec<f64> = k
-        .iter()
-        .zip(&m)
-        .filter(|(k, m)| **k > 0.0 && **m > 0.0)
-        .map(|(k, m)| k / m)
-        .collect();
+    let mut ratios: Vec<f64> = k.iter().zip(&m).filter(|(k, m)| **k > 0.0 && **m > 0.0).map(|(k, m)| k / m).collect();
     ratios.sort_unstable_by(f64::total_cmp);
     ratios.get(ratios.len() / 2).copied().unwrap_or(1.0)
 }
@@ -114,10 +94,9 @@ fn is_zero(error: &ModeError) -> bool {
 fn refuse_negative(modes: &Modes) -> Result<()> {
     let mut pairs = modes.lambda.iter().zip(&modes.errors);
     match pairs.find(|(lambda, error)| **lambda < 0.0 && !is_zero(error)) {
-        Some((lambda, error)) => Err(Error::NegativeRigidEnergy {
-            energy: *lambda,
-            noise: error.relative_bar * lambda.abs(),
-        }),
+        Some((lambda, error)) => {
+            Err(Error::NegativeRigidEnergy { energy: *lambda, noise: error.relative_bar * lambda.abs() })
+        }
         None => Ok(()),
     }
 }
@@ -128,10 +107,7 @@ mod tests {
     use crate::model::Precision;
     use crate::sparse::SparseMatrix;
 
-    const BINARY: Precision = Precision {
-        stiffness: f64::EPSILON / 2.0,
-        mass: f64::EPSILON / 2.0,
-    };
+    const BINARY: Precision = Precision { stiffness: f64::EPSILON / 2.0, mass: f64::EPSILON / 2.0 };
 
     fn diagonal_matrix(values: &[f64]) -> SparseMatrix {
         let n = values.len();
@@ -153,12 +129,7 @@ mod tests {
     }
 
     fn with_lowest<T>(stiffness: &SparseMatrix, mass: &SparseMatrix, look: impl Fn(Result<Shifted<'_>>) -> T) -> T {
-        let problem = ModalProblem {
-            stiffness,
-            mass,
-            rigid: None,
-            precision: BINARY,
-        };
+        let problem = ModalProblem { stiffness, mass, rigid: None, precision: BINARY };
         let analysis = Analysis::new(Pencil { stiffness, mass }).expect("an analysis");
         look(shifted(&analysis, problem, &|dof| dof.to_string()))
     }
@@ -175,11 +146,7 @@ mod tests {
             // λ = 4 sin²(π / 2(n − 1)). The cancelling terms are some λ_max/λ = 600 times larger than the energy, which makes
             // rounding of 10⁻¹³.
             let expected = 4.0 * (std::f64::consts::PI / (2.0 * (n - 1) as f64)).sin().powi(2);
-            assert!(
-                (found.lowest.lambda[1] / expected - 1.0).abs() < 1e-12,
-                "{:?}",
-                found.lowest.lambda
-            );
+            assert!((found.lowest.lambda[1] / expected - 1.0).abs() < 1e-12, "{:?}", found.lowest.lambda);
         });
     }
 

@@ -75,10 +75,7 @@ pub struct Results<'a> {
 pub fn output(results: &Results<'_>) -> Result<(Superelement, Report)> {
     let body = report::body(results);
     let superelement = superelement::superelement(results, body.verdict())?;
-    let run = crate::report::RunFacts {
-        work: results.work,
-        ..Default::default()
-    };
+    let run = crate::report::RunFacts { work: results.work, ..Default::default() };
     Ok((superelement, Report { body, run }))
 }
 

@@ -34,10 +34,7 @@ fn model(results: &Results<'_>) -> ModelReport {
     notes.extend(model.findings.iter().map(ToString::to_string));
     ModelReport {
         n_dofs: model.n_dofs(),
-        n_nodes: model
-            .dofs
-            .as_ref()
-            .map(|dofs| dofs.iter().map(|dof| dof.node).collect::<BTreeSet<_>>().len()),
+        n_nodes: model.dofs.as_ref().map(|dofs| dofs.iter().map(|dof| dof.node).collect::<BTreeSet<_>>().len()),
         n_bodies: model.bodies.n_bodies,
         stiffness: matrix(stiffness),
         mass: matrix(mass),
@@ -55,11 +52,7 @@ fn model(results: &Results<'_>) -> ModelReport {
 }
 
 fn matrix(facts: &MatrixFacts) -> MatrixReport {
-    MatrixReport {
-        n_nonzeros: facts.n_nonzeros,
-        digits: facts.digits,
-        digest: facts.digest.clone(),
-    }
+    MatrixReport { n_nonzeros: facts.n_nonzeros, digits: facts.digits, digest: facts.digest.clone() }
 }
 
 fn mass_properties(results: &Results<'_>) -> MassProperties {
@@ -100,10 +93,7 @@ fn reduction(results: &Results<'_>) -> ReductionReport {
                         format!("mode {}", mode + 1)
                     }
                 },
-                reason: format!(
-                    "depends on the columns before it ({:.1e} of its length is left)",
-                    column.remaining
-                ),
+                reason: format!("depends on the columns before it ({:.1e} of its length is left)", column.remaining),
             })
             .collect(),
         modes: modes(results),
@@ -115,11 +105,7 @@ fn interfaces(results: &Results<'_>) -> Vec<InterfaceReport> {
     let partition = results.evidence.partition;
     let mut rows: Vec<InterfaceReport> = Vec::new();
     for node in &partition.interface {
-        let n_dofs = if node.directions.is_empty() {
-            node.n_nodes
-        } else {
-            node.directions.len()
-        };
+        let n_dofs = if node.directions.is_empty() { node.n_nodes } else { node.directions.len() };
         match rows.last_mut().filter(|row| row.name == node.name) {
             Some(row) => {
                 row.n_nodes += node.n_nodes;
@@ -174,10 +160,7 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
         if let Finding::Symmetrised { asymmetry, .. } = finding
             && *asymmetry > ASYMMETRY_WARN
         {
-            warnings.push(Warning {
-                code: "W-UNSYMMETRIC",
-                message: finding.to_string(),
-            });
+            warnings.push(Warning { code: "W-UNSYMMETRIC", message: finding.to_string() });
         }
     }
     let found = evidence.retained.modes.count();
@@ -200,11 +183,7 @@ fn completeness(results: &Results<'_>) -> Completeness {
             n_counted: certificate.n_counted,
             n_found: certificate.n_found,
         },
-        (None, Certify::None) => Completeness::NotCertified {
-            reason: "--certify none was asked".to_owned(),
-        },
-        (None, Certify::Count) => Completeness::NotCertified {
-            reason: "the count could not be taken".to_owned(),
-        },
+        (None, Certify::None) => Completeness::NotCertified { reason: "--certify none was asked".to_owned() },
+        (None, Certify::Count) => Completeness::NotCertified { reason: "the count could not be taken".to_owned() },
     }
 }

@@ -1,7 +1,7 @@
 //! The superelement from the results of the stages.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use faer::{Mat, MatRef};
 use supel_runtime::{self as file, Coordinate, Matrix, Metadata, Superelement, Tensors};
@@ -43,10 +43,7 @@ fn tensors(results: &Results<'_>) -> Tensors {
         interface_frames: vec![[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]; nodes.len()],
         frequencies: frequencies(results),
         mixing: mixing(results).as_ref().map(|mixing| matrix(mixing.as_ref())),
-        gravity: reduction
-            .gravity
-            .as_ref()
-            .map(|gravity| matrix(rows(gravity, scaling.mass_unit()).as_ref())),
+        gravity: reduction.gravity.as_ref().map(|gravity| matrix(rows(gravity, scaling.mass_unit()).as_ref())),
         ..Tensors::default()
     }
 }
@@ -57,14 +54,8 @@ fn matrix(a: MatRef<'_, f64>) -> Matrix {
 
 fn frequencies(results: &Results<'_>) -> Vec<f64> {
     let unit = results.evidence.partition.scaling.eigenvalue_unit();
-    let mut frequencies: Vec<f64> = results
-        .evidence
-        .retained
-        .modes
-        .lambda
-        .iter()
-        .map(|lambda| omega(*lambda, unit))
-        .collect();
+    let mut frequencies: Vec<f64> =
+        results.evidence.retained.modes.lambda.iter().map(|lambda| omega(*lambda, unit)).collect();
     // Rayleigh quotients of a repeated eigenvalue may come out a rounding apart in the wrong order.
     frequencies.sort_by(f64::total_cmp);
     frequencies
@@ -84,15 +75,8 @@ fn mixing(results: &Results<'_>) -> Option<Mat<f64>> {
         DynamicCoordinate::InertiaRelief(_) => 1.0 / scaling.eigenvalue_unit(),
         DynamicCoordinate::FreeFree(_) | DynamicCoordinate::FixedInterface(_) => scaling.shape_unit(),
     };
-    let unit: Vec<f64> = evidence
-        .basis
-        .coordinates
-        .iter()
-        .map(|c| scaling.shape_unit() / named_unit(*c))
-        .collect();
-    Some(Mat::from_fn(mixing.nrows(), mixing.ncols(), |i, j| {
-        mixing[(i, j)] * unit[i]
-    }))
+    let unit: Vec<f64> = evidence.basis.coordinates.iter().map(|c| scaling.shape_unit() / named_unit(*c)).collect();
+    Some(Mat::from_fn(mixing.nrows(), mixing.ncols(), |i, j| mixing[(i, j)] * unit[i]))
 }
 
 /// Interface nodes of the file: those whose position is known. Without coordinates the interface is bare rows.
@@ -102,11 +86,7 @@ fn named_nodes(results: &Results<'_>) -> Vec<file::InterfaceNode> {
         Some(file::InterfaceNode {
             name: node.name.clone(),
             label: node.label,
-            dofs: node
-                .directions
-                .iter()
-                .map(|direction| direction_of(*direction))
-                .collect(),
+            dofs: node.directions.iter().map(|direction| direction_of(*direction)).collect(),
             position: node.position?,
         })
     });
@@ -121,13 +101,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
     let evidence = &results.evidence;
     let interface_nodes = named_nodes(results);
     let mut coordinates = interface_coordinates(results, &interface_nodes);
-    coordinates.extend(
-        evidence
-            .basis
-            .coordinates
-            .iter()
-            .map(|c| dynamic_coordinate(results, tensors, *c)),
-    );
+    coordinates.extend(evidence.basis.coordinates.iter().map(|c| dynamic_coordinate(results, tensors, *c)));
     let dropped = evidence.basis.dropped.iter().map(|column| file::DroppedColumn {
         column: dynamic_coordinate(results, tensors, column.coordinate),
         reason: format!(
@@ -135,17 +109,10 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
             column.remaining
         ),
     });
-    let classical = evidence
-        .rigid
-        .is_classical
-        .then(|| file::mass_properties(&tensors.rigid_body_mass))
-        .flatten();
+    let classical = evidence.rigid.is_classical.then(|| file::mass_properties(&tensors.rigid_body_mass)).flatten();
     let [stiffness, mass] = &results.input.matrices;
     Metadata {
-        generator: file::Generator {
-            name: env!("CARGO_PKG_NAME").into(),
-            version: env!("CARGO_PKG_VERSION").into(),
-        },
+        generator: file::Generator { name: env!("CARGO_PKG_NAME").into(), version: env!("CARGO_PKG_VERSION").into() },
         method: match results.job.reduction.method {
             Method::CraigBampton => file::Method::CraigBampton,
             Method::Herting => file::Method::Herting,
@@ -155,10 +122,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
         coordinates,
         dropped: dropped.collect(),
         load_names: Vec::new(),
-        validity: file::Validity {
-            band_hz: band(results.job, tensors),
-            assumptions: Vec::new(),
-        },
+        validity: file::Validity { band_hz: band(results.job, tensors), assumptions: Vec::new() },
         flags: BTreeSet::new(),
         model: file::ModelSummary {
             n_dofs: results.model.n_dofs() as u64,
@@ -181,19 +145,16 @@ fn interface_coordinates(results: &Results<'_>, nodes: &[file::InterfaceNode]) -
     if !nodes.is_empty() {
         let of_node = |(index, node): (usize, &file::InterfaceNode)| {
             let dofs = node.dofs.clone();
-            dofs.into_iter()
-                .map(move |direction| Coordinate::Interface { node: index, direction })
+            dofs.into_iter().map(move |direction| Coordinate::Interface { node: index, direction })
         };
         return nodes.iter().enumerate().flat_map(of_node).collect();
     }
     let partition = results.evidence.partition;
-    let rows = partition.dofs[partition.n_internal..]
-        .iter()
-        .map(|dof| match dof.origin {
-            DofOrigin::Row(row) => Coordinate::InterfaceRow { row: row as u64 },
-            // A rigid node has a position, so that an interface with one is never bare rows.
-            DofOrigin::RigidNode(node, _) => Coordinate::InterfaceRow { row: node as u64 },
-        });
+    let rows = partition.dofs[partition.n_internal..].iter().map(|dof| match dof.origin {
+        DofOrigin::Row(row) => Coordinate::InterfaceRow { row: row as u64 },
+        // A rigid node has a position, so that an interface with one is never bare rows.
+        DofOrigin::RigidNode(node, _) => Coordinate::InterfaceRow { row: node as u64 },
+    });
     rows.collect()
 }
 
@@ -203,16 +164,12 @@ fn dynamic_coordinate(results: &Results<'_>, tensors: &Tensors, coordinate: Dyna
     let bar = |mode: usize| Some(0.5 * errors[mode].relative_bar * frequency(mode)).filter(|bar: &f64| bar.is_finite());
     match coordinate {
         DynamicCoordinate::InertiaRelief(index) => Coordinate::InertiaRelief { index },
-        DynamicCoordinate::FreeFree(mode) => Coordinate::ElasticMode {
-            mode,
-            frequency_hz: frequency(mode),
-            error_bar_hz: bar(mode),
-        },
-        DynamicCoordinate::FixedInterface(mode) => Coordinate::FixedInterfaceMode {
-            mode,
-            frequency_hz: frequency(mode),
-            error_bar_hz: bar(mode),
-        },
+        DynamicCoordinate::FreeFree(mode) => {
+            Coordinate::ElasticMode { mode, frequency_hz: frequency(mode), error_bar_hz: bar(mode) }
+        }
+        DynamicCoordinate::FixedInterface(mode) => {
+            Coordinate::FixedInterfaceMode { mode, frequency_hz: frequency(mode), error_bar_hz: bar(mode) }
+        }
     }
 }
 
@@ -220,10 +177,7 @@ fn dynamic_coordinate(results: &Results<'_>, tensors: &Tensors, coordinate: Dyna
 fn band(job: &Job, tensors: &Tensors) -> Option<[f64; 2]> {
     match job.reduction.modes {
         ModeSelection::UpTo { up_to_hz } => Some([0.0, up_to_hz]),
-        ModeSelection::Count { .. } => tensors
-            .frequencies
-            .last()
-            .map(|omega| [0.0, omega / std::f64::consts::TAU]),
+        ModeSelection::Count { .. } => tensors.frequencies.last().map(|omega| [0.0, omega / std::f64::consts::TAU]),
     }
 }
 
@@ -231,11 +185,7 @@ fn band(job: &Job, tensors: &Tensors) -> Option<[f64; 2]> {
 fn job_document(job: &Job) -> serde_json::Value {
     let folder = job.write.superelement.parent().unwrap_or(Path::new("")).to_owned();
     let mut job = job.clone();
-    let relative = |path: &mut std::path::PathBuf| {
-        if let Ok(inside) = path.strip_prefix(&folder) {
-            *path = inside.to_owned();
-        }
-    };
+    let relative = |path: &mut PathBuf| *path = relative_to(path, &folder);
     relative(&mut job.model.stiffness);
     relative(&mut job.model.mass);
     job.model.dofs.as_mut().map(relative);
@@ -243,6 +193,16 @@ fn job_document(job: &Job) -> serde_json::Value {
     relative(&mut job.write.superelement);
     job.write.report.as_mut().map(relative);
     serde_json::to_value(job).unwrap_or_default()
+}
+
+/// The way from a folder to a path: up to where the two part, then down.
+fn relative_to(path: &Path, folder: &Path) -> PathBuf {
+    if path.is_absolute() != folder.is_absolute() {
+        return path.to_owned();
+    }
+    let shared = path.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
+    let up = folder.components().skip(shared).map(|_| std::path::Component::ParentDir);
+    up.chain(path.components().skip(shared)).collect()
 }
 
 fn verification(checks: &[Check], verdict: Verdict) -> file::Verification {
@@ -257,8 +217,5 @@ fn verification(checks: &[Check], verdict: Verdict) -> file::Verification {
         limit: check.limits.value(),
         verdict: verdict_of(check.verdict()),
     };
-    file::Verification {
-        verdict: verdict_of(verdict),
-        checks: checks.iter().map(summary).collect(),
-    }
+    file::Verification { verdict: verdict_of(verdict), checks: checks.iter().map(summary).collect() }
 }

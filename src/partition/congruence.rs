@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::transformation::Transformation;
+use super::transformation::{Transformation, TransformationRow};
 use crate::model::make_symmetric;
 use crate::sparse::SparseMatrix;
 
@@ -16,11 +16,7 @@ pub(super) fn congruence(matrix: &SparseMatrix, transformation: &Transformation)
     let tasks: Vec<Vec<Row>> = (0..n)
         .into_par_iter()
         .chunks(ROWS_PER_TASK)
-        .map(|rows| {
-            rows.into_iter()
-                .map(|row| Row::new(matrix, transformation, &columns[row]))
-                .collect()
-        })
+        .map(|rows| rows.into_iter().map(|row| Row::new(matrix, transformation, &columns[row])).collect())
         .collect();
     let n_entries = tasks.iter().flatten().map(|row| row.columns.len()).sum();
     let mut pointers = Vec::with_capacity(n + 1);
@@ -69,10 +65,7 @@ impl Row {
         }
         // A stable sort keeps the terms of one column in the order of the model, so that their sum is always the same.
         entries.sort_by_key(|(col, _)| *col);
-        let mut row = Self {
-            columns: Vec::with_capacity(entries.len()),
-            values: Vec::with_capacity(entries.len()),
-        };
+        let mut row = Self { columns: Vec::with_capacity(entries.len()), values: Vec::with_capacity(entries.len()) };
         for (col, value) in entries {
             if row.columns.last() == Some(&col) {
                 if let Some(sum) = row.values.last_mut() {
@@ -85,4 +78,30 @@ impl Row {
         }
         row
     }
+}
+
+/// The largest (|T|ᵀ|A||T|)_ii / (TᵀAT)_ii: how much larger the terms of a rigid node's stiffness are than their sum.
+/// Rounding of the data reaches the node's row enlarged by this factor.
+pub(super) fn cancellation(matrix: &SparseMatrix, product: &SparseMatrix, transformation: &Transformation) -> f64 {
+    let mut sums: std::collections::BTreeMap<u32, f64> = std::collections::BTreeMap::new();
+    for (row, entries) in transformation.rows.iter().enumerate() {
+        let TransformationRow::Rigid(entries) = entries else {
+            continue;
+        };
+        let Some(view) = matrix.outer_view(row) else { continue };
+        for (col, value) in view.iter() {
+            let TransformationRow::Rigid(others) = &transformation.rows[col] else {
+                continue;
+            };
+            for (dof, factor) in entries {
+                let lever = others.iter().find(|(other, _)| other == dof).map_or(0.0, |(_, lever)| *lever);
+                *sums.entry(*dof).or_default() += (factor * value * lever).abs();
+            }
+        }
+    }
+    let ratio = |(dof, sum): (u32, f64)| {
+        let left = product.get(dof as usize, dof as usize).copied().unwrap_or(0.0);
+        if left > 0.0 { sum / left } else { 1.0 }
+    };
+    sums.into_iter().map(ratio).fold(1.0, f64::max)
 }

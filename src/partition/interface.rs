@@ -61,9 +61,7 @@ pub(super) fn resolve(model: &Model, interfaces: &[InterfaceJob]) -> Result<Inte
                 resolved.extend(from_rows(model, &catalogue, job, rows)?)
             }
             (NodeSelection::Rows { .. }, Coupling::Rigid) => {
-                return Err(Error::RigidNeedsCoordinates {
-                    interface: job.name.clone(),
-                });
+                return Err(Error::RigidNeedsCoordinates { interface: job.name.clone() });
             }
             (_, Coupling::Direct) => {
                 for label in catalogue.select(model, job)? {
@@ -81,11 +79,7 @@ pub(super) fn resolve(model: &Model, interfaces: &[InterfaceJob]) -> Result<Inte
 fn from_rows(model: &Model, catalogue: &Catalogue, job: &InterfaceJob, rows: &[usize]) -> Result<Vec<Resolved>> {
     let n = model.n_dofs();
     if let Some(row) = rows.iter().find(|row| **row >= n) {
-        return Err(Error::InterfaceRow {
-            interface: job.name.clone(),
-            row: *row,
-            n,
-        });
+        return Err(Error::InterfaceRow { interface: job.name.clone(), row: *row, n });
     }
     if let (Some(dofs), false) = (&model.dofs, catalogue.positions.is_empty()) {
         let mut labels: Vec<i64> = Vec::new();
@@ -101,13 +95,7 @@ fn from_rows(model: &Model, catalogue: &Catalogue, job: &InterfaceJob, rows: &[u
         let of_node = |label: i64| {
             let mut listed = directions.get(&label).cloned().unwrap_or_default();
             listed.sort_unstable();
-            catalogue.direct(
-                &InterfaceJob {
-                    dofs: Some(listed),
-                    ..job.clone()
-                },
-                label,
-            )
+            catalogue.direct(&InterfaceJob { dofs: Some(listed), ..job.clone() }, label)
         };
         return labels.into_iter().map(of_node).collect();
     }
@@ -119,10 +107,7 @@ fn from_rows(model: &Model, catalogue: &Catalogue, job: &InterfaceJob, rows: &[u
         coupling: Coupling::Direct,
         n_nodes: rows.len(),
     };
-    Ok(vec![Resolved {
-        node,
-        rows: Rows::Own(rows.to_vec()),
-    }])
+    Ok(vec![Resolved { node, rows: Rows::Own(rows.to_vec()) }])
 }
 
 /// The rows and the position of each node of the model.
@@ -137,25 +122,15 @@ impl Catalogue {
         for (row, Dof { node, direction }) in model.dofs.iter().flatten().enumerate() {
             rows.entry(*node).or_default().insert(*direction, row);
         }
-        let positions = model
-            .nodes
-            .iter()
-            .flat_map(|nodes| nodes.labels.iter().copied().zip(nodes.coordinates.clone()));
-        Self {
-            rows,
-            positions: positions.collect(),
-        }
+        let positions =
+            model.nodes.iter().flat_map(|nodes| nodes.labels.iter().copied().zip(nodes.coordinates.clone()));
+        Self { rows, positions: positions.collect() }
     }
 
     /// The labels a job's selection names, in its own order for a list and in table order otherwise.
     fn select(&self, model: &Model, job: &InterfaceJob) -> Result<Vec<i64>> {
         let interface = || job.name.clone();
-        let nodes = || {
-            model
-                .nodes
-                .as_ref()
-                .ok_or_else(|| Error::SelectionNeedsNodes { interface: interface() })
-        };
+        let nodes = || model.nodes.as_ref().ok_or_else(|| Error::SelectionNeedsNodes { interface: interface() });
         let labels: Vec<i64> = match &job.nodes {
             NodeSelection::Labels(labels) => labels.clone(),
             NodeSelection::Group(text) => {
@@ -177,23 +152,16 @@ impl Catalogue {
             }
             NodeSelection::Rows { .. } => Vec::new(),
         };
-        if labels.is_empty() {
-            Err(Error::EmptyInterface { interface: interface() })
-        } else {
-            Ok(labels)
-        }
+        if labels.is_empty() { Err(Error::EmptyInterface { interface: interface() }) } else { Ok(labels) }
     }
 
     fn rows_of(&self, job: &InterfaceJob, label: i64) -> Result<&BTreeMap<Direction, usize>> {
         if self.rows.is_empty() {
-            return Err(Error::SelectionNeedsNodes {
-                interface: job.name.clone(),
-            });
+            return Err(Error::SelectionNeedsNodes { interface: job.name.clone() });
         }
-        self.rows.get(&label).ok_or_else(|| Error::InterfaceNodeWithoutRows {
-            interface: job.name.clone(),
-            node: label,
-        })
+        self.rows
+            .get(&label)
+            .ok_or_else(|| Error::InterfaceNodeWithoutRows { interface: job.name.clone(), node: label })
     }
 
     fn direct(&self, job: &InterfaceJob, label: i64) -> Result<Resolved> {
@@ -205,10 +173,7 @@ impl Catalogue {
             .map(|direction| {
                 of_node.get(direction).copied().ok_or_else(|| Error::DofMissing {
                     interface: job.name.clone(),
-                    dof: Dof {
-                        node: label,
-                        direction: *direction,
-                    },
+                    dof: Dof { node: label, direction: *direction },
                 })
             })
             .collect::<Result<_>>()?;
@@ -220,10 +185,7 @@ impl Catalogue {
             coupling: Coupling::Direct,
             n_nodes: 1,
         };
-        Ok(Resolved {
-            node,
-            rows: Rows::Own(rows),
-        })
+        Ok(Resolved { node, rows: Rows::Own(rows) })
     }
 
     fn patch(&self, job: &InterfaceJob, labels: &[i64]) -> Result<Resolved> {
@@ -231,9 +193,10 @@ impl Catalogue {
         let mut centroid = [0.0; 3];
         for label in labels {
             rows.extend(self.rows_of(job, *label)?.values());
-            let point = self.positions.get(label).ok_or_else(|| Error::RigidNeedsCoordinates {
-                interface: job.name.clone(),
-            })?;
+            let point = self
+                .positions
+                .get(label)
+                .ok_or_else(|| Error::RigidNeedsCoordinates { interface: job.name.clone() })?;
             for axis in 0..3 {
                 centroid[axis] += point[axis] / labels.len() as f64;
             }
@@ -252,10 +215,7 @@ impl Catalogue {
             coupling: Coupling::Rigid,
             n_nodes: labels.len(),
         };
-        Ok(Resolved {
-            node,
-            rows: Rows::Patch(rows),
-        })
+        Ok(Resolved { node, rows: Rows::Patch(rows) })
     }
 }
 
@@ -265,15 +225,9 @@ fn refuse_shared_rows(model: &Model, resolved: &[Resolved]) -> Result<()> {
         let (Rows::Own(rows) | Rows::Patch(rows)) = rows;
         for row in rows {
             if let Some(first) = owner.insert(*row, &node.name) {
-                let dof = model
-                    .dofs
-                    .as_ref()
-                    .map_or_else(|| format!("row {row} (from zero)"), |dofs| dofs[*row].to_string());
-                return Err(Error::DofTwice {
-                    dof,
-                    first: first.to_owned(),
-                    second: node.name.clone(),
-                });
+                let dof =
+                    model.dofs.as_ref().map_or_else(|| format!("row {row} (from zero)"), |dofs| dofs[*row].to_string());
+                return Err(Error::DofTwice { dof, first: first.to_owned(), second: node.name.clone() });
             }
         }
     }

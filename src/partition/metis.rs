@@ -30,10 +30,7 @@ pub(super) fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
     let is_sound = graph.starts.len() == n + 1
         && graph.starts.last().copied() == i32::try_from(graph.neighbours.len()).ok()
         && graph.starts.windows(2).all(|pair| pair[0] <= pair[1])
-        && graph
-            .neighbours
-            .iter()
-            .all(|node| usize::try_from(*node).is_ok_and(|node| node < n));
+        && graph.neighbours.iter().all(|node| usize::try_from(*node).is_ok_and(|node| node < n));
     assert!(is_sound, "the graph given to METIS is not well formed");
     if n == 0 {
         return Some(Vec::new());
@@ -72,11 +69,7 @@ mod tests {
             neighbours.extend([node - 1, node + 1].into_iter().filter(|other| (0..n).contains(other)));
             starts.push(neighbours.len() as i32);
         }
-        Graph {
-            starts,
-            neighbours,
-            weights: vec![1; n as usize],
-        }
+        Graph { starts, neighbours, weights: vec![1; n as usize] }
     }
 
     #[test]
@@ -91,27 +84,15 @@ mod tests {
 
     #[test]
     fn graph_without_edges_or_nodes_is_ordered() {
-        let lonely = Graph {
-            starts: vec![0, 0, 0],
-            neighbours: Vec::new(),
-            weights: vec![1, 1],
-        };
+        let lonely = Graph { starts: vec![0, 0, 0], neighbours: Vec::new(), weights: vec![1, 1] };
         assert_eq!(nested_dissection(&lonely).unwrap().len(), 2);
-        let empty = Graph {
-            starts: vec![0],
-            neighbours: Vec::new(),
-            weights: Vec::new(),
-        };
+        let empty = Graph { starts: vec![0], neighbours: Vec::new(), weights: Vec::new() };
         assert!(nested_dissection(&empty).unwrap().is_empty());
     }
 
     #[test]
     #[should_panic(expected = "not well formed")]
     fn neighbour_out_of_range_never_reaches_the_library() {
-        nested_dissection(&Graph {
-            starts: vec![0, 1],
-            neighbours: vec![7],
-            weights: vec![1],
-        });
+        nested_dissection(&Graph { starts: vec![0, 1], neighbours: vec![7], weights: vec![1] });
     }
 }

@@ -45,6 +45,8 @@ pub struct Partition {
     pub scaling: Scaling,
     /// Relative precision of the data.
     pub precision: Precision,
+    /// How much rigid patches enlarge rounding of the data of K; one without patches.
+    pub cancellation: f64,
 }
 
 impl Partition {
@@ -59,15 +61,15 @@ impl Partition {
         let transformation = transformation.permuted(&order);
         let n_internal = transformation.n_internal();
         if n_internal == 0 {
-            return Err(Error::NothingToReduce {
-                n_interface: transformation.dofs.len(),
-            });
+            return Err(Error::NothingToReduce { n_interface: transformation.dofs.len() });
         }
         let (stiffness, mass) = rayon::join(
             || congruence::congruence(&model.stiffness, &transformation),
             || congruence::congruence(&model.mass, &transformation),
         );
+        let cancellation = congruence::cancellation(&model.stiffness, &stiffness, &transformation);
         Ok(Self {
+            cancellation,
             stiffness,
             mass,
             n_internal,

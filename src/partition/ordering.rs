@@ -64,11 +64,7 @@ fn node_graph(model: &Model, transformation: &Transformation, nodes: &InternalNo
             rows_of_node[*group as usize].push(row as u32);
         }
     }
-    let mut graph = Graph {
-        starts: vec![0],
-        neighbours: Vec::new(),
-        weights: Vec::new(),
-    };
+    let mut graph = Graph { starts: vec![0], neighbours: Vec::new(), weights: Vec::new() };
     let mut last_seen = vec![u32::MAX; n_nodes];
     for (node, rows) in rows_of_node.iter().enumerate() {
         last_seen[node] = node as u32;
@@ -157,11 +153,7 @@ mod tests {
 
     #[test]
     fn tree_of_a_path_in_natural_order_is_a_chain() {
-        let graph = Graph {
-            starts: vec![0, 1, 3, 4],
-            neighbours: vec![1, 0, 2, 1],
-            weights: vec![1; 3],
-        };
+        let graph = Graph { starts: vec![0, 1, 3, 4], neighbours: vec![1, 0, 2, 1], weights: vec![1; 3] };
         assert_eq!(elimination_tree(&graph, &[0, 1, 2]), [1, 2, u32::MAX]);
     }
 

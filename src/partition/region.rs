@@ -6,20 +6,11 @@ use crate::job::Region;
 pub(super) fn contains(region: &Region, point: [f64; 3]) -> bool {
     match region {
         Region::Box { min, max } => (0..3).all(|axis| min[axis] <= point[axis] && point[axis] <= max[axis]),
-        Region::Plane {
-            point: origin,
-            normal,
-            tolerance,
-        } => {
+        Region::Plane { point: origin, normal, tolerance } => {
             let length = norm(*normal);
             length > 0.0 && (dot(*normal, minus(point, *origin)) / length).abs() <= *tolerance
         }
-        Region::Cylinder {
-            from,
-            to,
-            radius,
-            inner_radius,
-        } => {
+        Region::Cylinder { from, to, radius, inner_radius } => {
             let axis = minus(*to, *from);
             let length = norm(axis);
             if length == 0.0 {
@@ -52,33 +43,21 @@ mod tests {
 
     #[test]
     fn box_has_its_border() {
-        let region = Region::Box {
-            min: [0.0; 3],
-            max: [1.0, 2.0, 3.0],
-        };
+        let region = Region::Box { min: [0.0; 3], max: [1.0, 2.0, 3.0] };
         assert!(contains(&region, [1.0, 0.0, 3.0]));
         assert!(!contains(&region, [1.0, 2.1, 3.0]));
     }
 
     #[test]
     fn plane_takes_a_normal_of_any_length() {
-        let region = Region::Plane {
-            point: [0.0, 0.0, 5.0],
-            normal: [0.0, 0.0, 10.0],
-            tolerance: 0.1,
-        };
+        let region = Region::Plane { point: [0.0, 0.0, 5.0], normal: [0.0, 0.0, 10.0], tolerance: 0.1 };
         assert!(contains(&region, [7.0, -3.0, 5.05]));
         assert!(!contains(&region, [7.0, -3.0, 5.2]));
     }
 
     #[test]
     fn cylinder_ends_and_may_be_a_shell() {
-        let region = Region::Cylinder {
-            from: [0.0; 3],
-            to: [0.0, 0.0, 2.0],
-            radius: 1.0,
-            inner_radius: 0.9,
-        };
+        let region = Region::Cylinder { from: [0.0; 3], to: [0.0, 0.0, 2.0], radius: 1.0, inner_radius: 0.9 };
         assert!(contains(&region, [0.95, 0.0, 1.0]));
         assert!(!contains(&region, [0.5, 0.0, 1.0]));
         assert!(!contains(&region, [0.95, 0.0, 2.5]));
@@ -86,10 +65,7 @@ mod tests {
 
     #[test]
     fn sphere_is_solid() {
-        let region = Region::Sphere {
-            center: [1.0, 0.0, 0.0],
-            radius: 1.0,
-        };
+        let region = Region::Sphere { center: [1.0, 0.0, 0.0], radius: 1.0 };
         assert!(contains(&region, [2.0, 0.0, 0.0]));
         assert!(!contains(&region, [2.0, 0.1, 0.0]));
     }

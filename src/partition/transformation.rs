@@ -110,21 +110,14 @@ impl Transformation {
     pub(super) fn new(model: &Model, interfaces: &Interfaces) -> Result<Self> {
         let n = model.n_dofs();
         let mut taken = vec![false; n];
-        for Resolved {
-            rows: Rows::Own(rows) | Rows::Patch(rows),
-            ..
-        } in &interfaces.0
-        {
+        for Resolved { rows: Rows::Own(rows) | Rows::Patch(rows), .. } in &interfaces.0 {
             for row in rows {
                 taken[*row] = true;
             }
         }
         let sites = Sites::new(model);
-        let mut builder = Builder {
-            dofs: Vec::with_capacity(n),
-            rows: vec![TransformationRow::Dof(u32::MAX); n],
-            sites,
-        };
+        let mut builder =
+            Builder { dofs: Vec::with_capacity(n), rows: vec![TransformationRow::Dof(u32::MAX); n], sites };
         for row in (0..n).filter(|row| !taken[*row]) {
             builder.own_row(row, Part::Internal);
         }
@@ -142,10 +135,7 @@ impl Transformation {
                 builder.attach_patch(index, resolved, rows)?;
             }
         }
-        Ok(Self {
-            dofs: builder.dofs,
-            rows: builder.rows,
-        })
+        Ok(Self { dofs: builder.dofs, rows: builder.rows })
     }
 
     /// Number of internal dofs, which come first.
@@ -184,32 +174,17 @@ struct Sites {
 impl Sites {
     fn new(model: &Model) -> Self {
         let of_row = model.dofs.as_ref().zip(model.nodes.as_ref()).and_then(|(dofs, nodes)| {
-            let positions: std::collections::HashMap<i64, [f64; 3]> = nodes
-                .labels
-                .iter()
-                .copied()
-                .zip(nodes.coordinates.iter().copied())
-                .collect();
+            let positions: std::collections::HashMap<i64, [f64; 3]> =
+                nodes.labels.iter().copied().zip(nodes.coordinates.iter().copied()).collect();
             let site = |dof: &crate::input::Dof| {
-                positions.get(&dof.node).map(|position| Site {
-                    position: *position,
-                    direction: dof.direction,
-                })
+                positions.get(&dof.node).map(|position| Site { position: *position, direction: dof.direction })
             };
             dofs.iter().map(site).collect()
         });
         let node_of_row = node_of_row(model.n_dofs(), model.dofs.as_deref());
         let n_nodes = node_of_row.iter().max().map_or(0, |max| max + 1);
-        let label_of_row = model
-            .dofs
-            .as_ref()
-            .map(|dofs| dofs.iter().map(|dof| dof.node).collect());
-        Self {
-            of_row,
-            node_of_row,
-            label_of_row,
-            n_nodes,
-        }
+        let label_of_row = model.dofs.as_ref().map(|dofs| dofs.iter().map(|dof| dof.node).collect());
+        Self { of_row, node_of_row, label_of_row, n_nodes }
     }
 }
 
@@ -245,11 +220,8 @@ impl Builder {
         let directions: Vec<Direction> = match part {
             Part::Interface => listed.clone(),
             Part::Internal => {
-                let rest = Direction::ALL
-                    .into_iter()
-                    .filter(|direction| !listed.contains(direction));
-                rest.filter(|direction| self.moves(position, rows, *direction))
-                    .collect()
+                let rest = Direction::ALL.into_iter().filter(|direction| !listed.contains(direction));
+                rest.filter(|direction| self.moves(position, rows, *direction)).collect()
             }
         };
         for direction in directions {
@@ -264,8 +236,7 @@ impl Builder {
     }
 
     fn moves(&self, position: [f64; 3], rows: &[usize], direction: Direction) -> bool {
-        rows.iter()
-            .any(|row| self.lever(*row, position)[direction as usize] != 0.0)
+        rows.iter().any(|row| self.lever(*row, position)[direction as usize] != 0.0)
     }
 
     /// The factors of the six dofs of a node at `position` in the motion of a row.
@@ -273,14 +244,8 @@ impl Builder {
         let Some(sites) = &self.sites.of_row else {
             return [0.0; 6];
         };
-        let Site {
-            position: point,
-            direction,
-        } = sites[row];
-        rigid_motion(
-            direction,
-            [point[0] - position[0], point[1] - position[1], point[2] - position[2]],
-        )
+        let Site { position: point, direction } = sites[row];
+        rigid_motion(direction, [point[0] - position[0], point[1] - position[1], point[2] - position[2]])
     }
 
     fn attach_patch(&mut self, index: usize, resolved: &Resolved, rows: &[usize]) -> Result<()> {
@@ -298,12 +263,7 @@ impl Builder {
         let n_columns = column_of.iter().flatten().count();
         if rank < n_columns {
             let interface = resolved.node.name.clone();
-            return Err(Error::PatchRank {
-                interface,
-                n_rows: rows.len(),
-                rank,
-                expected: n_columns,
-            });
+            return Err(Error::PatchRank { interface, n_rows: rows.len(), rank, expected: n_columns });
         }
         for (row, lever) in rows.iter().zip(&levers) {
             let entries = lever.iter().zip(column_of).filter(|(factor, _)| **factor != 0.0);

@@ -25,25 +25,14 @@ pub fn inspection(superelement: &Superelement, file_bytes: u64, paint: Paint) ->
 
 fn head(page: &mut Page, superelement: &Superelement, file_bytes: u64) {
     let metadata = superelement.metadata();
-    let title = format!(
-        "superelement · {} · {} coordinates",
-        method(metadata.method),
-        superelement.n_coordinates()
-    );
+    let title = format!("superelement · {} · {} coordinates", method(metadata.method), superelement.n_coordinates());
     let title = page.toned(&title, Tone::Heading);
     page.line(&title);
     let generator = &metadata.generator;
-    let made_by = format!(
-        "{} {} · format version {FORMAT_VERSION}",
-        generator.name, generator.version
-    );
+    let made_by = format!("{} {} · format version {FORMAT_VERSION}", generator.name, generator.version);
     page.entry("made by", &made_by);
     page.entry("size", &table::bytes(file_bytes));
-    let sizes = format!(
-        "{} interface + {} modal",
-        superelement.n_interface(),
-        superelement.n_modal()
-    );
+    let sizes = format!("{} interface + {} modal", superelement.n_interface(), superelement.n_modal());
     page.entry("coordinates", &format!("{} = {sizes}", superelement.n_coordinates()));
     page.entry("rigid body", &table::counted(superelement.n_rigid(), "mode", "modes"));
     let tensors = superelement.tensors();
@@ -54,11 +43,7 @@ fn head(page: &mut Page, superelement: &Superelement, file_bytes: u64) {
         ("load vectors", tensors.load_vectors.is_some()),
         ("recovery", tensors.recovery.is_some()),
     ];
-    let present: Vec<&str> = optional
-        .into_iter()
-        .filter(|(_, is_present)| *is_present)
-        .map(|(name, _)| name)
-        .collect();
+    let present: Vec<&str> = optional.into_iter().filter(|(_, is_present)| *is_present).map(|(name, _)| name).collect();
     if !present.is_empty() {
         page.entry("also holds", &present.join(", "));
     }
@@ -73,11 +58,7 @@ fn head(page: &mut Page, superelement: &Superelement, file_bytes: u64) {
 fn model(page: &mut Page, superelement: &Superelement) {
     let metadata = superelement.metadata();
     page.heading("Model");
-    let units = metadata
-        .units
-        .as_ref()
-        .map(|units| format!(" · units {units}"))
-        .unwrap_or_default();
+    let units = metadata.units.as_ref().map(|units| format!(" · units {units}")).unwrap_or_default();
     page.entry("model", &format!("{} dofs{units}", table::count(metadata.model.n_dofs)));
     if let Some(properties) = &metadata.model.mass_properties {
         let properties = MassProperties {
@@ -98,10 +79,7 @@ fn interface(page: &mut Page, nodes: &[InterfaceNode]) {
         .map(|node| {
             let label = node.label.map(|label| format!("node {label}")).unwrap_or_default();
             let dofs: Vec<String> = node.dofs.iter().map(|dof| format!("{dof:?}").to_lowercase()).collect();
-            let position = node
-                .position
-                .map(|coordinate| table::quantity(coordinate, 5))
-                .join(", ");
+            let position = node.position.map(|coordinate| table::quantity(coordinate, 5)).join(", ");
             [node.name.clone(), label, dofs.join(" "), format!("({position})")]
         })
         .collect();
@@ -154,15 +132,8 @@ fn column(column: &Coordinate) -> String {
 fn checks(page: &mut Page, superelement: &Superelement) {
     let verification = &superelement.metadata().verification;
     let row = |check: &CheckSummary| {
-        let value = check
-            .value
-            .map_or_else(|| "NaN".to_owned(), |value| table::scientific(value, 2));
-        [
-            check.id.clone(),
-            value,
-            "limit".to_owned(),
-            table::scientific(check.limit, 1),
-        ]
+        let value = check.value.map_or_else(|| "NaN".to_owned(), |value| table::scientific(value, 2));
+        [check.id.clone(), value, "limit".to_owned(), table::scientific(check.limit, 1)]
     };
     let rows: Vec<[String; 4]> = verification.checks.iter().map(row).collect();
     let align = [Align::Left, Align::Right, Align::Left, Align::Right];

@@ -60,10 +60,7 @@ pub struct Generator {
 
 impl Default for Generator {
     fn default() -> Self {
-        Self {
-            name: env!("CARGO_PKG_NAME"),
-            version: env!("CARGO_PKG_VERSION"),
-        }
+        Self { name: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION") }
     }
 }
 
@@ -239,19 +236,11 @@ impl Completeness {
     pub fn statement(&self) -> String {
         match self {
             Self::NotCertified { reason } => format!("completeness of the modes is not certified: {reason}"),
-            Self::SturmCount {
-                below_hz,
-                n_counted,
-                n_found,
-            } if n_counted == n_found => format!(
+            Self::SturmCount { below_hz, n_counted, n_found } if n_counted == n_found => format!(
                 "the modes are complete: a Sturm count finds {n_counted} below {} Hz and all were found",
                 table::quantity(*below_hz, 9)
             ),
-            Self::SturmCount {
-                below_hz,
-                n_counted,
-                n_found,
-            } => format!(
+            Self::SturmCount { below_hz, n_counted, n_found } => format!(
                 "the modes are incomplete: a Sturm count finds {n_counted} below {} Hz, found were {n_found}",
                 table::quantity(*below_hz, 9)
             ),

@@ -32,15 +32,8 @@ pub(crate) fn mode_table(page: &mut Page, modes: &[Mode]) {
     };
     let decimals = usize::try_from(DIGITS - 1 - table::decade(highest)).unwrap_or(0).min(9);
     let row = |mode: &Mode| {
-        let bar = mode
-            .error_bar_hz
-            .map(|bar| format!("± {}", table::scientific(bar, 2)))
-            .unwrap_or_default();
-        [
-            mode.number.to_string(),
-            format!("{:.decimals$}", mode.frequency_hz),
-            bar,
-        ]
+        let bar = mode.error_bar_hz.map(|bar| format!("± {}", table::scientific(bar, 2))).unwrap_or_default();
+        [mode.number.to_string(), format!("{:.decimals$}", mode.frequency_hz), bar]
     };
     let is_long = modes.len() > SHOWN;
     let n_first = if is_long { SHOWN - SHOWN_AT_END } else { modes.len() };

@@ -34,10 +34,7 @@ pub(crate) struct Page {
 
 impl Page {
     pub(crate) fn new(paint: Paint) -> Self {
-        Self {
-            paint,
-            text: String::new(),
-        }
+        Self { paint, text: String::new() }
     }
 
     pub(crate) fn into_text(self) -> String {

@@ -37,11 +37,7 @@ pub struct StageClock<'a, O: Observer + ?Sized> {
 impl<'a, O: Observer + ?Sized> StageClock<'a, O> {
     /// A clock that tells `listener` of each stage.
     pub fn new(listener: &'a mut O) -> Self {
-        Self {
-            listener,
-            running: None,
-            times: Vec::new(),
-        }
+        Self { listener, running: None, times: Vec::new() }
     }
 
     /// Ends the running stage and hands out the times; a name that came more than once has one row.

@@ -49,9 +49,7 @@ pub(crate) fn wrap(text: &str, columns: usize) -> Vec<String> {
 pub(crate) fn columns<const N: usize>(rows: &[[String; N]], align: [Align; N]) -> Vec<[String; N]> {
     let widths: [usize; N] =
         std::array::from_fn(|column| rows.iter().map(|row| width(&row[column])).max().unwrap_or(0));
-    rows.iter()
-        .map(|row| std::array::from_fn(|column| pad(&row[column], widths[column], align[column])))
-        .collect()
+    rows.iter().map(|row| std::array::from_fn(|column| pad(&row[column], widths[column], align[column]))).collect()
 }
 
 /// `123,486`.
@@ -83,11 +81,7 @@ pub(crate) fn quantity(value: f64, digits: usize) -> String {
     }
     let decimals = usize::try_from(digits as i32 - 1 - decade).unwrap_or(0);
     let text = format!("{value:.decimals$}");
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 /// `1.2e-09` with the exponent's sign and two digits, so that columns align.
@@ -96,11 +90,7 @@ pub(crate) fn scientific(value: f64, digits: usize) -> String {
         return "NaN".to_owned();
     }
     if value.is_infinite() {
-        return if value > 0.0 {
-            "∞".to_owned()
-        } else {
-            "-∞".to_owned()
-        };
+        return if value > 0.0 { "∞".to_owned() } else { "-∞".to_owned() };
     }
     if value == 0.0 {
         return "0".to_owned();
@@ -127,11 +117,7 @@ pub(crate) fn bytes(size: u64) -> String {
         value /= 1024.0;
         unit = larger;
     }
-    if unit == "bytes" {
-        format!("{size} bytes")
-    } else {
-        format!("{} {unit}", quantity(value, 3))
-    }
+    if unit == "bytes" { format!("{size} bytes") } else { format!("{} {unit}", quantity(value, 3)) }
 }
 
 /// `0.012 s`, `1.24 s`, `2 min 05 s`.
@@ -152,11 +138,7 @@ pub(crate) fn duration(seconds: f64) -> String {
 
 /// The power of ten of the leading digit.
 pub(crate) fn decade(value: f64) -> i32 {
-    if value == 0.0 || !value.is_finite() {
-        0
-    } else {
-        value.abs().log10().floor() as i32
-    }
+    if value == 0.0 || !value.is_finite() { 0 } else { value.abs().log10().floor() as i32 }
 }
 
 #[cfg(test)]

@@ -14,10 +14,7 @@ use crate::partition::Partition;
 /// # Errors
 /// K − σM is not definite for a negative σ; the eigensolver fails.
 pub fn from_matrices(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
-    let pencil = Pencil {
-        stiffness: &partition.stiffness,
-        mass: &partition.mass,
-    };
+    let pencil = Pencil { stiffness: &partition.stiffness, mass: &partition.mass };
     let analysis = Analysis::new(pencil)?;
     let problem = ModalProblem {
         stiffness: &partition.stiffness,
@@ -34,14 +31,9 @@ pub fn from_matrices(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
         ..RigidEnergy::default()
     };
     for (j, magnitude) in magnitudes.iter().enumerate() {
-        let (q, force) = (
-            dense::column(orthonormal.as_ref(), j),
-            dense::column(forces.as_ref(), j),
-        );
+        let (q, force) = (dense::column(orthonormal.as_ref(), j), dense::column(forces.as_ref(), j));
         energy.largest_quotient = energy.largest_quotient.max(dense::dot(q, force).abs());
-        energy.noise = energy
-            .noise
-            .max((partition.precision.stiffness + f64::EPSILON) * magnitude);
+        energy.noise = energy.noise.max((partition.precision.stiffness + f64::EPSILON) * magnitude);
     }
     let rigid = RigidBodyModes {
         modes: orthonormal.clone(),

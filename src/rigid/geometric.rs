@@ -52,10 +52,7 @@ fn dense_numbers(nodes: &[u32]) -> Vec<u32> {
     let mut sorted = nodes.to_vec();
     sorted.sort_unstable();
     sorted.dedup();
-    nodes
-        .iter()
-        .map(|node| sorted.binary_search(node).unwrap_or_default() as u32)
-        .collect()
+    nodes.iter().map(|node| sorted.binary_search(node).unwrap_or_default() as u32).collect()
 }
 
 fn concatenate<'a>(n: usize, parts: impl Iterator<Item = MatRef<'a, f64>>) -> Mat<f64> {
@@ -84,11 +81,7 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
     for dof in dofs {
         let Site { position, direction } = sites[*dof];
         let offset = [0, 1, 2].map(|axis| position[axis] - frame.centre[axis]);
-        let motion = Site {
-            position: offset,
-            direction,
-        }
-        .rigid_motion();
+        let motion = Site { position: offset, direction }.rigid_motion();
         for (j, value) in motion.iter().enumerate() {
             centred[(*dof, j)] = if j < 3 { *value } else { value / frame.size };
         }
@@ -100,32 +93,18 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
     if let Some(energy) = energies.first().filter(|energy| **energy < -FREE_BELOW_NOISE * noise) {
         return Err(Error::NegativeRigidEnergy { energy: *energy, noise });
     }
-    let n_free = energies
-        .iter()
-        .filter(|energy| **energy <= FREE_BELOW_NOISE * noise)
-        .count();
+    let n_free = energies.iter().filter(|energy| **energy <= FREE_BELOW_NOISE * noise).count();
     let only_rounded = n_free < energies.len() && only_rounded_coordinates(partition, centred.as_ref(), dofs)?;
     let n_free = if only_rounded { energies.len() } else { n_free };
     let orthonormal = dense::product(orthonormal.as_ref(), directions.as_ref().subcols(0, n_free));
     let is_classical = n_free == 6;
-    let modes = if is_classical {
-        unit_motions(sites, dofs)
-    } else {
-        orthonormal.clone()
-    };
+    let modes = if is_classical { unit_motions(sites, dofs) } else { orthonormal.clone() };
     let energy = RigidEnergy {
-        largest_quotient: energies[..n_free]
-            .iter()
-            .fold(0.0, |max: f64, energy| max.max(energy.abs())),
+        largest_quotient: energies[..n_free].iter().fold(0.0, |max: f64, energy| max.max(energy.abs())),
         largest_residual: largest_residual(&partition.stiffness, orthonormal.as_ref()),
         noise,
     };
-    Ok(Body {
-        modes,
-        orthonormal,
-        is_classical,
-        energy,
-    })
+    Ok(Body { modes, orthonormal, is_classical, energy })
 }
 
 struct Frame {
@@ -144,33 +123,20 @@ impl Frame {
         }
         let distance = |dof: &usize| {
             let position = sites[*dof].position;
-            (0..3)
-                .map(|axis| (position[axis] - centre[axis]).powi(2))
-                .sum::<f64>()
-                .sqrt()
+            (0..3).map(|axis| (position[axis] - centre[axis]).powi(2)).sum::<f64>().sqrt()
         };
         let size = dofs.iter().map(distance).fold(0.0, f64::max);
         // A body of one node has no size; any length serves to compare its rotations.
-        Self {
-            centre,
-            size: if size > 0.0 { size } else { 1.0 },
-        }
+        Self { centre, size: if size > 0.0 { size } else { 1.0 } }
     }
 }
 
 /// Combinations of the six unit motions that move at least one dof, 6 × (≤ 6), scaled to unit displacement.
 fn moving_directions(centred: MatRef<'_, f64>) -> Result<Mat<f64>> {
-    let tall = if centred.nrows() >= 6 {
-        centred.to_owned()
-    } else {
-        padded(centred)
-    };
+    let tall = if centred.nrows() >= 6 { centred.to_owned() } else { padded(centred) };
     let (singular, v) = dense::right_singular(tall.as_ref())?;
     let largest = singular.first().copied().unwrap_or(0.0);
-    let kept = singular
-        .iter()
-        .filter(|value| **value > NO_DISPLACEMENT * largest)
-        .count();
+    let kept = singular.iter().filter(|value| **value > NO_DISPLACEMENT * largest).count();
     if kept == 6 {
         // All six move: keep them as they are, so that the exact zeros of translations stay exact.
         return Ok(Mat::identity(6, 6));
@@ -179,11 +145,7 @@ fn moving_directions(centred: MatRef<'_, f64>) -> Result<Mat<f64>> {
 }
 
 fn padded(matrix: MatRef<'_, f64>) -> Mat<f64> {
-    Mat::from_fn(
-        6,
-        matrix.ncols(),
-        |i, j| if i < matrix.nrows() { matrix[(i, j)] } else { 0.0 },
-    )
+    Mat::from_fn(6, matrix.ncols(), |i, j| if i < matrix.nrows() { matrix[(i, j)] } else { 0.0 })
 }
 
 /// The same space with QᵀMQ = I.
@@ -227,28 +189,18 @@ fn only_rounded_coordinates(partition: &Partition, centred: MatRef<'_, f64>, dof
     let magnitudes = absolute_energy(&partition.stiffness, centred);
     let relative = |j: usize| {
         let energy = dense::dot(dense::column(centred, j), dense::column(forces.as_ref(), j));
-        if magnitudes[j] > 0.0 {
-            energy.abs() / magnitudes[j]
-        } else {
-            0.0
-        }
+        if magnitudes[j] > 0.0 { energy.abs() / magnitudes[j] } else { 0.0 }
     };
     let data = FREE_BELOW_NOISE * (partition.precision.stiffness + f64::EPSILON);
     if (0..3).any(|j| relative(j) > data) {
         return Ok(false);
     }
-    let (worst, energy) = (3..6)
-        .map(|j| (j, relative(j)))
-        .fold((3, 0.0), |a, b| if b.1 > a.1 { b } else { a });
+    let (worst, energy) = (3..6).map(|j| (j, relative(j))).fold((3, 0.0), |a, b| if b.1 > a.1 { b } else { a });
     if energy <= ROUNDED_COORDINATES {
         return Ok(true);
     }
     let force = dense::column(forces.as_ref(), worst);
-    let at = dofs
-        .iter()
-        .copied()
-        .max_by(|a, b| force[*a].abs().total_cmp(&force[*b].abs()))
-        .unwrap_or_default();
+    let at = dofs.iter().copied().max_by(|a, b| force[*a].abs().total_cmp(&force[*b].abs())).unwrap_or_default();
     Err(Error::CoordinatesDoNotFit {
         rotation: ["x", "y", "z"][worst - 3],
         energy,

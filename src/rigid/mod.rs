@@ -101,10 +101,7 @@ pub fn rigid_body_modes(partition: &Partition) -> Result<(RigidBodyModes, usize)
 /// # Errors
 /// Coordinates that do not belong to K; a rigid motion without mass.
 pub fn from_coordinates(partition: &Partition) -> Result<Option<RigidBodyModes>> {
-    partition
-        .sites()
-        .map(|sites| geometric::rigid_body_modes(partition, &sites))
-        .transpose()
+    partition.sites().map(|sites| geometric::rigid_body_modes(partition, &sites)).transpose()
 }
 
 /// A X as a new matrix.
@@ -119,21 +116,17 @@ pub(crate) fn absolute_product(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> Mat
     use rayon::prelude::*;
     const ROWS_PER_TASK: usize = 2048;
     let mut product = Mat::zeros(matrix.rows(), x.ncols());
-    product
-        .as_mut()
-        .par_row_chunks_mut(ROWS_PER_TASK)
-        .enumerate()
-        .for_each(|(task, mut rows)| {
-            for i in 0..rows.nrows() {
-                let Some(view) = matrix.outer_view(task * ROWS_PER_TASK + i) else {
-                    continue;
-                };
-                for j in 0..x.ncols() {
-                    let column = dense::column(x, j);
-                    rows[(i, j)] = view.iter().map(|(col, value)| value.abs() * column[col].abs()).sum();
-                }
+    product.as_mut().par_row_chunks_mut(ROWS_PER_TASK).enumerate().for_each(|(task, mut rows)| {
+        for i in 0..rows.nrows() {
+            let Some(view) = matrix.outer_view(task * ROWS_PER_TASK + i) else {
+                continue;
+            };
+            for j in 0..x.ncols() {
+                let column = dense::column(x, j);
+                rows[(i, j)] = view.iter().map(|(col, value)| value.abs() * column[col].abs()).sum();
             }
-        });
+        }
+    });
     product
 }
 
@@ -152,11 +145,7 @@ fn largest_residual(stiffness: &SparseMatrix, q: MatRef<'_, f64>) -> f64 {
     let (forces, magnitudes) = (multiply(stiffness, q), absolute_product(stiffness, q));
     let ratio = |j: usize| {
         let magnitude = dense::norm(dense::column(magnitudes.as_ref(), j));
-        if magnitude > 0.0 {
-            dense::norm(dense::column(forces.as_ref(), j)) / magnitude
-        } else {
-            0.0
-        }
+        if magnitude > 0.0 { dense::norm(dense::column(forces.as_ref(), j)) / magnitude } else { 0.0 }
     };
     (0..q.ncols()).map(ratio).fold(0.0, f64::max)
 }

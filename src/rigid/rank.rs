@@ -36,33 +36,24 @@ pub fn interface_rank(partition: &Partition, rigid: &RigidBodyModes) -> Result<I
         Some(site) if site.direction.is_rotation() => size,
         _ => 1.0,
     };
-    let u_b = Mat::from_fn(n_b.max(n_r), n_r, |i, j| {
-        if i < n_b {
-            rigid.orthonormal[(n_i + i, j)] * row_scale(i)
-        } else {
-            0.0
-        }
-    });
+    let u_b =
+        Mat::from_fn(
+            n_b.max(n_r),
+            n_r,
+            |i, j| {
+                if i < n_b { rigid.orthonormal[(n_i + i, j)] * row_scale(i) } else { 0.0 }
+            },
+        );
     let (singular, v) = dense::right_singular(u_b.as_ref())?;
     let largest = singular.first().copied().unwrap_or(0.0);
-    let rank = singular
-        .iter()
-        .filter(|value| **value > RANK_TOLERANCE * largest)
-        .count();
+    let rank = singular.iter().filter(|value| **value > RANK_TOLERANCE * largest).count();
     if largest == 0.0 || rank < n_r {
         let free = rigid.orthonormal.as_ref() * v.as_ref().subcols(n_r - 1, 1);
-        let motion = partition
-            .sites()
-            .map_or_else(String::new, |sites| describe(&sites, dense::column(free.as_ref(), 0)));
-        return Err(Error::InterfaceRank {
-            rank,
-            n_rigid: n_r,
-            motion,
-        });
+        let motion =
+            partition.sites().map_or_else(String::new, |sites| describe(&sites, dense::column(free.as_ref(), 0)));
+        return Err(Error::InterfaceRank { rank, n_rigid: n_r, motion });
     }
-    Ok(InterfaceRank {
-        singular_ratio: singular[n_r - 1] / largest,
-    })
+    Ok(InterfaceRank { singular_ratio: singular[n_r - 1] / largest })
 }
 
 fn size_of(sites: &[Site]) -> f64 {
@@ -91,25 +82,10 @@ fn describe(sites: &[Site], motion: &[f64]) -> String {
     }
     let axis = r.map(|value| value / turning);
     // The point of the axis nearest the origin: (θ × t) / θ².
-    let cross = [
-        r[1] * t[2] - r[2] * t[1],
-        r[2] * t[0] - r[0] * t[2],
-        r[0] * t[1] - r[1] * t[0],
-    ];
+    let cross = [r[1] * t[2] - r[2] * t[1], r[2] * t[0] - r[0] * t[2], r[0] * t[1] - r[1] * t[0]];
     let point = cross.map(|value| value / (turning * turning));
-    let show = |values: [f64; 3]| {
-        format!(
-            "({:.4}, {:.4}, {:.4})",
-            values[0] + 0.0,
-            values[1] + 0.0,
-            values[2] + 0.0
-        )
-    };
-    format!(
-        "; free: rotation about the axis through {} along {}",
-        show(point),
-        show(axis)
-    )
+    let show = |values: [f64; 3]| format!("({:.4}, {:.4}, {:.4})", values[0] + 0.0, values[1] + 0.0, values[2] + 0.0);
+    format!("; free: rotation about the axis through {} along {}", show(point), show(axis))
 }
 
 /// Translation and rotation about the origin that make up a rigid motion, by least squares.

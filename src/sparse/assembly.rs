@@ -56,17 +56,10 @@ impl Triplets {
             self.rows.len(),
             self.cols.len()
         );
-        let (lower, upper) = (
-            self.first_where(|row, col| row > col),
-            self.first_where(|row, col| row < col),
-        );
+        let (lower, upper) = (self.first_where(|row, col| row > col), self.first_where(|row, col| row < col));
         let mirror = match (declared, lower, upper) {
             (Declared::Symmetric, Some(lower), Some(upper)) => {
-                return Err(Error::DoubleTriangle {
-                    path: path.to_owned(),
-                    lower,
-                    upper,
-                });
+                return Err(Error::DoubleTriangle { path: path.to_owned(), lower, upper });
             }
             (_, None, None) | (Declared::General, Some(_), Some(_)) => Mirror::Off,
             _ => Mirror::On,
@@ -76,26 +69,16 @@ impl Triplets {
         drop(self);
         let merged = sort_rows(&pointers, &mut indices, &mut data);
         let n_merged = indices.len() - merged.iter().sum::<usize>();
-        let pointers = if n_merged == 0 {
-            pointers
-        } else {
-            compact(&pointers, &merged, &mut indices, &mut data)
-        };
+        let pointers = if n_merged == 0 { pointers } else { compact(&pointers, &merged, &mut indices, &mut data) };
         let n_duplicates = match (n_merged, mirror) {
             (0, _) => 0,
             (_, Mirror::Off) => n_merged,
             // What is stored twice was given once.
             (_, Mirror::On) => n_entries - (indices.len() + n_on_diagonal(&pointers, &indices)) / 2,
         };
-        let notes = AssemblyNotes {
-            n_duplicates,
-            mirrored: mirror == Mirror::On && declared == Declared::General,
-        };
+        let notes = AssemblyNotes { n_duplicates, mirrored: mirror == Mirror::On && declared == Declared::General };
         let matrix = SparseMatrix::try_new((n, n), pointers, indices, data);
-        Ok((
-            matrix.unwrap_or_else(|(.., fault)| panic!("rows of {} are not sorted: {fault}", path.display())),
-            notes,
-        ))
+        Ok((matrix.unwrap_or_else(|(.., fault)| panic!("rows of {} are not sorted: {fault}", path.display())), notes))
     }
 
     /// Row and column, from 1, of the first entry on one side of the diagonal.
@@ -173,11 +156,7 @@ fn balanced_ranges(pointers: &[usize], n_parts: usize) -> Vec<std::ops::Range<us
     let mut start = 0;
     for part in 1..=n_parts {
         let target = (n_stored as u128 * part as u128 / n_parts as u128) as usize;
-        let end = if part == n_parts {
-            n_rows
-        } else {
-            pointers.partition_point(|&p| p < target).min(n_rows)
-        };
+        let end = if part == n_parts { n_rows } else { pointers.partition_point(|&p| p < target).min(n_rows) };
         if end > start {
             ranges.push(start..end);
             start = end;
@@ -266,8 +245,7 @@ fn compact(pointers: &[usize], kept: &[usize], indices: &mut Vec<u32>, data: &mu
 /// Rows that hold their diagonal entry.
 fn n_on_diagonal(pointers: &[usize], indices: &[u32]) -> usize {
     let rows = pointers.windows(2).enumerate();
-    rows.filter(|(row, ends)| indices[ends[0]..ends[1]].binary_search(&(*row as u32)).is_ok())
-        .count()
+    rows.filter(|(row, ends)| indices[ends[0]..ends[1]].binary_search(&(*row as u32)).is_ok()).count()
 }
 
 #[cfg(test)]
@@ -286,12 +264,8 @@ mod tests {
     #[test]
     fn bits_do_not_depend_on_threads() {
         let assemble = |threads: usize| {
-            let pool = rayon::ThreadPoolBuilder::new()
-                .num_threads(threads)
-                .build()
-                .expect("a pool");
-            pool.install(|| scattered(300, 20_000).assemble(300, Declared::Symmetric, "k".as_ref()))
-                .expect("a matrix")
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            pool.install(|| scattered(300, 20_000).assemble(300, Declared::Symmetric, "k".as_ref())).expect("a matrix")
         };
         let (reference, notes) = assemble(1);
         assert!(notes.n_duplicates > 1000, "{notes:?}");
@@ -310,9 +284,7 @@ mod tests {
         for value in [1e-16, 1e-16, 1.0] {
             triplets.push(0, 0, value);
         }
-        let (matrix, _) = triplets
-            .assemble(2, Declared::Symmetric, "k".as_ref())
-            .expect("a matrix");
+        let (matrix, _) = triplets.assemble(2, Declared::Symmetric, "k".as_ref()).expect("a matrix");
         assert_eq!(matrix.get(1, 0), Some(&1.0));
         assert_eq!(matrix.get(0, 1), Some(&1.0));
         assert_eq!(matrix.get(0, 0), Some(&(1.0 + f64::EPSILON)));
@@ -320,13 +292,8 @@ mod tests {
 
     #[test]
     fn a_matrix_without_entries_is_a_matrix() {
-        let (matrix, notes) = Triplets::default()
-            .assemble(3, Declared::General, "k".as_ref())
-            .expect("a matrix");
-        assert_eq!(
-            (matrix.shape(), matrix.nnz(), notes),
-            ((3, 3), 0, AssemblyNotes::default())
-        );
+        let (matrix, notes) = Triplets::default().assemble(3, Declared::General, "k".as_ref()).expect("a matrix");
+        assert_eq!((matrix.shape(), matrix.nnz(), notes), ((3, 3), 0, AssemblyNotes::default()));
     }
 
     #[test]

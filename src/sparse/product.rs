@@ -21,18 +21,8 @@ const TILE_ROWS: usize = 512;
 /// Where the shapes differ.
 pub fn multiply(matrix: &SparseMatrix, x: MatRef<'_, f64>, mut y: MatMut<'_, f64>) {
     let n = matrix.rows();
-    assert!(
-        x.nrows() == matrix.cols(),
-        "matrix of {} columns times block of {} rows",
-        matrix.cols(),
-        x.nrows()
-    );
-    assert!(
-        y.nrows() == n && y.ncols() == x.ncols(),
-        "product {n} x {}, block {:?}",
-        x.ncols(),
-        y.shape()
-    );
+    assert!(x.nrows() == matrix.cols(), "matrix of {} columns times block of {} rows", matrix.cols(), x.nrows());
+    assert!(y.nrows() == n && y.ncols() == x.ncols(), "product {n} x {}, block {:?}", x.ncols(), y.shape());
     let mut packed: Vec<Group<8>> = Vec::new();
     let mut col = 0;
     while col < x.ncols() {
@@ -115,10 +105,7 @@ mod tests {
                 }
             }
         }
-        triplets
-            .assemble(n as usize, Declared::Symmetric, "banded".as_ref())
-            .expect("a matrix")
-            .0
+        triplets.assemble(n as usize, Declared::Symmetric, "banded".as_ref()).expect("a matrix").0
     }
 
     fn block(n: usize, k: usize) -> Mat<f64> {
@@ -148,10 +135,7 @@ mod tests {
         let matrix = banded(3000).map(|value| value / 3.0);
         let x = Mat::from_fn(3000, 11, |row, col| 1.0 / (row + 2 * col + 1) as f64);
         let product = |threads: usize, x: MatRef<'_, f64>| {
-            let pool = rayon::ThreadPoolBuilder::new()
-                .num_threads(threads)
-                .build()
-                .expect("a pool");
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             let mut y = Mat::zeros(x.nrows(), x.ncols());
             pool.install(|| multiply(&matrix, x, y.as_mut()));
             y
@@ -161,10 +145,7 @@ mod tests {
             assert!(product(threads, x.as_ref()) == reference, "{threads} threads");
         }
         for col in 0..11 {
-            assert!(
-                product(2, x.as_ref().subcols(col, 1)).col(0) == reference.col(col),
-                "column {col} alone"
-            );
+            assert!(product(2, x.as_ref().subcols(col, 1)).col(0) == reference.col(col), "column {col} alone");
         }
     }
 

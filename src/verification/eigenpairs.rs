@@ -14,11 +14,10 @@ pub(super) fn backward_error(evidence: &Evidence<'_>) -> Check {
     // That motion is up to 1/ratio times the elastic one, and K lets it pass only to the precision of its data; ten
     // stands for the sum over the rigid-body modes.
     let data = 10.0 * precision.stiffness.max(precision.mass) / evidence.rank.singular_ratio;
-    let limits = Limits {
-        engineering: 1e-13,
-        arithmetic: 0.0,
-        data,
-    };
+    // The eigensolver takes a pair at a residual of 16 ε of the largest θ = 1/λ, which is this share of its own.
+    let lambda = &evidence.retained.modes.lambda;
+    let spread = lambda.last().copied().unwrap_or(1.0) / lambda.first().copied().unwrap_or(1.0);
+    let limits = Limits { engineering: 1e-13, arithmetic: 16.0 * f64::EPSILON * spread, data };
     Check {
         id: "M-01",
         name: "modes satisfy the full model",
@@ -50,10 +49,7 @@ pub(super) fn orthogonality(evidence: &Evidence<'_>) -> Check {
         name: "modes are orthonormal in the mass",
         equation: "max |XᵀMX − I|, rigid-body modes included",
         value,
-        limits: Limits {
-            engineering: 1e-12,
-            ..Limits::default()
-        },
+        limits: Limits { engineering: 1e-12, ..Limits::default() },
         fail_above: 1e-9,
         worst: (value > 0.0).then(|| format!("columns {} and {}", a + 1, b + 1)),
     }
@@ -69,10 +65,7 @@ pub(super) fn data_precision(evidence: &Evidence<'_>) -> Check {
         equation: "max ½ (ε_K |x|ᵀ|K||x| + ε_M λ|x|ᵀ|M||x|) / λ: relative error bar of a frequency",
         value,
         // A tenth of a per mille is what a modal test can resolve; half the frequency is no frequency any more.
-        limits: Limits {
-            engineering: 1e-4,
-            ..Limits::default()
-        },
+        limits: Limits { engineering: 1e-4, ..Limits::default() },
         fail_above: 0.5,
         worst,
     }

@@ -25,10 +25,7 @@ pub(super) fn preserved(evidence: &Evidence<'_>) -> Check {
         name: "mass, centre and inertia are preserved",
         equation: "max |ÛᵀM̂Û − UᵀMU|_ij / √(M_F,ii M_F,jj)",
         value: worst.0,
-        limits: Limits {
-            engineering: 1e-10,
-            ..Limits::default()
-        },
+        limits: Limits { engineering: 1e-10, ..Limits::default() },
         fail_above: 1e-6,
         worst: worst.1,
     }
@@ -47,19 +44,14 @@ pub(super) fn expected(evidence: &Evidence<'_>) -> Option<Check> {
     // The radius of gyration is the length that a shift of the centre is compared with.
     let gyration = ((m_f[(3, 3)] + m_f[(4, 4)] + m_f[(5, 5)]) / (2.0 * mass)).sqrt();
     let mass_error = expect.mass.map(|known| (mass * unit / known - 1.0).abs());
-    let shift = expect
-        .cg
-        .map(|known| (0..3).map(|i| (centre[i] - known[i]).powi(2)).sum::<f64>().sqrt() / gyration);
+    let shift = expect.cg.map(|known| (0..3).map(|i| (centre[i] - known[i]).powi(2)).sum::<f64>().sqrt() / gyration);
     let value = mass_error.unwrap_or(0.0).max(shift.unwrap_or(0.0));
     Some(Check {
         id: "M-16",
         name: "mass and centre are those expected",
         equation: "max |m/m_expected − 1|, |c − c_expected| / radius of gyration",
         value,
-        limits: Limits {
-            engineering: 1e-4,
-            ..Limits::default()
-        },
+        limits: Limits { engineering: 1e-4, ..Limits::default() },
         fail_above: 1e-2,
         worst: Some(format!(
             "mass {:.6e}, centre ({:.4e}, {:.4e}, {:.4e})",

@@ -73,7 +73,28 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Vec<Check>> {
     Ok(checks)
 }
 
-/// The norms of the reduced pencil that backward errors are relative to.
-fn reduced_norms(reduction: &Reduction) -> Equilibrated {
-    Equilibrated::of_dense(reduction.stiffness.as_ref(), reduction.mass.as_ref())
+/// Scales of the reduced coordinates, powers of two: near 1/√K_BB,ii for an interface dof and near 1/√K̂_ηη,ii for a mode.
+///
+/// The stiffness of an interface dof before condensation is what rounding of K̂_BB is relative to. What condensation
+/// leaves of it may be nothing: an interface that just holds the component has K̂_BB = 0.
+fn coordinate_scales(evidence: &Evidence<'_>) -> Vec<f64> {
+    let (partition, k) = (evidence.partition, &evidence.reduction.stiffness);
+    let (n_i, n_b) = (partition.n_internal, partition.n_interface());
+    let uncondensed = |i: usize| partition.stiffness.get(n_i + i, n_i + i).copied().unwrap_or(0.0);
+    (0..k.nrows()).map(|i| power_of_two_root(if i < n_b { uncondensed(i) } else { k[(i, i)] })).collect()
+}
+
+/// The power of two nearest 1/√d; one where d is not positive.
+fn power_of_two_root(d: f64) -> f64 {
+    if d > 0.0 { 2f64.powi((-0.5 * d.log2()).round() as i32) } else { 1.0 }
+}
+
+/// The norms of the reduced pencil that backward errors are relative to; that of K̂ is at least that of its terms before
+/// they cancel, which is one in these scales.
+fn reduced_norms(evidence: &Evidence<'_>) -> Equilibrated {
+    let reduction = evidence.reduction;
+    let mut norms =
+        Equilibrated::of_dense(reduction.stiffness.as_ref(), reduction.mass.as_ref(), coordinate_scales(evidence));
+    norms.stiffness_norm = norms.stiffness_norm.max(1.0);
+    norms
 }

@@ -3,7 +3,7 @@
 use faer::{Mat, MatRef, Side};
 
 use super::check::{Check, Limits};
-use super::{Evidence, reduced_norms};
+use super::{Evidence, coordinate_scales, power_of_two_root, reduced_norms};
 use crate::dense;
 use crate::error::Result;
 use crate::modes::Boundary;
@@ -16,7 +16,7 @@ pub(super) struct Spectrum {
     same_boundary: Vec<f64>,
     /// Zero modes of K̂.
     pub(super) n_zero: usize,
-    /// The smallest eigenvalue of K̂ relative to its largest, equilibrated.
+    /// The smallest eigenvalue of K̂ in the scales of its coordinates.
     lowest_stiffness: f64,
     /// Whether M̂ has a Cholesky factor.
     mass_is_definite: bool,
@@ -27,8 +27,7 @@ impl Spectrum {
         let (k, m) = (evidence.reduction.stiffness.as_ref(), evidence.reduction.mass.as_ref());
         let n_b = evidence.partition.n_interface();
         let lambda = evidence.retained.modes.lambda.first().copied().unwrap_or(1.0);
-        let scaled_stiffness = dense::symmetric_eigen(equilibrated(k, k).as_ref())?.0;
-        let largest = scaled_stiffness.last().copied().unwrap_or(0.0).max(f64::MIN_POSITIVE);
+        let scaled_stiffness = dense::symmetric_eigen(scaled_by(k, &coordinate_scales(evidence)).as_ref())?.0;
         let n_zero = evidence.rigid.count() + further_zero_modes(evidence)?;
         let free = lowest_eigenvalues(k, m, lambda)?;
         let same_boundary = match evidence.retained.boundary {
@@ -42,7 +41,7 @@ impl Spectrum {
             free,
             same_boundary,
             n_zero,
-            lowest_stiffness: scaled_stiffness.first().copied().unwrap_or(0.0) / largest,
+            lowest_stiffness: scaled_stiffness.first().copied().unwrap_or(0.0),
             mass_is_definite: equilibrated(m, m).llt(Side::Lower).is_ok(),
         })
     }
@@ -53,54 +52,42 @@ impl Spectrum {
     }
 }
 
-/// Relative size below which an eigenvalue of the equilibrated K̂ is zero: rounding of its r terms, or the precision of
-/// the data, each times how far the terms of K̂ cancel.
+/// Size below which an eigenvalue of K̂ in the scales of its coordinates is zero: rounding of its r terms, which are of
+/// order one before they cancel, or the precision of the data.
 pub(super) fn zero_level(evidence: &Evidence<'_>) -> Limits {
-    let cancellation = evidence.constraint.cancellation;
     let precision = evidence.partition.precision.stiffness;
     Limits {
         engineering: 0.0,
-        arithmetic: 10.0 * evidence.reduction.n_reduced() as f64 * f64::EPSILON * cancellation,
-        data: if precision > f64::EPSILON {
-            10.0 * precision * cancellation
-        } else {
-            0.0
-        },
+        arithmetic: 10.0 * evidence.reduction.n_reduced() as f64 * f64::EPSILON,
+        data: if precision > f64::EPSILON { 10.0 * precision } else { 0.0 },
     }
 }
 
-/// Zero modes of K̂ beside its rigid-body modes: with those lifted to the size of the largest eigenvalue, how many others
-/// stay at zero.
+/// Zero modes of K̂ beside its rigid-body modes: with those lifted to order one, how many others stay at zero.
 fn further_zero_modes(evidence: &Evidence<'_>) -> Result<usize> {
     let (k, u) = (&evidence.reduction.stiffness, &evidence.reduction.rigid_body_modes);
-    let scale: Vec<f64> = (0..k.nrows()).map(|i| power_of_two_root(k[(i, i)])).collect();
-    let mut lifted = equilibrated(k.as_ref(), k.as_ref());
+    let scales = coordinate_scales(evidence);
+    let mut lifted = scaled_by(k.as_ref(), &scales);
     if u.ncols() > 0 {
-        let scaled = Mat::from_fn(u.nrows(), u.ncols(), |i, j| u[(i, j)] / scale[i]);
+        let scaled = Mat::from_fn(u.nrows(), u.ncols(), |i, j| u[(i, j)] / scales[i]);
         let z = scaled.qr().compute_thin_Q();
         dense::add_product(lifted.as_mut(), 1.0, z.as_ref(), z.transpose());
         dense::symmetrise(&mut lifted);
     }
     let (values, _) = dense::symmetric_eigen(lifted.as_ref())?;
-    let largest = values.last().copied().unwrap_or(0.0);
-    Ok(values
-        .iter()
-        .filter(|value| **value <= zero_level(evidence).value() * largest)
-        .count())
+    let zero = zero_level(evidence).value();
+    Ok(values.iter().filter(|value| **value <= zero).count())
 }
 
-fn power_of_two_root(d: f64) -> f64 {
-    if d > 0.0 {
-        2f64.powi((-0.5 * d.log2()).round() as i32)
-    } else {
-        1.0
-    }
+/// D A D.
+fn scaled_by(a: MatRef<'_, f64>, scales: &[f64]) -> Mat<f64> {
+    Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * scales[i] * scales[j])
 }
 
 /// D A D with powers of two D that bring the diagonal of `by` near one.
 fn equilibrated(a: MatRef<'_, f64>, by: MatRef<'_, f64>) -> Mat<f64> {
-    let scale: Vec<f64> = (0..by.nrows()).map(|i| power_of_two_root(by[(i, i)])).collect();
-    Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * scale[i] * scale[j])
+    let scales: Vec<f64> = (0..by.nrows()).map(|i| power_of_two_root(by[(i, i)])).collect();
+    scaled_by(a, &scales)
 }
 
 /// Eigenvalues of K x = λ M x, ascending, accurate at the low end: θ = 1/(λ + α) of (M, K + αM) with α at the first
@@ -136,15 +123,11 @@ pub(super) fn block_coupling(evidence: &Evidence<'_>) -> Check {
     let (i, j) = measured.block_coupling_at;
     // The block is Ψ_Dᵀ times the residual of the static solve. Its rounding is that of K_II, which the raw error of
     // equation (24) shows.
-    let limits = Limits {
-        engineering: 1e-10,
-        arithmetic: evidence.constraint.raw_rigid_error,
-        data: 0.0,
-    };
+    let limits = Limits { engineering: 1e-10, arithmetic: evidence.constraint.raw_rigid_error, data: 0.0 };
     Check {
         id: "M-13",
         name: "interface and modes are uncoupled in stiffness",
-        equation: "max |K̂_Bη| / √(K̂_BB K̂_ηη) (29), before it is set to zero",
+        equation: "max |K̂_Bη| / √(K_BB K̂_ηη) (29), before it is set to zero",
         value: measured.block_coupling,
         limits,
         fail_above: limits.value().max(1e-6),
@@ -156,7 +139,7 @@ pub(super) fn block_coupling(evidence: &Evidence<'_>) -> Check {
 pub(super) fn pair_residual(evidence: &Evidence<'_>) -> Check {
     let reduction = evidence.reduction;
     let modes = &evidence.retained.modes;
-    let norms = reduced_norms(reduction);
+    let norms = reduced_norms(evidence);
     let n_b = evidence.partition.n_interface();
     let reduced = evidence.basis.reduced_modes(modes, evidence.partition.n_internal);
     let forces = dense::product(reduction.stiffness.as_ref(), reduced.as_ref());
@@ -180,10 +163,7 @@ pub(super) fn pair_residual(evidence: &Evidence<'_>) -> Check {
             worst = (error, Some(format!("mode {}", j + 1)));
         }
     }
-    let limits = Limits {
-        engineering: 1e-12,
-        ..zero_level(evidence)
-    };
+    let limits = Limits { engineering: 1e-12, ..zero_level(evidence) };
     Check {
         id: "M-14",
         name: "modes are eigenpairs of the reduced model",
@@ -202,7 +182,7 @@ pub(super) fn frequency_difference(evidence: &Evidence<'_>, spectrum: &Spectrum)
     for (j, lambda) in modes.lambda.iter().enumerate() {
         let reduced = spectrum.same_boundary.get(j).copied().unwrap_or(f64::INFINITY);
         let difference = 0.5 * (reduced / lambda - 1.0).abs();
-        if !(difference <= worst.0) {
+        if difference.is_nan() || difference > worst.0 {
             worst = (difference, Some(format!("mode {}", j + 1)));
         }
     }
@@ -210,11 +190,7 @@ pub(super) fn frequency_difference(evidence: &Evidence<'_>, spectrum: &Spectrum)
     let precision = evidence.partition.precision.stiffness;
     let share = f64::EPSILON / (f64::EPSILON + precision);
     // Both values carry the rounding of their quadratic forms, for which the error bars stand.
-    let limits = Limits {
-        engineering: 1e-9,
-        arithmetic: 10.0 * bars * share,
-        data: 10.0 * bars * (1.0 - share),
-    };
+    let limits = Limits { engineering: 1e-9, arithmetic: 10.0 * bars * share, data: 10.0 * bars * (1.0 - share) };
     Check {
         id: "M-14",
         name: "reduced frequencies equal full ones",
@@ -234,11 +210,7 @@ pub(super) fn symmetry(evidence: &Evidence<'_>) -> Check {
         name: "reduced matrices are symmetric",
         equation: "max |K̂ − K̂ᵀ|/|K̂|, |M̂ − M̂ᵀ|/|M̂| of the projections, which are then made symmetric to the bit",
         value: measured.stiffness_asymmetry.max(measured.mass_asymmetry),
-        limits: Limits {
-            engineering: 1e-12,
-            arithmetic: evidence.constraint.raw_rigid_error,
-            data: 0.0,
-        },
+        limits: Limits { engineering: 1e-12, arithmetic: evidence.constraint.raw_rigid_error, data: 0.0 },
         fail_above: 1e-6,
         worst: None,
     }
@@ -247,16 +219,12 @@ pub(super) fn symmetry(evidence: &Evidence<'_>) -> Check {
 /// M-25, definiteness.
 pub(super) fn definiteness(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check {
     let negative = (-spectrum.lowest_stiffness).max(0.0);
-    let value = if spectrum.mass_is_definite {
-        negative
-    } else {
-        f64::INFINITY
-    };
+    let value = if spectrum.mass_is_definite { negative } else { f64::INFINITY };
     let limits = zero_level(evidence);
     Check {
         id: "M-25",
         name: "reduced mass is definite, stiffness not negative",
-        equation: "M̂ = LLᵀ; max(0, −λ_min(K̂)) / λ_max(K̂), equilibrated",
+        equation: "M̂ = LLᵀ; max(0, −λ_min(K̂)), in the scales of the uncondensed stiffness",
         value,
         limits,
         fail_above: limits.value(),

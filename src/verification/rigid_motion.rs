@@ -13,13 +13,9 @@ pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check {
     let energy = evidence.rigid.energy;
     let first = spectrum.first_elastic().unwrap_or(f64::INFINITY);
     let precision = evidence.partition.precision.stiffness;
-    let noise = NOISE_FACTOR * energy.noise / first;
+    let noise = NOISE_FACTOR * evidence.partition.cancellation * energy.noise / first;
     let share = f64::EPSILON / (f64::EPSILON + precision);
-    let limits = Limits {
-        engineering: 1e-8,
-        arithmetic: noise * share,
-        data: noise * (1.0 - share),
-    };
+    let limits = Limits { engineering: 1e-8, arithmetic: noise * share, data: noise * (1.0 - share) };
     Check {
         id: "M-05",
         name: "rigid-body motion costs no energy",
@@ -35,16 +31,9 @@ pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check {
 /// M-05, residual.
 pub(super) fn residual(evidence: &Evidence<'_>) -> Check {
     let precision = evidence.partition.precision.stiffness;
-    let data = if precision > f64::EPSILON {
-        NOISE_FACTOR * precision
-    } else {
-        0.0
-    };
-    let limits = Limits {
-        engineering: 1e-14,
-        arithmetic: 0.0,
-        data,
-    };
+    let cancellation = evidence.partition.cancellation;
+    let data = if precision > f64::EPSILON { NOISE_FACTOR * precision * cancellation } else { 0.0 };
+    let limits = Limits { engineering: 1e-14, arithmetic: f64::EPSILON * cancellation, data };
     Check {
         id: "M-05",
         name: "rigid-body motion makes no force",
@@ -65,10 +54,7 @@ pub(super) fn carried_by_interface(evidence: &Evidence<'_>) -> Check {
         name: "interface carries rigid-body motion",
         equation: "max |Ψ_S U_B − U_I| / max |U_I| (24), after the correction",
         value,
-        limits: Limits {
-            engineering: 1e-12,
-            ..Limits::default()
-        },
+        limits: Limits { engineering: 1e-12, ..Limits::default() },
         fail_above: 1e-9,
         worst: (value > 0.0).then(|| format!("{}, {raw:.1e} before the correction", evidence.partition.name_of(at))),
     }
@@ -77,7 +63,7 @@ pub(super) fn carried_by_interface(evidence: &Evidence<'_>) -> Check {
 /// M-12, null space.
 pub(super) fn null_space(evidence: &Evidence<'_>) -> Check {
     let reduction = evidence.reduction;
-    let norms = reduced_norms(reduction);
+    let norms = reduced_norms(evidence);
     let forces = dense::product(reduction.stiffness.as_ref(), reduction.rigid_body_modes.as_ref());
     let mut worst = (0.0, None);
     for j in 0..forces.ncols() {
@@ -87,14 +73,11 @@ pub(super) fn null_space(evidence: &Evidence<'_>) -> Check {
             worst = (error, Some(format!("rigid-body mode {}", j + 1)));
         }
     }
-    let limits = Limits {
-        engineering: 1e-11,
-        ..zero_level(evidence)
-    };
+    let limits = Limits { engineering: 1e-12, ..zero_level(evidence) };
     Check {
         id: "M-12",
         name: "reduced stiffness lets rigid motion pass",
-        equation: "max ‖K̂Û‖ / (‖K̂‖ ‖Û‖), equilibrated",
+        equation: "max ‖K̂Û‖ / (‖K‖ ‖Û‖), in the scales of the uncondensed stiffness",
         value: worst.0,
         limits,
         fail_above: limits.value().max(1e-8),
@@ -111,10 +94,6 @@ pub(super) fn zero_modes(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check 
         value: spectrum.n_zero.abs_diff(evidence.rigid.count()) as f64,
         limits: Limits::default(),
         fail_above: 0.0,
-        worst: Some(format!(
-            "{} zero modes, {} rigid-body modes",
-            spectrum.n_zero,
-            evidence.rigid.count()
-        )),
+        worst: Some(format!("{} zero modes, {} rigid-body modes", spectrum.n_zero, evidence.rigid.count())),
     }
 }

@@ -27,27 +27,12 @@ pub(crate) use twin::{EPS, Twin, absolute, against_bound, column_difference, den
 
 /// A generated model as the readers would hand it over.
 pub(crate) fn input(model: &models::Model) -> Input {
-    let dofs = model.dofs.iter().map(|&(node, direction)| Dof {
-        node,
-        direction: Direction::ALL[usize::from(direction)],
-    });
+    let dofs =
+        model.dofs.iter().map(|&(node, direction)| Dof { node, direction: Direction::ALL[usize::from(direction)] });
     let dofs: Vec<Dof> = dofs.collect();
-    let index = |label: &i64| {
-        model
-            .labels
-            .iter()
-            .position(|other| other == label)
-            .expect("a node of the model")
-    };
-    let groups = model
-        .groups
-        .iter()
-        .map(|(name, members)| (name.clone(), members.iter().map(index).collect()));
-    let nodes = Nodes {
-        labels: model.labels.clone(),
-        coordinates: model.nodes.clone(),
-        groups: groups.collect(),
-    };
+    let index = |label: &i64| model.labels.iter().position(|other| other == label).expect("a node of the model");
+    let groups = model.groups.iter().map(|(name, members)| (name.clone(), members.iter().map(index).collect()));
+    let nodes = Nodes { labels: model.labels.clone(), coordinates: model.nodes.clone(), groups: groups.collect() };
     Input {
         stiffness: matrix(model.n, &model.stiffness),
         mass: matrix(model.n, &model.mass),
@@ -59,19 +44,11 @@ pub(crate) fn input(model: &models::Model) -> Input {
 
 fn matrix(n: usize, entries: &[Entry]) -> MatrixInput {
     let mut triplets = Triplets::default();
-    entries
-        .iter()
-        .for_each(|&(row, col, value)| triplets.push(row, col, value));
+    entries.iter().for_each(|&(row, col, value)| triplets.push(row, col, value));
     let assembled = triplets.assemble(n, Declared::General, "generated".as_ref());
     let (matrix, _) = assembled.expect("both triangles of a general matrix");
     let notes = AssemblyNotes::default();
-    MatrixInput {
-        matrix,
-        notes,
-        digits: 17,
-        path: "generated".into(),
-        digest: String::new(),
-    }
+    MatrixInput { matrix, notes, digits: 17, path: "generated".into(), digest: String::new() }
 }
 
 /// An interface of the nodes themselves.
@@ -91,13 +68,7 @@ pub(crate) fn rows(name: &str, rows: &[usize]) -> InterfaceJob {
 
 /// An interface with the centroid as origin and all dofs.
 pub(crate) fn interface(name: &str, nodes: NodeSelection, coupling: Coupling) -> InterfaceJob {
-    InterfaceJob {
-        name: name.to_owned(),
-        nodes,
-        coupling,
-        origin: Origin::Centroid,
-        dofs: None,
-    }
+    InterfaceJob { name: name.to_owned(), nodes, coupling, origin: Origin::Centroid, dofs: None }
 }
 
 /// The reduction methods.
@@ -146,46 +117,24 @@ pub(crate) fn reduce(
     let (partition, rigid) = rigid_of(model, interfaces)?;
     rigid::interface_rank(&partition, &rigid)?;
     let (k_ii, m_ii) = (partition.internal_stiffness(), partition.internal_mass());
-    let pencil = Pencil {
-        stiffness: &k_ii,
-        mass: &m_ii,
-    };
+    let pencil = Pencil { stiffness: &k_ii, mass: &m_ii };
     let analysis = Analysis::new(pencil)?;
     let factor = Cholesky::new(&analysis, pencil, 0.0, &|dof| partition.name_of(dof))?;
     let constraint = constraint_modes(&partition, &factor, &rigid);
-    let request = ModeRequest {
-        wanted: Wanted::Count(count),
-        eigensolver: Eigensolver::Lanczos,
-        seed: SEED,
-    };
+    let request = ModeRequest { wanted: Wanted::Count(count), eigensolver: Eigensolver::Lanczos, seed: SEED };
     let precision = partition.precision;
     let (modes, named) = match method {
         Method::CraigBampton => {
-            let problem = ModalProblem {
-                stiffness: &k_ii,
-                mass: &m_ii,
-                rigid: None,
-                precision,
-            };
+            let problem = ModalProblem { stiffness: &k_ii, mass: &m_ii, rigid: None, precision };
             let modes = elastic_modes(problem, &Factored::new(&factor, 0.0), request)?;
             let named = fixed_interface_columns(&modes);
             (modes, named)
         }
         Method::Herting => {
             let (k, m) = (&partition.stiffness, &partition.mass);
-            let operator = FreeAtZero::new(
-                &factor,
-                k,
-                constraint.modes.as_ref(),
-                constraint.stiffness.as_ref(),
-                &rigid,
-            )?;
-            let problem = ModalProblem {
-                stiffness: k,
-                mass: m,
-                rigid: Some(&rigid),
-                precision,
-            };
+            let operator =
+                FreeAtZero::new(&factor, k, constraint.modes.as_ref(), constraint.stiffness.as_ref(), &rigid)?;
+            let problem = ModalProblem { stiffness: k, mass: m, rigid: Some(&rigid), precision };
             let modes = elastic_modes(problem, &operator, request)?;
             let named = mode_acceleration_columns(&partition, &factor, &constraint, &rigid, &modes);
             (modes, named)
@@ -193,13 +142,5 @@ pub(crate) fn reduce(
     };
     let basis = Basis::new(&constraint, named.clone(), &m_ii);
     let reduction = Reduction::new(&partition, &basis, &rigid);
-    Ok(Chain {
-        partition,
-        rigid,
-        constraint,
-        modes,
-        named,
-        basis,
-        reduction,
-    })
+    Ok(Chain { partition, rigid, constraint, modes, named, basis, reduction })
 }

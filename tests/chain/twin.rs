@@ -34,9 +34,7 @@ impl Twin {
         let (transformation, sizes) = transformation(model, interfaces, partition);
         let scaled = |entries: &[Entry], unit: f64| {
             let mut full = Mat::zeros(model.n, model.n);
-            entries
-                .iter()
-                .for_each(|&(i, j, value)| full[(i as usize, j as usize)] = value / unit);
+            entries.iter().for_each(|&(i, j, value)| full[(i as usize, j as usize)] = value / unit);
             full
         };
         let k = scaled(&model.stiffness, partition.scaling.stiffness_unit());
@@ -112,10 +110,7 @@ fn transformation(model: &models::Model, interfaces: &[InterfaceJob], partition:
             DofOrigin::Row(row) => (t[(row, column)], sizes[(row, column)]) = (1.0, 1.0),
             DofOrigin::RigidNode(index, direction) => {
                 let node = &partition.interface[index];
-                let job = interfaces
-                    .iter()
-                    .find(|job| job.name == node.name)
-                    .expect("a job for every node");
+                let job = interfaces.iter().find(|job| job.name == node.name).expect("a job for every node");
                 let members = members(model, &job.nodes);
                 let centre: [f64; 3] = match job.origin {
                     Origin::Point(point) => point,
@@ -123,20 +118,10 @@ fn transformation(model: &models::Model, interfaces: &[InterfaceJob], partition:
                         members.iter().map(|label| position(*label)[axis]).sum::<f64>() / members.len() as f64
                     }),
                 };
-                for (row, &(label, at)) in model
-                    .dofs
-                    .iter()
-                    .enumerate()
-                    .filter(|(_, dof)| members.contains(&dof.0))
-                {
+                for (row, &(label, at)) in model.dofs.iter().enumerate().filter(|(_, dof)| members.contains(&dof.0)) {
                     let r = position(label);
                     let at = Direction::ALL[usize::from(at)];
-                    let lever = |offset| {
-                        unit_motions(Site {
-                            position: offset,
-                            direction: at,
-                        })[direction as usize]
-                    };
+                    let lever = |offset| unit_motions(Site { position: offset, direction: at })[direction as usize];
                     t[(row, column)] = lever(std::array::from_fn(|axis| r[axis] - centre[axis]));
                     sizes[(row, column)] = lever(std::array::from_fn(|axis| r[axis].abs() + centre[axis].abs())).abs();
                 }
@@ -179,16 +164,9 @@ fn members(model: &models::Model, nodes: &NodeSelection) -> Vec<i64> {
 /// an error ε (λ + s)²/s of λ.
 pub(crate) fn spectrum(k: MatRef<'_, f64>, m: MatRef<'_, f64>) -> Vec<f64> {
     let n = k.nrows();
-    let largest = (0..n)
-        .filter(|i| m[(*i, *i)] > 0.0)
-        .map(|i| k[(i, i)] / m[(i, i)])
-        .fold(0.0, f64::max);
+    let largest = (0..n).filter(|i| m[(*i, *i)] > 0.0).map(|i| k[(i, i)] / m[(i, i)]).fold(0.0, f64::max);
     let first = shifted_spectrum(k, m, 1e-4 * largest);
-    let elastic = first
-        .iter()
-        .copied()
-        .find(|lambda| *lambda > 1e-9 * largest)
-        .unwrap_or(largest);
+    let elastic = first.iter().copied().find(|lambda| *lambda > 1e-9 * largest).unwrap_or(largest);
     shifted_spectrum(k, m, elastic)
 }
 
@@ -203,11 +181,7 @@ fn shifted_spectrum(k: MatRef<'_, f64>, m: MatRef<'_, f64>, s: f64) -> Vec<f64> 
     let nu = c.self_adjoint_eigenvalues(Side::Lower).expect("a finite matrix");
     let top = nu[n - 1];
     // ν of a massless motion is rounding.
-    nu.iter()
-        .rev()
-        .filter(|nu| **nu > n as f64 * EPS * top)
-        .map(|nu| 1.0 / nu - s)
-        .collect()
+    nu.iter().rev().filter(|nu| **nu > n as f64 * EPS * top).map(|nu| 1.0 / nu - s).collect()
 }
 
 /// A sparse matrix as a dense one.
@@ -239,29 +213,21 @@ pub(crate) fn absolute(a: MatRef<'_, f64>) -> Mat<f64> {
 pub(crate) fn difference(found: MatRef<'_, f64>, expected: MatRef<'_, f64>) -> f64 {
     assert_eq!(found.shape(), expected.shape());
     let size = expected.norm_max();
-    if expected.ncols() == 0 {
-        0.0
-    } else {
-        (found - expected).norm_max() / size
-    }
+    if expected.ncols() == 0 { 0.0 } else { (found - expected).norm_max() / size }
 }
 
 /// The same of the worst column, each relative to its own largest entry.
 pub(crate) fn column_difference(found: MatRef<'_, f64>, expected: MatRef<'_, f64>) -> f64 {
     assert_eq!(found.shape(), expected.shape());
     let columns = 0..found.ncols();
-    columns
-        .map(|j| difference(found.subcols(j, 1), expected.subcols(j, 1)))
-        .fold(0.0, f64::max)
+    columns.map(|j| difference(found.subcols(j, 1), expected.subcols(j, 1))).fold(0.0, f64::max)
 }
 
 /// √(|x_i|ᵀA|x_i| · |y_j|ᵀA|y_j|) ≥ |x_i|ᵀA|y_j|: the size of the terms of XᵀAY, free of units, for a matrix A of sizes.
 pub(crate) fn terms(x: MatRef<'_, f64>, a: &Mat<f64>, y: MatRef<'_, f64>) -> Mat<f64> {
     let lengths = |x: MatRef<'_, f64>| -> Vec<f64> {
         let (sizes, image) = (absolute(x), a * absolute(x));
-        (0..x.ncols())
-            .map(|j| (sizes.col(j).transpose() * image.col(j)).sqrt())
-            .collect()
+        (0..x.ncols()).map(|j| (sizes.col(j).transpose() * image.col(j)).sqrt()).collect()
     };
     let (of_x, of_y) = (lengths(x), lengths(y));
     Mat::from_fn(x.ncols(), y.ncols(), |i, j| of_x[i] * of_y[j])
@@ -273,10 +239,6 @@ pub(crate) fn against_bound(found: MatRef<'_, f64>, expected: MatRef<'_, f64>, b
     let entries = (0..found.nrows()).flat_map(|i| (0..found.ncols()).map(move |j| (i, j)));
     entries.fold(0.0, |worst: f64, at| {
         let error = (found[at] - expected[at]).abs();
-        if error == 0.0 {
-            worst
-        } else {
-            worst.max(error / bound[at])
-        }
+        if error == 0.0 { worst } else { worst.max(error / bound[at]) }
     })
 }

@@ -34,19 +34,14 @@ fn corpus() -> Option<PathBuf> {
 
 /// A file, plain or gzipped.
 fn find(folder: &Path, name: &str) -> Option<PathBuf> {
-    [name.to_owned(), format!("{name}.gz")]
-        .iter()
-        .map(|name| folder.join(name))
-        .find(|path| path.is_file())
+    [name.to_owned(), format!("{name}.gz")].iter().map(|name| folder.join(name)).find(|path| path.is_file())
 }
 
 fn model_job(pairs: &Path, pair: &Pair) -> ModelJob {
     let folder = pairs.join(pair.folder);
     let matrix = |name: &str| find(&folder, name).unwrap_or_else(|| panic!("{}: no {name}", pair.name));
     let beside = |names: &[&str]| {
-        (pair.source == Source::Coordinates)
-            .then(|| names.iter().find_map(|name| find(&folder, name)))
-            .flatten()
+        (pair.source == Source::Coordinates).then(|| names.iter().find_map(|name| find(&folder, name))).flatten()
     };
     ModelJob {
         stiffness: matrix(pair.files[0]),
@@ -62,13 +57,8 @@ fn model_job(pairs: &Path, pair: &Pair) -> ModelJob {
 fn without_rows(input: Input, list: &Path) -> Input {
     let text = std::fs::read_to_string(list).expect("a list of rows");
     let removed: BTreeSet<usize> = text.split_whitespace().map(|row| row.parse().expect("a row")).collect();
-    let kept: Vec<usize> = (0..input.stiffness.matrix.rows())
-        .filter(|row| !removed.contains(row))
-        .collect();
-    let restrict = |input: MatrixInput| MatrixInput {
-        matrix: principal_submatrix(&input.matrix, &kept),
-        ..input
-    };
+    let kept: Vec<usize> = (0..input.stiffness.matrix.rows()).filter(|row| !removed.contains(row)).collect();
+    let restrict = |input: MatrixInput| MatrixInput { matrix: principal_submatrix(&input.matrix, &kept), ..input };
     Input {
         stiffness: restrict(input.stiffness),
         mass: restrict(input.mass),
@@ -113,31 +103,15 @@ fn free_modes(pairs: &Path, pair: &Pair, n_modes: usize) -> Result<Found> {
     let (rigid, _) = rigid_body_modes(&partition)?;
     let (stiffness, mass) = (&partition.stiffness, &partition.mass);
     let analysis = Analysis::new(Pencil { stiffness, mass })?;
-    let problem = ModalProblem {
-        stiffness,
-        mass,
-        rigid: Some(&rigid),
-        precision: partition.precision,
-    };
+    let problem = ModalProblem { stiffness, mass, rigid: Some(&rigid), precision: partition.precision };
     let found = shifted(&analysis, problem, &|dof| partition.name_of(dof))?;
-    let request = ModeRequest {
-        wanted: Wanted::Count(n_modes),
-        eigensolver: Eigensolver::Lanczos,
-        seed: SEED,
-    };
+    let request = ModeRequest { wanted: Wanted::Count(n_modes), eigensolver: Eigensolver::Lanczos, seed: SEED };
     let modes = elastic_modes(problem, &Factored::new(&found.factor, found.sigma), request)?;
     let count = count_below(&partition, &analysis, modes.shift_above(0.5))?;
     let counted = [count.free, rigid.count() + modes.count()];
     let is_enclosed = pair.reference_error == 0.0 || enclosed(&partition, &analysis, rigid.count(), &modes)?;
     let (n_dofs, n_rigid, unit) = (partition.n_dofs(), rigid.count(), partition.scaling.eigenvalue_unit());
-    Ok(Found {
-        n_dofs,
-        n_rigid,
-        modes,
-        counted,
-        is_enclosed,
-        unit,
-    })
+    Ok(Found { n_dofs, n_rigid, modes, counted, is_enclosed, unit })
 }
 
 /// The comparison that is nearest to its limit, or beyond it.
@@ -150,17 +124,8 @@ struct Difference {
 /// Compares mode by mode: the difference may reach the error bar of the data, the reference's own error and ten times
 /// the rounding of the cancelling terms, whichever is largest.
 fn compare(found: &Found, reference: &Reference, known_error: f64) -> Difference {
-    let mut worst = Difference {
-        relative: 0.0,
-        allowed: f64::INFINITY,
-    };
-    for ((lambda, error), expected) in found
-        .modes
-        .lambda
-        .iter()
-        .zip(&found.modes.errors)
-        .zip(&reference.elastic)
-    {
+    let mut worst = Difference { relative: 0.0, allowed: f64::INFINITY };
+    for ((lambda, error), expected) in found.modes.lambda.iter().zip(&found.modes.errors).zip(&reference.elastic) {
         let relative = (lambda * found.unit / expected - 1.0).abs();
         let own = reference.own_error(*expected).max(known_error);
         let allowed = bar(error).max(own);
@@ -196,10 +161,9 @@ fn examine(pairs: &Path, pair: &Pair) -> (String, Option<String>) {
     let reference = pairs.join(pair.folder).join(pair.reference);
     let (line, fault) = match pair.expected {
         Expected::Refused(reason) => match free_modes(pairs, pair, 1) {
-            Ok(found) => (
-                format!("{} | {} | | | | accepted", found.n_dofs, found.n_rigid),
-                Some("is not refused".to_owned()),
-            ),
+            Ok(found) => {
+                (format!("{} | {} | | | | accepted", found.n_dofs, found.n_rigid), Some("is not refused".to_owned()))
+            }
             Err(error) => {
                 let fault = (Reason::of(&error) != Some(reason)).then(|| format!("expected {reason:?}: {error}"));
                 (format!(" | | | | | refused: {error}"), fault)
@@ -210,10 +174,7 @@ fn examine(pairs: &Path, pair: &Pair) -> (String, Option<String>) {
             let n_modes = reference.elastic.len().min(pair.at_most);
             match free_modes(pairs, pair, n_modes) {
                 Ok(found) => agreement(&found, &reference, (n_modes, pair.reference_error)),
-                Err(error) => (
-                    format!(" | /{} | | | | refused: {error}", reference.n_zero),
-                    Some(error.to_string()),
-                ),
+                Err(error) => (format!(" | /{} | | | | refused: {error}", reference.n_zero), Some(error.to_string())),
             }
         }
     };
@@ -227,10 +188,7 @@ fn agreement(found: &Found, reference: &Reference, (n_modes, known_error): (usiz
     let n_compared = found.modes.count().min(reference.elastic.len());
     let [counted, below] = found.counted;
     let fault = if found.n_rigid != reference.n_zero {
-        Some(format!(
-            "{} rigid-body modes, the reference has {}",
-            found.n_rigid, reference.n_zero
-        ))
+        Some(format!("{} rigid-body modes, the reference has {}", found.n_rigid, reference.n_zero))
     } else if n_compared < n_modes {
         Some(format!("{n_compared} modes of {n_modes}"))
     } else if counted != below {
@@ -238,10 +196,7 @@ fn agreement(found: &Found, reference: &Reference, (n_modes, known_error): (usiz
     } else if !found.is_enclosed {
         Some("an eigenvalue is not where the Sturm counts say".to_owned())
     } else if worst.relative > worst.allowed {
-        Some(format!(
-            "differs by {:.1e}, allowed {:.1e}",
-            worst.relative, worst.allowed
-        ))
+        Some(format!("differs by {:.1e}, allowed {:.1e}", worst.relative, worst.allowed))
     } else {
         None
     };

@@ -94,10 +94,7 @@ impl Pair {
     }
 
     const fn refused(folder: &'static str, source: Source, reason: Reason) -> Self {
-        Self {
-            expected: Expected::Refused(reason),
-            ..Self::agrees(folder, source)
-        }
+        Self { expected: Expected::Refused(reason), ..Self::agrees(folder, source) }
     }
 
     const fn from(self, files: [&'static str; 2]) -> Self {
@@ -105,18 +102,11 @@ impl Pair {
     }
 
     const fn large(self, at_most: usize) -> Self {
-        Self {
-            at_most,
-            size: Size::Large,
-            ..self
-        }
+        Self { at_most, size: Size::Large, ..self }
     }
 
     const fn against_poor_reference(self, reference_error: f64) -> Self {
-        Self {
-            reference_error,
-            ..self
-        }
+        Self { reference_error, ..self }
     }
 }
 

@@ -33,27 +33,17 @@ impl Reference {
         let text = std::fs::read_to_string(path).expect("a reference");
         let json: Value = serde_json::from_str(&text).expect("JSON");
         let number = |key: &str| json[key].as_f64();
-        let all: Vec<f64> = json["eigenvalues_lowest"]
-            .as_array()
-            .expect("eigenvalues")
-            .iter()
-            .filter_map(Value::as_f64)
-            .collect();
+        let all: Vec<f64> =
+            json["eigenvalues_lowest"].as_array().expect("eigenvalues").iter().filter_map(Value::as_f64).collect();
         let n_zero = json["rigid_or_zero_modes"].as_u64().expect("a count") as usize;
         let method = json["method"].as_str().expect("a method");
         let method = if method.starts_with("dense scipy.linalg.eigh(K,M)") {
             let norms = number("K_eig_max").zip(number("M_eig_min"));
-            Method::Dense {
-                largest: norms.map(|(k, m)| k / m).expect("extreme eigenvalues"),
-            }
+            Method::Dense { largest: norms.map(|(k, m)| k / m).expect("extreme eigenvalues") }
         } else if method.starts_with("dense eigh(M,K+sM)") {
-            Method::DenseInverted {
-                shift: value_after(method, "s="),
-            }
+            Method::DenseInverted { shift: value_after(method, "s=") }
         } else if method.starts_with("scipy eigsh") {
-            Method::ShiftInvert {
-                shift: value_after(method, "sigma="),
-            }
+            Method::ShiftInvert { shift: value_after(method, "sigma=") }
         } else {
             panic!("{}: unknown method {method:?}", path.display());
         };

@@ -33,19 +33,10 @@ impl Component {
     }
 
     pub(crate) fn of(partition: Partition) -> Self {
-        let rigid = from_coordinates(&partition)
-            .expect("rigid-body modes")
-            .unwrap_or_else(|| none(&partition));
-        let pencil = Pencil {
-            stiffness: &partition.stiffness,
-            mass: &partition.mass,
-        };
+        let rigid = from_coordinates(&partition).expect("rigid-body modes").unwrap_or_else(|| none(&partition));
+        let pencil = Pencil { stiffness: &partition.stiffness, mass: &partition.mass };
         let analysis = Analysis::new(pencil).expect("an analysis");
-        Self {
-            partition,
-            rigid,
-            analysis,
-        }
+        Self { partition, rigid, analysis }
     }
 
     /// A factor of (rad/s)² from λ as the tool has it.
@@ -56,29 +47,15 @@ impl Component {
     /// Elastic modes, checked: at shift zero where the component is held, at a negative shift where it is free.
     pub(crate) fn modes(&self, wanted: Wanted, eigensolver: Eigensolver) -> Modes {
         let (stiffness, mass) = (&self.partition.stiffness, &self.partition.mass);
-        let request = ModeRequest {
-            wanted,
-            eigensolver,
-            seed: SEED,
-        };
+        let request = ModeRequest { wanted, eigensolver, seed: SEED };
         let precision = self.partition.precision;
         let name = |step| self.partition.name_of(step);
         let modes = if self.rigid.count() == 0 {
-            let problem = ModalProblem {
-                stiffness,
-                mass,
-                rigid: None,
-                precision,
-            };
+            let problem = ModalProblem { stiffness, mass, rigid: None, precision };
             let factor = Cholesky::new(&self.analysis, Pencil { stiffness, mass }, 0.0, &name).expect("a factor");
             elastic_modes(problem, &Factored::new(&factor, 0.0), request)
         } else {
-            let problem = ModalProblem {
-                stiffness,
-                mass,
-                rigid: Some(&self.rigid),
-                precision,
-            };
+            let problem = ModalProblem { stiffness, mass, rigid: Some(&self.rigid), precision };
             let found = shifted(&self.analysis, problem, &name).expect("a shift");
             elastic_modes(problem, &Factored::new(&found.factor, found.sigma), request)
         };
@@ -96,26 +73,14 @@ impl Component {
         for (j, (error, lambda)) in modes.errors.iter().zip(&modes.lambda).enumerate() {
             let taken_at = 1e-13 + 16.0 * f64::EPSILON * lambda / first;
             let bar = taken_at + mass.rows() as f64 * f64::EPSILON;
-            assert!(
-                error.backward <= bar,
-                "mode {j}: backward error {:e} above {bar:e}",
-                error.backward
-            );
+            assert!(error.backward <= bar, "mode {j}: backward error {:e} above {bar:e}", error.backward);
         }
         // Two passes of Gram-Schmidt leave a few ε for each of the k vectors.
         let (worst, pair) = mass_orthogonality(mass, modes.shapes.as_ref());
         assert!(worst <= 1e-12, "modes {pair:?} are orthogonal to {worst:e} only");
         let rigid = dense::gram(self.rigid.mass_orthonormal.as_ref(), modes.shapes.as_ref());
-        assert!(
-            rigid.norm_max() <= 1e-12,
-            "rigid-body motion in the modes: {:e}",
-            rigid.norm_max()
-        );
-        assert!(
-            modes.lambda.is_sorted_by(|a, b| *a <= *b * (1.0 + 1e-9)),
-            "{:?}",
-            modes.lambda
-        );
+        assert!(rigid.norm_max() <= 1e-12, "rigid-body motion in the modes: {:e}", rigid.norm_max());
+        assert!(modes.lambda.is_sorted_by(|a, b| *a <= *b * (1.0 + 1e-9)), "{:?}", modes.lambda);
         if let (Some(next), Some(last)) = (modes.next, modes.lambda.last()) {
             assert!(next > *last, "the next eigenvalue {next} above {last}");
         }
@@ -125,20 +90,12 @@ impl Component {
     /// c_j times the rounding unit of a sum of a row's terms: up to 81 of them, and n in the quotient, summed in eight
     /// lanes; 32 ε c_j covers both, as their errors add up like the root of their number.
     pub(crate) fn assert_lambda(&self, modes: &Modes, exact: &[f64]) {
-        assert_eq!(
-            modes.count(),
-            exact.len(),
-            "number of modes: {:?} for {exact:?}",
-            modes.lambda
-        );
+        assert_eq!(modes.count(), exact.len(), "number of modes: {:?} for {exact:?}", modes.lambda);
         for (j, (lambda, exact)) in modes.lambda.iter().zip(exact).enumerate() {
             let lambda = lambda * self.unit();
             let error = (lambda - exact).abs() / exact.abs();
             let bar = 32.0 * f64::EPSILON * modes.errors[j].cancellation;
-            assert!(
-                error <= bar,
-                "λ_{j} = {lambda}, exact {exact}: error {error:e} above {bar:e}"
-            );
+            assert!(error <= bar, "λ_{j} = {lambda}, exact {exact}: error {error:e} above {bar:e}");
         }
     }
 }
@@ -154,19 +111,9 @@ pub(crate) fn partition(model: &supel_models::Model, interfaces: &[InterfaceJob]
 
 fn input(model: &supel_models::Model) -> Input {
     let index_of = |label: &i64| model.labels.iter().position(|other| other == label);
-    let groups = model
-        .groups
-        .iter()
-        .map(|(name, labels)| (name.clone(), labels.iter().filter_map(index_of).collect()));
-    let nodes = Nodes {
-        labels: model.labels.clone(),
-        coordinates: model.nodes.clone(),
-        groups: groups.collect(),
-    };
-    let dof = |&(node, direction): &(i64, u8)| Dof {
-        node,
-        direction: Direction::ALL[usize::from(direction)],
-    };
+    let groups = model.groups.iter().map(|(name, labels)| (name.clone(), labels.iter().filter_map(index_of).collect()));
+    let nodes = Nodes { labels: model.labels.clone(), coordinates: model.nodes.clone(), groups: groups.collect() };
+    let dof = |&(node, direction): &(i64, u8)| Dof { node, direction: Direction::ALL[usize::from(direction)] };
     Input {
         stiffness: matrix_input(model.n, &model.stiffness),
         mass: matrix_input(model.n, &model.mass),
@@ -188,11 +135,6 @@ fn matrix_input(n: usize, entries: &[supel_models::model::Entry]) -> MatrixInput
 
 pub(crate) fn matrix(n: usize, entries: &[supel_models::model::Entry]) -> SparseMatrix {
     let mut triplets = Triplets::default();
-    entries
-        .iter()
-        .for_each(|&(row, col, value)| triplets.push(row, col, value));
-    triplets
-        .assemble(n, Declared::General, "generated".as_ref())
-        .expect("a matrix")
-        .0
+    entries.iter().for_each(|&(row, col, value)| triplets.push(row, col, value));
+    triplets.assemble(n, Declared::General, "generated".as_ref()).expect("a matrix").0
 }

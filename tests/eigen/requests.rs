@@ -8,10 +8,7 @@ use crate::component::{Component, eigensolvers};
 /// Number of modes a band gives, in user units of λ.
 fn in_band(component: &Component, limit: f64) -> Vec<usize> {
     let wanted = Wanted::UpTo(limit / component.unit());
-    eigensolvers()
-        .iter()
-        .map(|eigensolver| component.modes(wanted, *eigensolver).count())
-        .collect()
+    eigensolvers().iter().map(|eigensolver| component.modes(wanted, *eigensolver).count()).collect()
 }
 
 #[test]
@@ -20,10 +17,7 @@ fn band_holds_all_modes_up_to_its_edge() {
     let component = Component::new(&bar(200));
     for count in [1, 15, 16, 17, 33, 70] {
         let between = 0.5 * (exact[count - 1] + exact[count]);
-        assert!(
-            in_band(&component, between).iter().all(|found| *found == count),
-            "{count} modes below {between}"
-        );
+        assert!(in_band(&component, between).iter().all(|found| *found == count), "{count} modes below {between}");
     }
 }
 
@@ -33,10 +27,7 @@ fn edge_near_an_eigenvalue_is_sharp() {
     let exact = bar_spectrum(200);
     let component = Component::new(&bar(200));
     for (edge, count) in [(exact[9] * (1.0 + 1e-9), 10), (exact[9] * (1.0 - 1e-9), 9)] {
-        assert!(
-            in_band(&component, edge).iter().all(|found| *found == count),
-            "edge {edge}"
-        );
+        assert!(in_band(&component, edge).iter().all(|found| *found == count), "edge {edge}");
     }
 }
 
@@ -44,11 +35,7 @@ fn edge_near_an_eigenvalue_is_sharp() {
 fn edge_on_an_eigenvalue_decides_either_way() {
     let exact = bar_spectrum(200);
     let component = Component::new(&bar(200));
-    assert!(
-        in_band(&component, exact[9])
-            .iter()
-            .all(|found| (9..=10).contains(found))
-    );
+    assert!(in_band(&component, exact[9]).iter().all(|found| (9..=10).contains(found)));
 }
 
 #[test]
@@ -57,11 +44,7 @@ fn edge_inside_a_pair_takes_both() {
     let component = Component::new(&ring(240, 0.01));
     // Rounding puts the edge above, between or below the copies; never is one taken without the other.
     assert!(in_band(&component, exact[7]).iter().all(|found| [7, 9].contains(found)));
-    assert!(
-        in_band(&component, exact[7] * (1.0 + 1e-9))
-            .iter()
-            .all(|found| *found == 9)
-    );
+    assert!(in_band(&component, exact[7] * (1.0 + 1e-9)).iter().all(|found| *found == 9));
 }
 
 #[test]
@@ -69,11 +52,7 @@ fn empty_band_gives_no_modes_and_the_next() {
     let exact = bar_spectrum(200);
     let component = Component::new(&bar(200));
     for &eigensolver in eigensolvers() {
-        for wanted in [
-            Wanted::UpTo(0.5 * exact[0] / component.unit()),
-            Wanted::Count(0),
-            Wanted::UpTo(0.0),
-        ] {
+        for wanted in [Wanted::UpTo(0.5 * exact[0] / component.unit()), Wanted::Count(0), Wanted::UpTo(0.0)] {
             let modes = component.modes(wanted, eigensolver);
             assert_eq!((modes.count(), modes.shapes.ncols()), (0, 0), "{eigensolver:?}");
             let next = modes.next.expect("a next eigenvalue") * component.unit();

@@ -23,10 +23,7 @@ fn assert_dense(component: &Component, modes: &Modes, model: &Model) {
     let rounding = model.n as f64 * 1e-15 * exact[model.n - 1];
     for (j, lambda) in modes.lambda.iter().enumerate() {
         let (lambda, exact) = (lambda * component.unit(), exact[n_rigid + j]);
-        assert!(
-            (lambda - exact).abs() <= rounding,
-            "λ_{j} = {lambda}, dense {exact}, rounding {rounding:e}"
-        );
+        assert!((lambda - exact).abs() <= rounding, "λ_{j} = {lambda}, dense {exact}, rounding {rounding:e}");
     }
 }
 
@@ -73,13 +70,7 @@ fn plane_membrane_has_three_rigid_body_modes() {
 
 /// A spatial frame of five nodes that no axis is parallel to.
 fn small_frame(inertia: Inertia) -> Model {
-    let nodes = [
-        [0.0, 0.0, 0.0],
-        [1.0, 0.1, 0.2],
-        [1.3, 1.1, 0.0],
-        [0.2, 1.0, 0.4],
-        [0.6, 0.5, 1.2],
-    ];
+    let nodes = [[0.0, 0.0, 0.0], [1.0, 0.1, 0.2], [1.3, 1.1, 0.0], [0.2, 1.0, 0.4], [0.6, 0.5, 1.2]];
     let edges = [[0, 1], [1, 2], [2, 3], [3, 0], [0, 4], [2, 4]];
     frame(&nodes, &edges, &Section::round(0.02), &Material::STEEL_SI, inertia)
 }

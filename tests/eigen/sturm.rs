@@ -8,13 +8,7 @@ use supel_models::*;
 use crate::component::partition;
 
 fn interface(nodes: NodeSelection) -> InterfaceJob {
-    InterfaceJob {
-        name: "held".to_owned(),
-        nodes,
-        coupling: Coupling::Direct,
-        origin: Origin::Centroid,
-        dofs: None,
-    }
+    InterfaceJob { name: "held".to_owned(), nodes, coupling: Coupling::Direct, origin: Origin::Centroid, dofs: None }
 }
 
 /// Counts at shifts midway between neighbouring eigenvalues, where both spectra leave a gap.
@@ -38,41 +32,25 @@ fn counts_agree(model: &Model, held: NodeSelection, is_held: impl Fn((i64, u8)) 
 
 fn check(partition: &Partition, shift: f64, [free, clamped]: [&[f64]; 2]) {
     let (stiffness, mass) = (partition.internal_stiffness(), partition.internal_mass());
-    let analysis = Analysis::new(Pencil {
-        stiffness: &stiffness,
-        mass: &mass,
-    })
-    .expect("an analysis");
+    let analysis = Analysis::new(Pencil { stiffness: &stiffness, mass: &mass }).expect("an analysis");
     let sigma = shift / partition.scaling.eigenvalue_unit();
     let found = count_below(partition, &analysis, sigma).expect("a count");
     let below = |spectrum: &[f64]| spectrum.iter().filter(|lambda| **lambda < shift).count();
-    assert_eq!(
-        (found.clamped, found.free),
-        (below(clamped), below(free)),
-        "below {shift}"
-    );
+    assert_eq!((found.clamped, found.free), (below(clamped), below(free)), "below {shift}");
 }
 
 #[test]
 fn counts_of_a_brick_with_a_face_as_interface() {
     let model = brick([3, 2, 1], [3.0, 2.0, 1.0], &Material::UNIT);
     let face = model.groups["XMIN"].clone();
-    counts_agree(&model, NodeSelection::Group("group:XMIN".to_owned()), |(node, _)| {
-        face.contains(&node)
-    });
+    counts_agree(&model, NodeSelection::Group("group:XMIN".to_owned()), |(node, _)| face.contains(&node));
 }
 
 #[test]
 fn counts_of_a_membrane_with_two_edges_as_interface() {
     let model = membrane([6, 4], [6.0, 4.0], &Material::UNIT);
-    let edges: Vec<i64> = model.groups["XMIN"]
-        .iter()
-        .chain(&model.groups["XMAX"])
-        .copied()
-        .collect();
-    counts_agree(&model, NodeSelection::Labels(edges.clone()), |(node, _)| {
-        edges.contains(&node)
-    });
+    let edges: Vec<i64> = model.groups["XMIN"].iter().chain(&model.groups["XMAX"]).copied().collect();
+    counts_agree(&model, NodeSelection::Labels(edges.clone()), |(node, _)| edges.contains(&node));
 }
 
 #[test]
@@ -84,19 +62,10 @@ fn counts_of_chains_with_an_inner_node_as_interface() {
 
 #[test]
 fn counts_of_a_frame_with_rotations() {
-    let nodes: Vec<[f64; 3]> = (0..7)
-        .map(|i| [0.3 * f64::from(i), 0.05 * f64::from(i * i), 0.1 * f64::from(i)])
-        .collect();
+    let nodes: Vec<[f64; 3]> =
+        (0..7).map(|i| [0.3 * f64::from(i), 0.05 * f64::from(i * i), 0.1 * f64::from(i)]).collect();
     let edges: Vec<[usize; 2]> = (0..6).map(|i| [i, i + 1]).collect();
     // A stout section keeps the spectrum within six decades, where the dense solution still resolves it.
-    let model = frame(
-        &nodes,
-        &edges,
-        &Section::round(0.1),
-        &Material::STEEL_SI,
-        Inertia::Consistent,
-    );
-    counts_agree(&model, NodeSelection::Labels(vec![1, 7]), |(node, _)| {
-        node == 1 || node == 7
-    });
+    let model = frame(&nodes, &edges, &Section::round(0.1), &Material::STEEL_SI, Inertia::Consistent);
+    counts_agree(&model, NodeSelection::Labels(vec![1, 7]), |(node, _)| node == 1 || node == 7);
 }

@@ -10,16 +10,9 @@ const FOOT: &str = "--interface foot=1,11,31,41 --method herting --modes 5";
 #[test]
 fn a_matrix_that_is_not_one_is_an_input_error() {
     let place = Place::with_brick();
-    place.write(
-        "M.mtx",
-        b"%%MatrixMarket matrix coordinate real symmetric\n135 135 1\n1 1 one\n",
-    );
+    place.write("M.mtx", b"%%MatrixMarket matrix coordinate real symmetric\n135 135 1\n1 1 one\n");
     let ended = place.reduce(&place.model_flags(), FOOT).expect(ExitCode::InputData);
-    assert!(
-        ended.err.contains("M.mtx: line 3") || ended.err.contains("M.mtx:3"),
-        "{}",
-        ended.err
-    );
+    assert!(ended.err.contains("M.mtx: line 3") || ended.err.contains("M.mtx:3"), "{}", ended.err);
     assert!(!place.path("x.supel").exists());
     assert!(!place.path("x.report.json").exists());
 }
@@ -37,9 +30,7 @@ fn an_interface_that_cannot_react_rigid_motion_is_a_physics_error() {
 #[test]
 fn a_run_that_does_not_fit_is_refused() {
     let place = Place::with_brick();
-    let ended = place
-        .reduce(&place.model_flags(), &format!("{FOOT} --memory-gib 1e-6"))
-        .expect(ExitCode::Resources);
+    let ended = place.reduce(&place.model_flags(), &format!("{FOOT} --memory-gib 1e-6")).expect(ExitCode::Resources);
     assert!(ended.err.contains("GiB"), "{}", ended.err);
     assert!(!place.path("x.supel").exists());
 }
@@ -115,13 +106,7 @@ fn a_superelement_cut_anywhere_is_refused() {
     for length in 0..whole.len() {
         place.write("cut.supel", &whole[..length]);
         let ended = supel(&["inspect", &cut]);
-        assert_eq!(
-            ended.code,
-            ExitCode::InputData,
-            "{length} bytes: {}{}",
-            ended.out,
-            ended.err
-        );
+        assert_eq!(ended.code, ExitCode::InputData, "{length} bytes: {}{}", ended.out, ended.err);
         assert!(ended.err.starts_with("supel: error: "), "{}", ended.err);
     }
 }
@@ -136,13 +121,7 @@ fn a_matrix_cut_anywhere_is_refused() {
         for length in 0..certain {
             place.write(name, &whole[..length]);
             let ended = place.reduce(&flags, CHAIN);
-            assert_eq!(
-                ended.code,
-                ExitCode::InputData,
-                "{name}, {length} bytes: {}{}",
-                ended.out,
-                ended.err
-            );
+            assert_eq!(ended.code, ExitCode::InputData, "{name}, {length} bytes: {}{}", ended.out, ended.err);
         }
         place.write(name, &whole);
     }

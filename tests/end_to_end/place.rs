@@ -30,11 +30,7 @@ pub(crate) fn supel(args: &[&str]) -> Ended {
     let args = std::iter::once("supel").chain(args.iter().copied()).map(OsString::from);
     let code = run(args, supel::reduce, &mut Terminal::plain(&mut out, &mut err));
     let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
-    Ended {
-        code,
-        out: text(out),
-        err: text(err),
-    }
+    Ended { code, out: text(out), err: text(err) }
 }
 
 /// A folder of its own.
@@ -103,12 +99,7 @@ impl Place {
 
     /// The flags that name the matrices alone.
     pub(crate) fn matrix_flags(&self) -> Vec<String> {
-        let flags = [
-            "--stiffness".into(),
-            self.text("K.mtx"),
-            "--mass".into(),
-            self.text("M.mtx"),
-        ];
+        let flags = ["--stiffness".into(), self.text("K.mtx"), "--mass".into(), self.text("M.mtx")];
         flags.into()
     }
 
@@ -154,9 +145,6 @@ pub(crate) fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) {
     assert_eq!(found.len(), expected.len(), "{found:?}\n{expected:?}");
     for (found, expected) in found.iter().zip(expected) {
         let difference = (found / expected - 1.0).abs();
-        assert!(
-            difference <= tolerance,
-            "{found} and {expected} differ by {difference:e}"
-        );
+        assert!(difference <= tolerance, "{found} and {expected} differ by {difference:e}");
     }
 }

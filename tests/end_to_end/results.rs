@@ -14,21 +14,13 @@ use crate::place::{Place, assert_close, frequencies_hz, steel_brick, supel};
 const SAME: f64 = 1e-11;
 
 fn hertz(eigenvalues: &[f64]) -> Vec<f64> {
-    eigenvalues
-        .iter()
-        .map(|value| value.sqrt() / std::f64::consts::TAU)
-        .collect()
+    eigenvalues.iter().map(|value| value.sqrt() / std::f64::consts::TAU).collect()
 }
 
 #[test]
 fn herting_keeps_the_modes_of_the_free_component() {
     let place = Place::with(&spring(12, Ends::Free));
-    place
-        .reduce(
-            &place.matrix_flags(),
-            "--interface ends=rows:0,11 --method herting --modes 4",
-        )
-        .expect(ExitCode::Done);
+    place.reduce(&place.matrix_flags(), "--interface ends=rows:0,11 --method herting --modes 4").expect(ExitCode::Done);
     let superelement = place.superelement("x.supel");
     assert_eq!(superelement.metadata().method, Method::Herting);
     let exact = hertz(&spring_spectrum(12, Ends::Free)[1..5]);
@@ -39,10 +31,7 @@ fn herting_keeps_the_modes_of_the_free_component() {
 fn craig_bampton_keeps_the_modes_of_the_held_component() {
     let place = Place::with(&spring(12, Ends::Free));
     place
-        .reduce(
-            &place.matrix_flags(),
-            "--interface ends=rows:0,11 --method craig-bampton --modes 4",
-        )
+        .reduce(&place.matrix_flags(), "--interface ends=rows:0,11 --method craig-bampton --modes 4")
         .expect(ExitCode::Done);
     let superelement = place.superelement("x.supel");
     assert_eq!(superelement.metadata().method, Method::CraigBampton);
@@ -57,10 +46,7 @@ fn a_band_keeps_the_modes_below_its_end() {
     let exact = hertz(&spring_spectrum(12, Ends::Free)[1..]);
     let end = (exact[4] + exact[5]) / 2.0;
     place
-        .reduce(
-            &place.matrix_flags(),
-            &format!("--interface ends=rows:0,11 --method herting --up-to-hz {end}"),
-        )
+        .reduce(&place.matrix_flags(), &format!("--interface ends=rows:0,11 --method herting --up-to-hz {end}"))
         .expect(ExitCode::Done);
     assert_close(&frequencies_hz(&place.superelement("x.supel")), &exact[..5], SAME);
 }
@@ -73,12 +59,7 @@ fn flags_alone_reduce_a_solid_by_both_methods() {
     // The corners of the face x = 0, and three of the opposite one.
     let interface = "--interface foot=1,11,31,41 --rigid-interface head=5,15,35";
     let by = |method: &str| {
-        place
-            .reduce(
-                &place.model_flags(),
-                &format!("{interface} --method {method} --modes 5"),
-            )
-            .expect(ExitCode::Done);
+        place.reduce(&place.model_flags(), &format!("{interface} --method {method} --modes 5")).expect(ExitCode::Done);
         place.superelement("x.supel")
     };
     let (herting, craig_bampton) = (by("herting"), by("craig-bampton"));
@@ -88,17 +69,9 @@ fn flags_alone_reduce_a_solid_by_both_methods() {
     }
     // The rigid patch stiffens the block and the clamps stiffen it further.
     let (free, held) = (frequencies_hz(&herting), frequencies_hz(&craig_bampton));
-    assert!(
-        free.iter().zip(&exact).all(|(free, exact)| free > exact),
-        "{free:?}\n{exact:?}"
-    );
+    assert!(free.iter().zip(&exact).all(|(free, exact)| free > exact), "{free:?}\n{exact:?}");
     assert!(held[0] != free[0], "{held:?}");
-    place
-        .reduce(
-            &place.model_flags(),
-            "--interface foot=1,11,31,41 --method herting --modes 5",
-        )
-        .expect(ExitCode::Done);
+    place.reduce(&place.model_flags(), "--interface foot=1,11,31,41 --method herting --modes 5").expect(ExitCode::Done);
     assert_close(&frequencies_hz(&place.superelement("x.supel")), &exact, SAME);
 }
 
@@ -108,23 +81,11 @@ fn without_a_certificate_the_modes_are_the_same_and_the_report_says_so() {
     let flags = "--interface foot=1,11,31,41 --method herting --modes 5";
     place.reduce(&place.model_flags(), flags).expect(ExitCode::Done);
     let certified = frequencies_hz(&place.superelement("x.supel"));
-    assert_eq!(
-        place.report("x.report.json")["body"]["completeness"]["is_certified"],
-        true
-    );
-    let ended = place
-        .reduce(&place.model_flags(), &format!("{flags} --certify none"))
-        .expect(ExitCode::Done);
+    assert_eq!(place.report("x.report.json")["body"]["completeness"]["is_certified"], true);
+    let ended = place.reduce(&place.model_flags(), &format!("{flags} --certify none")).expect(ExitCode::Done);
     assert_eq!(frequencies_hz(&place.superelement("x.supel")), certified);
-    assert_eq!(
-        place.report("x.report.json")["body"]["completeness"]["is_certified"],
-        false
-    );
-    assert!(
-        ended.out.contains("not certified: --certify none was asked"),
-        "{}",
-        ended.out
-    );
+    assert_eq!(place.report("x.report.json")["body"]["completeness"]["is_certified"], false);
+    assert!(ended.out.contains("not certified: --certify none was asked"), "{}", ended.out);
 }
 
 /// Without coordinates the rigid-body modes come from the matrices; the component is the same.
@@ -132,15 +93,10 @@ fn without_a_certificate_the_modes_are_the_same_and_the_report_says_so() {
 fn a_model_without_coordinates_is_reduced_from_its_matrices() {
     let place = Place::with_brick();
     let end = "--method herting --modes 5";
-    place
-        .reduce(&place.model_flags(), &format!("--interface foot=1,11,31,41 {end}"))
-        .expect(ExitCode::Done);
+    place.reduce(&place.model_flags(), &format!("--interface foot=1,11,31,41 {end}")).expect(ExitCode::Done);
     let known = place.superelement("x.supel");
     let ended = place
-        .reduce(
-            &place.matrix_flags(),
-            &format!("--interface foot=rows:0,1,2,30,31,32,90,91,92,120,121,122 {end}"),
-        )
+        .reduce(&place.matrix_flags(), &format!("--interface foot=rows:0,1,2,30,31,32,90,91,92,120,121,122 {end}"))
         .expect(ExitCode::Done);
     let bare = place.superelement("x.supel");
     assert!(ended.out.contains("6 modes from the matrices"), "{}", ended.out);
@@ -157,10 +113,7 @@ fn python_confirms_the_files_of_both_methods() {
     let python = std::env::var_os("SUPEL_PYTHON").unwrap_or_else(|| "python3".into());
     let probe = Command::new(&python).args(["-c", "import numpy, safetensors"]).output();
     if !probe.is_ok_and(|probe| probe.status.success()) {
-        println!(
-            "skipped: {} has no numpy and safetensors; set SUPEL_PYTHON",
-            python.display()
-        );
+        println!("skipped: {} has no numpy and safetensors; set SUPEL_PYTHON", python.display());
         return;
     }
     let place = Place::with_brick();
@@ -175,15 +128,8 @@ fn python_confirms_the_files_of_both_methods() {
             .output()
             .expect("started");
         let text = String::from_utf8_lossy(&ended.stdout).into_owned();
-        assert!(
-            ended.status.success(),
-            "{method}: {text}{}",
-            String::from_utf8_lossy(&ended.stderr)
-        );
-        assert!(
-            text.contains("frequencies: 6 agree") && text.contains("mass properties: mass "),
-            "{text}"
-        );
+        assert!(ended.status.success(), "{method}: {text}{}", String::from_utf8_lossy(&ended.stderr));
+        assert!(text.contains("frequencies: 6 agree") && text.contains("mass properties: mass "), "{text}");
     }
 }
 
@@ -193,22 +139,11 @@ fn inspect_shows_what_was_reduced() {
     let flags = "--interface foot=1,11,31,41 --method herting --modes 5";
     place.reduce(&place.model_flags(), flags).expect(ExitCode::Done);
     let shown = supel(&["inspect", &place.text("x.supel")]).expect(ExitCode::Done);
-    assert!(
-        shown.out.contains("foot") && shown.out.contains("Herting"),
-        "{}",
-        shown.out
-    );
+    assert!(shown.out.contains("foot") && shown.out.contains("Herting"), "{}", shown.out);
     let document = supel(&["inspect", &place.text("x.supel"), "--json"]).expect(ExitCode::Done);
     let document: serde_json::Value = serde_json::from_str(&document.out).expect("JSON");
-    assert_eq!(
-        document["sizes"]["n_reduced"],
-        place.superelement("x.supel").tensors().mass.rows()
-    );
-    assert_eq!(
-        document["metadata"]["job"]["run"].get("memory_gib"),
-        None,
-        "the machine's memory is in the file"
-    );
+    assert_eq!(document["sizes"]["n_reduced"], place.superelement("x.supel").tensors().mass.rows());
+    assert_eq!(document["metadata"]["job"]["run"].get("memory_gib"), None, "the machine's memory is in the file");
 }
 
 #[cfg(feature = "arpack")]
@@ -218,12 +153,25 @@ fn both_eigensolvers_find_the_same_modes() {
     for method in ["herting", "craig-bampton"] {
         let flags = format!("--interface foot=1,11,31,41 --method {method} --modes 5");
         let by = |solver: &str| {
-            place
-                .reduce(&place.model_flags(), &format!("{flags} --eigensolver {solver}"))
-                .expect(ExitCode::Done);
+            place.reduce(&place.model_flags(), &format!("{flags} --eigensolver {solver}")).expect(ExitCode::Done);
             frequencies_hz(&place.superelement("x.supel"))
         };
         // Rounding that a solve amplifies: ε times the condition of the stiffness, below 1e6 here.
         assert_close(&by("arpack"), &by("lanczos"), 1e-9);
+    }
+}
+
+/// An interface that just holds the component has no stiffness of its own: K̂_BB = 0, which is right and no failure.
+#[test]
+fn a_statically_determinate_interface_is_no_failure() {
+    let chain = Place::with(&spring(12, Ends::Free));
+    let brick = Place::with_brick();
+    for method in ["herting", "craig-bampton"] {
+        let rest = format!("--interface end=rows:0 --method {method} --modes 4 --strict");
+        chain.reduce(&chain.matrix_flags(), &rest).expect(ExitCode::Done);
+        for interface in ["--interface foot=1,11,31", "--rigid-interface foot=1,11,31"] {
+            let rest = format!("{interface} --method {method} --modes 5 --strict");
+            brick.reduce(&brick.model_flags(), &rest).expect(ExitCode::Done);
+        }
     }
 }

@@ -16,10 +16,7 @@ fn assert_threads_change_nothing(method: &str) {
     let first = reduced(&place, method, "1");
     for threads in ["1", "2", "3"] {
         let again = reduced(&place, method, threads);
-        assert!(
-            again.0 == first.0,
-            "the superelement of {method} with {threads} threads differs"
-        );
+        assert!(again.0 == first.0, "the superelement of {method} with {threads} threads differs");
         assert_eq!(again.1, first.1, "{method}, {threads} threads");
     }
 }
@@ -42,10 +39,7 @@ fn nothing_depends_on_the_folder_and_the_body_names_none() {
     assert_eq!(first.1, second.1);
     for place in [&a, &b] {
         let folder = place.text("");
-        assert!(
-            !first.1.contains(folder.trim_end_matches('/')),
-            "the body names {folder}"
-        );
+        assert!(!first.1.contains(folder.trim_end_matches('/')), "the body names {folder}");
     }
 }
 

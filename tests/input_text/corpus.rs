@@ -47,30 +47,18 @@ fn read_pair(folder: &Path) -> Option<Result<Input>> {
 fn pairs_are_read_or_refused_for_the_true_reason() {
     let Some(pairs) = corpus() else { return };
     let mut n_read = 0;
-    let mut folders: Vec<PathBuf> = std::fs::read_dir(&pairs)
-        .expect("a folder")
-        .map(|e| e.expect("an entry").path())
-        .collect();
+    let mut folders: Vec<PathBuf> =
+        std::fs::read_dir(&pairs).expect("a folder").map(|e| e.expect("an entry").path()).collect();
     folders.sort();
     for folder in folders {
-        let name = folder
-            .file_name()
-            .and_then(|name| name.to_str())
-            .unwrap_or_default()
-            .to_owned();
+        let name = folder.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
         let Some(outcome) = read_pair(&folder) else { continue };
         match outcome {
             Ok(input) => {
                 n_read += 1;
                 assert!(!EXPANDED.contains(&name.as_str()), "{name} is expected to be refused");
                 let (k, m) = (&input.stiffness, &input.mass);
-                println!(
-                    "{name}: n {} nnz {} digits {} {}",
-                    k.matrix.rows(),
-                    k.matrix.nnz(),
-                    k.digits,
-                    m.digits
-                );
+                println!("{name}: n {} nnz {} digits {} {}", k.matrix.rows(), k.matrix.nnz(), k.digits, m.digits);
                 input.notes.iter().for_each(|note| println!("    {note}"));
             }
             Err(error) => {
@@ -90,16 +78,9 @@ fn calculix_values_carry_fourteen_digits() {
         let input = read_pair(&pairs.join(name)).expect("a pair").expect("a model");
         assert_eq!((input.stiffness.digits, input.mass.digits), (14, 14), "{name}");
     }
-    let input = read_pair(&pairs.join("ansys_full_beam963"))
-        .expect("a pair")
-        .expect("a model");
+    let input = read_pair(&pairs.join("ansys_full_beam963")).expect("a pair").expect("a model");
     assert_eq!(input.stiffness.digits, 17);
-    assert!(
-        input
-            .notes
-            .iter()
-            .any(|note| matches!(note, InputNote::DirectionsFromZero { .. }))
-    );
+    assert!(input.notes.iter().any(|note| matches!(note, InputNote::DirectionsFromZero { .. })));
 }
 
 #[test]
@@ -111,13 +92,7 @@ fn abaqus_triplets_have_both_triangles_and_no_header() {
         let mass = folder.join(format!("{name}_MASS1.mtx.gz"));
         let input = read(&job(&stiffness, &mass)).expect("a model");
         assert!(!input.stiffness.notes.mirrored, "{name}");
-        assert!(
-            input
-                .notes
-                .iter()
-                .any(|note| matches!(note, InputNote::OrderFromIndices { .. })),
-            "{name}"
-        );
+        assert!(input.notes.iter().any(|note| matches!(note, InputNote::OrderFromIndices { .. })), "{name}");
     }
 }
 
@@ -137,17 +112,7 @@ fn a_rectangular_matrix_and_a_dense_one_are_refused() {
     let Some(pairs) = corpus() else { return };
     let rectangular = pairs.join("nastran_h5_dc3_SOL103_structure_only/GM.mtx.gz");
     let error = read(&job(&rectangular, &rectangular)).expect_err("an error");
-    assert!(
-        matches!(
-            error,
-            Error::MatrixNotSquare {
-                rows: 1170,
-                cols: 498,
-                ..
-            }
-        ),
-        "{error}"
-    );
+    assert!(matches!(error, Error::MatrixNotSquare { rows: 1170, cols: 498, .. }), "{error}");
     let dense = pairs.join("hb_bcsst11/bcsst11eig.mtx.gz");
     let error = read(&job(&dense, &dense)).expect_err("an error");
     assert!(matches!(error, Error::MatrixFlavour { .. }), "{error}");

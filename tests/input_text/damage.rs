@@ -5,11 +5,7 @@ use proptest::prelude::*;
 use crate::{Folder, gzip, job, mtx, read_text};
 
 fn small() -> String {
-    mtx(
-        "symmetric",
-        3,
-        &[(1, 1, 2.5), (2, 1, -1.25e3), (2, 2, 4.0), (3, 3, 1e-7)],
-    )
+    mtx("symmetric", 3, &[(1, 1, 2.5), (2, 1, -1.25e3), (2, 2, 4.0), (3, 3, 1e-7)])
 }
 
 #[test]
@@ -41,12 +37,7 @@ fn tables_cut_at_every_byte() {
     for end in 0..map.len() {
         model.dofs = Some(folder.write("map.csv", &map[..end]));
         // Three rows are there once the last digit is.
-        assert_eq!(
-            supel::input::read(&model).is_ok(),
-            end >= map.len() - 1,
-            "{:?}",
-            &map[..end]
-        );
+        assert_eq!(supel::input::read(&model).is_ok(), end >= map.len() - 1, "{:?}", &map[..end]);
     }
     model.dofs = None;
     for end in 0..table.len() {

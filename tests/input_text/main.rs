@@ -74,10 +74,7 @@ pub(crate) fn gzip(bytes: &[u8]) -> Vec<u8> {
 
 /// The file of a matrix in Matrix Market form.
 pub(crate) fn mtx(symmetry: &str, n: usize, entries: &[(usize, usize, f64)]) -> String {
-    let mut text = format!(
-        "%%MatrixMarket matrix coordinate real {symmetry}\n{n} {n} {}\n",
-        entries.len()
-    );
+    let mut text = format!("%%MatrixMarket matrix coordinate real {symmetry}\n{n} {n} {}\n", entries.len());
     for (row, col, value) in entries {
         text += &format!("{row} {col} {value:e}\n");
     }

@@ -70,12 +70,9 @@ fn nothing_at_all() {
 
 #[test]
 fn a_bad_banner() {
-    for text in [
-        "%%MatrixMarkt matrix coordinate real symmetric\n1 1 1\n",
-        "%%MatrixMarket matrix\n",
-        "hello\n",
-        "-1 1 2\n",
-    ] {
+    for text in
+        ["%%MatrixMarkt matrix coordinate real symmetric\n1 1 1\n", "%%MatrixMarket matrix\n", "hello\n", "-1 1 2\n"]
+    {
         let error = error_of(format!("\n{text}"));
         assert!(matches!(error, Error::MatrixBanner { line: 2, .. }), "{error}");
         assert_names(&error, "a.mtx:2");
@@ -93,10 +90,7 @@ fn a_flavour_that_is_not_read() {
     ];
     for (flavour, word) in flavours {
         let error = error_of(format!("%%MatrixMarket matrix {flavour}\n1 1 1\n1 1 1\n"));
-        assert!(
-            matches!(&error, Error::MatrixFlavour { found, .. } if found == word),
-            "{error}"
-        );
+        assert!(matches!(&error, Error::MatrixFlavour { found, .. } if found == word), "{error}");
         assert_names(&error, "supported are `coordinate real`");
     }
 }
@@ -112,18 +106,7 @@ fn a_bad_size_line() {
 #[test]
 fn a_rectangular_matrix() {
     let error = error_of(format!("{HEAD}3 2 1\n1 1 1\n"));
-    assert!(
-        matches!(
-            error,
-            Error::MatrixNotSquare {
-                line: 2,
-                rows: 3,
-                cols: 2,
-                ..
-            }
-        ),
-        "{error}"
-    );
+    assert!(matches!(error, Error::MatrixNotSquare { line: 2, rows: 3, cols: 2, .. }), "{error}");
     let bare = error_of("3 2 1\n1 1 1\n");
     assert!(matches!(bare, Error::MatrixNotSquare { line: 1, .. }), "{bare}");
 }
@@ -159,10 +142,7 @@ fn a_field_that_is_no_number() {
     ];
     for (line, wrong) in cases {
         let error = error_of(format!("{HEAD}2 2 2\n1 1 1\n{line}\n"));
-        assert!(
-            matches!(error, Error::EntryField { line: 4, field, .. } if field == wrong),
-            "{line}: {error}"
-        );
+        assert!(matches!(error, Error::EntryField { line: 4, field, .. } if field == wrong), "{line}: {error}");
         assert_names(&error, "a.mtx:4");
     }
 }
@@ -170,30 +150,16 @@ fn a_field_that_is_no_number() {
 #[test]
 fn a_field_too_many() {
     let error = error_of(format!("{HEAD}2 2 1\n1 1 1 0\n"));
-    assert!(
-        matches!(&error, Error::EntryExcess { line: 3, found, .. } if found == "0"),
-        "{error}"
-    );
+    assert!(matches!(&error, Error::EntryExcess { line: 3, found, .. } if found == "0"), "{error}");
 }
 
 #[test]
 fn an_index_outside() {
-    for (line, wrong, index) in [
-        ("0 1 1", "row", 0),
-        ("1 3 1", "column", 3),
-        ("1 99999999999999999999999 1", "column", u64::MAX),
-    ] {
+    for (line, wrong, index) in
+        [("0 1 1", "row", 0), ("1 3 1", "column", 3), ("1 99999999999999999999999 1", "column", u64::MAX)]
+    {
         let error = error_of(format!("{HEAD}2 2 1\n{line}\n"));
-        let Error::EntryIndex {
-            line: 3,
-            field,
-            found,
-            n: 2,
-            ..
-        } = error
-        else {
-            panic!("{error}")
-        };
+        let Error::EntryIndex { line: 3, field, found, n: 2, .. } = error else { panic!("{error}") };
         assert_eq!((field, found), (wrong, index));
     }
     assert!(error_of("0 0 1.5\n1 1 2.5\n").to_string().contains("count from 1"));
@@ -203,16 +169,7 @@ fn an_index_outside() {
 fn a_value_that_is_not_finite() {
     for value in ["nan", "NaN", "inf", "-Infinity", "1e400", "1d+999"] {
         let error = error_of(format!("{HEAD}3 3 2\n1 1 1\n3 2 {value}\n"));
-        let Error::NonFinite {
-            line: 4,
-            row: 3,
-            col: 2,
-            found,
-            ..
-        } = error
-        else {
-            panic!("{error}")
-        };
+        let Error::NonFinite { line: 4, row: 3, col: 2, found, .. } = error else { panic!("{error}") };
         assert_eq!(found, value);
     }
 }
@@ -220,62 +177,22 @@ fn a_value_that_is_not_finite() {
 #[test]
 fn too_few_entries() {
     let error = error_of(format!("{HEAD}3 3 1000000000000000000\n1 1 1\n"));
-    assert!(
-        matches!(
-            error,
-            Error::EntryCount {
-                declared: 1_000_000_000_000_000_000,
-                found: 1,
-                ..
-            }
-        ),
-        "{error}"
-    );
+    assert!(matches!(error, Error::EntryCount { declared: 1_000_000_000_000_000_000, found: 1, .. }), "{error}");
     let bare = error_of("3 3 5\n1 1 1\n2 2 1\n3 3 1\n");
-    assert!(
-        matches!(
-            bare,
-            Error::EntryCount {
-                declared: 5,
-                found: 3,
-                ..
-            }
-        ),
-        "{bare}"
-    );
+    assert!(matches!(bare, Error::EntryCount { declared: 5, found: 3, .. }), "{bare}");
 }
 
 #[test]
 fn too_many_entries() {
     let error = error_of(format!("{HEAD}3 3 1\n1 1 1\n\n2 2 1\n"));
-    assert!(
-        matches!(
-            error,
-            Error::EntriesSurplus {
-                line: 5,
-                declared: 1,
-                ..
-            }
-        ),
-        "{error}"
-    );
+    assert!(matches!(error, Error::EntriesSurplus { line: 5, declared: 1, .. }), "{error}");
     assert_names(&error, "a.mtx:5");
 }
 
 #[test]
 fn both_triangles_of_a_symmetric_matrix() {
     let error = error_of(mtx("symmetric", 3, &[(1, 1, 1.0), (3, 1, 1.0), (1, 2, 1.0)]));
-    assert!(
-        matches!(
-            error,
-            Error::DoubleTriangle {
-                lower: (3, 1),
-                upper: (1, 2),
-                ..
-            }
-        ),
-        "{error}"
-    );
+    assert!(matches!(error, Error::DoubleTriangle { lower: (3, 1), upper: (1, 2), .. }), "{error}");
     assert_names(&error, "a.mtx");
 }
 
@@ -285,17 +202,7 @@ fn matrices_of_different_size() {
     let stiffness = folder.write("k.mtx", mtx("symmetric", 2, &[(1, 1, 1.0)]));
     let mass = folder.write("m.mtx", mtx("symmetric", 3, &[(1, 1, 1.0)]));
     let error = read(&job(&stiffness, &mass)).expect_err("an error");
-    assert!(
-        matches!(
-            error,
-            Error::SizeMismatch {
-                n_stiffness: 2,
-                n_mass: 3,
-                ..
-            }
-        ),
-        "{error}"
-    );
+    assert!(matches!(error, Error::SizeMismatch { n_stiffness: 2, n_mass: 3, .. }), "{error}");
     assert_names(&error, "m.mtx");
 }
 
@@ -308,8 +215,5 @@ fn errors_count_lines_across_blocks() {
     text += "1 1 oops\r\n";
     let error = error_of(text);
     let expected = n_good as u64 + 3;
-    assert!(
-        matches!(error, Error::EntryField { line, .. } if line == expected),
-        "{error}"
-    );
+    assert!(matches!(error, Error::EntryField { line, .. } if line == expected), "{error}");
 }

@@ -30,10 +30,7 @@ fn writing_habits_do_not_matter() {
         SPRING.replace("-2.5", "-0.25D+01"),
         SPRING.replace("-2.5", "-25d-1").replace("4", "+4.000E0"),
         SPRING.replace("2 1", "\n% a comment\n\n2 1"),
-        SPRING.replace(
-            "%%MatrixMarket matrix coordinate real",
-            "%%matrixmarket MATRIX Coordinate REAL",
-        ),
+        SPRING.replace("%%MatrixMarket matrix coordinate real", "%%matrixmarket MATRIX Coordinate REAL"),
         SPRING.replace("2 1 -2.5", "1 2 -2.5"),
         SPRING.trim_end().to_owned(),
     ];
@@ -67,29 +64,11 @@ fn the_digest_is_that_of_the_bytes_on_disk() {
 
 #[test]
 fn duplicates_are_added_and_reported() {
-    let text = mtx(
-        "symmetric",
-        2,
-        &[
-            (2, 1, -1.0),
-            (1, 1, 1.0),
-            (2, 2, 3.0),
-            (2, 1, -1.5),
-            (1, 1, 1.5),
-            (2, 2, 1.0),
-        ],
-    );
+    let text = mtx("symmetric", 2, &[(2, 1, -1.0), (1, 1, 1.0), (2, 2, 3.0), (2, 1, -1.5), (1, 1, 1.5), (2, 2, 1.0)]);
     let input = read_text(text).expect("a matrix");
     assert_eq!(dense(&input), spring());
-    assert_eq!(
-        input.stiffness.notes.n_duplicates, 3,
-        "one below the diagonal, two on it"
-    );
-    assert!(
-        matches!(input.notes[0], InputNote::Duplicates { count: 3, .. }),
-        "{:?}",
-        input.notes
-    );
+    assert_eq!(input.stiffness.notes.n_duplicates, 3, "one below the diagonal, two on it");
+    assert!(matches!(input.notes[0], InputNote::Duplicates { count: 3, .. }), "{:?}", input.notes);
 }
 
 #[test]
@@ -98,11 +77,7 @@ fn a_general_matrix_of_one_triangle_is_mirrored_and_reported() {
         let input = read_text(mtx("general", 2, &[(1, 1, 2.5), entry, (2, 2, 4.0)])).expect("a matrix");
         assert_eq!(dense(&input), spring());
         assert!(input.stiffness.notes.mirrored);
-        assert!(
-            matches!(input.notes[0], InputNote::Mirrored { .. }),
-            "{:?}",
-            input.notes
-        );
+        assert!(matches!(input.notes[0], InputNote::Mirrored { .. }), "{:?}", input.notes);
     }
 }
 
@@ -118,11 +93,7 @@ fn a_general_matrix_is_left_as_it_is() {
 fn bare_triplets_take_their_order_from_the_largest_index() {
     let input = read_text("1 1 2.5\n1 2 -2.5\n2 2 4\n").expect("a matrix");
     assert_eq!(dense(&input), spring());
-    assert!(
-        matches!(input.notes[0], InputNote::OrderFromIndices { n: 2, .. }),
-        "{:?}",
-        input.notes
-    );
+    assert!(matches!(input.notes[0], InputNote::OrderFromIndices { n: 2, .. }), "{:?}", input.notes);
     assert!(input.stiffness.notes.mirrored);
 }
 
@@ -142,22 +113,13 @@ fn a_bare_matrix_is_filled_up_to_the_order_of_the_other() {
     let input = read(&job(&stiffness, &mass)).expect("a model");
     assert_eq!(input.mass.matrix.shape(), (2, 2));
     assert_eq!(input.mass.matrix.nnz(), 1);
-    assert!(
-        input
-            .notes
-            .iter()
-            .any(|note| matches!(note, InputNote::Extended { from: 1, to: 2, .. }))
-    );
+    assert!(input.notes.iter().any(|note| matches!(note, InputNote::Extended { from: 1, to: 2, .. })));
 }
 
 #[test]
 fn a_last_line_without_an_end_is_reported() {
     let input = read_text(SPRING.trim_end()).expect("a matrix");
-    assert!(
-        matches!(input.notes[0], InputNote::OpenLastLine { .. }),
-        "{:?}",
-        input.notes
-    );
+    assert!(matches!(input.notes[0], InputNote::OpenLastLine { .. }), "{:?}", input.notes);
 }
 
 #[test]
@@ -169,10 +131,7 @@ fn calculix_files_are_read_as_they_are() {
     let input = read(&model).expect("a model");
     assert_eq!(input.stiffness.matrix.shape(), (4, 4));
     assert_eq!(input.dofs.as_ref().map(Vec::len), Some(4));
-    let unused = input
-        .notes
-        .iter()
-        .find(|note| matches!(note, InputNote::UnusedNodes { count: 1, .. }));
+    let unused = input.notes.iter().find(|note| matches!(note, InputNote::UnusedNodes { count: 1, .. }));
     assert!(unused.is_some(), "{:?}", input.notes);
 }
 

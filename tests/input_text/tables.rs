@@ -53,13 +53,7 @@ fn a_dof_map_as_a_table() {
     for text in from_one {
         let input = read_tables(2, Some(text.as_bytes()), None).expect("a map");
         assert_eq!(input.dofs.as_ref(), Some(&expected), "{text}");
-        assert!(
-            !input
-                .notes
-                .iter()
-                .any(|note| matches!(note, InputNote::DirectionsFromZero { .. })),
-            "{text}"
-        );
+        assert!(!input.notes.iter().any(|note| matches!(note, InputNote::DirectionsFromZero { .. })), "{text}");
     }
 }
 
@@ -71,16 +65,8 @@ fn directions_from_zero_are_known_and_reported() {
     ];
     for (text, directions) in cases {
         let input = read_tables(2, Some(text.as_bytes()), None).expect("a map");
-        assert_eq!(
-            input.dofs,
-            Some(directions.map(|direction| dof(1, direction)).to_vec()),
-            "{text}"
-        );
-        assert!(
-            matches!(input.notes[0], InputNote::DirectionsFromZero { .. }),
-            "{:?}",
-            input.notes
-        );
+        assert_eq!(input.dofs, Some(directions.map(|direction| dof(1, direction)).to_vec()), "{text}");
+        assert!(matches!(input.notes[0], InputNote::DirectionsFromZero { .. }), "{:?}", input.notes);
     }
 }
 
@@ -95,11 +81,7 @@ fn node_tables_in_any_dress() {
     for text in tables {
         let input = read_tables(3, None, Some(text.as_bytes())).expect("a model");
         let nodes = input.nodes.expect("nodes");
-        assert_eq!(
-            (nodes.labels, nodes.coordinates),
-            (vec![4], vec![[1.0, 2.0, 3.0]]),
-            "{text}"
-        );
+        assert_eq!((nodes.labels, nodes.coordinates), (vec![4], vec![[1.0, 2.0, 3.0]]), "{text}");
     }
     assert!(read_tables(3, None, Some(&gzip(tables[0].as_bytes()))).is_ok());
 }
@@ -112,11 +94,7 @@ fn without_a_map_rows_go_node_by_node_where_counts_fit() {
         let dofs = input.dofs.expect("an order");
         assert_eq!(dofs.len(), n);
         assert_eq!(dofs[0], dof(9, Direction::Ux));
-        assert_eq!(
-            dofs[per_node],
-            dof(4, Direction::Ux),
-            "order of the table, not of the labels"
-        );
+        assert_eq!(dofs[per_node], dof(4, Direction::Ux), "order of the table, not of the labels");
         assert!(matches!(input.notes[0], InputNote::DefaultOrder { dofs_per_node, .. } if dofs_per_node == per_node));
     }
 }
@@ -124,10 +102,7 @@ fn without_a_map_rows_go_node_by_node_where_counts_fit() {
 #[test]
 fn counts_that_do_not_fit_are_never_guessed() {
     let error = read_tables(7, None, Some(b"node,x,y,z\n9,0,0,0\n4,1,0,0\n")).expect_err("an error");
-    assert!(
-        matches!(error, Error::DofOrderUnknown { n_nodes: 2, n: 7, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, Error::DofOrderUnknown { n_nodes: 2, n: 7, .. }), "{error}");
 }
 
 #[test]
@@ -156,10 +131,7 @@ fn a_direction_that_does_not_exist() {
     ];
     for (text, at) in cases {
         let error = dof_error(2, text);
-        assert!(
-            matches!(error, Error::DofDirection { line, node: 1, .. } if line == at),
-            "{text}: {error}"
-        );
+        assert!(matches!(error, Error::DofDirection { line, node: 1, .. } if line == at), "{text}: {error}");
     }
 }
 
@@ -167,16 +139,7 @@ fn a_direction_that_does_not_exist() {
 fn a_dof_twice() {
     let error = dof_error(3, "1.1\n2.1\n1.1\n");
     assert!(
-        matches!(
-            error,
-            Error::DofRepeated {
-                row: 3,
-                first_row: 1,
-                node: 1,
-                direction: Direction::Ux,
-                ..
-            }
-        ),
+        matches!(error, Error::DofRepeated { row: 3, first_row: 1, node: 1, direction: Direction::Ux, .. }),
         "{error}"
     );
 }
@@ -184,26 +147,13 @@ fn a_dof_twice() {
 #[test]
 fn numbered_rows_out_of_order() {
     let error = dof_error(2, "row,node,dof\n1,1,1\n3,1,2\n");
-    assert!(
-        matches!(
-            error,
-            Error::DofRowOrder {
-                line: 3,
-                expected: 2,
-                ..
-            }
-        ),
-        "{error}"
-    );
+    assert!(matches!(error, Error::DofRowOrder { line: 3, expected: 2, .. }), "{error}");
 }
 
 #[test]
 fn a_node_of_the_map_without_position() {
     let error = read_tables(2, Some(b"1.1\n2.1\n"), Some(b"node,x,y,z\n1,0,0,0\n")).expect_err("an error");
-    assert!(
-        matches!(error, Error::DofNodeMissing { row: 2, node: 2, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, Error::DofNodeMissing { row: 2, node: 2, .. }), "{error}");
     assert!(error.to_string().contains("nodes.csv"), "{error}");
 }
 
@@ -218,18 +168,7 @@ fn a_table_without_a_needed_column() {
 #[test]
 fn a_short_row() {
     let error = node_error("node,x,y,z\n1,0,0\n");
-    assert!(
-        matches!(
-            error,
-            Error::TableRow {
-                line: 2,
-                found: 3,
-                expected: 4,
-                ..
-            }
-        ),
-        "{error}"
-    );
+    assert!(matches!(error, Error::TableRow { line: 2, found: 3, expected: 4, .. }), "{error}");
 }
 
 #[test]
@@ -249,18 +188,7 @@ fn bytes_that_are_no_text() {
 #[test]
 fn a_node_twice() {
     let error = node_error("node,x,y,z\n1,0,0,0\n\n1,1,0,0\n");
-    assert!(
-        matches!(
-            error,
-            Error::NodeRepeated {
-                line: 4,
-                node: 1,
-                first_line: 2,
-                ..
-            }
-        ),
-        "{error}"
-    );
+    assert!(matches!(error, Error::NodeRepeated { line: 4, node: 1, first_line: 2, .. }), "{error}");
 }
 
 #[test]

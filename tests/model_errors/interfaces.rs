@@ -17,10 +17,7 @@ fn beam() -> models::Model {
 }
 
 fn anonymous() -> models::Model {
-    models::Model {
-        dofs: Vec::new(),
-        ..beam()
-    }
+    models::Model { dofs: Vec::new(), ..beam() }
 }
 
 fn refused(model: &models::Model, interfaces: &[InterfaceJob]) -> Error {
@@ -39,11 +36,7 @@ fn labels_of(partition: &Partition) -> Vec<Option<i64>> {
 fn nothing_is_left_to_reduce() {
     let error = refused(&beam(), &[direct("all", &beam().labels)]);
     assert!(matches!(error, Error::NothingToReduce { n_interface: 36 }), "{error}");
-    assert_says(
-        &error,
-        ErrorClass::InputData,
-        &["36 interface dofs", "take fewer interface nodes"],
-    );
+    assert_says(&error, ErrorClass::InputData, &["36 interface dofs", "take fewer interface nodes"]);
 }
 
 #[test]
@@ -51,25 +44,16 @@ fn nodes_of_a_model_without_nodes() {
     for job in [direct("tip", &[1]), rigid_group("XMAX"), patch("tip", &[1])] {
         let name = job.name.clone();
         let error = refused(&anonymous(), &[job]);
-        assert!(
-            matches!(&error, Error::SelectionNeedsNodes { interface } if *interface == name),
-            "{error}"
-        );
+        assert!(matches!(&error, Error::SelectionNeedsNodes { interface } if *interface == name), "{error}");
         assert_says(&error, ErrorClass::InputData, &[&name, "give --dofs and --nodes"]);
     }
 }
 
 #[test]
 fn rigid_patch_of_rows() {
-    let job = InterfaceJob {
-        coupling: Coupling::Rigid,
-        ..rows("tip", &[0, 1, 2])
-    };
+    let job = InterfaceJob { coupling: Coupling::Rigid, ..rows("tip", &[0, 1, 2]) };
     let error = refused(&anonymous(), &[job]);
-    assert!(
-        matches!(&error, Error::RigidNeedsCoordinates { interface } if interface == "tip"),
-        "{error}"
-    );
+    assert!(matches!(&error, Error::RigidNeedsCoordinates { interface } if interface == "tip"), "{error}");
     assert_says(&error, ErrorClass::InputData, &["tip", "node table or mesh"]);
 }
 
@@ -79,10 +63,7 @@ fn rigid_patch_without_coordinates() {
     input.nodes = None;
     let model = supel::model::Model::new(input).expect("dofs without nodes");
     let error = refusal(Partition::new(&model, &[patch("hub", &[1, 2, 4])]));
-    assert!(
-        matches!(&error, Error::RigidNeedsCoordinates { interface } if interface == "hub"),
-        "{error}"
-    );
+    assert!(matches!(&error, Error::RigidNeedsCoordinates { interface } if interface == "hub"), "{error}");
     // The nodes' own dofs need no coordinates.
     let partition = Partition::new(&model, &[direct("hub", &[1, 2, 4])]).expect("direct nodes");
     assert_eq!((partition.n_interface(), partition.sites()), (9, None));
@@ -95,28 +76,15 @@ fn group_that_the_mesh_lacks() {
         matches!(&error, Error::UnknownGroup { group, known, .. } if group == "HUB" && known.len() == 6),
         "{error}"
     );
-    assert_says(
-        &error,
-        ErrorClass::InputData,
-        &["HUB", "XMAX, XMIN, YMAX", "name one of them"],
-    );
+    assert_says(&error, ErrorClass::InputData, &["HUB", "XMAX, XMIN, YMAX", "name one of them"]);
 }
 
 #[test]
 fn selection_without_nodes() {
-    let nowhere = Region::Sphere {
-        center: [10.0; 3],
-        radius: 1.0,
-    };
-    for nodes in [
-        NodeSelection::Region { within: nowhere },
-        NodeSelection::Labels(Vec::new()),
-    ] {
+    let nowhere = Region::Sphere { center: [10.0; 3], radius: 1.0 };
+    for nodes in [NodeSelection::Region { within: nowhere }, NodeSelection::Labels(Vec::new())] {
         let error = refused(&beam(), &[interface("hub", nodes, Coupling::Direct)]);
-        assert!(
-            matches!(&error, Error::EmptyInterface { interface } if interface == "hub"),
-            "{error}"
-        );
+        assert!(matches!(&error, Error::EmptyInterface { interface } if interface == "hub"), "{error}");
         assert_says(&error, ErrorClass::InputData, &["hub", "check the list or the region"]);
     }
 }
@@ -127,35 +95,21 @@ fn node_without_rows() {
     for (model, node) in [(&held, 4), (&beam(), 99)] {
         for job in [direct("tip", &[1, node]), patch("tip", &[1, 2, node])] {
             let error = refused(model, &[job]);
-            assert!(
-                matches!(error, Error::InterfaceNodeWithoutRows { node: found, .. } if found == node),
-                "{error}"
-            );
-            assert_says(
-                &error,
-                ErrorClass::InputData,
-                &["tip", &format!("node {node}"), "constrained"],
-            );
+            assert!(matches!(error, Error::InterfaceNodeWithoutRows { node: found, .. } if found == node), "{error}");
+            assert_says(&error, ErrorClass::InputData, &["tip", &format!("node {node}"), "constrained"]);
         }
     }
 }
 
 #[test]
 fn rotation_of_a_solid_node() {
-    let job = InterfaceJob {
-        dofs: Some(vec![Direction::Ux, Direction::Ry]),
-        ..direct("tip", &[5])
-    };
+    let job = InterfaceJob { dofs: Some(vec![Direction::Ux, Direction::Ry]), ..direct("tip", &[5]) };
     let error = refused(&beam(), &[job]);
     assert!(
         matches!(&error, Error::DofMissing { dof, .. } if (dof.node, dof.direction) == (5, Direction::Ry)),
         "{error}"
     );
-    assert_says(
-        &error,
-        ErrorClass::InputData,
-        &["tip", "node 5 ry", "coupling = \"rigid\""],
-    );
+    assert_says(&error, ErrorClass::InputData, &["tip", "node 5 ry", "coupling = \"rigid\""]);
 }
 
 #[test]
@@ -171,18 +125,12 @@ fn dof_with_two_owners() {
     let two_patches = [rigid_group("XMIN"), patch("corner", &[2, 5, 4])];
     for (jobs, dof) in [(&node_and_patch, "node 12 ux"), (&two_patches, "node 4 ux")] {
         let error = refused(&beam(), jobs);
-        let Error::DofTwice { first, second, .. } = &error else {
-            panic!("{error}")
-        };
+        let Error::DofTwice { first, second, .. } = &error else { panic!("{error}") };
         assert_eq!((first, second), (&jobs[0].name, &jobs[1].name));
         assert_says(&error, ErrorClass::InputData, &[dof, "take it out of one"]);
     }
     let error = refused(&anonymous(), &[rows("a", &[3, 4]), rows("b", &[4])]);
-    assert_says(
-        &error,
-        ErrorClass::InputData,
-        &["row 4 (from zero) belongs", "\"a\"", "\"b\""],
-    );
+    assert_says(&error, ErrorClass::InputData, &["row 4 (from zero) belongs", "\"a\"", "\"b\""]);
 }
 
 #[test]
@@ -194,28 +142,18 @@ fn patch_that_cannot_turn() {
             matches!(error, Error::PatchRank { n_rows: found, rank: r, expected: 6, .. } if found == n_rows && r == rank),
             "{error}"
         );
-        assert_says(
-            &error,
-            ErrorClass::InputData,
-            &["hub", &format!("only {rank} of 6"), "not in line"],
-        );
+        assert_says(&error, ErrorClass::InputData, &["hub", &format!("only {rank} of 6"), "not in line"]);
     }
 }
 
 /// A patch off its origin still follows; one on a line does not.
 #[test]
 fn patch_may_sit_off_its_origin() {
-    let job = InterfaceJob {
-        origin: Origin::Point([5.0, 5.0, 5.0]),
-        ..rigid_group("XMAX")
-    };
+    let job = InterfaceJob { origin: Origin::Point([5.0, 5.0, 5.0]), ..rigid_group("XMAX") };
     let partition = partition(&beam(), &[job]).expect("a patch");
     assert_eq!(partition.interface[0].position, Some([5.0, 5.0, 5.0]));
     assert_eq!((partition.n_interface(), partition.n_internal), (6, 36 - 12));
-    let line = InterfaceJob {
-        origin: Origin::Point([5.0, 5.0, 5.0]),
-        ..patch("line", &[1, 2, 3])
-    };
+    let line = InterfaceJob { origin: Origin::Point([5.0, 5.0, 5.0]), ..patch("line", &[1, 2, 3]) };
     assert!(matches!(refused(&beam(), &[line]), Error::PatchRank { rank: 5, .. }));
 }
 
@@ -223,19 +161,14 @@ fn patch_may_sit_off_its_origin() {
 fn lists_keep_their_order() {
     let partition = partition(&beam(), &[direct("b", &[7, 2]), direct("a", &[12])]).expect("nodes");
     assert_eq!(labels_of(&partition), [Some(7), Some(2), Some(12)]);
-    let names: Vec<String> = (partition.n_internal..partition.n_dofs())
-        .map(|dof| partition.name_of(dof))
-        .collect();
+    let names: Vec<String> = (partition.n_internal..partition.n_dofs()).map(|dof| partition.name_of(dof)).collect();
     assert_eq!(names[..4], ["node 7 ux", "node 7 uy", "node 7 uz", "node 2 ux"]);
 }
 
 /// Directions left out of a node's own dofs stay internal.
 #[test]
 fn listed_directions_of_a_node() {
-    let job = InterfaceJob {
-        dofs: Some(vec![Direction::Uz, Direction::Ux]),
-        ..direct("tip", &[12])
-    };
+    let job = InterfaceJob { dofs: Some(vec![Direction::Uz, Direction::Ux]), ..direct("tip", &[12]) };
     let partition = partition(&beam(), &[job]).expect("a node");
     assert_eq!((partition.n_interface(), partition.n_internal), (2, 34));
     assert_eq!(partition.interface[0].directions, [Direction::Uz, Direction::Ux]);
@@ -247,24 +180,10 @@ fn listed_directions_of_a_node() {
 #[test]
 fn listed_directions_of_a_rigid_node() {
     use crate::chain::{Method, reduce};
-    let listed = [
-        Direction::Ux,
-        Direction::Uy,
-        Direction::Uz,
-        Direction::Rx,
-        Direction::Ry,
-    ];
-    let short = InterfaceJob {
-        dofs: Some(listed.to_vec()),
-        ..rigid_group("XMAX")
-    };
-    let all = reduce(
-        &beam(),
-        &[rigid_group("XMIN"), rigid_group("XMAX")],
-        Method::CraigBampton,
-        2,
-    )
-    .expect("two patches");
+    let listed = [Direction::Ux, Direction::Uy, Direction::Uz, Direction::Rx, Direction::Ry];
+    let short = InterfaceJob { dofs: Some(listed.to_vec()), ..rigid_group("XMAX") };
+    let all =
+        reduce(&beam(), &[rigid_group("XMIN"), rigid_group("XMAX")], Method::CraigBampton, 2).expect("two patches");
     let some = reduce(&beam(), &[rigid_group("XMIN"), short], Method::CraigBampton, 2).expect("two patches");
     assert_eq!((all.partition.n_interface(), some.partition.n_interface()), (12, 11));
     assert_eq!((all.partition.n_internal, some.partition.n_internal), (12, 13));

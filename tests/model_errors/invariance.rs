@@ -25,21 +25,13 @@ fn eigenvalues(chain: &Chain) -> Vec<f64> {
 /// The same model with its rows in another order; row k of the old becomes row `place[k]`.
 fn permuted(model: &models::Model, place: &[u32]) -> models::Model {
     let moved = |entries: &[models::model::Entry]| {
-        entries
-            .iter()
-            .map(|&(i, j, value)| (place[i as usize], place[j as usize], value))
-            .collect()
+        entries.iter().map(|&(i, j, value)| (place[i as usize], place[j as usize], value)).collect()
     };
     let mut dofs = model.dofs.clone();
     for (old, new) in place.iter().enumerate() {
         dofs[*new as usize] = model.dofs[old];
     }
-    models::Model {
-        stiffness: moved(&model.stiffness),
-        mass: moved(&model.mass),
-        dofs,
-        ..model.clone()
-    }
+    models::Model { stiffness: moved(&model.stiffness), mass: moved(&model.mass), dofs, ..model.clone() }
 }
 
 fn method() -> impl Strategy<Value = Method> {
@@ -93,9 +85,7 @@ fn scaling_is_exact_just_below_a_power_of_two() {
         let unit = models::spring(3, models::Ends::Fixed);
         let model = models::transform::scaled(&unit, just_below / 2.0, 1.0);
         let scaled = supel::model::Model::new(crate::chain::input(&model)).expect("a chain");
-        let largest = supel::model::diagonal(&scaled.stiffness)
-            .into_iter()
-            .fold(0.0, f64::max);
+        let largest = supel::model::diagonal(&scaled.stiffness).into_iter().fold(0.0, f64::max);
         assert!((1.0..2.0).contains(&largest), "2^{exponent}: {largest:e}");
     }
 }

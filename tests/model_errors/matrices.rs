@@ -32,29 +32,13 @@ fn with_entry(entries: &[Entry], at: (u32, u32), value: f64) -> Vec<Entry> {
 #[test]
 fn unsymmetric_stiffness() {
     let mut model = cube();
-    let at = model
-        .stiffness
-        .iter()
-        .position(|entry| (entry.0, entry.1) == (4, 1))
-        .expect("an entry");
+    let at = model.stiffness.iter().position(|entry| (entry.0, entry.1) == (4, 1)).expect("an entry");
     let largest = model.stiffness.iter().fold(0.0f64, |max, entry| max.max(entry.2.abs()));
     model.stiffness[at].2 += 1e-3 * largest;
     let error = refused(&model);
-    let Error::Unsymmetric {
-        matrix: "stiffness",
-        asymmetry,
-        row: 5,
-        col: 2,
-    } = error
-    else {
-        panic!("{error}")
-    };
+    let Error::Unsymmetric { matrix: "stiffness", asymmetry, row: 5, col: 2 } = error else { panic!("{error}") };
     assert!((asymmetry - 1e-3).abs() < 1e-12, "{asymmetry:e}");
-    assert_says(
-        &error,
-        ErrorClass::InputData,
-        &["stiffness", "row 5, column 2", "1.0e-3", "leave out"],
-    );
+    assert_says(&error, ErrorClass::InputData, &["stiffness", "row 5, column 2", "1.0e-3", "leave out"]);
 }
 
 #[test]
@@ -64,15 +48,7 @@ fn unsymmetric_mass_with_an_entry_on_one_side() {
     let largest = model.mass.iter().fold(0.0f64, |max, entry| max.max(entry.2));
     model.mass.push((6, 0, 0.5 * largest));
     let error = refused(&model);
-    let Error::Unsymmetric {
-        matrix: "mass",
-        row,
-        col,
-        ..
-    } = error
-    else {
-        panic!("{error}")
-    };
+    let Error::Unsymmetric { matrix: "mass", row, col, .. } = error else { panic!("{error}") };
     assert_eq!((row.max(col), row.min(col)), (7, 1));
     assert_says(&error, ErrorClass::InputData, &["mass", "5.0e-1"]);
 }
@@ -81,11 +57,7 @@ fn unsymmetric_mass_with_an_entry_on_one_side() {
 #[test]
 fn asymmetry_of_rounding_is_a_finding() {
     let mut model = cube();
-    let at = model
-        .stiffness
-        .iter()
-        .position(|entry| (entry.0, entry.1) == (4, 1))
-        .expect("an entry");
+    let at = model.stiffness.iter().position(|entry| (entry.0, entry.1) == (4, 1)).expect("an entry");
     model.stiffness[at].2 *= 1.0 + 1e-13;
     let model = Model::new(input(&model)).expect("symmetric but for rounding");
     assert!(
@@ -98,11 +70,7 @@ fn asymmetry_of_rounding_is_a_finding() {
 #[test]
 fn stiffness_and_mass_exchanged() {
     let model = brick([2, 2, 2], [1.0; 3], &Material::STEEL_SI);
-    let exchanged = models::Model {
-        stiffness: model.mass.clone(),
-        mass: model.stiffness.clone(),
-        ..model
-    };
+    let exchanged = models::Model { stiffness: model.mass.clone(), mass: model.stiffness.clone(), ..model };
     let error = refused(&exchanged);
     assert!(
         matches!(error, Error::Swapped { in_stiffness, in_mass } if in_stiffness > 0.9 && in_mass < 1e-12),
@@ -113,13 +81,7 @@ fn stiffness_and_mass_exchanged() {
 
 #[test]
 fn mass_of_zeros() {
-    for model in [
-        scaled(&cube(), 1.0, 0.0),
-        models::Model {
-            mass: Vec::new(),
-            ..cube()
-        },
-    ] {
+    for model in [scaled(&cube(), 1.0, 0.0), models::Model { mass: Vec::new(), ..cube() }] {
         let error = refused(&model);
         assert!(matches!(error, Error::NoMass), "{error}");
         assert_says(&error, ErrorClass::InputData, &["mass", "give the mass matrix"]);
@@ -130,28 +92,13 @@ fn mass_of_zeros() {
 fn rows_without_stiffness_and_mass() {
     let model = cube();
     let keep = |entries: &[Entry]| -> Vec<Entry> {
-        entries
-            .iter()
-            .filter(|entry| ![7, 12].contains(&entry.0) && ![7, 12].contains(&entry.1))
-            .copied()
-            .collect()
+        entries.iter().filter(|entry| ![7, 12].contains(&entry.0) && ![7, 12].contains(&entry.1)).copied().collect()
     };
-    let empty = models::Model {
-        stiffness: keep(&model.stiffness),
-        mass: keep(&model.mass),
-        ..model
-    };
+    let empty = models::Model { stiffness: keep(&model.stiffness), mass: keep(&model.mass), ..model };
     let error = refused(&empty);
     assert!(matches!(error, Error::EmptyRows { n_rows: 2, row: 8, .. }), "{error}");
-    assert_says(
-        &error,
-        ErrorClass::InputData,
-        &["2 rows", "row 8 (node 3 uy)", "leave unused"],
-    );
-    let anonymous = models::Model {
-        dofs: Vec::new(),
-        ..empty
-    };
+    assert_says(&error, ErrorClass::InputData, &["2 rows", "row 8 (node 3 uy)", "leave unused"]);
+    let anonymous = models::Model { dofs: Vec::new(), ..empty };
     assert_says(&refused(&anonymous), ErrorClass::InputData, &["the first is row 8 –"]);
 }
 
@@ -161,11 +108,7 @@ fn constraint_multiplier() {
     model.stiffness = with_entry(&model.stiffness, (2, 2), 0.0);
     let error = refused(&model);
     assert!(matches!(error, Error::MultiplierRow { row: 3, .. }), "{error}");
-    assert_says(
-        &error,
-        ErrorClass::InputData,
-        &["row 3 (node 3 ux)", "multiplier", "eliminate"],
-    );
+    assert_says(&error, ErrorClass::InputData, &["row 3 (node 3 ux)", "multiplier", "eliminate"]);
 }
 
 #[test]
@@ -173,22 +116,8 @@ fn negative_stiffness() {
     let mut model = spring(4, Ends::Fixed);
     model.stiffness = with_entry(&model.stiffness, (1, 1), -0.25);
     let error = refused(&model);
-    assert!(
-        matches!(
-            error,
-            Error::NegativeStiffness {
-                row: 2,
-                value: -0.25,
-                ..
-            }
-        ),
-        "{error}"
-    );
-    assert_says(
-        &error,
-        ErrorClass::ModelPhysics,
-        &["row 2 (node 2 ux)", "-2.5", "buckling"],
-    );
+    assert!(matches!(error, Error::NegativeStiffness { row: 2, value: -0.25, .. }), "{error}");
+    assert_says(&error, ErrorClass::ModelPhysics, &["row 2 (node 2 ux)", "-2.5", "buckling"]);
 }
 
 #[test]
@@ -196,41 +125,18 @@ fn negative_mass() {
     let mut model = spring(4, Ends::Fixed);
     model.mass = with_entry(&model.mass, (0, 0), -1.0);
     let error = refused(&model);
-    assert!(
-        matches!(
-            error,
-            Error::NegativeMass {
-                row: 1,
-                value: -1.0,
-                ..
-            }
-        ),
-        "{error}"
-    );
-    assert_says(
-        &error,
-        ErrorClass::ModelPhysics,
-        &["row 1 (node 1 ux)", "check point masses"],
-    );
+    assert!(matches!(error, Error::NegativeMass { row: 1, value: -1.0, .. }), "{error}");
+    assert_says(&error, ErrorClass::ModelPhysics, &["row 1 (node 1 ux)", "check point masses"]);
 }
 
 #[test]
 fn rows_without_mass_and_free_particles_are_findings() {
     let nodes = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
     let section = Section::round(0.1);
-    let lumped = frame(
-        &nodes,
-        &[[0, 1], [1, 2]],
-        &section,
-        &Material::UNIT,
-        Inertia::LumpedTranslations,
-    );
+    let lumped = frame(&nodes, &[[0, 1], [1, 2]], &section, &Material::UNIT, Inertia::LumpedTranslations);
     let model = Model::new(input(&lumped)).expect("rotations without mass");
     assert_eq!(model.findings, [Finding::MasslessRows { n_rows: 9 }]);
-    let particle = models::Model {
-        stiffness: Vec::new(),
-        ..spring(1, Ends::Free)
-    };
+    let particle = models::Model { stiffness: Vec::new(), ..spring(1, Ends::Free) };
     let model = Model::new(input(&join(&spring(3, Ends::Fixed), &particle, &[]))).expect("a free particle");
     assert_eq!(model.findings, [Finding::FreeParticles { n_rows: 1 }]);
     assert_eq!(model.bodies.n_bodies, 2);

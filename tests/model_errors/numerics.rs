@@ -19,11 +19,7 @@ fn loose_part_beyond_a_hinge() {
     for method in [Method::CraigBampton, Method::Herting] {
         let error = refusal(reduce(&hinged_pair(), &[direct("pins", &[1, 3, 4, 9])], method, 2));
         assert!(matches!(error, Error::NotDefinite { .. }), "{error}");
-        assert_says(
-            &error,
-            ErrorClass::ModelPhysics,
-            &["elimination stopped at node ", "mechanism"],
-        );
+        assert_says(&error, ErrorClass::ModelPhysics, &["elimination stopped at node ", "mechanism"]);
     }
 }
 
@@ -37,11 +33,7 @@ fn buckled_component() {
     let buckled = grounded(&held, row, -2.0 / 108.0);
     let error = refusal(reduce(&buckled, &[direct("pins", &[2])], Method::CraigBampton, 2));
     assert!(matches!(error, Error::NotDefinite { .. }), "{error}");
-    assert_says(
-        &error,
-        ErrorClass::ModelPhysics,
-        &["elimination stopped at node ", "positive pivot"],
-    );
+    assert_says(&error, ErrorClass::ModelPhysics, &["elimination stopped at node ", "positive pivot"]);
 }
 
 /// With the interface on both sides of a hinge everything can be factored; the hinge shows in the condensed stiffness.
@@ -50,11 +42,7 @@ fn hinge_between_interfaces() {
     let pins = [direct("here", &[1, 2, 4, 7]), direct("there", &[15, 18, 21])];
     let error = refusal(reduce(&hinged_pair(), &pins, Method::Herting, 2));
     assert!(matches!(error, Error::Mechanism { n_rigid: 6, n_more: 1 }), "{error}");
-    assert_says(
-        &error,
-        ErrorClass::ModelPhysics,
-        &["1 motions", "6 rigid-body modes", "close hinges"],
-    );
+    assert_says(&error, ErrorClass::ModelPhysics, &["1 motions", "6 rigid-body modes", "close hinges"]);
     // Held at the interface the pair is no mechanism, and Craig-Bampton keeps the hinge in its constraint modes.
     let chain = reduce(&hinged_pair(), &pins, Method::CraigBampton, 2).expect("a component held at its interface");
     assert_eq!(chain.rigid.count(), 6);
@@ -66,11 +54,7 @@ fn sturm_count_on_an_eigenvalue() {
     let model = spring(2, Ends::Fixed);
     let partition = partition(&model, &[rows("end", &[1])]).expect("two masses");
     let (k_ii, m_ii) = (partition.internal_stiffness(), partition.internal_mass());
-    let analysis = Analysis::new(Pencil {
-        stiffness: &k_ii,
-        mass: &m_ii,
-    })
-    .expect("one dof");
+    let analysis = Analysis::new(Pencil { stiffness: &k_ii, mass: &m_ii }).expect("one dof");
     // K_II = 2 and M_II = 1; counts are taken in scaled units.
     let sigma = 2.0 / partition.scaling.eigenvalue_unit();
     let error = refusal(count_below(&partition, &analysis, sigma));
@@ -112,21 +96,9 @@ impl ShiftInvert for Unreliable {
 fn eigensolver_that_does_not_converge() {
     let partition = partition(&spring(200, Ends::Fixed), &[]).expect("a chain");
     let (stiffness, mass) = (&partition.stiffness, &partition.mass);
-    let problem = ModalProblem {
-        stiffness,
-        mass,
-        rigid: None,
-        precision: partition.precision,
-    };
-    let request = ModeRequest {
-        wanted: Wanted::Count(3),
-        eigensolver: Eigensolver::Lanczos,
-        seed: SEED,
-    };
-    let operator = Unreliable {
-        n: 200,
-        random: SplitMix64::new(1).into(),
-    };
+    let problem = ModalProblem { stiffness, mass, rigid: None, precision: partition.precision };
+    let request = ModeRequest { wanted: Wanted::Count(3), eigensolver: Eigensolver::Lanczos, seed: SEED };
+    let operator = Unreliable { n: 200, random: SplitMix64::new(1).into() };
     let error = refusal(elastic_modes(problem, &operator, request));
     assert!(matches!(error, Error::LanczosStalled { restarts: 1.., .. }), "{error}");
     assert_says(&error, ErrorClass::NumericalLimit, &["restarts", "ask for fewer modes"]);

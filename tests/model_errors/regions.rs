@@ -22,80 +22,43 @@ fn within(region: Region) -> Vec<i64> {
 
 fn labels(at: impl Fn([f64; 3]) -> bool) -> Vec<i64> {
     let model = block();
-    model
-        .labels
-        .iter()
-        .zip(&model.nodes)
-        .filter(|(_, x)| at(**x))
-        .map(|(label, _)| *label)
-        .collect()
+    model.labels.iter().zip(&model.nodes).filter(|(_, x)| at(**x)).map(|(label, _)| *label).collect()
 }
 
 #[test]
 fn box_with_its_border() {
-    let found = within(Region::Box {
-        min: [3.0, 0.0, 0.0],
-        max: [4.0, 1.0, 2.0],
-    });
+    let found = within(Region::Box { min: [3.0, 0.0, 0.0], max: [4.0, 1.0, 2.0] });
     let expected = labels(|[x, y, _]| x >= 3.0 && y <= 1.0);
     assert_eq!((found.len(), found), (12, expected));
 }
 
 #[test]
 fn plane_with_its_tolerance() {
-    let slanted = Region::Plane {
-        point: [2.0, 0.0, 0.0],
-        normal: [2.0, 2.0, 0.0],
-        tolerance: 1e-9,
-    };
+    let slanted = Region::Plane { point: [2.0, 0.0, 0.0], normal: [2.0, 2.0, 0.0], tolerance: 1e-9 };
     assert_eq!(within(slanted), labels(|[x, y, _]| x + y == 2.0));
-    let thick = Region::Plane {
-        point: [2.0, 0.0, 0.0],
-        normal: [2.0, 2.0, 0.0],
-        tolerance: 0.72,
-    };
+    let thick = Region::Plane { point: [2.0, 0.0, 0.0], normal: [2.0, 2.0, 0.0], tolerance: 0.72 };
     assert_eq!(within(thick), labels(|[x, y, _]| (x + y - 2.0).abs() <= 1.0));
 }
 
 #[test]
 fn cylinder_and_its_shell() {
-    let cylinder = |inner_radius| Region::Cylinder {
-        from: [0.0, 1.0, 1.0],
-        to: [2.0, 1.0, 1.0],
-        radius: 1.1,
-        inner_radius,
-    };
-    assert_eq!(
-        within(cylinder(0.0)),
-        labels(|[x, y, z]| x <= 2.0 && (y - 1.0).abs() + (z - 1.0).abs() <= 1.0)
-    );
-    assert_eq!(
-        within(cylinder(0.9)),
-        labels(|[x, y, z]| x <= 2.0 && (y - 1.0).abs() + (z - 1.0).abs() == 1.0)
-    );
+    let cylinder =
+        |inner_radius| Region::Cylinder { from: [0.0, 1.0, 1.0], to: [2.0, 1.0, 1.0], radius: 1.1, inner_radius };
+    assert_eq!(within(cylinder(0.0)), labels(|[x, y, z]| x <= 2.0 && (y - 1.0).abs() + (z - 1.0).abs() <= 1.0));
+    assert_eq!(within(cylinder(0.9)), labels(|[x, y, z]| x <= 2.0 && (y - 1.0).abs() + (z - 1.0).abs() == 1.0));
 }
 
 #[test]
 fn sphere_is_solid() {
-    let ball = Region::Sphere {
-        center: [2.0, 1.0, 1.0],
-        radius: 1.0,
-    };
-    assert_eq!(
-        within(ball),
-        labels(|[x, y, z]| (x - 2.0).abs() + (y - 1.0).abs() + (z - 1.0).abs() <= 1.0)
-    );
+    let ball = Region::Sphere { center: [2.0, 1.0, 1.0], radius: 1.0 };
+    assert_eq!(within(ball), labels(|[x, y, z]| (x - 2.0).abs() + (y - 1.0).abs() + (z - 1.0).abs() <= 1.0));
 }
 
 /// A region takes the nodes that have rows; a list that names one without is refused elsewhere.
 #[test]
 fn region_passes_over_nodes_without_rows() {
     let held = supported(&block(), |(label, _)| label == 1);
-    let face = Region::Plane {
-        point: [0.0; 3],
-        normal: [1.0, 0.0, 0.0],
-        tolerance: 0.0,
-    };
+    let face = Region::Plane { point: [0.0; 3], normal: [1.0, 0.0, 0.0], tolerance: 0.0 };
     let found = selected(&held, NodeSelection::Region { within: face });
     assert_eq!(found, labels(|[x, ..]| x == 0.0)[1..]);
 }

@@ -20,44 +20,23 @@ pub(crate) fn hinged_pair() -> models::Model {
 }
 
 fn count(model: &models::Model, labels: &[i64]) -> usize {
-    rigid_of(model, &[direct("pins", labels)])
-        .expect("rigid-body modes")
-        .1
-        .count()
+    rigid_of(model, &[direct("pins", labels)]).expect("rigid-body modes").1.count()
 }
 
 #[test]
 fn counts_are_found_not_assumed() {
     let pair = join(&block(), &block(), &[]);
     let straight = [[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
-    let axial = frame(
-        &straight,
-        &[[0, 1], [1, 2]],
-        &Section::round(0.1),
-        &Material::UNIT,
-        Inertia::Consistent,
-    );
+    let axial = frame(&straight, &[[0, 1], [1, 2]], &Section::round(0.1), &Material::UNIT, Inertia::Consistent);
     for (name, model, expected) in [
         ("free block", block(), 6),
         ("two disjoint blocks", pair, 12),
-        (
-            "free membrane, in its plane",
-            membrane([3, 2], [3.0, 2.0], &Material::UNIT),
-            3,
-        ),
+        ("free membrane, in its plane", membrane([3, 2], [3.0, 2.0], &Material::UNIT), 3),
         ("free chain along x", spring(5, Ends::Free), 1),
         ("held chain", spring(5, Ends::Fixed), 0),
         ("free straight beam", axial, 6),
-        (
-            "block on a spherical joint",
-            supported(&block(), |(label, _)| label == 1),
-            3,
-        ),
-        (
-            "block on a hinge",
-            supported(&block(), |(label, _)| label == 1 || label == 2),
-            1,
-        ),
+        ("block on a spherical joint", supported(&block(), |(label, _)| label == 1), 3),
+        ("block on a hinge", supported(&block(), |(label, _)| label == 1 || label == 2), 1),
         ("block on a face", supported(&block(), |(label, _)| label % 4 == 1), 0),
         ("block on one spring", grounded(&block(), 0, 1e-3), 5),
     ] {
@@ -70,10 +49,7 @@ fn counts_are_found_not_assumed() {
 fn hinged_pair_has_a_seventh_zero_mode() {
     let model = hinged_pair();
     assert_eq!(count(&model, &[1]), 6);
-    let anonymous = models::Model {
-        dofs: Vec::new(),
-        ..model
-    };
+    let anonymous = models::Model { dofs: Vec::new(), ..model };
     let (_, rigid) = rigid_of(&anonymous, &[rows("pins", &[0])]).expect("zero modes");
     assert_eq!((rigid.source, rigid.count()), (RigidSource::Algebraic, 7));
 }
@@ -87,10 +63,7 @@ fn matrices_alone_count_alike() {
         ("held chain", spring(8, Ends::Fixed), 0),
         ("free chain", spring(8, Ends::Free), 1),
     ] {
-        let anonymous = models::Model {
-            dofs: Vec::new(),
-            ..model
-        };
+        let anonymous = models::Model { dofs: Vec::new(), ..model };
         let (_, rigid) = rigid_of(&anonymous, &[rows("first", &[0])]).expect(name);
         assert_eq!(rigid.count(), expected, "{name}");
     }
@@ -105,15 +78,8 @@ fn coordinates_with_axes_exchanged() {
     let model = block();
     let nodes = model.nodes.iter().map(|[x, y, z]| [*y, *x, *z]).collect();
     let error = coordinates_refused(&models::Model { nodes, ..model });
-    assert!(
-        matches!(error, Error::CoordinatesDoNotFit { energy, .. } if energy > 1e-3),
-        "{error}"
-    );
-    assert_says(
-        &error,
-        ErrorClass::InputData,
-        &["coordinates", "node ", "check units, axes"],
-    );
+    assert!(matches!(error, Error::CoordinatesDoNotFit { energy, .. } if energy > 1e-3), "{error}");
+    assert_says(&error, ErrorClass::InputData, &["coordinates", "node ", "check units, axes"]);
 }
 
 /// One node of sixty, moved by a hundredth of an edge, is found and named: the force is largest there or beside it.
@@ -122,15 +88,7 @@ fn one_node_out_of_place() {
     let mut model = brick([4, 3, 2], [4.0, 3.0, 2.0], &Material::UNIT);
     model.nodes[17][1] += 0.01;
     let error = coordinates_refused(&model);
-    let Error::CoordinatesDoNotFit {
-        energy,
-        expected,
-        ref dof,
-        ..
-    } = error
-    else {
-        panic!("{error}")
-    };
+    let Error::CoordinatesDoNotFit { energy, expected, ref dof, .. } = error else { panic!("{error}") };
     assert!(energy > 1e4 * expected, "{energy:e} of {expected:e}");
     assert_says(&error, ErrorClass::InputData, &["node 18 u", "rotation about"]);
     assert!(dof.starts_with("node 18 "), "{dof}");
@@ -149,40 +107,23 @@ fn rounded_coordinates_are_taken() {
 #[test]
 fn rigid_motion_of_negative_energy() {
     let error = coordinates_refused(&grounded(&block(), 4, -1e-3));
-    assert!(
-        matches!(error, Error::NegativeRigidEnergy { energy, noise } if energy < -1e3 * noise),
-        "{error}"
-    );
+    assert!(matches!(error, Error::NegativeRigidEnergy { energy, noise } if energy < -1e3 * noise), "{error}");
     assert_says(&error, ErrorClass::ModelPhysics, &["negative energy", "check preload"]);
 }
 
 #[test]
 fn rigid_motion_without_mass() {
-    let massless = join(
-        &block(),
-        &scaled(&brick([1, 1, 1], [1.0; 3], &Material::UNIT), 1.0, 0.0),
-        &[],
-    );
+    let massless = join(&block(), &scaled(&brick([1, 1, 1], [1.0; 3], &Material::UNIT), 1.0, 0.0), &[]);
     let nodes = [[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
     let section = Section::round(0.1);
-    let spinning = frame(
-        &nodes,
-        &[[0, 1], [1, 2]],
-        &section,
-        &Material::UNIT,
-        Inertia::LumpedTranslations,
-    );
+    let spinning = frame(&nodes, &[[0, 1], [1, 2]], &section, &Material::UNIT, Inertia::LumpedTranslations);
     for model in [massless, spinning] {
         let error = coordinates_refused(&model);
         assert!(
             matches!(error, Error::MasslessRigidMotion { relative_mass } if relative_mass.abs() < 1e-12),
             "{error}"
         );
-        assert_says(
-            &error,
-            ErrorClass::ModelPhysics,
-            &["moves no mass", "give the massless part"],
-        );
+        assert_says(&error, ErrorClass::ModelPhysics, &["moves no mass", "give the massless part"]);
     }
 }
 
@@ -216,10 +157,7 @@ fn two_solid_nodes_leave_the_axis_through_both() {
     let (point, axis) = axis_of(&motion);
     for label in [first, second] {
         // Four decimals are shown.
-        assert!(
-            distance(model.nodes[label as usize - 1], point, axis) < 2e-3,
-            "{motion}"
-        );
+        assert!(distance(model.nodes[label as usize - 1], point, axis) < 2e-3, "{motion}");
     }
 }
 
@@ -234,31 +172,17 @@ fn body_without_interface_floats() {
 /// Without coordinates the rank is known, the motion has no words.
 #[test]
 fn rank_without_coordinates() {
-    let anonymous = models::Model {
-        dofs: Vec::new(),
-        ..block()
-    };
+    let anonymous = models::Model { dofs: Vec::new(), ..block() };
     let (partition, rigid) = rigid_of(&anonymous, &[rows("pin", &[0, 1, 2])]).expect("zero modes");
     let error = refusal(rigid::interface_rank(&partition, &rigid));
-    assert!(
-        matches!(&error, Error::InterfaceRank { rank: 3, n_rigid: 6, motion } if motion.is_empty()),
-        "{error}"
-    );
+    assert!(matches!(&error, Error::InterfaceRank { rank: 3, n_rigid: 6, motion } if motion.is_empty()), "{error}");
 }
 
 /// The point and the direction in `rotation about the axis through (x, y, z) along (a, b, c)`.
 fn axis_of(motion: &str) -> ([f64; 3], [f64; 3]) {
-    assert!(
-        motion.starts_with("; free: rotation about the axis through ("),
-        "{motion}"
-    );
-    let numbers: Vec<f64> = motion
-        .split(['(', ')', ','])
-        .filter_map(|field| field.trim().parse().ok())
-        .collect();
-    let [x, y, z, a, b, c] = numbers[..] else {
-        panic!("six numbers in {motion}")
-    };
+    assert!(motion.starts_with("; free: rotation about the axis through ("), "{motion}");
+    let numbers: Vec<f64> = motion.split(['(', ')', ',']).filter_map(|field| field.trim().parse().ok()).collect();
+    let [x, y, z, a, b, c] = numbers[..] else { panic!("six numbers in {motion}") };
     ([x, y, z], [a, b, c])
 }
 

@@ -24,11 +24,7 @@ pub(crate) fn full_report() -> Report {
         name: "error bar from the digits of the input",
         equation: "ε_in c_j",
         value: 3.2e-5,
-        limits: Limits {
-            engineering: 1e-6,
-            arithmetic: 1e-9,
-            data: 2e-5,
-        },
+        limits: Limits { engineering: 1e-6, arithmetic: 1e-9, data: 2e-5 },
         fail_above: 1e-3,
         worst: Some("mode 3 at 311.2 Hz".to_owned()),
     });
@@ -37,11 +33,7 @@ pub(crate) fn full_report() -> Report {
         name: "mass properties of the reduced model against those of the full one",
         equation: "|Û_Bᵀ M̂ Û_B − M_F| / |M_F|",
         value: 2.5e-2,
-        limits: Limits {
-            engineering: 1e-10,
-            arithmetic: 3e-9,
-            data: 0.0,
-        },
+        limits: Limits { engineering: 1e-10, arithmetic: 3e-9, data: 0.0 },
         fail_above: 1e-6,
         worst: None,
     });
@@ -60,10 +52,7 @@ pub(crate) fn full_report() -> Report {
 
 /// The same without anything to complain of.
 pub(crate) fn passing_report() -> Report {
-    Report {
-        body: body(),
-        run: run_facts(),
-    }
+    Report { body: body(), run: run_facts() }
 }
 
 fn body() -> ReportBody {
@@ -81,18 +70,8 @@ fn body() -> ReportBody {
             method: Method::Herting,
             eigensolver: Eigensolver::Lanczos,
             interfaces: vec![
-                InterfaceReport {
-                    name: "hub".to_owned(),
-                    coupling: Coupling::Rigid,
-                    n_nodes: 96,
-                    n_dofs: 6,
-                },
-                InterfaceReport {
-                    name: "foot".to_owned(),
-                    coupling: Coupling::Direct,
-                    n_nodes: 1,
-                    n_dofs: 3,
-                },
+                InterfaceReport { name: "hub".to_owned(), coupling: Coupling::Rigid, n_nodes: 96, n_dofs: 6 },
+                InterfaceReport { name: "foot".to_owned(), coupling: Coupling::Direct, n_nodes: 1, n_dofs: 3 },
             ],
             n_interface: 9,
             n_inertia_relief: 6,
@@ -106,29 +85,17 @@ fn body() -> ReportBody {
             name: "eigenpair backward error",
             equation: "|K x − λ M x| / ((|K| + λ |M|) |x|)",
             value: 3.1e-16,
-            limits: Limits {
-                engineering: 1e-13,
-                arithmetic: 4e-14,
-                data: 0.0,
-            },
+            limits: Limits { engineering: 1e-13, arithmetic: 4e-14, data: 0.0 },
             fail_above: 1e-10,
             worst: Some("mode 12".to_owned()),
         }],
         warnings: Vec::new(),
-        completeness: Completeness::SturmCount {
-            below_hz: 16_200.25,
-            n_counted: 56,
-            n_found: 56,
-        },
+        completeness: Completeness::SturmCount { below_hz: 16_200.25, n_counted: 56, n_found: 56 },
     }
 }
 
 fn model() -> ModelReport {
-    let matrix = |n_nonzeros, digit: &str| MatrixReport {
-        n_nonzeros,
-        digits: 12,
-        digest: digit.repeat(64),
-    };
+    let matrix = |n_nonzeros, digit: &str| MatrixReport { n_nonzeros, digits: 12, digest: digit.repeat(64) };
     ModelReport {
         n_dofs: 123_486,
         n_nodes: Some(41_162),
@@ -140,10 +107,7 @@ fn model() -> ModelReport {
             cg: Some([0.0, -1.5e-17, 41.2]),
             inertia: Some([[1.25, 0.0, -0.015], [0.0, 2.5, 0.0], [-0.015, 0.0, 3.1]]),
         },
-        rigid_body_modes: RigidBodyModes {
-            count: 6,
-            source: RigidBodySource::Geometric,
-        },
+        rigid_body_modes: RigidBodyModes { count: 6, source: RigidBodySource::Geometric },
         units: Some("mm-t-s".to_owned()),
         notes: vec![
             "stiffness: declared general but held one triangle; it was mirrored".to_owned(),
@@ -155,12 +119,7 @@ fn model() -> ModelReport {
 fn run_facts() -> RunFacts {
     let stage = |name, seconds| StageTime { name, seconds };
     RunFacts {
-        stages: vec![
-            stage("read", 1.31),
-            stage("factor", 4.2),
-            stage("modes", 6.9),
-            stage("write", 0.004),
-        ],
+        stages: vec![stage("read", 1.31), stage("factor", 4.2), stage("modes", 6.9), stage("write", 0.004)],
         peak_memory_bytes: Some(1_932_735_283),
         file_bytes: Some(81_920),
         n_threads: 2,
@@ -201,15 +160,9 @@ pub(crate) fn superelement() -> Superelement {
 }
 
 fn metadata(interface_nodes: Vec<InterfaceNode>) -> Metadata {
-    let coordinate = |node| Coordinate::Interface {
-        node,
-        direction: Direction::Ux,
-    };
+    let coordinate = |node| Coordinate::Interface { node, direction: Direction::Ux };
     Metadata {
-        generator: supel_runtime::Generator {
-            name: "supel".to_owned(),
-            version: "0.1.0".to_owned(),
-        },
+        generator: supel_runtime::Generator { name: "supel".to_owned(), version: "0.1.0".to_owned() },
         method: supel_runtime::Method::Herting,
         units: Some("kg-m-s".to_owned()),
         interface_nodes,
@@ -247,15 +200,6 @@ fn metadata(interface_nodes: Vec<InterfaceNode>) -> Metadata {
 pub(crate) fn pipeline(_job: &Job, _resources: Resources, observer: &mut dyn Observer) -> Result<Outcome> {
     observer.stage("read");
     observer.stage("factor");
-    let report = Report {
-        run: RunFacts {
-            work: run_facts().work,
-            ..RunFacts::default()
-        },
-        ..passing_report()
-    };
-    Ok(Outcome {
-        superelement: superelement(),
-        report,
-    })
+    let report = Report { run: RunFacts { work: run_facts().work, ..RunFacts::default() }, ..passing_report() };
+    Ok(Outcome { superelement: superelement(), report })
 }

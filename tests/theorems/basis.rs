@@ -16,10 +16,7 @@ const MODE_ERROR: f64 = 1e-12 / 1e-2;
 fn constraint_modes_are_static_answers_to_unit_interface_displacements() {
     for_each_case(Method::CraigBampton, |case, chain, twin| {
         let expected = -twin.solve(twin.k_ib());
-        let (error, bound) = (
-            difference(chain.constraint.modes.as_ref(), expected.as_ref()),
-            twin.solve_error(),
-        );
+        let (error, bound) = (difference(chain.constraint.modes.as_ref(), expected.as_ref()), twin.solve_error());
         assert!(error <= bound, "{}: {error:e}, bound {bound:e}", case.name);
     });
 }
@@ -40,11 +37,7 @@ fn constraint_modes_reproduce_rigid_body_motion() {
         let error = difference(carried.as_ref(), u_i);
         assert!(error <= bound, "{}: {error:e}, bound {bound:e}", case.name);
         let (raw, bound) = (chain.constraint.raw_rigid_error, twin.solve_error());
-        assert!(
-            raw <= bound,
-            "{}: {raw:e} before the correction, bound {bound:e}",
-            case.name
-        );
+        assert!(raw <= bound, "{}: {raw:e} before the correction, bound {bound:e}", case.name);
     });
 }
 
@@ -58,11 +51,7 @@ fn inertia_relief_modes_answer_rigid_body_accelerations() {
         let of_interface = -twin.solve(((twin.m_ib() + twin.m_ii() * &psi_s) * u_b).as_ref());
         let bound = twin.solve_error();
         let forms = column_difference(of_interface.as_ref(), of_both.as_ref());
-        assert!(
-            forms <= bound,
-            "{}: the two forms differ by {forms:e}, bound {bound:e}",
-            case.name
-        );
+        assert!(forms <= bound, "{}: the two forms differ by {forms:e}, bound {bound:e}", case.name);
         let found = chain.named.columns.as_ref().subcols(0, case.n_rigid);
         let error = column_difference(found, (-of_both).as_ref());
         assert!(error <= bound, "{}: {error:e}, bound {bound:e}", case.name);
@@ -103,12 +92,7 @@ fn craig_bampton_columns_are_fixed_interface_normal_modes() {
 #[test]
 fn dynamic_modes_give_the_named_columns_back() {
     for_each_method(|case, chain, twin| {
-        assert!(
-            chain.basis.dropped.is_empty(),
-            "{}: {:?}",
-            case.name,
-            chain.basis.dropped
-        );
+        assert!(chain.basis.dropped.is_empty(), "{}: {:?}", case.name, chain.basis.dropped);
         let psi_d = chain.basis.dynamic_modes.as_ref();
         let n_eta = psi_d.ncols();
         // Two passes of Gram-Schmidt: n_I products and n_η subtractions each.
@@ -141,9 +125,7 @@ fn dependent_columns_are_left_out_by_name() {
 }
 
 fn times_lambda(columns: MatRef<'_, f64>, chain: &Chain) -> Mat<f64> {
-    Mat::from_fn(columns.nrows(), columns.ncols(), |i, j| {
-        columns[(i, j)] * chain.modes.lambda[j]
-    })
+    Mat::from_fn(columns.nrows(), columns.ncols(), |i, j| columns[(i, j)] * chain.modes.lambda[j])
 }
 
 /// A twin is the partition's congruence TᵀKT, computed without the library.
@@ -151,10 +133,9 @@ fn times_lambda(columns: MatRef<'_, f64>, chain: &Chain) -> Mat<f64> {
 fn partition_is_a_congruence_of_the_model() {
     for_each_case(Method::CraigBampton, |case, chain, twin: &Twin| {
         let n = case.model.n as f64;
-        for (found, expected, terms) in [
-            (&chain.partition.stiffness, &twin.k, &twin.k_terms),
-            (&chain.partition.mass, &twin.m, &twin.m_terms),
-        ] {
+        for (found, expected, terms) in
+            [(&chain.partition.stiffness, &twin.k, &twin.k_terms), (&chain.partition.mass, &twin.m, &twin.m_terms)]
+        {
             // At most n products a side, twice.
             let bound = terms * faer::Scale(2.0 * n * EPS);
             let found = crate::chain::dense(found);

@@ -18,58 +18,25 @@ pub(crate) struct Case {
 pub(crate) const N_MODES: usize = 6;
 
 pub(crate) fn cases() -> Vec<Case> {
-    let case = |name, model, interfaces: Vec<InterfaceJob>, n_rigid| Case {
-        name,
-        model,
-        interfaces,
-        n_rigid,
-    };
+    let case = |name, model, interfaces: Vec<InterfaceJob>, n_rigid| Case { name, model, interfaces, n_rigid };
     let patches = || vec![rigid_group("XMIN"), rigid_group("XMAX")];
     let two_bodies = join(&solid(), &small_solid(), &[]);
     let offset = solid().labels.len() as i64;
     vec![
         case("free solid, nodes", solid(), vec![direct("pins", &[1, 5, 15, 45])], 6),
         case("free solid, patches", steel(), patches(), 6),
-        case(
-            "free solid, patch and node",
-            steel(),
-            vec![rigid_group("XMIN"), direct("tip", &[45])],
-            6,
-        ),
-        case(
-            "free solid without coordinates",
-            anonymous(solid()),
-            vec![rows("rows", &[0, 1, 2, 12, 13, 14, 44])],
-            6,
-        ),
-        case(
-            "free frame",
-            elbow(Inertia::Consistent),
-            vec![direct("ends", &[1, 6])],
-            6,
-        ),
-        case(
-            "free frame, massless rotations",
-            elbow(Inertia::LumpedTranslations),
-            vec![direct("ends", &[1, 6])],
-            6,
-        ),
+        case("free solid, patch and node", steel(), vec![rigid_group("XMIN"), direct("tip", &[45])], 6),
+        case("free solid without coordinates", anonymous(solid()), vec![rows("rows", &[0, 1, 2, 12, 13, 14, 44])], 6),
+        case("free frame", elbow(Inertia::Consistent), vec![direct("ends", &[1, 6])], 6),
+        case("free frame, massless rotations", elbow(Inertia::LumpedTranslations), vec![direct("ends", &[1, 6])], 6),
         case("free membrane", sheet(), vec![direct("corners", &[1, 20])], 3),
         case(
             "two bodies",
             two_bodies,
-            vec![
-                direct("pins", &[1, 5, 45]),
-                direct("others", &[1, 3, 4].map(|l| l + offset)),
-            ],
+            vec![direct("pins", &[1, 5, 45]), direct("others", &[1, 3, 4].map(|l| l + offset))],
             12,
         ),
-        case(
-            "held solid",
-            supported(&solid(), |(label, _)| label % 5 == 1),
-            vec![rigid_group("XMAX")],
-            0,
-        ),
+        case("held solid", supported(&solid(), |(label, _)| label % 5 == 1), vec![rigid_group("XMAX")], 0),
         case("pendulum", pendulum(), vec![direct("tip", &[6])], 1),
     ]
 }
@@ -110,29 +77,17 @@ fn sheet() -> Model {
 
 /// The same matrices without the meaning of their rows.
 fn anonymous(model: Model) -> Model {
-    Model {
-        dofs: Vec::new(),
-        ..model
-    }
+    Model { dofs: Vec::new(), ..model }
 }
 
 /// Five beams with a bend, six nodes.
 fn elbow(inertia: Inertia) -> Model {
-    let nodes = [
-        [0.0, 0.0, 0.0],
-        [1.0, 0.0, 0.0],
-        [2.1, 0.0, 0.0],
-        [2.1, 0.9, 0.0],
-        [2.1, 1.7, 0.3],
-        [2.1, 2.8, 0.3],
-    ];
+    let nodes = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.1, 0.0, 0.0], [2.1, 0.9, 0.0], [2.1, 1.7, 0.3], [2.1, 2.8, 0.3]];
     let edges = [[0, 1], [1, 2], [2, 3], [3, 4], [4, 5]];
     frame(&nodes, &edges, &Section::round(0.05), &Material::STEEL_SI, inertia)
 }
 
 /// The elbow on a hinge about z at its first node.
 fn pendulum() -> Model {
-    supported(&elbow(Inertia::Consistent), |(label, direction)| {
-        label == 1 && direction != 5
-    })
+    supported(&elbow(Inertia::Consistent), |(label, direction)| label == 1 && direction != 5)
 }

@@ -12,12 +12,7 @@ use crate::chain::{
 #[test]
 fn elastic_modes_are_the_lowest() {
     for_each_case(Method::Herting, |case, chain, twin| {
-        compare(
-            case.name,
-            chain,
-            &chain.modes.lambda,
-            &twin.free_spectrum()[case.n_rigid..],
-        );
+        compare(case.name, chain, &chain.modes.lambda, &twin.free_spectrum()[case.n_rigid..]);
         assert!(chain.modes.count() >= N_MODES, "{}", case.name);
     });
     for_each_case(Method::CraigBampton, |case, chain, twin| {
@@ -34,11 +29,7 @@ fn elastic_modes_are_orthogonal_to_rigid_body_modes() {
         let products = q.transpose() * &twin.m * x;
         // The rounding of the products themselves, once for deflating and once here.
         let bound = terms(q, &twin.m_terms, x) * faer::Scale(2.0 * twin.k.nrows() as f64 * EPS);
-        let error = against_bound(
-            products.as_ref(),
-            Mat::zeros(q.ncols(), x.ncols()).as_ref(),
-            bound.as_ref(),
-        );
+        let error = against_bound(products.as_ref(), Mat::zeros(q.ncols(), x.ncols()).as_ref(), bound.as_ref());
         assert!(error <= 1.0, "{}: {error} of the bound", case.name);
     });
 }
@@ -57,19 +48,11 @@ fn elastic_modes_are_orthogonal_in_mass_and_stiffness() {
                 // iteration has spanned all of a small model, its last directions are rounding and add to this.
                 let residual = 10.0 * f64::max(1e-12, 16.0 * EPS * lambda[j] / lambda[0]);
                 let (coupling, bound) = (masses[(i, j)].abs(), residual + n * EPS * sizes[(i, j)]);
-                assert!(
-                    coupling <= bound,
-                    "{}: XᵀMX of {i} and {j} is {coupling:e}, bound {bound:e}",
-                    case.name
-                );
+                assert!(coupling <= bound, "{}: XᵀMX of {i} and {j} is {coupling:e}, bound {bound:e}", case.name);
                 let coupling = energies[(i, j)].abs() / (lambda[i] * lambda[j]).sqrt();
                 // K x = λ M x + r: what is left of XᵀMX enters beside the residual.
                 let bound = 2.0 * residual * (lambda[j] / lambda[i]).sqrt() + n * (bar(chain, i) + bar(chain, j));
-                assert!(
-                    coupling <= bound,
-                    "{}: XᵀKX of {i} and {j} is {coupling:e}, bound {bound:e}",
-                    case.name
-                );
+                assert!(coupling <= bound, "{}: XᵀKX of {i} and {j} is {coupling:e}, bound {bound:e}", case.name);
             }
         }
     });
@@ -82,9 +65,14 @@ fn retained_modes_expand_to_themselves() {
         let expanded = psi(&chain.basis) * chain.basis.reduced_modes(&chain.modes, twin.n_i);
         let shapes = &chain.modes.shapes;
         // Fixed-interface modes leave the interface at rest.
-        let expected = Mat::from_fn(expanded.nrows(), shapes.ncols(), |i, j| {
-            if i < shapes.nrows() { shapes[(i, j)] } else { 0.0 }
-        });
+        let expected =
+            Mat::from_fn(
+                expanded.nrows(),
+                shapes.ncols(),
+                |i, j| {
+                    if i < shapes.nrows() { shapes[(i, j)] } else { 0.0 }
+                },
+            );
         // X_I − Ψ_S X_B is made and undone: n_B products, and those of the orthogonalisation.
         let bound = 8.0 * (twin.n_i + chain.basis.n_reduced()) as f64 * EPS;
         let error = column_difference(expanded.as_ref(), expected.as_ref());
@@ -102,25 +90,12 @@ fn retained_eigenpairs_stay_exact() {
         let first = exact[case.n_rigid];
         for (k, zero) in reduced[..case.n_rigid].iter().enumerate() {
             let bound = bound(chain, 0, first);
-            assert!(
-                zero.abs() <= bound * first,
-                "{}: zero mode {k} is {zero:e} of {first:e}",
-                case.name
-            );
+            assert!(zero.abs() <= bound * first, "{}: zero mode {k} is {zero:e} of {first:e}", case.name);
         }
-        compare(
-            case.name,
-            chain,
-            &reduced[case.n_rigid..][..chain.modes.count()],
-            &exact[case.n_rigid..],
-        );
+        compare(case.name, chain, &reduced[case.n_rigid..][..chain.modes.count()], &exact[case.n_rigid..]);
         for (k, (reduced, exact)) in reduced.iter().zip(&exact).enumerate().skip(case.n_rigid) {
             let bound = bound(chain, chain.modes.count() - 1, *exact);
-            assert!(
-                *reduced >= exact * (1.0 - bound),
-                "{}: {k} is {reduced:e} below {exact:e}",
-                case.name
-            );
+            assert!(*reduced >= exact * (1.0 - bound), "{}: {k} is {reduced:e} below {exact:e}", case.name);
         }
     });
 }
@@ -154,10 +129,7 @@ fn bound(chain: &Chain, i: usize, lambda: f64) -> f64 {
 fn compare(name: &str, chain: &Chain, found: &[f64], exact: &[f64]) {
     for (k, (found, exact)) in found.iter().zip(exact).enumerate() {
         let (error, bound) = ((found - exact).abs() / exact, bound(chain, k, *exact));
-        assert!(
-            error <= bound,
-            "{name}: mode {k} is {found:e} for {exact:e}, off {error:e}, bound {bound:e}"
-        );
+        assert!(error <= bound, "{name}: mode {k} is {found:e} for {exact:e}, off {error:e}, bound {bound:e}");
         // A bound that allows a thousandth would not tell one mode from another.
         assert!(bound < 1e-6, "{name}: mode {k} has the bound {bound:e}");
     }

@@ -58,11 +58,7 @@ fn reduced_stiffness_is_block_diagonal() {
         let condensed = twin.k_bb() + twin.k_ib().transpose() * &psi_s;
         let error = (found.submatrix(0, 0, n_b, n_b) - condensed).norm_max();
         let bound = twin.solve_error() * (absolute(twin.k_ib()).transpose() * absolute(psi_s.as_ref())).norm_max();
-        assert!(
-            error <= bound,
-            "{}: K_BB + K_BI Ψ_S is off by {error:e}, bound {bound:e}",
-            case.name
-        );
+        assert!(error <= bound, "{}: K_BB + K_BI Ψ_S is off by {error:e}, bound {bound:e}", case.name);
     });
 }
 
@@ -76,11 +72,7 @@ fn reduced_stiffness_lets_rigid_body_motion_pass() {
         let carried = absolute(psi.as_ref()) * absolute(u_red.as_ref());
         let sizes = terms(psi.as_ref(), &twin.k_terms, carried.as_ref());
         let bound = sizes * faer::Scale(rounding(twin.k.nrows()));
-        let error = against_bound(
-            forces.as_ref(),
-            Mat::zeros(forces.nrows(), forces.ncols()).as_ref(),
-            bound.as_ref(),
-        );
+        let error = against_bound(forces.as_ref(), Mat::zeros(forces.nrows(), forces.ncols()).as_ref(), bound.as_ref());
         assert!(error <= 1.0, "{}: {error} of the bound", case.name);
     });
 }
@@ -95,11 +87,7 @@ fn reduced_mass_is_the_projected_mass() {
         let bound = sizes * faer::Scale(rounding(twin.k.nrows()));
         let error = against_bound(found.as_ref(), expected.as_ref(), bound.as_ref());
         assert!(error <= 1.0, "{}: {error} of the bound", case.name);
-        assert!(
-            is_symmetric(found.as_ref()) && is_symmetric(chain.reduction.stiffness.as_ref()),
-            "{}",
-            case.name
-        );
+        assert!(is_symmetric(found.as_ref()) && is_symmetric(chain.reduction.stiffness.as_ref()), "{}", case.name);
     });
 }
 
@@ -120,11 +108,7 @@ fn gravity_is_the_projected_weight() {
             let resultant = (u_red.transpose() * gravity)[(axis, axis)] * unit;
             let mass = case.model.total_mass(axis);
             let error = (resultant - mass).abs() / mass;
-            assert!(
-                error <= 4.0 * rounding(case.model.n),
-                "{}: {resultant:e} for {mass:e}",
-                case.name
-            );
+            assert!(error <= 4.0 * rounding(case.model.n), "{}: {resultant:e} for {mass:e}", case.name);
         }
     }
     assert_eq!(n_with_gravity, 5, "free bodies with coordinates");

@@ -40,11 +40,7 @@ fn rigid_body_motion_meets_no_elastic_force() {
             // A row sums up to 81 terms, each an element entry with some twenty roundings of its own.
             let bound = 100.0 * EPS * terms.col(j).norm_max();
             let force = forces.col(j).norm_max();
-            assert!(
-                force <= bound,
-                "{}: mode {j} meets {force:e}, bound {bound:e}",
-                case.name
-            );
+            assert!(force <= bound, "{}: mode {j} meets {force:e}, bound {bound:e}", case.name);
         }
     });
 }
@@ -63,33 +59,17 @@ fn floating_frame_takes_all_rigid_body_momentum() {
         // Solving with UᵀMU loses its condition; so does making U orthonormal.
         let tolerance = n as f64 * EPS * momentum_condition(chain, twin);
         let error = difference(found.as_ref(), expected.as_ref());
-        assert!(
-            error <= tolerance,
-            "{}: projectors differ by {error:e}, bound {tolerance:e}",
-            case.name
-        );
+        assert!(error <= tolerance, "{}: projectors differ by {error:e}, bound {tolerance:e}", case.name);
         let squared = difference((&found * &found).as_ref(), found.as_ref());
-        assert!(
-            squared <= tolerance,
-            "{}: P² and P differ by {squared:e}, bound {tolerance:e}",
-            case.name
-        );
+        assert!(squared <= tolerance, "{}: P² and P differ by {squared:e}, bound {tolerance:e}", case.name);
         let kept = difference((&found * &chain.rigid.modes).as_ref(), chain.rigid.modes.as_ref());
-        assert!(
-            kept <= tolerance,
-            "{}: P U and U differ by {kept:e}, bound {tolerance:e}",
-            case.name
-        );
+        assert!(kept <= tolerance, "{}: P U and U differ by {kept:e}, bound {tolerance:e}", case.name);
         let displacement = Mat::from_fn(n, 3, |i, j| (((i + 1) * (7 * j + 3)) as f64).sin());
         let deformation = &displacement - &found * &displacement;
         let momentum = chain.rigid.modes.transpose() * &twin.m * &deformation;
         let terms = absolute(chain.rigid.modes.as_ref()).transpose() * &twin.m_terms * absolute(displacement.as_ref());
         let left = momentum.norm_max() / terms.norm_max();
-        assert!(
-            left <= tolerance,
-            "{}: momentum {left:e} is left, bound {tolerance:e}",
-            case.name
-        );
+        assert!(left <= tolerance, "{}: momentum {left:e} is left, bound {tolerance:e}", case.name);
     });
 }
 
@@ -108,10 +88,7 @@ fn matrices_alone_give_the_same_rigid_body_space() {
     let t = Twin::new(&without.model, &without.interfaces, &anonymous).transformation;
     let by_matrices = in_rows(&t, &rigid.orthonormal * rigid.mass_orthonormal.transpose());
     let twin = Twin::new(&with.model, &without.interfaces, &partition);
-    let by_coordinates = in_rows(
-        &twin.transformation,
-        projector(geometric.modes.as_ref(), twin.m.as_ref()),
-    );
+    let by_coordinates = in_rows(&twin.transformation, projector(geometric.modes.as_ref(), twin.m.as_ref()));
     // The eigensolver leaves 1e-12 of a residual relative to the gap between zero and the first elastic mode.
     let error = difference(by_matrices.as_ref(), by_coordinates.as_ref());
     assert!(error <= 1e-11, "{error:e}");
@@ -121,10 +98,7 @@ fn matrices_alone_give_the_same_rigid_body_space() {
 fn projector(u: MatRef<'_, f64>, m: MatRef<'_, f64>) -> Mat<f64> {
     let momenta = u.transpose() * m;
     let m_f = &momenta * u;
-    u * m_f
-        .llt(Side::Lower)
-        .expect("rigid-body modes with mass")
-        .solve(&momenta)
+    u * m_f.llt(Side::Lower).expect("rigid-body modes with mass").solve(&momenta)
 }
 
 /// Condition of UᵀMU with unit diagonal.

@@ -26,11 +26,7 @@ const SPRINGS: [f64; 3] = [1e4, 4e4, 9e4];
 pub const MASS_PROPERTIES: MassProperties = MassProperties {
     mass: BODY_MASS + PARTICLE_MASS,
     center_of_mass: POSITION,
-    inertia: [
-        [BODY_INERTIA[0], 0.0, 0.0],
-        [0.0, BODY_INERTIA[1], 0.0],
-        [0.0, 0.0, BODY_INERTIA[2]],
-    ],
+    inertia: [[BODY_INERTIA[0], 0.0, 0.0], [0.0, BODY_INERTIA[1], 0.0], [0.0, 0.0, BODY_INERTIA[2]]],
 };
 
 /// Numbers and metadata of the component reduced by Craig-Bampton or Herting: six interface coordinates and three modes.
@@ -64,25 +60,12 @@ pub fn parts(method: Method) -> (Tensors, Metadata) {
     let mode = |(mode, omega): (usize, f64)| {
         let (frequency_hz, error_bar_hz) = (omega / TAU, Some(1e-9));
         match method {
-            Method::CraigBampton => Coordinate::FixedInterfaceMode {
-                mode,
-                frequency_hz,
-                error_bar_hz,
-            },
-            _ => Coordinate::ElasticMode {
-                mode,
-                frequency_hz,
-                error_bar_hz,
-            },
+            Method::CraigBampton => Coordinate::FixedInterfaceMode { mode, frequency_hz, error_bar_hz },
+            _ => Coordinate::ElasticMode { mode, frequency_hz, error_bar_hz },
         }
     };
     let modes = omega.into_iter().enumerate().map(mode);
-    let node = InterfaceNode {
-        name: "hub".into(),
-        label: Some(12),
-        dofs: Direction::ALL.to_vec(),
-        position: POSITION,
-    };
+    let node = InterfaceNode { name: "hub".into(), label: Some(12), dofs: Direction::ALL.to_vec(), position: POSITION };
     let metadata = Metadata {
         interface_nodes: vec![node],
         coordinates: interface.into_iter().chain(modes).collect(),
@@ -111,17 +94,8 @@ pub fn complete_parts() -> (Tensors, Metadata) {
     // Unit gravity along axis j loads every coordinate with M̂ times the unit translation.
     tensors.gravity = Some(Matrix::from_fn(9, 3, |i, j| tensors.mass[(i, j)]));
     tensors.load_vectors = Some(Matrix::from_fn(9, 1, |i, _| if i == 2 { 1.0 } else { 0.0 }));
-    let particle = Matrix::from_fn(3, 9, |i, j| {
-        if i == j {
-            1.0
-        } else {
-            f64::from(u8::from(i + 6 == j)) * s
-        }
-    });
-    let dofs = Direction::ALL[..3]
-        .iter()
-        .map(|&direction| RecoveredDof { node: 77, direction })
-        .collect();
+    let particle = Matrix::from_fn(3, 9, |i, j| if i == j { 1.0 } else { f64::from(u8::from(i + 6 == j)) * s });
+    let dofs = Direction::ALL[..3].iter().map(|&direction| RecoveredDof { node: 77, direction }).collect();
     tensors.recovery = Some(Recovery::new(particle, dofs, Precision::Single).expect("three rows, three dofs"));
     metadata.load_names = vec!["thrust".into()];
     metadata.units = Some("m-kg-s".into());
@@ -138,18 +112,8 @@ pub fn complete_parts() -> (Tensors, Metadata) {
     metadata.verification = Verification {
         verdict: Verdict::Warn,
         checks: vec![
-            CheckSummary {
-                id: "M-12".into(),
-                value: Some(1.0 / 3.0),
-                limit: 1e-11,
-                verdict: Verdict::Warn,
-            },
-            CheckSummary {
-                id: "M-16".into(),
-                value: None,
-                limit: 1e-10,
-                verdict: Verdict::Pass,
-            },
+            CheckSummary { id: "M-12".into(), value: Some(1.0 / 3.0), limit: 1e-11, verdict: Verdict::Warn },
+            CheckSummary { id: "M-16".into(), value: None, limit: 1e-10, verdict: Verdict::Pass },
         ],
     };
     (tensors, metadata)
@@ -176,17 +140,9 @@ pub fn two_particles() -> Superelement {
     let metadata = Metadata {
         coordinates: vec![
             Coordinate::InterfaceRow { row: 0 },
-            Coordinate::FixedInterfaceMode {
-                mode: 0,
-                frequency_hz: omega / TAU,
-                error_bar_hz: None,
-            },
+            Coordinate::FixedInterfaceMode { mode: 0, frequency_hz: omega / TAU, error_bar_hz: None },
         ],
-        model: ModelSummary {
-            n_dofs: 2,
-            rigid_body_modes: RigidBodyModes::Algebraic,
-            mass_properties: None,
-        },
+        model: ModelSummary { n_dofs: 2, rigid_body_modes: RigidBodyModes::Algebraic, mass_properties: None },
         ..bare_metadata(Method::CraigBampton)
     };
     Superelement::new(tensors, metadata).expect("the parts fit")
@@ -194,10 +150,7 @@ pub fn two_particles() -> Superelement {
 
 fn bare_metadata(method: Method) -> Metadata {
     Metadata {
-        generator: Generator {
-            name: "supel".into(),
-            version: "0.1.0".into(),
-        },
+        generator: Generator { name: "supel".into(), version: "0.1.0".into() },
         method,
         units: None,
         interface_nodes: Vec::new(),
@@ -206,17 +159,10 @@ fn bare_metadata(method: Method) -> Metadata {
         load_names: Vec::new(),
         validity: Validity::default(),
         flags: BTreeSet::new(),
-        model: ModelSummary {
-            n_dofs: 0,
-            rigid_body_modes: RigidBodyModes::Algebraic,
-            mass_properties: None,
-        },
+        model: ModelSummary { n_dofs: 0, rigid_body_modes: RigidBodyModes::Algebraic, mass_properties: None },
         inputs: BTreeMap::new(),
         job: serde_json::json!({}),
-        verification: Verification {
-            verdict: Verdict::Pass,
-            checks: Vec::new(),
-        },
+        verification: Verification { verdict: Verdict::Pass, checks: Vec::new() },
     }
 }
 
@@ -234,10 +180,6 @@ fn rigid_motion(j: usize) -> [f64; 6] {
 /// UᵀMU.
 fn congruence(m: &Matrix, u: &Matrix) -> Matrix {
     let n = m.rows();
-    let entry = |a: usize, b: usize| {
-        (0..n * n)
-            .map(|k| u[(k / n, a)] * m[(k / n, k % n)] * u[(k % n, b)])
-            .sum()
-    };
+    let entry = |a: usize, b: usize| (0..n * n).map(|k| u[(k / n, a)] * m[(k / n, k % n)] * u[(k % n, b)]).sum();
     Matrix::from_fn(u.cols(), u.cols(), entry)
 }

@@ -26,12 +26,7 @@ fn find(h5: &H5, location: &Location, object: &str, name: &str) -> Result<Option
     }
     let found = format!("shape {:?}", attribute.shape());
     let expected = format!("at most {MAX_VALUES} values in an attribute");
-    Err(Error::Hdf5Shape {
-        path: h5.path().to_owned(),
-        object: format!("{object}@{name}"),
-        found,
-        expected,
-    })
+    Err(Error::Hdf5Shape { path: h5.path().to_owned(), object: format!("{object}@{name}"), found, expected })
 }
 
 /// The whole numbers of an attribute; `None` if it is absent.
@@ -42,12 +37,9 @@ pub(super) fn integers(h5: &H5, location: &Location, object: &str, name: &str) -
     numbers::integers(&attribute).map(Some).map_err(|refusal| {
         let object = format!("{object}@{name}");
         match refusal {
-            Refusal::Type(found) => Error::Hdf5Type {
-                path: h5.path().to_owned(),
-                object,
-                found,
-                expected: "whole numbers",
-            },
+            Refusal::Type(found) => {
+                Error::Hdf5Type { path: h5.path().to_owned(), object, found, expected: "whole numbers" }
+            }
             Refusal::Library(error) => h5.read_error(&object, &error),
         }
     })

@@ -35,14 +35,7 @@ impl Compressed {
         values: Vec<f64>,
         names: [String; 3],
     ) -> Self {
-        Self {
-            major,
-            shape,
-            pointers,
-            indices,
-            values,
-            names,
-        }
+        Self { major, shape, pointers, indices, values, names }
     }
 
     pub(super) fn values(&self) -> &[f64] {
@@ -56,12 +49,7 @@ impl Compressed {
         let n = match u32::try_from(n_rows) {
             Ok(n) if n_rows == n_cols => n as usize,
             _ => {
-                return Err(Error::Hdf5NotSquare {
-                    path: file,
-                    group,
-                    n_rows,
-                    n_cols,
-                });
+                return Err(Error::Hdf5NotSquare { path: file, group, n_rows, n_cols });
             }
         };
         if n == 0 {
@@ -106,32 +94,16 @@ impl Compressed {
         if let Some(entry) = self.values.iter().position(|v| !v.is_finite()) {
             let (row, col, value) = (rows[entry], cols[entry], self.values[entry]);
             let dataset = self.names[2].clone();
-            return Err(Error::Hdf5NotFinite {
-                path: path.to_owned(),
-                dataset,
-                row,
-                col,
-                value,
-            });
+            return Err(Error::Hdf5NotFinite { path: path.to_owned(), dataset, row, col, value });
         }
-        Ok(Triplets {
-            rows,
-            cols,
-            values: self.values,
-        })
+        Ok(Triplets { rows, cols, values: self.values })
     }
 
     fn check_pointers(&self, path: &Path) -> Result<()> {
         let n_entries = self.values.len() as i64;
         let wrong = |position: usize, found: i64, expected: String| {
             let (path, dataset) = (path.to_owned(), self.names[0].clone());
-            Err(Error::Hdf5Pointer {
-                path,
-                dataset,
-                position,
-                found,
-                expected,
-            })
+            Err(Error::Hdf5Pointer { path, dataset, position, found, expected })
         };
         let mut previous = 0;
         for (position, &pointer) in self.pointers.iter().enumerate() {
@@ -152,12 +124,7 @@ impl Compressed {
 
     fn wrong_length(&self, path: &Path, dataset: usize, found: usize, expected: String) -> Error {
         let (path, object) = (path.to_owned(), self.names[dataset].clone());
-        Error::Hdf5Shape {
-            path,
-            object,
-            found: format!("{found} values"),
-            expected,
-        }
+        Error::Hdf5Shape { path, object, found: format!("{found} values"), expected }
     }
 }
 

@@ -46,10 +46,7 @@ impl<'a> Dataset<'a> {
     /// All values as real numbers, in storage order.
     pub(super) fn reals(&self) -> Result<Reals> {
         if self.checked_len()? == 0 {
-            return Ok(Reals {
-                values: Vec::new(),
-                digits: u32::MAX,
-            });
+            return Ok(Reals { values: Vec::new(), digits: u32::MAX });
         }
         numbers::reals(&self.dataset).map_err(|e| self.refused(e, "real numbers"))
     }
@@ -81,20 +78,12 @@ impl<'a> Dataset<'a> {
 
     /// The error for a dataset of the wrong length.
     pub(super) fn wrong_shape(&self, found: String, expected: String) -> Error {
-        Error::Hdf5Shape {
-            path: self.h5.path().to_owned(),
-            object: self.name.clone(),
-            found,
-            expected,
-        }
+        Error::Hdf5Shape { path: self.h5.path().to_owned(), object: self.name.clone(), found, expected }
     }
 
     /// The zero-based index that `number`, counted from `first`, stands for among `n` things.
     pub(super) fn checked_index(&self, position: usize, number: i64, first: i64, n: usize) -> Result<usize> {
-        let index = number
-            .checked_sub(first)
-            .and_then(|i| usize::try_from(i).ok())
-            .filter(|&i| i < n);
+        let index = number.checked_sub(first).and_then(|i| usize::try_from(i).ok()).filter(|&i| i < n);
         index.ok_or_else(|| Error::Hdf5Index {
             path: self.h5.path().to_owned(),
             dataset: self.name.clone(),
@@ -112,10 +101,7 @@ impl<'a> Dataset<'a> {
             return Ok(0);
         }
         let shape = space.shape();
-        let n_values = shape
-            .iter()
-            .try_fold(1_usize, |n, &d| n.checked_mul(d))
-            .filter(|&n| n == space.size());
+        let n_values = shape.iter().try_fold(1_usize, |n, &d| n.checked_mul(d)).filter(|&n| n == space.size());
         let item = self.dataset.dtype().map_err(|e| self.read_error(&e))?.size() as u64;
         let n_bytes = n_values.and_then(|n| (n as u64).checked_mul(item));
         if n_bytes == Some(0) {
@@ -131,12 +117,7 @@ impl<'a> Dataset<'a> {
             _ => {
                 let promised = format!("a shape of {shape:?} in chunks of {chunk:?} with {item} bytes each");
                 let (path, object) = (self.h5.path().to_owned(), self.name.clone());
-                Err(Error::Hdf5Size {
-                    path,
-                    object,
-                    promised,
-                    available,
-                })
+                Err(Error::Hdf5Size { path, object, promised, available })
             }
         }
     }
@@ -153,22 +134,14 @@ impl<'a> Dataset<'a> {
         let mut ratio = 1;
         // The binding slices by the number of parameters that the file states, and panics where there are more than 32.
         let Ok(filters) = catch_unwind(AssertUnwindSafe(|| plist.get_filters())) else {
-            return Err(Error::Hdf5Filter {
-                path,
-                object,
-                filter: "of more than 32 parameters".to_owned(),
-            });
+            return Err(Error::Hdf5Filter { path, object, filter: "of more than 32 parameters".to_owned() });
         };
         for filter in filters.map_err(|e| self.read_error(&e))? {
             match filter {
                 Filter::Shuffle | Filter::Fletcher32 => {}
                 Filter::Deflate(_) if ratio == 1 => ratio = DEFLATE_RATIO,
                 other => {
-                    return Err(Error::Hdf5Filter {
-                        path,
-                        object,
-                        filter: filter_name(&other),
-                    });
+                    return Err(Error::Hdf5Filter { path, object, filter: filter_name(&other) });
                 }
             }
         }
@@ -178,12 +151,7 @@ impl<'a> Dataset<'a> {
     fn refused(&self, refusal: Refusal, expected: &'static str) -> Error {
         let (path, object) = (self.h5.path().to_owned(), self.name.clone());
         match refusal {
-            Refusal::Type(found) => Error::Hdf5Type {
-                path,
-                object,
-                found,
-                expected,
-            },
+            Refusal::Type(found) => Error::Hdf5Type { path, object, found, expected },
             Refusal::Library(error) => self.read_error(&error),
         }
     }
@@ -209,11 +177,7 @@ fn filter_name(filter: &Filter) -> String {
 
 /// Characters up to a zero byte, without trailing blanks; bytes that are not UTF-8 are taken as Latin-1.
 fn text_of(name: &[i8]) -> String {
-    let bytes: Vec<u8> = name
-        .iter()
-        .take_while(|&&c| c != 0)
-        .map(|&c| c.cast_unsigned())
-        .collect();
+    let bytes: Vec<u8> = name.iter().take_while(|&&c| c != 0).map(|&c| c.cast_unsigned()).collect();
     let text = String::from_utf8(bytes).unwrap_or_else(|e| e.as_bytes().iter().copied().map(char::from).collect());
     text.trim_end().to_owned()
 }

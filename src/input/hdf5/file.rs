@@ -45,15 +45,9 @@ impl H5 {
     pub(super) fn open(path: &Path) -> Result<Self> {
         let n_bytes = check_signature(path)?;
         hdf5_metno::silence_errors(true);
-        let file = hdf5_metno::File::open(path).map_err(|e| Error::Hdf5Open {
-            path: path.to_owned(),
-            reason: e.to_string(),
-        })?;
-        Ok(Self {
-            file,
-            path: path.to_owned(),
-            n_bytes,
-        })
+        let file = hdf5_metno::File::open(path)
+            .map_err(|e| Error::Hdf5Open { path: path.to_owned(), reason: e.to_string() })?;
+        Ok(Self { file, path: path.to_owned(), n_bytes })
     }
 
     pub(super) fn path(&self) -> &Path {
@@ -66,19 +60,11 @@ impl H5 {
 
     pub(super) fn root(&self) -> Result<Group<'_>> {
         let group = self.file.group("/").map_err(|e| self.read_error("/", &e))?;
-        Ok(Group {
-            h5: self,
-            group,
-            name: String::from("/"),
-        })
+        Ok(Group { h5: self, group, name: String::from("/") })
     }
 
     pub(super) fn read_error(&self, object: &str, error: &hdf5_metno::Error) -> Error {
-        Error::Hdf5Read {
-            path: self.path.clone(),
-            object: object.to_owned(),
-            reason: error.to_string(),
-        }
+        Error::Hdf5Read { path: self.path.clone(), object: object.to_owned(), reason: error.to_string() }
     }
 }
 
@@ -104,31 +90,21 @@ impl<'a> Group<'a> {
     pub(super) fn members(&self) -> Result<Vec<(String, Member)>> {
         let mut links = Vec::new();
         let mut too_many = false;
-        let visited = self
-            .group
-            .iter_visit(IndexType::Name, IterationOrder::Native, |name, info| {
-                too_many = links.len() >= MAX_LINKS;
-                if too_many {
-                    return Err("too many links".into());
-                }
-                links.push((name.to_owned(), info.link_type));
-                Ok(())
-            });
+        let visited = self.group.iter_visit(IndexType::Name, IterationOrder::Native, |name, info| {
+            too_many = links.len() >= MAX_LINKS;
+            if too_many {
+                return Err("too many links".into());
+            }
+            links.push((name.to_owned(), info.link_type));
+            Ok(())
+        });
         if too_many {
             let path = self.h5.path.clone();
-            return Err(Error::Hdf5Depth {
-                path,
-                object: self.name.clone(),
-                limit: MAX_LINKS,
-                counted: "members",
-            });
+            return Err(Error::Hdf5Depth { path, object: self.name.clone(), limit: MAX_LINKS, counted: "members" });
         }
         visited.map_err(|e| self.h5.read_error(&self.name, &e))?;
         links.sort_by(|a, b| a.0.cmp(&b.0));
-        Ok(links
-            .into_iter()
-            .map(|(name, link)| (name.clone(), self.classify(&name, link)))
-            .collect())
+        Ok(links.into_iter().map(|(name, link)| (name.clone(), self.classify(&name, link))).collect())
     }
 
     /// What `member` is; `None` if there is nothing of that name.
@@ -154,11 +130,7 @@ impl<'a> Group<'a> {
 
     /// The same, `None` where a component of the path does not exist.
     pub(super) fn find_group(&self, path: &str) -> Result<Option<Group<'a>>> {
-        let mut here = Group {
-            h5: self.h5,
-            group: self.group.clone(),
-            name: self.name.clone(),
-        };
+        let mut here = Group { h5: self.h5, group: self.group.clone(), name: self.name.clone() };
         for component in path.split('/').filter(|c| !c.is_empty() && *c != ".") {
             match here.member(component)? {
                 None => return Ok(None),
@@ -173,11 +145,7 @@ impl<'a> Group<'a> {
     /// The groups among the members, sorted by name.
     pub(super) fn groups(&self) -> Result<Vec<Group<'a>>> {
         let members = self.members()?;
-        members
-            .iter()
-            .filter(|(_, member)| *member == Member::Group)
-            .map(|(name, _)| self.child_group(name))
-            .collect()
+        members.iter().filter(|(_, member)| *member == Member::Group).map(|(name, _)| self.child_group(name)).collect()
     }
 
     /// The dataset at `path` below this group.
@@ -206,11 +174,7 @@ impl<'a> Group<'a> {
     fn child_group(&self, member: &str) -> Result<Group<'a>> {
         let name = self.child_name(member);
         let group = self.group.group(member).map_err(|e| self.h5.read_error(&name, &e))?;
-        Ok(Group {
-            h5: self.h5,
-            group,
-            name,
-        })
+        Ok(Group { h5: self.h5, group, name })
     }
 
     fn classify(&self, member: &str, link: LinkType) -> Member {
@@ -225,18 +189,11 @@ impl<'a> Group<'a> {
     }
 
     fn missing(&self, path: &str, kind: &'static str) -> Error {
-        Error::Hdf5Missing {
-            path: self.h5.path.clone(),
-            object: self.child_name(path.trim_start_matches('/')),
-            kind,
-        }
+        Error::Hdf5Missing { path: self.h5.path.clone(), object: self.child_name(path.trim_start_matches('/')), kind }
     }
 
     fn link(&self, member: &str) -> Error {
-        Error::Hdf5Link {
-            path: self.h5.path.clone(),
-            object: self.child_name(member),
-        }
+        Error::Hdf5Link { path: self.h5.path.clone(), object: self.child_name(member) }
     }
 
     fn wrong_kind(&self, member: &str, found: Member, expected: &'static str) -> Error {
@@ -247,37 +204,23 @@ impl<'a> Group<'a> {
             Member::Other => "neither group nor dataset",
         };
         let path = self.h5.path.clone();
-        Error::Hdf5Type {
-            path,
-            object: self.child_name(member),
-            found: found.to_owned(),
-            expected,
-        }
+        Error::Hdf5Type { path, object: self.child_name(member), found: found.to_owned(), expected }
     }
 }
 
 /// Length of a file that carries the HDF5 signature at 0, 512, 1024, 2048 and so on (MATLAB writes 512 bytes before it).
 fn check_signature(path: &Path) -> Result<u64> {
-    let read = |source| Error::Read {
-        path: path.to_owned(),
-        source,
-    };
+    let read = |source| Error::Read { path: path.to_owned(), source };
     let mut file = fs::File::open(path).map_err(read)?;
     let metadata = file.metadata().map_err(read)?;
     if !metadata.is_file() {
-        return Err(read(std::io::Error::new(
-            std::io::ErrorKind::InvalidInput,
-            "not a regular file",
-        )));
+        return Err(read(std::io::Error::new(std::io::ErrorKind::InvalidInput, "not a regular file")));
     }
     let mut offset = 0;
     while offset < metadata.len() {
         let mut bytes = Vec::with_capacity(SIGNATURE.len());
         file.seek(SeekFrom::Start(offset)).map_err(read)?;
-        file.by_ref()
-            .take(SIGNATURE.len() as u64)
-            .read_to_end(&mut bytes)
-            .map_err(read)?;
+        file.by_ref().take(SIGNATURE.len() as u64).read_to_end(&mut bytes).map_err(read)?;
         if bytes == SIGNATURE {
             return Ok(metadata.len());
         }
@@ -287,21 +230,13 @@ fn check_signature(path: &Path) -> Result<u64> {
     let mut head = Vec::with_capacity(32);
     file.take(32).read_to_end(&mut head).map_err(read)?;
     let (found, advice) = looks_like(&head);
-    Err(Error::Hdf5Signature {
-        path: path.to_owned(),
-        found,
-        advice,
-    })
+    Err(Error::Hdf5Signature { path: path.to_owned(), found, advice })
 }
 
 /// What a file that is not HDF5 is, judged by its first bytes, and what to do about it.
 fn looks_like(head: &[u8]) -> (&'static str, &'static str) {
     const KINDS: [(&[u8], &str, &str); 7] = [
-        (
-            b"MATLAB 5.0",
-            "a MATLAB file of version 7 or older",
-            "save it with -v7.3",
-        ),
+        (b"MATLAB 5.0", "a MATLAB file of version 7 or older", "save it with -v7.3"),
         (b"\xc0\xa8\xa3\xa9", "a CGNS file in ADF", "convert it with adf2hdf"),
         (b"@(#)ADF", "a CGNS file in ADF", "convert it with adf2hdf"),
         (b"\x1f\x8b", "a gzip file", "unpack it"),
@@ -315,7 +250,5 @@ fn looks_like(head: &[u8]) -> (&'static str, &'static str) {
     KINDS
         .iter()
         .find(|(magic, ..)| head.starts_with(magic))
-        .map_or(("other bytes", "check the name of the file"), |&(_, found, advice)| {
-            (found, advice)
-        })
+        .map_or(("other bytes", "check the name of the file"), |&(_, found, advice)| (found, advice))
 }

@@ -7,11 +7,7 @@ use crate::error::Result;
 
 /// The dataset that makes a file one of this format.
 pub(super) fn find<'a>(root: &Group<'a>) -> Result<Option<Dataset<'a>>> {
-    if root.member("domain")? == Some(Member::Group) {
-        root.find_dataset("domain/grid/Geometry")
-    } else {
-        Ok(None)
-    }
+    if root.member("domain")? == Some(Member::Group) { root.find_dataset("domain/grid/Geometry") } else { Ok(None) }
 }
 
 /// Reads the geometry, one row for each node.

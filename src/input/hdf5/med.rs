@@ -12,11 +12,8 @@ pub(super) fn read(root: &Group<'_>) -> Result<Mesh> {
     let mesh = only(meshes.groups()?, &meshes, "mesh")?;
     let n_axes = dimension(&mesh)?;
     // A mesh has a group for each of its computation steps; files of version 2 have none.
-    let step = if mesh.member("NOE")? == Some(Member::Group) {
-        mesh.group("")?
-    } else {
-        only(mesh.groups()?, &mesh, "step")?
-    };
+    let step =
+        if mesh.member("NOE")? == Some(Member::Group) { mesh.group("")? } else { only(mesh.groups()?, &mesh, "step")? };
     let nodes = step.group("NOE")?;
     let coordinates = nodes.dataset("COO")?;
     let values = coordinates.reals()?.values;
@@ -33,12 +30,7 @@ pub(super) fn read(root: &Group<'_>) -> Result<Mesh> {
     };
     let groups = read_groups(root, &mesh, &step, n_nodes)?;
     let coordinates_by_node = points(&by_node(&values, n_nodes, n_axes), n_axes);
-    Ok(Mesh {
-        labels,
-        coordinates: coordinates_by_node,
-        source: coordinates.name().to_owned(),
-        groups,
-    })
+    Ok(Mesh { labels, coordinates: coordinates_by_node, source: coordinates.name().to_owned(), groups })
 }
 
 /// The one group of a list.
@@ -48,12 +40,7 @@ fn only<'a>(mut groups: Vec<Group<'a>>, parent: &Group<'a>, kind: &'static str) 
         last => {
             let found = groups.iter().chain(&last).map(|g| g.name().to_owned()).collect();
             let (path, object) = (parent.h5().path().to_owned(), parent.name().to_owned());
-            Err(Error::MeshNotOne {
-                path,
-                object,
-                found,
-                kind,
-            })
+            Err(Error::MeshNotOne { path, object, found, kind })
         }
     }
 }
@@ -64,12 +51,7 @@ fn dimension(mesh: &Group<'_>) -> Result<usize> {
     let first = |values: Option<Vec<i64>>| values.and_then(|v| v.first().copied());
     let unsupported = |name: &str, found: i64, expected| {
         let (path, object) = (mesh.h5().path().to_owned(), format!("{}@{name}", mesh.name()));
-        Err(Error::MeshUnsupported {
-            path,
-            object,
-            found: found.to_string(),
-            expected,
-        })
+        Err(Error::MeshUnsupported { path, object, found: found.to_string(), expected })
     };
     if let Some(frame @ 1..) = first(number("REP")?) {
         return unsupported("REP", frame, "0, cartesian coordinates");
@@ -81,11 +63,7 @@ fn dimension(mesh: &Group<'_>) -> Result<usize> {
         Some(other) => unsupported("ESP", other, "1, 2 or 3 space dimensions"),
         None => {
             let (path, object) = (mesh.h5().path().to_owned(), format!("{}@ESP", mesh.name()));
-            Err(Error::Hdf5Missing {
-                path,
-                object,
-                kind: "attribute",
-            })
+            Err(Error::Hdf5Missing { path, object, kind: "attribute" })
         }
     }
 }

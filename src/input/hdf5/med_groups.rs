@@ -20,12 +20,7 @@ pub(super) fn read_groups(
     n_nodes: usize,
 ) -> Result<BTreeMap<String, Vec<usize>>> {
     let mesh_name = mesh.name().rsplit('/').next().unwrap_or_default();
-    let Some(families) = root
-        .find_group("FAS")?
-        .map(|fas| fas.find_group(mesh_name))
-        .transpose()?
-        .flatten()
-    else {
+    let Some(families) = root.find_group("FAS")?.map(|fas| fas.find_group(mesh_name)).transpose()?.flatten() else {
         return Ok(BTreeMap::new());
     };
     let of_nodes = node_groups(&read_families(&families, "NOEUD")?, step, n_nodes)?;
@@ -38,10 +33,7 @@ pub(super) fn read_groups(
             None => drop(groups.insert(name, nodes)),
         }
     }
-    Ok(groups
-        .into_iter()
-        .map(|(name, nodes)| (name, nodes.into_iter().collect()))
-        .collect())
+    Ok(groups.into_iter().map(|(name, nodes)| (name, nodes.into_iter().collect())).collect())
 }
 
 /// Families with their group names; those without names say nothing to a user.
@@ -54,11 +46,7 @@ fn read_families(families: &Group<'_>, kind: &str) -> Result<Families> {
         let number = attribute::integers(family.h5(), family.location(), family.name(), "NUM")?;
         let Some(number) = number.and_then(|v| v.first().copied()) else {
             let (path, object) = (family.h5().path().to_owned(), format!("{}@NUM", family.name()));
-            return Err(Error::Hdf5Missing {
-                path,
-                object,
-                kind: "attribute",
-            });
+            return Err(Error::Hdf5Missing { path, object, kind: "attribute" });
         };
         if let Some(table) = family.find_dataset("GRO/NOM")? {
             let of_family = names.entry(number).or_default();
@@ -75,10 +63,7 @@ fn node_groups(families: &Families, step: &Group<'_>, n_nodes: usize) -> Result<
     };
     let numbers = family.integers()?;
     if numbers.len() != n_nodes {
-        return Err(family.wrong_shape(
-            format!("{} values", numbers.len()),
-            format!("one for each of {n_nodes} nodes"),
-        ));
+        return Err(family.wrong_shape(format!("{} values", numbers.len()), format!("one for each of {n_nodes} nodes")));
     }
     for (node, number) in numbers.iter().enumerate() {
         for name in families.get(number).into_iter().flatten() {
@@ -93,11 +78,7 @@ fn element_groups(families: &Families, step: &Group<'_>, n_nodes: usize) -> Resu
     if families.is_empty() {
         return Ok(sets);
     }
-    let kinds = step
-        .find_group("MAI")?
-        .map(|mai| mai.groups())
-        .transpose()?
-        .unwrap_or_default();
+    let kinds = step.find_group("MAI")?.map(|mai| mai.groups()).transpose()?.unwrap_or_default();
     for kind in kinds {
         let Some(family) = kind.find_dataset("FAM")? else {
             continue;
@@ -110,12 +91,7 @@ fn element_groups(families: &Families, step: &Group<'_>, n_nodes: usize) -> Resu
             let (path, object) = (kind.h5().path().to_owned(), kind.name().to_owned());
             let found = "a group of polygons or polyhedra".to_owned();
             let expected = "groups of elements with a fixed number of nodes";
-            return Err(Error::MeshUnsupported {
-                path,
-                object,
-                found,
-                expected,
-            });
+            return Err(Error::MeshUnsupported { path, object, found, expected });
         }
         add_elements(&mut sets, families, &numbers, &kind.dataset("NOD")?, n_nodes)?;
     }

@@ -22,11 +22,7 @@ use crate::input::Nodes;
 /// The file cannot be read, holds no mesh of these formats or several, refers to data outside its folder, or has
 /// coordinates, labels or node numbers that cannot be right.
 pub fn read_nodes(path: &Path) -> Result<Nodes> {
-    let mesh = if is_xml(path)? {
-        xdmf::read(path)?
-    } else {
-        read_hdf5(path)?
-    };
+    let mesh = if is_xml(path)? { xdmf::read(path)? } else { read_hdf5(path)? };
     mesh.into_nodes(path)
 }
 
@@ -43,56 +39,31 @@ pub(super) struct Mesh {
 impl Mesh {
     /// A mesh without labels and groups.
     pub(super) fn of_points(coordinates: Vec<[f64; 3]>, source: String) -> Self {
-        Self {
-            labels: None,
-            coordinates,
-            source,
-            groups: BTreeMap::new(),
-        }
+        Self { labels: None, coordinates, source, groups: BTreeMap::new() }
     }
 
     /// Checks what every format has in common.
     fn into_nodes(self, path: &Path) -> Result<Nodes> {
         let n_nodes = self.coordinates.len();
-        let (labels, label_source) = self
-            .labels
-            .unwrap_or_else(|| ((1..=n_nodes as i64).collect(), self.source.clone()));
+        let (labels, label_source) =
+            self.labels.unwrap_or_else(|| ((1..=n_nodes as i64).collect(), self.source.clone()));
         if n_nodes == 0 || labels.len() != n_nodes {
             let found = format!("{n_nodes} nodes and {} labels", labels.len());
             let expected = "a label for each of one or more nodes".to_owned();
-            return Err(Error::Hdf5Shape {
-                path: path.to_owned(),
-                object: label_source,
-                found,
-                expected,
-            });
+            return Err(Error::Hdf5Shape { path: path.to_owned(), object: label_source, found, expected });
         }
         let mut sorted = labels.clone();
         sorted.sort_unstable();
         if let Some(pair) = sorted.windows(2).find(|pair| pair[0] == pair[1]) {
-            return Err(Error::MeshLabelTwice {
-                path: path.to_owned(),
-                object: label_source,
-                label: pair[0],
-            });
+            return Err(Error::MeshLabelTwice { path: path.to_owned(), object: label_source, label: pair[0] });
         }
         for (point, &label) in self.coordinates.iter().zip(&labels) {
             if let Some(axis) = point.iter().position(|x| !x.is_finite()) {
                 let (path, object) = (path.to_owned(), self.source);
-                return Err(Error::MeshNotFinite {
-                    path,
-                    object,
-                    label,
-                    axis,
-                    value: point[axis],
-                });
+                return Err(Error::MeshNotFinite { path, object, label, axis, value: point[axis] });
             }
         }
-        Ok(Nodes {
-            labels,
-            coordinates: self.coordinates,
-            groups: self.groups,
-        })
+        Ok(Nodes { labels, coordinates: self.coordinates, groups: self.groups })
     }
 }
 
@@ -107,24 +78,14 @@ pub(super) fn points_of_rows(dataset: &Dataset<'_>) -> Result<Vec<[f64; 3]>> {
 
 /// Points from numbers in which those of one node are neighbours; axes that are missing are zero.
 pub(super) fn points(values: &[f64], n_axes: usize) -> Vec<[f64; 3]> {
-    values
-        .chunks_exact(n_axes)
-        .map(|p| std::array::from_fn(|axis| p.get(axis).copied().unwrap_or(0.0)))
-        .collect()
+    values.chunks_exact(n_axes).map(|p| std::array::from_fn(|axis| p.get(axis).copied().unwrap_or(0.0))).collect()
 }
 
 /// True if the first character that is no blank opens a tag.
 fn is_xml(path: &Path) -> Result<bool> {
-    let read = |source| Error::Read {
-        path: path.to_owned(),
-        source,
-    };
+    let read = |source| Error::Read { path: path.to_owned(), source };
     let mut head = Vec::new();
-    fs::File::open(path)
-        .map_err(read)?
-        .take(256)
-        .read_to_end(&mut head)
-        .map_err(read)?;
+    fs::File::open(path).map_err(read)?.take(256).read_to_end(&mut head).map_err(read)?;
     let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&head);
     Ok(text.trim_ascii_start().starts_with(b"<"))
 }
@@ -141,13 +102,6 @@ fn read_hdf5(path: &Path) -> Result<Mesh> {
     if let Some(geometry) = hmf::find(&root)? {
         return hmf::read(&geometry);
     }
-    let holds = root
-        .members()?
-        .into_iter()
-        .map(|(name, _)| root.child_name(&name))
-        .collect();
-    Err(Error::MeshUnknown {
-        path: path.to_owned(),
-        holds,
-    })
+    let holds = root.members()?.into_iter().map(|(name, _)| root.child_name(&name)).collect();
+    Err(Error::MeshUnknown { path: path.to_owned(), holds })
 }

@@ -15,22 +15,12 @@ pub(super) fn read(root: &Group<'_>) -> Result<Mesh> {
     let Some(end) = first.checked_add(n_nodes).filter(|_| first >= 0) else {
         let (path, object) = (root.h5().path().to_owned(), format!("{}@start_id", dataset.name()));
         let expected = "the file id of the first node";
-        return Err(Error::Hdf5Type {
-            path,
-            object,
-            found: first.to_string(),
-            expected,
-        });
+        return Err(Error::Hdf5Type { path, object, found: first.to_string(), expected });
     };
     let groups = match tstt.member("sets")? {
         Some(Member::Group) => read_sets(&tstt, first..end)?,
         _ => Default::default(),
     };
     let source = dataset.name().to_owned();
-    Ok(Mesh {
-        labels: Some(((first..end).collect(), source.clone())),
-        coordinates,
-        source,
-        groups,
-    })
+    Ok(Mesh { labels: Some(((first..end).collect(), source.clone())), coordinates, source, groups })
 }

@@ -23,31 +23,17 @@ pub(super) fn read_sets(tstt: &Group<'_>, nodes: Range<i64>) -> Result<BTreeMap<
     if tagged.is_empty() {
         return Ok(BTreeMap::new());
     }
-    let contents = Contents {
-        nodes,
-        elements: read_elements(tstt)?,
-        sets,
-    };
+    let contents = Contents { nodes, elements: read_elements(tstt)?, sets };
     let limit = contents.max_steps();
     let mut n_steps = 0;
     for (name, set) in tagged {
-        let mut walk = Walk {
-            found: groups.entry(name).or_default(),
-            visited: BTreeSet::new(),
-            n_steps,
-            limit,
-        };
+        let mut walk = Walk { found: groups.entry(name).or_default(), visited: BTreeSet::new(), n_steps, limit };
         contents.collect(set, &mut walk, MAX_DEPTH);
         n_steps = walk.n_steps;
     }
     if n_steps > limit {
         let (path, object) = (tstt.h5().path().to_owned(), tstt.child_name("sets"));
-        return Err(Error::Hdf5Depth {
-            path,
-            object,
-            limit,
-            counted: "members of sets",
-        });
+        return Err(Error::Hdf5Depth { path, object, limit, counted: "members of sets" });
     }
     Ok(groups
         .into_iter()
@@ -60,22 +46,16 @@ pub(super) fn read_sets(tstt: &Group<'_>, nodes: Range<i64>) -> Result<BTreeMap<
 fn tagged_sets(tstt: &Group<'_>, first: i64) -> Result<Vec<(String, i64)>> {
     let mut tagged = Vec::new();
     for tag in TAGS {
-        if let (Some(ids), Some(values)) = (
-            tstt.find_dataset(&format!("tags/{tag}/id_list"))?,
-            tstt.find_dataset(&format!("tags/{tag}/values"))?,
-        ) {
+        if let (Some(ids), Some(values)) =
+            (tstt.find_dataset(&format!("tags/{tag}/id_list"))?, tstt.find_dataset(&format!("tags/{tag}/values"))?)
+        {
             let (numbers, n_ids) = (values.integers()?, ids.shape()?.iter().product::<usize>());
             if numbers.len() != n_ids {
                 return Err(
                     values.wrong_shape(format!("{} values", numbers.len()), format!("{n_ids}, one for each id"))
                 );
             }
-            tagged.extend(
-                ids.integers()?
-                    .into_iter()
-                    .zip(numbers)
-                    .map(|(id, n)| (format!("{tag} {n}"), id)),
-            );
+            tagged.extend(ids.integers()?.into_iter().zip(numbers).map(|(id, n)| (format!("{tag} {n}"), id)));
         } else if let Some(values) = tstt.find_dataset(&format!("sets/tags/{tag}"))? {
             // A set without the tag has a negative number.
             let numbers = values.integers()?.into_iter().zip(first..).filter(|(n, _)| *n >= 0);
@@ -93,11 +73,7 @@ struct Elements {
 }
 
 fn read_elements(tstt: &Group<'_>) -> Result<Vec<Elements>> {
-    let kinds = tstt
-        .find_group("elements")?
-        .map(|g| g.groups())
-        .transpose()?
-        .unwrap_or_default();
+    let kinds = tstt.find_group("elements")?.map(|g| g.groups()).transpose()?.unwrap_or_default();
     let mut elements = Vec::new();
     for kind in kinds {
         let Some(dataset) = kind.find_dataset("connectivity")? else {
@@ -108,11 +84,7 @@ fn read_elements(tstt: &Group<'_>) -> Result<Vec<Elements>> {
         };
         let first = dataset.integer_attribute("start_id")?.unwrap_or(0);
         let last = first.saturating_add_unsigned(n_elements as u64);
-        elements.push(Elements {
-            ids: first..last,
-            n_corners,
-            connectivity: dataset.integers()?,
-        });
+        elements.push(Elements { ids: first..last, n_corners, connectivity: dataset.integers()? });
     }
     Ok(elements)
 }
@@ -153,11 +125,7 @@ impl Sets {
             }
             previous = last;
         }
-        Ok(Some(Self {
-            first,
-            list: rows,
-            contents,
-        }))
+        Ok(Some(Self { first, list: rows, contents }))
     }
 
     /// File ids in the set, as ranges.
@@ -172,9 +140,7 @@ impl Sets {
         // Checked on reading: the positions rise and lie in the contents.
         let ids = &self.contents[begin as usize..(last + 1) as usize];
         if flags & RANGES != 0 {
-            ids.chunks_exact(2)
-                .map(|pair| pair[0]..pair[0].saturating_add(pair[1]))
-                .collect()
+            ids.chunks_exact(2).map(|pair| pair[0]..pair[0].saturating_add(pair[1])).collect()
         } else {
             ids.iter().map(|&id| id..id.saturating_add(1)).collect()
         }
@@ -213,11 +179,7 @@ impl Contents {
         }
         if let Some(kind) = self.elements.iter().find(|e| e.ids.contains(&id)) {
             let element = (id - kind.ids.start) as usize;
-            let corners = kind
-                .connectivity
-                .chunks_exact(kind.n_corners.max(1))
-                .nth(element)
-                .unwrap_or_default();
+            let corners = kind.connectivity.chunks_exact(kind.n_corners.max(1)).nth(element).unwrap_or_default();
             corners.iter().for_each(|&corner| self.collect(corner, walk, depth - 1));
             return;
         }
@@ -239,10 +201,7 @@ impl Contents {
     fn known(&self) -> impl Iterator<Item = Range<i64>> {
         let n_sets = self.sets.list.len() as u64;
         let sets = self.sets.first..self.sets.first.saturating_add_unsigned(n_sets);
-        self.elements
-            .iter()
-            .map(|e| e.ids.clone())
-            .chain([self.nodes.clone(), sets])
+        self.elements.iter().map(|e| e.ids.clone()).chain([self.nodes.clone(), sets])
     }
 
     /// More steps than overlapping sets of a real file take: 64 times over everything.

@@ -47,10 +47,7 @@ pub(super) fn integers(container: &Container) -> Result<Vec<i64>, Refusal> {
         TypeDescriptor::Unsigned(IntSize::U4) => widened::<u32, i64>(container),
         TypeDescriptor::Unsigned(IntSize::U8) => {
             let values = read::<u64>(container)?;
-            Ok(values
-                .into_iter()
-                .map(|v| i64::try_from(v).unwrap_or(i64::MAX))
-                .collect())
+            Ok(values.into_iter().map(|v| i64::try_from(v).unwrap_or(i64::MAX)).collect())
         }
         other => Err(Refusal::Type(other.to_string())),
     }
@@ -60,18 +57,10 @@ pub(super) fn integers(container: &Container) -> Result<Vec<i64>, Refusal> {
 pub(super) fn read<T: H5Type>(container: &Container) -> Result<Vec<T>, Refusal> {
     let datatype = container.dtype().map_err(Refusal::Library)?;
     if !datatype.is::<T>() {
-        let words = datatype
-            .to_descriptor()
-            .map_or_else(|e| e.to_string(), |d| d.to_string());
-        return Err(Refusal::Type(format!(
-            "{words} in another byte order or bit layout than this machine's"
-        )));
+        let words = datatype.to_descriptor().map_or_else(|e| e.to_string(), |d| d.to_string());
+        return Err(Refusal::Type(format!("{words} in another byte order or bit layout than this machine's")));
     }
-    container
-        .as_reader()
-        .no_convert()
-        .read_raw::<T>()
-        .map_err(Refusal::Library)
+    container.as_reader().no_convert().read_raw::<T>().map_err(Refusal::Library)
 }
 
 /// The type of the values.

@@ -28,28 +28,14 @@ impl MatrixRole {
 
     /// The role that a path in a file states: that of its last component which is a usual name of K or M.
     fn stated_by(path: &str) -> Option<Self> {
-        const STIFFNESS: [&str; 11] = [
-            "k",
-            "ke",
-            "kff",
-            "kaa",
-            "kgg",
-            "kaax",
-            "kmat",
-            "stif",
-            "stiff",
-            "stiffness",
-            "stiffnessmatrix",
-        ];
+        const STIFFNESS: [&str; 11] =
+            ["k", "ke", "kff", "kaa", "kgg", "kaax", "kmat", "stif", "stiff", "stiffness", "stiffnessmatrix"];
         const MASS: [&str; 9] = ["m", "me", "mff", "maa", "mgg", "maax", "mmat", "mass", "massmatrix"];
         path.rsplit('/').find_map(|component| {
             let name: String = component.chars().filter(char::is_ascii_alphanumeric).collect();
             let name = name.to_ascii_lowercase();
             let name = name.as_str();
-            STIFFNESS
-                .contains(&name)
-                .then_some(Self::Stiffness)
-                .or_else(|| MASS.contains(&name).then_some(Self::Mass))
+            STIFFNESS.contains(&name).then_some(Self::Stiffness).or_else(|| MASS.contains(&name).then_some(Self::Mass))
         })
     }
 }
@@ -58,18 +44,10 @@ impl MatrixRole {
 /// whose name says `role`.
 pub(super) fn find_matrix<'a>(start: Group<'a>, role: MatrixRole) -> Result<(Group<'a>, Convention)> {
     let (path, top) = (start.h5().path().to_owned(), start.name().to_owned());
-    let mut search = Search {
-        found: Vec::new(),
-        others: Vec::new(),
-        n_objects: 0,
-    };
+    let mut search = Search { found: Vec::new(), others: Vec::new(), n_objects: 0 };
     search.visit(start, 0)?;
     if search.found.is_empty() {
-        return Err(Error::Hdf5NoMatrix {
-            path,
-            group: top,
-            holds: search.others,
-        });
+        return Err(Error::Hdf5NoMatrix { path, group: top, holds: search.others });
     }
     let stated = |g: &Group<'a>| MatrixRole::stated_by(g.name());
     let n_stated = search.found.iter().filter(|(g, _)| stated(g) == Some(role)).count();
@@ -82,11 +60,7 @@ pub(super) fn find_matrix<'a>(start: Group<'a>, role: MatrixRole) -> Result<(Gro
         Some(idx) => Ok(search.found.swap_remove(idx)),
         None => {
             let groups = search.found.iter().map(|(g, _)| g.name().to_owned()).collect();
-            Err(Error::Hdf5AmbiguousMatrix {
-                path,
-                role: role.name(),
-                groups,
-            })
+            Err(Error::Hdf5AmbiguousMatrix { path, role: role.name(), groups })
         }
     }
 }
@@ -109,12 +83,7 @@ impl<'a> Search<'a> {
         self.n_objects += members.len();
         let too_deep = |limit, counted| {
             let path = group.h5().path().to_owned();
-            Err(Error::Hdf5Depth {
-                path,
-                object: group.name().to_owned(),
-                limit,
-                counted,
-            })
+            Err(Error::Hdf5Depth { path, object: group.name().to_owned(), limit, counted })
         };
         if depth >= MAX_DEPTH {
             return too_deep(MAX_DEPTH, "levels of groups");

@@ -26,11 +26,7 @@ use crate::sparse::Declared;
 pub fn read_matrix(path: &Path, group: Option<&str>, role: MatrixRole) -> Result<MatrixInput> {
     let h5 = H5::open(path)?;
     let start = h5.root()?.group(group.unwrap_or("/"))?;
-    let stated = if group.is_some() {
-        Convention::of(&start, &start.members()?)?
-    } else {
-        None
-    };
+    let stated = if group.is_some() { Convention::of(&start, &start.members()?)? } else { None };
     let (group, convention) = match stated {
         Some(convention) => (start, convention),
         None => find_matrix(start, role)?,
@@ -38,16 +34,8 @@ pub fn read_matrix(path: &Path, group: Option<&str>, role: MatrixRole) -> Result
     let (compressed, stored_digits) = convention.read(&group)?;
     let digits = significant_digits(compressed.values()).min(stored_digits);
     let n = compressed.check(h5.path(), group.name())?;
-    let (matrix, notes) = compressed
-        .into_triplets(h5.path())?
-        .assemble(n, Declared::General, h5.path())?;
-    Ok(MatrixInput {
-        matrix,
-        notes,
-        digits,
-        path: path.to_owned(),
-        digest: digest(path)?,
-    })
+    let (matrix, notes) = compressed.into_triplets(h5.path())?.assemble(n, Declared::General, h5.path())?;
+    Ok(MatrixInput { matrix, notes, digits, path: path.to_owned(), digest: digest(path)? })
 }
 
 /// How a group stores a sparse matrix.
@@ -64,10 +52,7 @@ pub(super) enum Convention {
 impl Convention {
     /// The convention of a group, judged by the names of its attributes and members.
     pub(super) fn of(group: &Group<'_>, members: &[(String, Member)]) -> Result<Option<Self>> {
-        let names = group
-            .location()
-            .attr_names()
-            .map_err(|e| group.h5().read_error(group.name(), &e))?;
+        let names = group.location().attr_names().map_err(|e| group.h5().read_error(group.name(), &e))?;
         let has = |name: &str| names.iter().any(|n| n == name);
         if has("MATLAB_sparse") {
             return Ok(Some(Self::Matlab));
@@ -79,11 +64,7 @@ impl Convention {
         if !["data", "indices", "indptr"].into_iter().all(has_dataset) {
             return Ok(None);
         }
-        Ok(Some(if has("shape") {
-            Self::ShapeAttribute("shape")
-        } else {
-            Self::ShapeDataset
-        }))
+        Ok(Some(if has("shape") { Self::ShapeAttribute("shape") } else { Self::ShapeDataset }))
     }
 
     /// Reads the group, and the digits its values are stored with.
@@ -101,9 +82,7 @@ impl Convention {
 
 /// MATLAB leaves `data` and `ir` away where a matrix has no entry.
 fn read_matlab(group: &Group<'_>) -> Result<(Compressed, u32)> {
-    let n_rows = shape_attribute(group, "MATLAB_sparse")?
-        .and_then(|v| v.first().copied())
-        .unwrap_or(0);
+    let n_rows = shape_attribute(group, "MATLAB_sparse")?.and_then(|v| v.first().copied()).unwrap_or(0);
     let pointers = group.dataset("jc")?;
     let (indices, reals) = match (group.find_dataset("ir")?, group.find_dataset("data")?) {
         (None, None) => (Vec::new(), None),
@@ -115,10 +94,7 @@ fn read_matlab(group: &Group<'_>) -> Result<(Compressed, u32)> {
     let values = reals.map_or_else(Vec::new, |r| r.values);
     let names = ["jc", "ir", "data"].map(|name| group.child_name(name));
     let shape = [n_rows, n_cols];
-    Ok((
-        Compressed::new(Major::Columns, shape, pointers, indices, values, names),
-        digits,
-    ))
+    Ok((Compressed::new(Major::Columns, shape, pointers, indices, values, names), digits))
 }
 
 /// Whether rows or columns are compressed stands in a text that is not read (see [`attribute`]); the matrices wanted are
@@ -132,21 +108,13 @@ fn read_compressed(group: &Group<'_>, stated: Option<Vec<u64>>) -> Result<(Compr
         Some(other) => {
             let (path, object) = (group.h5().path().to_owned(), group.child_name("shape"));
             let found = format!("{other:?}");
-            return Err(Error::Hdf5Shape {
-                path,
-                object,
-                found,
-                expected: "two numbers, rows and columns".to_owned(),
-            });
+            return Err(Error::Hdf5Shape { path, object, found, expected: "two numbers, rows and columns".to_owned() });
         }
     };
     let indices = group.dataset("indices")?.integers()?;
     let reals = group.dataset("data")?.reals()?;
     let names = ["indptr", "indices", "data"].map(|name| group.child_name(name));
-    Ok((
-        Compressed::new(Major::Rows, shape, pointers, indices, reals.values, names),
-        reals.digits,
-    ))
+    Ok((Compressed::new(Major::Rows, shape, pointers, indices, reals.values, names), reals.digits))
 }
 
 /// Numbers of rows and columns in an attribute.
@@ -156,21 +124,13 @@ fn shape_attribute(group: &Group<'_>, name: &str) -> Result<Option<Vec<u64>>> {
 
 /// A negative count becomes one that no pointer array can match.
 fn counts(values: Vec<i64>) -> Vec<u64> {
-    values
-        .into_iter()
-        .map(|v| u64::try_from(v).unwrap_or(u64::MAX))
-        .collect()
+    values.into_iter().map(|v| u64::try_from(v).unwrap_or(u64::MAX)).collect()
 }
 
 /// BLAKE3 digest of the file's bytes.
 fn digest(path: &Path) -> Result<String> {
-    let read = |source| Error::Read {
-        path: path.to_owned(),
-        source,
-    };
+    let read = |source| Error::Read { path: path.to_owned(), source };
     let mut hasher = blake3::Hasher::new();
-    hasher
-        .update_reader(fs::File::open(path).map_err(read)?)
-        .map_err(read)?;
+    hasher.update_reader(fs::File::open(path).map_err(read)?).map_err(read)?;
     Ok(hasher.finalize().to_hex().to_string())
 }

@@ -11,14 +11,8 @@ use crate::error::{Error, Result};
 
 /// Reads the one geometry of an XDMF file. Grids of a time series that refer to the same data count as one.
 pub(super) fn read(path: &Path) -> Result<Mesh> {
-    let text = fs::read_to_string(path).map_err(|source| Error::Read {
-        path: path.to_owned(),
-        source,
-    })?;
-    let document = Document::parse(&text).map_err(|source| Error::XdmfSyntax {
-        path: path.to_owned(),
-        source,
-    })?;
+    let text = fs::read_to_string(path).map_err(|source| Error::Read { path: path.to_owned(), source })?;
+    let document = Document::parse(&text).map_err(|source| Error::XdmfSyntax { path: path.to_owned(), source })?;
     let mut geometries: Vec<Geometry<'_>> = Vec::new();
     for node in document.descendants().filter(|n| n.tag_name().name() == "Geometry") {
         let geometry = Geometry::of(node, path)?;
@@ -29,17 +23,9 @@ pub(super) fn read(path: &Path) -> Result<Mesh> {
     match geometries.as_slice() {
         [only] => only.read(path),
         _ => {
-            let found = geometries
-                .iter()
-                .map(|g| g.content.trim().chars().take(60).collect())
-                .collect();
+            let found = geometries.iter().map(|g| g.content.trim().chars().take(60).collect()).collect();
             let object = "Xdmf/Domain/Grid/Geometry".to_owned();
-            Err(Error::MeshNotOne {
-                path: path.to_owned(),
-                object,
-                found,
-                kind: "geometry",
-            })
+            Err(Error::MeshNotOne { path: path.to_owned(), object, found, kind: "geometry" })
         }
     }
 }
@@ -58,17 +44,9 @@ impl<'a> Geometry<'a> {
     fn of(node: Node<'a, '_>, path: &Path) -> Result<Self> {
         let unsupported = |object: &str, found: &str, expected| {
             let (path, found) = (path.to_owned(), found.to_owned());
-            Err(Error::MeshUnsupported {
-                path,
-                object: object.to_owned(),
-                found,
-                expected,
-            })
+            Err(Error::MeshUnsupported { path, object: object.to_owned(), found, expected })
         };
-        let kind = node
-            .attribute("GeometryType")
-            .or_else(|| node.attribute("Type"))
-            .unwrap_or("XYZ");
+        let kind = node.attribute("GeometryType").or_else(|| node.attribute("Type")).unwrap_or("XYZ");
         let n_axes = match kind.to_ascii_uppercase().as_str() {
             "X" => 1,
             "XY" => 2,
@@ -93,60 +71,30 @@ impl<'a> Geometry<'a> {
         if format != "HDF" && format != "XML" {
             return unsupported("Geometry/DataItem", &format, "Format HDF or XML");
         }
-        Ok(Self {
-            n_axes,
-            format,
-            content: item.text().unwrap_or("").trim(),
-            dimensions: item.attribute("Dimensions"),
-        })
+        Ok(Self { n_axes, format, content: item.text().unwrap_or("").trim(), dimensions: item.attribute("Dimensions") })
     }
 
     fn read(&self, path: &Path) -> Result<Mesh> {
-        let (values, source) = if self.format == "HDF" {
-            self.read_hdf5(path)?
-        } else {
-            self.read_text(path)?
-        };
+        let (values, source) = if self.format == "HDF" { self.read_hdf5(path)? } else { self.read_text(path)? };
         let stated = self.stated_len();
         if !values.len().is_multiple_of(self.n_axes) || stated.is_some_and(|n| n != values.len()) {
             let found = format!("{} values", values.len());
-            let expected = format!(
-                "{} for each node and Dimensions {}",
-                self.n_axes,
-                self.dimensions.unwrap_or("-")
-            );
-            return Err(Error::Hdf5Shape {
-                path: path.to_owned(),
-                object: source,
-                found,
-                expected,
-            });
+            let expected = format!("{} for each node and Dimensions {}", self.n_axes, self.dimensions.unwrap_or("-"));
+            return Err(Error::Hdf5Shape { path: path.to_owned(), object: source, found, expected });
         }
         Ok(Mesh::of_points(points(&values, self.n_axes), source))
     }
 
     /// Number of values by the `Dimensions` attribute; a product that overflows matches no length.
     fn stated_len(&self) -> Option<usize> {
-        let dimensions: Vec<usize> = self
-            .dimensions?
-            .split_ascii_whitespace()
-            .map(str::parse)
-            .collect::<Result<_, _>>()
-            .ok()?;
-        Some(
-            dimensions
-                .iter()
-                .try_fold(1_usize, |n, &d| n.checked_mul(d))
-                .unwrap_or(usize::MAX),
-        )
+        let dimensions: Vec<usize> =
+            self.dimensions?.split_ascii_whitespace().map(str::parse).collect::<Result<_, _>>().ok()?;
+        Some(dimensions.iter().try_fold(1_usize, |n, &d| n.checked_mul(d)).unwrap_or(usize::MAX))
     }
 
     fn read_hdf5(&self, path: &Path) -> Result<(Vec<f64>, String)> {
         let Some((file, object)) = inside_folder(path, self.content) else {
-            return Err(Error::XdmfReference {
-                path: path.to_owned(),
-                reference: self.content.to_owned(),
-            });
+            return Err(Error::XdmfReference { path: path.to_owned(), reference: self.content.to_owned() });
         };
         let h5 = H5::open(&file)?;
         let values = h5.root()?.dataset(object)?.reals()?.values;
@@ -163,11 +111,7 @@ impl<'a> Geometry<'a> {
                 expected: "real numbers",
             })
         };
-        let values = self
-            .content
-            .split_ascii_whitespace()
-            .map(number)
-            .collect::<Result<_>>()?;
+        let values = self.content.split_ascii_whitespace().map(number).collect::<Result<_>>()?;
         Ok((values, source.to_owned()))
     }
 }
@@ -176,9 +120,7 @@ impl<'a> Geometry<'a> {
 fn inside_folder<'a>(path: &Path, reference: &'a str) -> Option<(PathBuf, &'a str)> {
     let (file, object) = reference.rsplit_once(":/")?;
     let file = Path::new(file);
-    let inside = file
-        .components()
-        .all(|c| matches!(c, Component::Normal(_) | Component::CurDir));
+    let inside = file.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir));
     // A backslash or a second colon would leave the folder on some systems.
     let portable = !reference.contains(['\\']) && !file.to_string_lossy().contains(':');
     let named = file.file_name().is_some() && !object.is_empty();

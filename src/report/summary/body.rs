@@ -17,11 +17,7 @@ const NAME: usize = 44;
 
 pub(super) fn write(page: &mut Page, body: &ReportBody) {
     let reduction = &body.reduction;
-    let sizes = format!(
-        "{} → {}",
-        table::count(body.model.n_dofs as u64),
-        table::count(reduction.n_reduced as u64)
-    );
+    let sizes = format!("{} → {}", table::count(body.model.n_dofs as u64), table::count(reduction.n_reduced as u64));
     let title = format!(
         "{} {} · {} · {sizes} degrees of freedom",
         body.generator.name,
@@ -37,11 +33,7 @@ pub(super) fn write(page: &mut Page, body: &ReportBody) {
     let modes: Vec<Mode> = reduction
         .modes
         .iter()
-        .map(|mode| Mode {
-            number: mode.index,
-            frequency_hz: mode.frequency_hz,
-            error_bar_hz: Some(mode.error_bar_hz),
-        })
+        .map(|mode| Mode { number: mode.index, frequency_hz: mode.frequency_hz, error_bar_hz: Some(mode.error_bar_hz) })
         .collect();
     mode_table(page, &modes);
     page.heading("Checked");
@@ -89,16 +81,10 @@ pub(crate) fn mass_properties(page: &mut Page, properties: &MassProperties) {
     if let Some(cg) = properties.cg {
         // A coordinate that is rounding beside the others would only draw the eye.
         let size = cg.iter().fold(0.0_f64, |size, coordinate| size.max(coordinate.abs()));
-        page.entry(
-            "centre of mass",
-            &format!("({})", cg.map(|coordinate| rounded(coordinate, size)).join(", ")),
-        );
+        page.entry("centre of mass", &format!("({})", cg.map(|coordinate| rounded(coordinate, size)).join(", ")));
     }
     if let Some(inertia) = properties.inertia {
-        let size = inertia
-            .iter()
-            .flatten()
-            .fold(0.0_f64, |size, term| size.max(term.abs()));
+        let size = inertia.iter().flatten().fold(0.0_f64, |size, term| size.max(term.abs()));
         let term = |name: &str, row: usize, column: usize| format!("{name} {}", rounded(inertia[row][column], size));
         let diagonal = [term("xx", 0, 0), term("yy", 1, 1), term("zz", 2, 2)].join(", ");
         let products = [term("xy", 0, 1), term("xz", 0, 2), term("yz", 1, 2)].join(", ");
@@ -107,11 +93,7 @@ pub(crate) fn mass_properties(page: &mut Page, properties: &MassProperties) {
 }
 
 fn rounded(value: f64, size: f64) -> String {
-    if value.abs() <= 1e-12 * size {
-        "0".to_owned()
-    } else {
-        table::quantity(value, 5)
-    }
+    if value.abs() <= 1e-12 * size { "0".to_owned() } else { table::quantity(value, 5) }
 }
 
 fn reduced(page: &mut Page, reduction: &ReductionReport) {
@@ -122,38 +104,22 @@ fn reduced(page: &mut Page, reduction: &ReductionReport) {
         };
         let nodes = table::counted(interface.n_nodes, "node", "nodes");
         let dofs = table::counted(interface.n_dofs, "dof", "dofs");
-        page.entry(
-            "interface",
-            &format!("{} · {coupling} · {nodes} · {dofs}", interface.name),
-        );
+        page.entry("interface", &format!("{} · {coupling} · {nodes} · {dofs}", interface.name));
     }
     let mut parts = vec![format!("{} interface", table::count(reduction.n_interface as u64))];
     if reduction.n_inertia_relief > 0 {
-        parts.push(format!(
-            "{} inertia relief",
-            table::count(reduction.n_inertia_relief as u64)
-        ));
+        parts.push(format!("{} inertia relief", table::count(reduction.n_inertia_relief as u64)));
     }
     parts.push(table::counted(reduction.n_modes, "elastic mode", "elastic modes"));
-    page.entry(
-        "coordinates",
-        &format!("{} = {}", table::count(reduction.n_reduced as u64), parts.join(" + ")),
-    );
-    let dropped: Vec<String> = reduction
-        .dropped
-        .iter()
-        .map(|dropped| format!("{}: {}", dropped.coordinate, dropped.reason))
-        .collect();
+    page.entry("coordinates", &format!("{} = {}", table::count(reduction.n_reduced as u64), parts.join(" + ")));
+    let dropped: Vec<String> =
+        reduction.dropped.iter().map(|dropped| format!("{}: {}", dropped.coordinate, dropped.reason)).collect();
     listing(page, "left out", &dropped);
     let solver = match reduction.eigensolver {
         Eigensolver::Lanczos => "block Lanczos",
         Eigensolver::Arpack => "ARPACK",
     };
-    let worst = reduction
-        .modes
-        .iter()
-        .map(|mode| mode.backward_error)
-        .fold(0.0, f64::max);
+    let worst = reduction.modes.iter().map(|mode| mode.backward_error).fold(0.0, f64::max);
     if let Some(mode) = reduction.modes.first() {
         let kind = match mode.kind {
             ModeKind::FreeInterface => "free-interface",
@@ -167,15 +133,7 @@ fn reduced(page: &mut Page, reduction: &ReductionReport) {
 fn checks(page: &mut Page, checks: &[Check]) {
     let heads = ["", "check", "value", "limit", "set by", "margin", "verdict"].map(str::to_owned);
     let rows: Vec<[String; 7]> = std::iter::once(heads).chain(checks.iter().map(check_row)).collect();
-    let align = [
-        Align::Left,
-        Align::Left,
-        Align::Right,
-        Align::Right,
-        Align::Left,
-        Align::Right,
-        Align::Left,
-    ];
+    let align = [Align::Left, Align::Left, Align::Right, Align::Right, Align::Left, Align::Right, Align::Left];
     let mut lines = table::columns(&rows, align).into_iter();
     if let Some(heads) = lines.next() {
         let heads = page.toned(&heads.join("  "), Tone::Faint);

@@ -20,21 +20,12 @@ fn stages(page: &mut Page, stages: &[StageTime]) {
     let total: f64 = stages.iter().map(|stage| stage.seconds).sum();
     let names = stages.iter().map(|stage| stage.name).chain(["total"]);
     let seconds = stages.iter().map(|stage| stage.seconds).chain([total]);
-    let rows: Vec<[String; 2]> = names
-        .zip(seconds.clone())
-        .map(|(name, seconds)| [name.to_owned(), table::duration(seconds)])
-        .collect();
-    for ([name, time], seconds) in table::columns(&rows, [Align::Left, Align::Right])
-        .into_iter()
-        .zip(seconds)
-    {
+    let rows: Vec<[String; 2]> =
+        names.zip(seconds.clone()).map(|(name, seconds)| [name.to_owned(), table::duration(seconds)]).collect();
+    for ([name, time], seconds) in table::columns(&rows, [Align::Left, Align::Right]).into_iter().zip(seconds) {
         let name = page.toned(&table::pad(&name, LABEL, Align::Left), Tone::Faint);
         let is_total = name.contains("total");
-        let bar = if is_total {
-            String::new()
-        } else {
-            page.toned(&bar(seconds / total), Tone::Faint)
-        };
+        let bar = if is_total { String::new() } else { page.toned(&bar(seconds / total), Tone::Faint) };
         page.line(&format!("  {name}  {time}  {bar}"));
     }
 }
@@ -47,13 +38,7 @@ fn bar(share: f64) -> String {
 }
 
 fn facts(page: &mut Page, run: &RunFacts) {
-    let WorkCounters {
-        n_factorisations,
-        n_solves,
-        n_restarts,
-        factor_flops,
-        factor_nonzeros,
-    } = run.work;
+    let WorkCounters { n_factorisations, n_solves, n_restarts, factor_flops, factor_nonzeros } = run.work;
     let work = [
         table::counted(n_factorisations, "factorisation", "factorisations"),
         table::counted(n_solves, "solve", "solves"),
@@ -62,24 +47,14 @@ fn facts(page: &mut Page, run: &RunFacts) {
     ];
     page.entry("work", &work.join(" · "));
     if factor_nonzeros > 0 {
-        let entries = table::counted(
-            usize::try_from(factor_nonzeros).unwrap_or(usize::MAX),
-            "nonzero",
-            "nonzeros",
-        );
-        page.entry(
-            "largest factor",
-            &format!("{entries} · {} flop", table::scientific(factor_flops, 2)),
-        );
+        let entries = table::counted(usize::try_from(factor_nonzeros).unwrap_or(usize::MAX), "nonzero", "nonzeros");
+        page.entry("largest factor", &format!("{entries} · {} flop", table::scientific(factor_flops, 2)));
     }
     if let Some(peak) = run.peak_memory_bytes {
         page.entry("peak memory", &table::bytes(peak));
     }
     if let Some(path) = &run.superelement {
-        let size = run
-            .file_bytes
-            .map(|size| format!(" · {}", table::bytes(size)))
-            .unwrap_or_default();
+        let size = run.file_bytes.map(|size| format!(" · {}", table::bytes(size))).unwrap_or_default();
         page.entry("superelement", &format!("{}{size}", path.display()));
     }
     if let Some(path) = &run.report {
@@ -90,11 +65,7 @@ fn facts(page: &mut Page, run: &RunFacts) {
 fn verdict(page: &mut Page, report: &Report) {
     let body = &report.body;
     let of = |verdict| -> Vec<&str> {
-        body.checks
-            .iter()
-            .filter(|check| check.verdict() == verdict)
-            .map(|check| check.id)
-            .collect()
+        body.checks.iter().filter(|check| check.verdict() == verdict).map(|check| check.id).collect()
     };
     let n_checks = table::counted(body.checks.len(), "check", "checks");
     let n_warnings = table::counted(body.warnings.len(), "warning", "warnings");
@@ -105,17 +76,9 @@ fn verdict(page: &mut Page, report: &Report) {
         Verdict::Warn if warned.is_empty() => format!("! verified with {n_warnings}: {n_checks} passed"),
         Verdict::Warn => format!("! verified with {n_warnings}; past the limit: {}", warned.join(", ")),
         Verdict::Fail if failed.is_empty() => "✗ not verified: modes are missing".to_owned(),
-        Verdict::Fail => format!(
-            "✗ not verified: {} of {n_checks} failed: {}",
-            failed.len(),
-            failed.join(", ")
-        ),
+        Verdict::Fail => format!("✗ not verified: {} of {n_checks} failed: {}", failed.len(), failed.join(", ")),
     };
-    let text = if report.run.superelement.is_none() {
-        text + " – no superelement was written"
-    } else {
-        text
-    };
+    let text = if report.run.superelement.is_none() { text + " – no superelement was written" } else { text };
     for line in table::wrap(&text, WIDTH) {
         let line = page.toned(&line, Tone::Of(verdict));
         page.line(&line);
