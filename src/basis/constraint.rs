@@ -6,7 +6,7 @@ use faer::{Mat, MatRef};
 use crate::dense;
 use crate::factor::SolveOperator;
 use crate::partition::Partition;
-use crate::rigid::{RigidBodyModes, multiply};
+use crate::rigid::{RigidBodyModes, absolute_energy, multiply};
 
 /// Ψ_S with what it took to make it exact.
 #[derive(Clone, Debug)]
@@ -15,6 +15,9 @@ pub struct ConstraintModes {
     pub modes: Mat<f64>,
     /// K̂_BB = [Ψ_S; I]ᵀ K [Ψ_S; I], n_B × n_B: second order in the error of Ψ_S.
     pub stiffness: Mat<f64>,
+    /// max (|Ψ|ᵀ|K||Ψ|)_ii / K_BB,ii over the interface dofs: rounding of K̂_BB is ε times this, relative to the stiffness of
+    /// the interface before condensation.
+    pub cancellation: f64,
     /// Error of equation (24) as solved: max |Ψ_S U_B − U_I| / max |U_I|.
     pub raw_rigid_error: f64,
     /// The same after the correction, and the dof it is worst at.
@@ -41,8 +44,8 @@ pub fn constraint_modes(partition: &Partition, factor: &dyn SolveOperator, rigid
         dense::add_product(modes.as_mut(), 1.0, defect.as_ref(), left_inverse(partition, u_b).as_ref());
     }
     let rigid_error = rigid_error(modes.as_ref(), u_i, u_b);
-    let stiffness = condensed_stiffness(partition, modes.as_ref());
-    ConstraintModes { modes, stiffness, raw_rigid_error, rigid_error }
+    let (stiffness, cancellation) = condensed_stiffness(partition, modes.as_ref());
+    ConstraintModes { modes, stiffness, cancellation, raw_rigid_error, rigid_error }
 }
 
 /// U_I − Ψ_S U_B, n_I × n_r.
@@ -78,12 +81,18 @@ fn left_inverse(partition: &Partition, u_b: MatRef<'_, f64>) -> Mat<f64> {
     weighted.qr().solve_lstsq(&weights)
 }
 
-fn condensed_stiffness(partition: &Partition, modes: MatRef<'_, f64>) -> Mat<f64> {
+/// K̂_BB and how far its terms cancel.
+fn condensed_stiffness(partition: &Partition, modes: MatRef<'_, f64>) -> (Mat<f64>, f64) {
     let (n_i, n_b) = (modes.nrows(), modes.ncols());
     let mut psi = Mat::zeros(partition.n_dofs(), n_b);
     psi.as_mut().subrows_mut(0, n_i).copy_from(modes);
     psi.as_mut().subrows_mut(n_i, n_b).copy_from(Mat::<f64>::identity(n_b, n_b));
     let mut stiffness = dense::gram(psi.as_ref(), multiply(&partition.stiffness, psi.as_ref()).as_ref());
     dense::symmetrise(&mut stiffness);
-    stiffness
+    let terms = absolute_energy(&partition.stiffness, psi.as_ref());
+    let ratio = |(i, terms): (usize, f64)| {
+        let uncondensed = partition.stiffness.get(n_i + i, n_i + i).copied().unwrap_or(0.0);
+        if uncondensed > 0.0 { terms / uncondensed } else { 1.0 }
+    };
+    (stiffness, terms.into_iter().enumerate().map(ratio).fold(1.0, f64::max))
 }

@@ -21,10 +21,9 @@ use std::sync::{Mutex, PoisonError};
 
 use faer::{Mat, MatMut, MatRef};
 
-use super::lanczos::{
-    EigenWork, Eigenpairs, Problem, RESIDUAL_FLOOR, ROUNDING, TOLERANCE, Wanted, are_clustered, mass_norm, product,
-};
+use super::eigenproblem::{EigenWork, Eigenpairs, Problem, Wanted, are_clustered, mass_norm, product};
 use super::random::SplitMix64;
+use super::ritz::{RESIDUAL_FLOOR, ROUNDING, TOLERANCE};
 use crate::dense;
 use crate::error::{Error, Result};
 

@@ -38,8 +38,13 @@ impl Equilibrated {
     /// Normwise backward error of (λ, x) with residual r: ‖Dr‖ / ((‖DKD‖ + |λ|‖DMD‖) ‖D⁻¹x‖), measure M-01.
     pub fn backward_error(&self, lambda: f64, x: &[f64], residual: &[f64]) -> f64 {
         let r: Vec<f64> = residual.iter().zip(&self.scale).map(|(r, d)| r * d).collect();
+        dense::norm(&r) / ((self.stiffness_norm + lambda.abs() * self.mass_norm) * self.scaled_norm(x))
+    }
+
+    /// ‖D⁻¹x‖.
+    pub fn scaled_norm(&self, x: &[f64]) -> f64 {
         let x: Vec<f64> = x.iter().zip(&self.scale).map(|(x, d)| x / d).collect();
-        dense::norm(&r) / ((self.stiffness_norm + lambda.abs() * self.mass_norm) * dense::norm(&x))
+        dense::norm(&x)
     }
 
     /// The same of a small dense pencil in given scales.

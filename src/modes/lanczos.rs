@@ -10,70 +10,15 @@
 //! vectors simply are the basis. A wanted cluster is never cut, and one pair beyond the wanted ones is found too, so
 //! that a Sturm count can be taken in the gap between them.
 
-use faer::{Mat, MatMut, MatRef};
+use faer::{Mat, MatRef};
 
-use super::operator::ShiftInvert;
+use super::eigenproblem::{CLUSTER_GAP, EigenWork, Eigenpairs, Problem, Wanted, mass_norm, product};
+use super::orthogonalisation::{combine_in_place, gram_schmidt};
 use super::random::SplitMix64;
+use super::ritz::Ritz;
 use crate::dense;
 use crate::error::{Error, Result};
-use crate::sparse::{SparseMatrix, multiply};
 
-/// The eigenproblem: K enters through its shift-invert operator.
-#[derive(Clone, Copy)]
-#[allow(missing_debug_implementations)]
-pub struct Problem<'a> {
-    /// (K − σM)⁻¹.
-    pub operator: &'a dyn ShiftInvert,
-    /// M, n × n.
-    pub mass: &'a SparseMatrix,
-    /// Q and MQ, n × n_r each; empty where nothing is deflated.
-    pub deflated: [MatRef<'a, f64>; 2],
-}
-
-/// Which eigenpairs are wanted.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Wanted {
-    /// The lowest ones, completed to whole clusters.
-    Count(usize),
-    /// All up to this λ, completed to whole clusters.
-    UpTo(f64),
-}
-
-/// What was found.
-#[derive(Clone, Debug)]
-pub struct Eigenpairs {
-    /// λ in ascending order.
-    pub values: Vec<f64>,
-    /// x, n × k, M-orthonormal.
-    pub vectors: Mat<f64>,
-    /// The next λ above, where there is one: the far side of the gap a Sturm count is taken in.
-    pub next: Option<f64>,
-    /// What it cost.
-    pub work: EigenWork,
-}
-
-/// Work counters of an eigensolution.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
-pub struct EigenWork {
-    /// Right-hand sides solved.
-    pub solves: usize,
-    /// Block steps.
-    pub steps: usize,
-    /// Thick restarts.
-    pub restarts: usize,
-}
-
-/// Residual ‖OP x − θx‖ over θ at which a pair is taken: the Rayleigh quotient then errs by its square, and the backward
-/// error, which is this times λ over the largest one at most, stays below the limit of measure M-01.
-pub(super) const TOLERANCE: f64 = 1e-13;
-/// The same for the pair beyond the wanted ones, of which only λ is used.
-const NEXT_TOLERANCE: f64 = 1e-4;
-/// Rounding of OP in units of ε times its largest eigenvalue: a θ below it is that of an infinite eigenvalue.
-pub(super) const ROUNDING: f64 = 16.0;
-/// Residuals in the same units that need not fall further; the correction in [`Basis::extract`] takes up the rest.
-pub(super) const RESIDUAL_FLOOR: f64 = 16.0;
-/// Eigenvalues nearer than this, relatively, belong to one cluster.
-pub const CLUSTER_GAP: f64 = 1e-6;
 /// Restarts after which an iteration that has not converged never will.
 const MAX_RESTARTS: usize = 60;
 /// Right-hand sides per block on large models: a block of eight costs a fifth per vector of eight single solves.
@@ -128,13 +73,6 @@ struct Basis<'a> {
     /// Random start vectors so far.
     n_starts: usize,
     work: EigenWork,
-}
-
-/// Ritz pairs in descending θ, that is ascending λ.
-struct Ritz {
-    theta: Vec<f64>,
-    s: Mat<f64>,
-    residuals: Vec<f64>,
 }
 
 impl<'a> Basis<'a> {
@@ -426,125 +364,7 @@ impl<'a> Basis<'a> {
     }
 }
 
-impl Ritz {
-    fn lambda(&self, j: usize, sigma: f64) -> f64 {
-        sigma + 1.0 / self.theta[j]
-    }
-
-    /// Pairs that are not infinite eigenvalues: θ above the rounding of OP.
-    fn n_finite(&self) -> usize {
-        let floor = ROUNDING * f64::EPSILON * self.theta.first().copied().unwrap_or(0.0);
-        self.theta.iter().take_while(|theta| **theta > floor).count()
-    }
-
-    fn is_converged(&self, j: usize) -> bool {
-        self.residuals[j] <= (TOLERANCE * self.theta[j]).max(RESIDUAL_FLOOR * f64::EPSILON * self.theta[0])
-    }
-
-    fn same_cluster(&self, a: usize, b: usize, sigma: f64) -> bool {
-        are_clustered(self.lambda(a, sigma), self.lambda(b, sigma))
-    }
-
-    /// How many pairs answer the request, or none while the request is not answered.
-    fn count_wanted(&self, wanted: Wanted, sigma: f64) -> Option<usize> {
-        let n_finite = self.n_finite();
-        let mut count = match wanted {
-            Wanted::Count(count) => count,
-            Wanted::UpTo(limit) => (0..n_finite).find(|j| self.lambda(*j, sigma) > limit)?,
-        };
-        while count > 0 && count < n_finite && self.same_cluster(count - 1, count, sigma) {
-            count += 1;
-        }
-        let settled = count < n_finite
-            && (0..count).all(|j| self.is_converged(j))
-            && self.residuals[count] <= NEXT_TOLERANCE * self.theta[count];
-        settled.then_some(count)
-    }
-}
-
-impl Problem<'_> {
-    /// F ← Pᵀ F: takes the rigid-body resultant out of forces.
-    pub(super) fn equilibrate(&self, forces: MatMut<'_, f64>) {
-        let [q, mass_q] = self.deflated;
-        if q.ncols() > 0 {
-            let resultant = dense::gram(q, forces.as_ref());
-            dense::add_product(forces, -1.0, mass_q, resultant.as_ref());
-        }
-    }
-
-    /// X ← P X: takes the rigid-body motion out of displacements.
-    pub(super) fn deflate(&self, displacements: MatMut<'_, f64>) {
-        let [q, mass_q] = self.deflated;
-        if q.ncols() > 0 {
-            let motion = dense::gram(mass_q, displacements.as_ref());
-            dense::add_product(displacements, -1.0, q, motion.as_ref());
-        }
-    }
-}
-
-/// Whether an eigenvalue and the next one above belong to one cluster.
-pub(super) fn are_clustered(lower: f64, upper: f64) -> bool {
-    (upper - lower).abs() <= CLUSTER_GAP * upper.abs()
-}
-
 /// Columns of V before a restart: four times the wanted ones and eight blocks converge fifty modes without one.
 fn capacity_for(n_wanted: usize, block: usize, n: usize) -> usize {
     (4 * n_wanted + 8 * block).min(n)
-}
-
-pub(super) fn product(mass: &SparseMatrix, block: MatRef<'_, f64>) -> Mat<f64> {
-    let mut out = Mat::zeros(block.nrows(), block.ncols());
-    multiply(mass, block, out.as_mut());
-    out
-}
-
-pub(super) fn mass_norm(mass: &SparseMatrix, vector: &Mat<f64>) -> f64 {
-    let image = product(mass, vector.as_ref());
-    dense::dot(dense::column(vector.as_ref(), 0), dense::column(image.as_ref(), 0)).max(0.0).sqrt()
-}
-
-/// Modified Gram-Schmidt of a narrow block in the M-inner product, MW carried along: block = W R.
-///
-/// A column of length at most `least` is dependent: it becomes zero and its row of R too.
-pub fn gram_schmidt(block: &mut Mat<f64>, mass_block: &mut Mat<f64>, least: f64, dependent: &mut [bool]) -> Mat<f64> {
-    let width = block.ncols();
-    let mut r = Mat::zeros(width, width);
-    for j in 0..width {
-        if dependent[j] {
-            continue;
-        }
-        let square = dense::dot(dense::column(block.as_ref(), j), dense::column(mass_block.as_ref(), j));
-        let length = square.max(0.0).sqrt();
-        if length.is_nan() || length <= least {
-            dependent[j] = true;
-            dense::column_mut(block.as_mut(), j).fill(0.0);
-            dense::column_mut(mass_block.as_mut(), j).fill(0.0);
-            continue;
-        }
-        r[(j, j)] = length;
-        for side in [&mut *block, &mut *mass_block] {
-            dense::column_mut(side.as_mut(), j).iter_mut().for_each(|value| *value /= length);
-        }
-        for l in j + 1..width {
-            let c = dense::dot(dense::column(mass_block.as_ref(), j), dense::column(block.as_ref(), l));
-            r[(j, l)] = c;
-            for side in [&mut *block, &mut *mass_block] {
-                let unit = dense::column(side.as_ref(), j).to_vec();
-                dense::add_scaled(dense::column_mut(side.as_mut(), l), -c, &unit);
-            }
-        }
-    }
-    r
-}
-
-/// The leading `size` columns of V become V S, row tile by row tile.
-fn combine_in_place(mut vectors: MatMut<'_, f64>, size: usize, s: MatRef<'_, f64>) {
-    use rayon::prelude::*;
-    const ROWS_PER_TILE: usize = 2048;
-    let width = s.ncols();
-    vectors.as_mut().subcols_mut(0, size).par_row_chunks_mut(ROWS_PER_TILE).for_each(|mut tile| {
-        let mut result = Mat::zeros(tile.nrows(), width);
-        faer::linalg::matmul::matmul(result.as_mut(), faer::Accum::Replace, tile.as_ref(), s, 1.0, faer::Par::Seq);
-        tile.as_mut().subcols_mut(0, width).copy_from(&result);
-    });
 }

@@ -10,12 +10,15 @@
 #[cfg(feature = "arpack")]
 mod arpack;
 mod certificate;
+mod eigenproblem;
 mod equilibration;
 mod lanczos;
 mod operator;
+mod orthogonalisation;
 mod quality;
 mod random;
 mod retained;
+mod ritz;
 mod shifted;
 
 use faer::{Mat, MatRef};
@@ -27,9 +30,11 @@ use crate::rigid::RigidBodyModes;
 use crate::sparse::SparseMatrix;
 
 pub use certificate::{Certificate, certified};
+pub use eigenproblem::{CLUSTER_GAP, EigenWork, Eigenpairs, Problem, Wanted};
 pub use equilibration::Equilibrated;
-pub use lanczos::{CLUSTER_GAP, EigenWork, Eigenpairs, Problem, Wanted, gram_schmidt, lanczos};
+pub use lanczos::lanczos;
 pub use operator::{Factored, FreeAtZero, ShiftInvert};
+pub use orthogonalisation::gram_schmidt;
 pub use quality::{ModeError, mass_orthogonality};
 pub use retained::{Component, Retained, retained};
 pub use shifted::{Shifted, shifted};

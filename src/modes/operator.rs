@@ -6,6 +6,7 @@ use faer::{Mat, MatMut, MatRef, Side};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::factor::SolveOperator;
+use crate::model::diagonal;
 use crate::rigid::RigidBodyModes;
 use crate::sparse::SparseMatrix;
 
@@ -85,22 +86,26 @@ impl<'a> FreeAtZero<'a> {
         schur: MatRef<'_, f64>,
         rigid: &RigidBodyModes,
     ) -> Result<Self> {
-        let schur = Schur::new(schur, rigid.orthonormal.as_ref().subrows(factor.n(), schur.nrows()))?;
+        // The stiffness of the interface before condensation: what is left of it may be nothing where the interface just
+        // holds the component, and rounding of S is relative to it.
+        let uncondensed = diagonal(stiffness).split_off(factor.n());
+        let schur = Schur::new(schur, rigid.orthonormal.as_ref().subrows(factor.n(), schur.nrows()), &uncondensed)?;
         Ok(Self { factor, stiffness, constraint_modes, schur })
     }
 }
 
 impl Schur {
-    fn new(schur: MatRef<'_, f64>, u_b: MatRef<'_, f64>) -> Result<Self> {
+    fn new(schur: MatRef<'_, f64>, u_b: MatRef<'_, f64>, uncondensed: &[f64]) -> Result<Self> {
         let n_b = schur.nrows();
-        let scale: Vec<f64> = (0..n_b)
-            .map(|i| if schur[(i, i)] > 0.0 { 2f64.powi((-0.5 * schur[(i, i)].log2()).round() as i32) } else { 1.0 })
+        let scale: Vec<f64> = uncondensed
+            .iter()
+            .map(|d| if *d > 0.0 { 2f64.powi((-0.5 * d.log2()).round() as i32) } else { 1.0 })
             .collect();
         let mut scaled = Mat::from_fn(n_b, n_b, |i, j| schur[(i, j)] * scale[i] * scale[j]);
         // In scaled coordinates the null space is D⁻¹ U_B.
         let unscaled = Mat::from_fn(n_b, u_b.ncols(), |i, j| u_b[(i, j)] / scale[i]);
         let rigid = if u_b.ncols() > 0 { unscaled.qr().compute_thin_Q() } else { Mat::zeros(n_b, 0) };
-        // The diagonal is near one, so adding Z Zᵀ lifts the null space to the size of the rest.
+        // The terms of S are of order one in these scales, so adding Z Zᵀ lifts the null space above their rounding.
         dense::add_product(scaled.as_mut(), 1.0, rigid.as_ref(), rigid.transpose());
         dense::symmetrise(&mut scaled);
         let (eigenvalues, _) = dense::symmetric_eigen(scaled.as_ref())?;

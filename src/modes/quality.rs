@@ -16,6 +16,9 @@ pub struct ModeError {
     pub cancellation: f64,
     /// Relative error bar of λ: the digits of the data and of the arithmetic, each times its share of c.
     pub relative_bar: f64,
+    /// ε ‖K‖ ‖x‖² / xᵀMx, equilibrated: an eigenvalue of this size is rounding of whoever made K, whatever the terms of
+    /// xᵀKx, which may all vanish for a matrix that was itself projected.
+    pub rounding_floor: f64,
 }
 
 /// Scales every column to xᵀMx = 1, largest component positive.
@@ -51,6 +54,7 @@ pub(super) fn rayleigh_quotients(problem: ModalProblem<'_>, shapes: MatRef<'_, f
                 cancellation: k_share + m_share,
                 relative_bar: (problem.precision.stiffness + rounding) * k_share
                     + (problem.precision.mass + rounding) * m_share,
+                rounding_floor: rounding * norms.stiffness_norm * norms.scaled_norm(x).powi(2) / modal_mass,
             };
             (lambda, error)
         })

@@ -4,7 +4,7 @@
 //! badly. σ lies below the spectrum at the distance of the first elastic eigenvalue, far enough from zero for K − σM to
 //! be well conditioned and near enough to separate eigenvalues.
 
-use super::lanczos::Wanted;
+use super::eigenproblem::Wanted;
 use super::operator::Factored;
 use super::{ModalProblem, ModeError, ModeRequest, Modes, SEED, elastic_modes};
 use crate::error::{Error, Result};
@@ -57,7 +57,7 @@ pub fn shifted<'a>(
         let request = ModeRequest { wanted: Wanted::Count(count), eigensolver: Eigensolver::Lanczos, seed: SEED };
         let lowest = elastic_modes(problem, &Factored::new(&factor, sigma), request)?;
         let zero_modes = lowest.lambda.iter().zip(&lowest.errors);
-        let n_zero = zero_modes.take_while(|(lambda, error)| is_zero(error) || **lambda <= 0.0).count();
+        let n_zero = zero_modes.take_while(|(lambda, error)| is_zero(**lambda, error) || **lambda <= 0.0).count();
         let all_zero = n_zero == lowest.count() && lowest.next.is_some();
         if all_zero && count < problem.mass.rows() {
             count *= 2;
@@ -83,17 +83,18 @@ fn median_ratio(problem: ModalProblem<'_>) -> f64 {
     ratios.get(ratios.len() / 2).copied().unwrap_or(1.0)
 }
 
-/// Whether an eigenvalue is zero within its bar, which is relative and grows without limit as λ goes to zero.
-fn is_zero(error: &ModeError) -> bool {
+/// Whether an eigenvalue is zero within its bar, which is relative and grows without limit as λ goes to zero, or within
+/// rounding of the matrix.
+fn is_zero(lambda: f64, error: &ModeError) -> bool {
     let within = error.relative_bar * ZERO_WITHIN_BARS;
     // A free particle has no terms to cancel: 0/0.
-    within.is_nan() || within >= 1.0
+    within.is_nan() || within >= 1.0 || lambda.abs() <= ZERO_WITHIN_BARS * error.rounding_floor
 }
 
 /// An eigenvalue below zero by more than noise belongs to an indefinite K, not to a rigid-body motion.
 fn refuse_negative(modes: &Modes) -> Result<()> {
     let mut pairs = modes.lambda.iter().zip(&modes.errors);
-    match pairs.find(|(lambda, error)| **lambda < 0.0 && !is_zero(error)) {
+    match pairs.find(|(lambda, error)| **lambda < 0.0 && !is_zero(**lambda, error)) {
         Some((lambda, error)) => {
             Err(Error::NegativeRigidEnergy { energy: *lambda, noise: error.relative_bar * lambda.abs() })
         }

@@ -52,14 +52,15 @@ impl Spectrum {
     }
 }
 
-/// Size below which an eigenvalue of K̂ in the scales of its coordinates is zero: rounding of its r terms, which are of
-/// order one before they cancel, or the precision of the data.
+/// Size below which an eigenvalue of K̂ in the scales of its coordinates is zero: rounding of its r terms before they
+/// cancel, or the precision of the data.
 pub(super) fn zero_level(evidence: &Evidence<'_>) -> Limits {
+    let cancellation = evidence.constraint.cancellation;
     let precision = evidence.partition.precision.stiffness;
     Limits {
         engineering: 0.0,
-        arithmetic: 10.0 * evidence.reduction.n_reduced() as f64 * f64::EPSILON,
-        data: if precision > f64::EPSILON { 10.0 * precision } else { 0.0 },
+        arithmetic: evidence.reduction.n_reduced() as f64 * f64::EPSILON * cancellation,
+        data: if precision > f64::EPSILON { precision * cancellation } else { 0.0 },
     }
 }
 

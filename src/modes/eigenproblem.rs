@@ -1,0 +1,91 @@
+//! The eigenproblem as the solvers see it, and what they give back.
+
+use faer::{Mat, MatMut, MatRef};
+
+use super::operator::ShiftInvert;
+use crate::dense;
+use crate::sparse::{SparseMatrix, multiply};
+
+/// The eigenproblem: K enters through its shift-invert operator.
+#[derive(Clone, Copy)]
+#[allow(missing_debug_implementations)]
+pub struct Problem<'a> {
+    /// (K − σM)⁻¹.
+    pub operator: &'a dyn ShiftInvert,
+    /// M, n × n.
+    pub mass: &'a SparseMatrix,
+    /// Q and MQ, n × n_r each; empty where nothing is deflated.
+    pub deflated: [MatRef<'a, f64>; 2],
+}
+
+impl Problem<'_> {
+    /// F ← Pᵀ F: takes the rigid-body resultant out of forces.
+    pub(super) fn equilibrate(&self, forces: MatMut<'_, f64>) {
+        let [q, mass_q] = self.deflated;
+        if q.ncols() > 0 {
+            let resultant = dense::gram(q, forces.as_ref());
+            dense::add_product(forces, -1.0, mass_q, resultant.as_ref());
+        }
+    }
+
+    /// X ← P X: takes the rigid-body motion out of displacements.
+    pub(super) fn deflate(&self, displacements: MatMut<'_, f64>) {
+        let [q, mass_q] = self.deflated;
+        if q.ncols() > 0 {
+            let motion = dense::gram(mass_q, displacements.as_ref());
+            dense::add_product(displacements, -1.0, q, motion.as_ref());
+        }
+    }
+}
+
+/// Which eigenpairs are wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Wanted {
+    /// The lowest ones, completed to whole clusters.
+    Count(usize),
+    /// All up to this λ, completed to whole clusters.
+    UpTo(f64),
+}
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub struct Eigenpairs {
+    /// λ in ascending order.
+    pub values: Vec<f64>,
+    /// x, n × k, M-orthonormal.
+    pub vectors: Mat<f64>,
+    /// The next λ above, where there is one: the far side of the gap a Sturm count is taken in.
+    pub next: Option<f64>,
+    /// What it cost.
+    pub work: EigenWork,
+}
+
+/// Work counters of an eigensolution.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct EigenWork {
+    /// Right-hand sides solved.
+    pub solves: usize,
+    /// Block steps.
+    pub steps: usize,
+    /// Thick restarts.
+    pub restarts: usize,
+}
+
+/// Eigenvalues nearer than this, relatively, belong to one cluster.
+pub const CLUSTER_GAP: f64 = 1e-6;
+
+/// Whether an eigenvalue and the next one above belong to one cluster.
+pub(super) fn are_clustered(lower: f64, upper: f64) -> bool {
+    (upper - lower).abs() <= CLUSTER_GAP * upper.abs()
+}
+
+pub(super) fn product(mass: &SparseMatrix, block: MatRef<'_, f64>) -> Mat<f64> {
+    let mut out = Mat::zeros(block.nrows(), block.ncols());
+    multiply(mass, block, out.as_mut());
+    out
+}
+
+pub(super) fn mass_norm(mass: &SparseMatrix, vector: &Mat<f64>) -> f64 {
+    let image = product(mass, vector.as_ref());
+    dense::dot(dense::column(vector.as_ref(), 0), dense::column(image.as_ref(), 0)).max(0.0).sqrt()
+}

@@ -1,0 +1,51 @@
+//! Orthogonalisation of narrow blocks in the M-inner product, and changes of basis in place.
+
+use faer::{Mat, MatMut, MatRef};
+
+use crate::dense;
+
+/// Modified Gram-Schmidt of a narrow block in the M-inner product, MW carried along: block = W R.
+///
+/// A column of length at most `least` is dependent: it becomes zero and its row of R too.
+pub fn gram_schmidt(block: &mut Mat<f64>, mass_block: &mut Mat<f64>, least: f64, dependent: &mut [bool]) -> Mat<f64> {
+    let width = block.ncols();
+    let mut r = Mat::zeros(width, width);
+    for j in 0..width {
+        if dependent[j] {
+            continue;
+        }
+        let square = dense::dot(dense::column(block.as_ref(), j), dense::column(mass_block.as_ref(), j));
+        let length = square.max(0.0).sqrt();
+        if length.is_nan() || length <= least {
+            dependent[j] = true;
+            dense::column_mut(block.as_mut(), j).fill(0.0);
+            dense::column_mut(mass_block.as_mut(), j).fill(0.0);
+            continue;
+        }
+        r[(j, j)] = length;
+        for side in [&mut *block, &mut *mass_block] {
+            dense::column_mut(side.as_mut(), j).iter_mut().for_each(|value| *value /= length);
+        }
+        for l in j + 1..width {
+            let c = dense::dot(dense::column(mass_block.as_ref(), j), dense::column(block.as_ref(), l));
+            r[(j, l)] = c;
+            for side in [&mut *block, &mut *mass_block] {
+                let unit = dense::column(side.as_ref(), j).to_vec();
+                dense::add_scaled(dense::column_mut(side.as_mut(), l), -c, &unit);
+            }
+        }
+    }
+    r
+}
+
+/// The leading `size` columns of V become V S, row tile by row tile.
+pub(super) fn combine_in_place(mut vectors: MatMut<'_, f64>, size: usize, s: MatRef<'_, f64>) {
+    use rayon::prelude::*;
+    const ROWS_PER_TILE: usize = 2048;
+    let width = s.ncols();
+    vectors.as_mut().subcols_mut(0, size).par_row_chunks_mut(ROWS_PER_TILE).for_each(|mut tile| {
+        let mut result = Mat::zeros(tile.nrows(), width);
+        faer::linalg::matmul::matmul(result.as_mut(), faer::Accum::Replace, tile.as_ref(), s, 1.0, faer::Par::Seq);
+        tile.as_mut().subcols_mut(0, width).copy_from(&result);
+    });
+}
