@@ -1,6 +1,6 @@
 //! The model: two symmetric matrices of one size that passed every check a matrix can pass before it is factored.
 //!
-//! K and M are scaled by even powers of two so that their largest diagonal entries lie in [1, 4). The scaling is exact, is
+//! K and M are scaled by powers of two so that their largest diagonal entries lie in [1, 2). The scaling is exact, is
 //! undone where results leave the tool, and frees every later stage from absolute numbers: a model in N, mm and t and
 //! the same model in other units give the same bits in between.
 
@@ -55,9 +55,11 @@ impl Scaling {
         2f64.powi(self.mass)
     }
 
-    /// Factor from a scaled mass-normalised shape to the user's: one over the root of the mass unit.
+    /// Factor from a scaled mass-normalised shape to the user's: one over the root of the mass unit, exact for an even
+    /// exponent.
     pub fn shape_unit(&self) -> f64 {
-        2f64.powi(-self.mass / 2)
+        let root = 2f64.powi(-self.mass.div_euclid(2));
+        if self.mass.rem_euclid(2) == 0 { root } else { root * std::f64::consts::FRAC_1_SQRT_2 }
     }
 
     /// Factor from a scaled eigenvalue to the user's (rad/s)².
@@ -268,14 +270,13 @@ pub fn diagonal(matrix: &SparseMatrix) -> Vec<f64> {
         .collect()
 }
 
-/// Divides by the power of four that brings the largest diagonal entry into [1, 4); returns its exponent as a power of
-/// two, which is even, so that the square root of the unit, by which mode shapes scale, is exact as well.
+/// Divides by the power of two that brings the largest diagonal entry into [1, 2); returns its exponent.
 fn scale_to_unit(matrix: &mut SparseMatrix) -> i32 {
     let largest = diagonal(matrix).iter().fold(0.0f64, |max, value| max.max(value.abs()));
     if largest == 0.0 {
         return 0;
     }
-    let exponent = 2 * binary_exponent(largest).div_euclid(2);
+    let exponent = binary_exponent(largest);
     // Two factors, because 2^-exponent itself can leave the range of a double.
     let (half, rest) = (2f64.powi(-(exponent / 2)), 2f64.powi(-(exponent - exponent / 2)));
     for value in matrix.data_mut() {

@@ -65,7 +65,7 @@ pub fn shifted<'a>(
         let first_elastic = lowest.lambda.get(n_zero).copied().or(lowest.next);
         let settled = first_elastic.is_none_or(|lambda| WINDOW.contains(&(-sigma / lambda)));
         if (settled && !all_zero) || round == MAX_ROUNDS {
-            refuse_negative(&lowest)?;
+            refuse_negative(&lowest, first_elastic)?;
             return Ok(Shifted { factor, sigma, lowest, n_zero, n_factorisations: round });
         }
         if let Some(lambda) = first_elastic.filter(|lambda| *lambda > 0.0) {
@@ -91,12 +91,17 @@ fn is_zero(lambda: f64, error: &ModeError) -> bool {
     within.is_nan() || within >= 1.0 || lambda.abs() <= ZERO_WITHIN_BARS * error.rounding_floor
 }
 
+/// Share of the first elastic eigenvalue below which a negative one is nobody's instability: the limit of measure M-05.
+const NEGLIGIBLE: f64 = 1e-8;
+
 /// An eigenvalue below zero by more than noise belongs to an indefinite K, not to a rigid-body motion.
-fn refuse_negative(modes: &Modes) -> Result<()> {
+fn refuse_negative(modes: &Modes, first_elastic: Option<f64>) -> Result<()> {
+    let negligible = NEGLIGIBLE * first_elastic.unwrap_or(0.0);
     let mut pairs = modes.lambda.iter().zip(&modes.errors);
-    match pairs.find(|(lambda, error)| **lambda < 0.0 && !is_zero(**lambda, error)) {
+    match pairs.find(|(lambda, error)| **lambda < -negligible && !is_zero(**lambda, error)) {
         Some((lambda, error)) => {
-            Err(Error::NegativeRigidEnergy { energy: *lambda, noise: error.relative_bar * lambda.abs() })
+            let noise = negligible.max(error.relative_bar * lambda.abs());
+            Err(Error::NegativeRigidEnergy { energy: *lambda, noise })
         }
         None => Ok(()),
     }

@@ -165,14 +165,14 @@ fn lists_keep_their_order() {
     assert_eq!(names[..4], ["node 7 ux", "node 7 uy", "node 7 uz", "node 2 ux"]);
 }
 
-/// Directions left out of a node's own dofs stay internal.
+/// Directions left out of a node's own dofs stay internal; those listed come in the order of the classical six.
 #[test]
 fn listed_directions_of_a_node() {
     let job = InterfaceJob { dofs: Some(vec![Direction::Uz, Direction::Ux]), ..direct("tip", &[12]) };
     let partition = partition(&beam(), &[job]).expect("a node");
     assert_eq!((partition.n_interface(), partition.n_internal), (2, 34));
-    assert_eq!(partition.interface[0].directions, [Direction::Uz, Direction::Ux]);
-    assert_eq!(partition.name_of(34), "node 12 uz");
+    assert_eq!(partition.interface[0].directions, [Direction::Ux, Direction::Uz]);
+    assert_eq!(partition.name_of(34), "node 12 ux");
 }
 
 /// Directions left out of a rigid node stay degrees of freedom of the patch, as internal ones: condensing them out of the

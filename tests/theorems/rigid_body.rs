@@ -37,8 +37,10 @@ fn rigid_body_motion_meets_no_elastic_force() {
         let forces = &twin.k * &chain.rigid.modes;
         let terms = &twin.k_terms * absolute(chain.rigid.modes.as_ref());
         for j in 0..case.n_rigid {
-            // A row sums up to 81 terms, each an element entry with some twenty roundings of its own.
-            let bound = 100.0 * EPS * terms.col(j).norm_max();
+            // A row sums up to 81 terms, each an element entry with some twenty roundings of its own. Without coordinates
+            // the mode is an eigenvector taken at a residual of 16 ε in θ, which K − σM turns into that share of its terms.
+            let residual = if chain.rigid.source == RigidSource::Algebraic { 16.0 } else { 0.0 };
+            let bound = (100.0 + 2.0 * residual) * EPS * terms.col(j).norm_max();
             let force = forces.col(j).norm_max();
             assert!(force <= bound, "{}: mode {j} meets {force:e}, bound {bound:e}", case.name);
         }
