@@ -132,7 +132,10 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let checks = verification::verify(&evidence)?;
 
     let work = WorkCounters {
-        n_factorisations: 1 + n_extra + certificate.map_or(0, |certificate| certificate.n_factorisations),
+        n_factorisations: 1
+            + n_extra
+            + retained.n_factorisations
+            + certificate.map_or(0, |certificate| certificate.n_factorisations),
         n_solves: retained.modes.work.solves + partition.n_interface() + rigid.count(),
         n_restarts: retained.modes.work.restarts,
         factor_flops: analysis.flops,

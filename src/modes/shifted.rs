@@ -91,8 +91,9 @@ fn is_zero(lambda: f64, error: &ModeError) -> bool {
     within.is_nan() || within >= 1.0 || lambda.abs() <= ZERO_WITHIN_BARS * error.rounding_floor
 }
 
-/// Share of the first elastic eigenvalue below which a negative one is nobody's instability: the limit of measure M-05.
-const NEGLIGIBLE: f64 = 1e-8;
+/// Share of the first elastic eigenvalue below which a negative one is nobody's instability: matrices that were projected
+/// themselves carry thousands of roundings that their own terms do not show.
+const NEGLIGIBLE: f64 = 1e-12;
 
 /// An eigenvalue below zero by more than noise belongs to an indefinite K, not to a rigid-body motion.
 fn refuse_negative(modes: &Modes, first_elastic: Option<f64>) -> Result<()> {
