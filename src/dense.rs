@@ -100,6 +100,11 @@ pub fn rank_of_rows(rows: &[[f64; 6]], tolerance: f64) -> usize {
     singular.iter().filter(|value| **value > tolerance * largest).count()
 }
 
+/// Whether an error is worse than the worst so far: a value that is not a number is the worst of all and stays so.
+pub fn worse(error: f64, worst: f64) -> bool {
+    !worst.is_nan() && (error.is_nan() || error > worst)
+}
+
 /// The Euclidean norm of a column.
 pub fn norm(column: &[f64]) -> f64 {
     dot(column, column).sqrt()

@@ -853,10 +853,13 @@ pub enum Error {
     },
     /// K and M are exchanged.
     #[error(
-        "stiffness and mass are exchanged – a unit translation has relative energy {in_stiffness:.1e} in the stiffness and {in_mass:.1e} in the mass – expected the reverse – exchange the two files"
+        "stiffness and mass are exchanged – a unit translation meets no force at {:.0} % of the rows of the stiffness and at {:.0} % \
+         of the mass – expected the reverse – exchange the two files",
+        100.0 * in_stiffness,
+        100.0 * in_mass
     )]
     Swapped {
-        /// |uᵀKu| / |u|ᵀ|K||u| of a translation.
+        /// Share of the rows of K whose entries of one direction add up to nothing.
         in_stiffness: f64,
         /// The same of M.
         in_mass: f64,

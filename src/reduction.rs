@@ -135,7 +135,7 @@ fn uncouple(stiffness: &mut Mat<f64>, partition: &Partition) -> (f64, (usize, us
         for i in 0..n_b {
             let uncondensed = partition.stiffness.get(n_i + i, n_i + i).copied().unwrap_or(0.0);
             let size = (uncondensed * stiffness[(j, j)]).abs().sqrt();
-            if size > 0.0 && stiffness[(i, j)].abs() / size > worst.0 {
+            if size != 0.0 && dense::worse(stiffness[(i, j)].abs() / size, worst.0) {
                 worst = (stiffness[(i, j)].abs() / size, (i, j));
             }
             stiffness[(i, j)] = 0.0;

@@ -62,7 +62,7 @@ fn rigid_error(modes: MatRef<'_, f64>, u_i: MatRef<'_, f64>, u_b: MatRef<'_, f64
     for j in 0..defect.ncols() {
         let largest = dense::column(u_i, j).iter().fold(0.0f64, |max, value| max.max(value.abs()));
         for (i, value) in dense::column(defect.as_ref(), j).iter().enumerate() {
-            if value.abs() / largest > worst.0 {
+            if dense::worse(value.abs() / largest, worst.0) {
                 worst = (value.abs() / largest, i);
             }
         }

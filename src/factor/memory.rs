@@ -27,7 +27,7 @@ pub fn refuse_beyond_memory(analysis: &Analysis, partition: &Partition, job: &Jo
     };
     let n = partition.n_dofs() as u64;
     let n_modes = match job.reduction.modes {
-        ModeSelection::Count { count } => count as u64,
+        ModeSelection::Count { count } => (count as u64).min(n),
         ModeSelection::UpTo { .. } => MODES_IN_A_BAND,
     };
     // The partitioned matrices, their internal blocks, and one triangle with wide indices while a factor is made.

@@ -68,7 +68,7 @@ pub fn mass_orthogonality(mass: &SparseMatrix, shapes: MatRef<'_, f64>) -> (f64,
     for j in 0..products.ncols() {
         for i in 0..=j {
             let error = (products[(i, j)] - f64::from(u8::from(i == j))).abs();
-            if error > worst.0 {
+            if dense::worse(error, worst.0) {
                 worst = (error, (i, j));
             }
         }

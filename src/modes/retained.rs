@@ -130,7 +130,8 @@ fn relative_residual(problem: ModalProblem<'_>, operator: &dyn ShiftInvert) -> f
 
 fn wanted(selection: ModeSelection, partition: &Partition) -> Wanted {
     match selection {
-        ModeSelection::Count { count } => Wanted::Count(count),
+        // No model has more modes than degrees of freedom.
+        ModeSelection::Count { count } => Wanted::Count(count.min(partition.n_dofs())),
         ModeSelection::UpTo { up_to_hz } => {
             let omega = 2.0 * std::f64::consts::PI * up_to_hz;
             Wanted::UpTo(omega * omega / partition.scaling.eigenvalue_unit())

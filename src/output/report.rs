@@ -163,6 +163,13 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
             warnings.push(Warning { code: "W-UNSYMMETRIC", message: finding.to_string() });
         }
     }
+    if results.job.model.expect.is_some() && !evidence.rigid.is_classical {
+        warnings.push(Warning {
+            code: "W-EXPECT-UNCHECKED",
+            message: "the expected mass properties were not compared: they need one free body with coordinates"
+                .to_owned(),
+        });
+    }
     let found = evidence.retained.modes.count();
     if let ModeSelection::Count { count } = results.job.reduction.modes
         && found < count

@@ -90,7 +90,6 @@ fn describe(sites: &[Site], motion: &[f64]) -> String {
 
 /// Translation and rotation about the origin that make up a rigid motion, by least squares.
 fn fit(sites: &[Site], motion: &[f64]) -> Option<[[f64; 3]; 2]> {
-    use faer::linalg::solvers::SolveLstsq;
     // Only the part that moves takes part: a motion of one body of several is zero elsewhere, but for rounding.
     let least = 1e-9 * motion.iter().fold(0.0f64, |max, value| max.max(value.abs()));
     let moving: Vec<usize> = (0..sites.len()).filter(|dof| motion[*dof].abs() > least).collect();
@@ -99,7 +98,14 @@ fn fit(sites: &[Site], motion: &[f64]) -> Option<[[f64; 3]; 2]> {
     }
     let a = Mat::from_fn(moving.len(), 6, |i, j| sites[moving[i]].rigid_motion()[j]);
     let b = Mat::from_fn(moving.len(), 1, |i, _| motion[moving[i]]);
-    let x = a.qr().solve_lstsq(&b);
+    // A rotation about an axis through all moving dofs moves none of them: the least squares solution of least norm is the
+    // one that leaves it out.
+    let svd = a.thin_svd().ok()?;
+    let singular = svd.S().column_vector();
+    let along = svd.U().transpose() * &b;
+    let floor = RANK_TOLERANCE * singular[0];
+    let weights = Mat::from_fn(6, 1, |i, _| if singular[i] > floor { along[(i, 0)] / singular[i] } else { 0.0 });
+    let x = svd.V() * &weights;
     let part = |start: usize| [x[(start, 0)], x[(start + 1, 0)], x[(start + 2, 0)]];
     Some([part(0), part(3)])
 }

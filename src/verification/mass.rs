@@ -15,7 +15,7 @@ pub(super) fn preserved(evidence: &Evidence<'_>) -> Check {
         for i in 0..=j {
             let size = (full[(i, i)] * full[(j, j)]).sqrt();
             let error = (reduced[(i, j)] - full[(i, j)]).abs() / size;
-            if error > worst.0 {
+            if dense::worse(error, worst.0) {
                 worst = (error, Some(format!("rigid-body modes {} and {}", i + 1, j + 1)));
             }
         }

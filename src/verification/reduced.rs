@@ -46,9 +46,11 @@ impl Spectrum {
         })
     }
 
-    /// The first eigenvalue of the free reduced model that is no zero mode.
-    pub(super) fn first_elastic(&self) -> Option<f64> {
-        self.free.get(self.n_zero).copied()
+    /// The first eigenvalue of the free reduced model that is no zero mode: infinite where all are, not a number where the
+    /// reduced pencil is too far from definite to have a spectrum.
+    pub(super) fn first_elastic(&self) -> f64 {
+        let beyond = if self.free.is_empty() { f64::NAN } else { f64::INFINITY };
+        self.free.get(self.n_zero).copied().unwrap_or(beyond)
     }
 }
 
@@ -160,7 +162,7 @@ pub(super) fn pair_residual(evidence: &Evidence<'_>) -> Check {
             .map(|(i, (f, p))| if i < held { 0.0 } else { f - lambda * p })
             .collect();
         let error = norms.backward_error(*lambda, dense::column(reduced.as_ref(), j), &residual);
-        if error > worst.0 {
+        if dense::worse(error, worst.0) {
             worst = (error, Some(format!("mode {}", j + 1)));
         }
     }
@@ -183,7 +185,7 @@ pub(super) fn frequency_difference(evidence: &Evidence<'_>, spectrum: &Spectrum)
     for (j, lambda) in modes.lambda.iter().enumerate() {
         let reduced = spectrum.same_boundary.get(j).copied().unwrap_or(f64::INFINITY);
         let difference = 0.5 * (reduced / lambda - 1.0).abs();
-        if difference.is_nan() || difference > worst.0 {
+        if dense::worse(difference, worst.0) {
             worst = (difference, Some(format!("mode {}", j + 1)));
         }
     }

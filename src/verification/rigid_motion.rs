@@ -11,7 +11,7 @@ const NOISE_FACTOR: f64 = 10.0;
 /// M-05, energy.
 pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check {
     let energy = evidence.rigid.energy;
-    let first = spectrum.first_elastic().unwrap_or(f64::INFINITY);
+    let first = spectrum.first_elastic();
     let precision = evidence.partition.precision.stiffness;
     let noise = NOISE_FACTOR * evidence.partition.cancellation * energy.noise / first;
     let share = f64::EPSILON / (f64::EPSILON + precision);
@@ -69,7 +69,7 @@ pub(super) fn null_space(evidence: &Evidence<'_>) -> Check {
     for j in 0..forces.ncols() {
         let u = dense::column(reduction.rigid_body_modes.as_ref(), j);
         let error = norms.backward_error(0.0, u, dense::column(forces.as_ref(), j));
-        if error > worst.0 {
+        if dense::worse(error, worst.0) {
             worst = (error, Some(format!("rigid-body mode {}", j + 1)));
         }
     }
