@@ -100,6 +100,11 @@ pub fn rank_of_rows(rows: &[[f64; 6]], tolerance: f64) -> usize {
     singular.iter().filter(|value| **value > tolerance * largest).count()
 }
 
+/// The power of two nearest 1/√d, by which a dof of stiffness d is scaled to order one; one where d is not positive.
+pub fn power_of_two_root(d: f64) -> f64 {
+    if d > 0.0 && d.is_finite() { 2f64.powi((-0.5 * d.log2()).round() as i32) } else { 1.0 }
+}
+
 /// Whether an error is worse than the worst so far: a value that is not a number is the worst of all and stays so.
 pub fn worse(error: f64, worst: f64) -> bool {
     !worst.is_nan() && (error.is_nan() || error > worst)

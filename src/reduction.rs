@@ -14,8 +14,9 @@ use faer::{Mat, MatRef};
 use crate::basis::Basis;
 use crate::dense;
 use crate::partition::Partition;
-use crate::rigid::{RigidBodyModes, multiply};
+use crate::rigid::RigidBodyModes;
 use crate::sparse::SparseMatrix;
+use crate::sparse::product;
 
 /// The reduced matrices, in scaled units.
 #[derive(Clone, Debug)]
@@ -66,7 +67,7 @@ impl Reduction {
         let u_b = rigid.modes.as_ref().subrows(partition.n_internal, n_b);
         let rigid_body_modes = Mat::from_fn(r, rigid.count(), |i, j| if i < n_b { u_b[(i, j)] } else { 0.0 });
         let gravity = rigid.is_classical.then(|| {
-            let momenta = multiply(&partition.mass, rigid.modes.as_ref().subcols(0, 3));
+            let momenta = product(&partition.mass, rigid.modes.as_ref().subcols(0, 3));
             transpose_apply(basis, momenta.as_ref())
         });
         Self {
@@ -91,7 +92,7 @@ fn project(matrix: &SparseMatrix, basis: &Basis) -> Mat<f64> {
     let mut projected = Mat::zeros(r, r);
     for start in (0..r).step_by(PANEL) {
         let width = PANEL.min(r - start);
-        let image = multiply(matrix, panel_of(basis, start, width).as_ref());
+        let image = product(matrix, panel_of(basis, start, width).as_ref());
         projected.as_mut().subcols_mut(start, width).copy_from(transpose_apply(basis, image.as_ref()));
     }
     projected

@@ -6,7 +6,8 @@ use faer::{Mat, MatRef};
 use crate::dense;
 use crate::factor::SolveOperator;
 use crate::partition::Partition;
-use crate::rigid::{RigidBodyModes, absolute_energy, multiply};
+use crate::rigid::{RigidBodyModes, absolute_energy};
+use crate::sparse::product;
 
 /// Ψ_S with what it took to make it exact.
 #[derive(Clone, Debug)]
@@ -87,7 +88,7 @@ fn condensed_stiffness(partition: &Partition, modes: MatRef<'_, f64>) -> (Mat<f6
     let mut psi = Mat::zeros(partition.n_dofs(), n_b);
     psi.as_mut().subrows_mut(0, n_i).copy_from(modes);
     psi.as_mut().subrows_mut(n_i, n_b).copy_from(Mat::<f64>::identity(n_b, n_b));
-    let mut stiffness = dense::gram(psi.as_ref(), multiply(&partition.stiffness, psi.as_ref()).as_ref());
+    let mut stiffness = dense::gram(psi.as_ref(), product(&partition.stiffness, psi.as_ref()).as_ref());
     dense::symmetrise(&mut stiffness);
     let terms = absolute_energy(&partition.stiffness, psi.as_ref());
     let ratio = |(i, terms): (usize, f64)| {

@@ -7,8 +7,9 @@ use crate::dense;
 use crate::factor::SolveOperator;
 use crate::modes::{Modes, gram_schmidt};
 use crate::partition::Partition;
-use crate::rigid::{RigidBodyModes, multiply};
+use crate::rigid::RigidBodyModes;
 use crate::sparse::SparseMatrix;
+use crate::sparse::product;
 
 /// Columns for Ψ_D before dependent ones are taken out, in the order of the coordinates.
 #[derive(Clone, Debug)]
@@ -47,7 +48,7 @@ pub fn mode_acceleration_columns(
     let (n_i, n_b, n_r) = (partition.n_internal, partition.n_interface(), rigid.count());
     let mut columns = Mat::zeros(n_i, n_r + modes.count());
     // The modes of the file, not the orthonormal ones: a coordinate then answers to one named unit acceleration.
-    let inertia = multiply(&partition.mass, rigid.modes.as_ref());
+    let inertia = product(&partition.mass, rigid.modes.as_ref());
     columns.as_mut().subcols_mut(0, n_r).copy_from(inertia.as_ref().subrows(0, n_i));
     factor.solve_in_place(columns.as_mut().subcols_mut(0, n_r));
     let (x_i, x_b) = (modes.shapes.as_ref().subrows(0, n_i), modes.shapes.as_ref().subrows(n_i, n_b));
@@ -109,7 +110,7 @@ pub(super) fn independent(named: DynamicColumns, mass: &SparseMatrix) -> Indepen
 
 /// Scales columns to unit M_II-length and returns the lengths; a column without mass becomes zero.
 fn scale_to_unit_mass(panel: &mut Mat<f64>, mass: &SparseMatrix) -> Vec<f64> {
-    let images = multiply(mass, panel.as_ref());
+    let images = product(mass, panel.as_ref());
     let mut lengths = Vec::with_capacity(panel.ncols());
     for j in 0..panel.ncols() {
         let square = dense::dot(dense::column(panel.as_ref(), j), dense::column(images.as_ref(), j));
@@ -138,10 +139,10 @@ fn orthonormalise(basis: MatRef<'_, f64>, panel: Mat<f64>, mass: &SparseMatrix) 
     let mut dependent = vec![false; width];
     let mut remaining = vec![0.0; width];
     for pass in 0..2 {
-        let c = dense::gram(basis, multiply(mass, block.as_ref()).as_ref());
+        let c = dense::gram(basis, product(mass, block.as_ref()).as_ref());
         dense::add_product(block.as_mut(), -1.0, basis, c.as_ref());
         dense::add_product(coefficients.as_mut(), 1.0, c.as_ref(), coupling.as_ref());
-        let mut image = multiply(mass, block.as_ref());
+        let mut image = product(mass, block.as_ref());
         let least = if pass == 0 { INDEPENDENT } else { 0.0 };
         let r = gram_schmidt(&mut block, &mut image, least, &mut dependent);
         if pass == 0 {

@@ -75,7 +75,8 @@ struct Signs {
 impl<'a> Indefinite<'a> {
     fn new(analysis: &'a Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<Self> {
         let (symbolic, n) = (&analysis.symbolic, analysis.n);
-        let scale: Vec<f64> = crate::model::diagonal(pencil.stiffness).into_iter().map(power_of_two_root).collect();
+        let scale: Vec<f64> =
+            crate::model::diagonal(pencil.stiffness).into_iter().map(|d| dense::power_of_two_root(d.abs())).collect();
         let lower = Triangle::shifted_and_scaled(pencil, sigma, &scale);
         let largest = lower.values.iter().fold(0.0, |max: f64, value| max.max(value.abs()));
         let pattern = SymbolicSparseColMatRef::new_checked(n, n, &lower.pointers, None, &lower.indices);
@@ -165,16 +166,11 @@ impl<'a> Indefinite<'a> {
         let mut schur = coupling.as_ref().subrows(n_i, n_b).to_owned();
         dense::add_product(schur.as_mut(), -1.0, internal.transpose(), solution.as_ref());
         dense::symmetrise(&mut schur);
-        let scale: Vec<f64> = (0..n_b).map(|i| power_of_two_root(schur[(i, i)])).collect();
+        let scale: Vec<f64> = (0..n_b).map(|i| dense::power_of_two_root(schur[(i, i)].abs())).collect();
         let scaled = Mat::from_fn(n_b, n_b, |i, j| schur[(i, j)] * scale[i] * scale[j]);
         let (eigenvalues, _) = dense::symmetric_eigen(scaled.as_ref())?;
         let largest = eigenvalues.iter().fold(0.0f64, |max, value| max.max(value.abs()));
         let smallest = eigenvalues.iter().fold(f64::INFINITY, |min, value| min.min(value.abs()));
         Ok((eigenvalues.iter().filter(|value| **value < 0.0).count(), smallest / largest))
     }
-}
-
-/// The power of two nearest 1/√|d|; one for zero.
-fn power_of_two_root(d: f64) -> f64 {
-    if d == 0.0 || !d.is_finite() { 1.0 } else { 2f64.powi((-0.5 * d.abs().log2()).round() as i32) }
 }

@@ -21,11 +21,12 @@ use std::sync::{Mutex, PoisonError};
 
 use faer::{Mat, MatMut, MatRef};
 
-use super::eigenproblem::{EigenWork, Eigenpairs, Problem, Wanted, are_clustered, mass_norm, product};
+use super::eigenproblem::{EigenWork, Eigenpairs, Problem, Wanted, are_clustered, mass_norm};
 use super::random::SplitMix64;
 use super::ritz::{RESIDUAL_FLOOR, ROUNDING, TOLERANCE};
 use crate::dense;
 use crate::error::{Error, Result};
+use crate::sparse::product;
 
 static STATE: Mutex<()> = Mutex::new(());
 

@@ -4,7 +4,7 @@ use faer::{Mat, MatMut, MatRef};
 
 use super::operator::ShiftInvert;
 use crate::dense;
-use crate::sparse::{SparseMatrix, multiply};
+use crate::sparse::{SparseMatrix, product};
 
 /// The eigenproblem: K enters through its shift-invert operator.
 #[derive(Clone, Copy)]
@@ -77,12 +77,6 @@ pub const CLUSTER_GAP: f64 = 1e-6;
 /// Whether an eigenvalue and the next one above belong to one cluster.
 pub(super) fn are_clustered(lower: f64, upper: f64) -> bool {
     (upper - lower).abs() <= CLUSTER_GAP * upper.abs()
-}
-
-pub(super) fn product(mass: &SparseMatrix, block: MatRef<'_, f64>) -> Mat<f64> {
-    let mut out = Mat::zeros(block.nrows(), block.ncols());
-    multiply(mass, block, out.as_mut());
-    out
 }
 
 pub(super) fn mass_norm(mass: &SparseMatrix, vector: &Mat<f64>) -> f64 {

@@ -23,10 +23,7 @@ pub struct Equilibrated {
 impl Equilibrated {
     /// The scaling of a pencil.
     pub fn of(stiffness: &SparseMatrix, mass: &SparseMatrix) -> Self {
-        let scale: Vec<f64> = diagonal(stiffness)
-            .into_iter()
-            .map(|d| if d > 0.0 { 2f64.powi((-0.5 * d.log2()).round() as i32) } else { 1.0 })
-            .collect();
+        let scale: Vec<f64> = diagonal(stiffness).into_iter().map(dense::power_of_two_root).collect();
         let norm = |matrix: &SparseMatrix| {
             let rows = matrix.outer_iterator().enumerate();
             rows.map(|(row, view)| scale[row] * view.iter().map(|(col, value)| scale[col] * value.abs()).sum::<f64>())

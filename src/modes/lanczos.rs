@@ -12,12 +12,13 @@
 
 use faer::{Mat, MatRef};
 
-use super::eigenproblem::{CLUSTER_GAP, EigenWork, Eigenpairs, Problem, Wanted, mass_norm, product};
+use super::eigenproblem::{CLUSTER_GAP, EigenWork, Eigenpairs, Problem, Wanted, mass_norm};
 use super::orthogonalisation::{combine_in_place, gram_schmidt};
 use super::random::SplitMix64;
 use super::ritz::Ritz;
 use crate::dense;
 use crate::error::{Error, Result};
+use crate::sparse::product;
 
 /// Restarts after which an iteration that has not converged never will.
 const MAX_RESTARTS: usize = 60;

@@ -97,10 +97,7 @@ impl<'a> FreeAtZero<'a> {
 impl Schur {
     fn new(schur: MatRef<'_, f64>, u_b: MatRef<'_, f64>, uncondensed: &[f64]) -> Result<Self> {
         let n_b = schur.nrows();
-        let scale: Vec<f64> = uncondensed
-            .iter()
-            .map(|d| if *d > 0.0 { 2f64.powi((-0.5 * d.log2()).round() as i32) } else { 1.0 })
-            .collect();
+        let scale: Vec<f64> = uncondensed.iter().map(|d| dense::power_of_two_root(*d)).collect();
         let mut scaled = Mat::from_fn(n_b, n_b, |i, j| schur[(i, j)] * scale[i] * scale[j]);
         // In scaled coordinates the null space is D⁻¹ U_B.
         let unscaled = Mat::from_fn(n_b, u_b.ncols(), |i, j| u_b[(i, j)] / scale[i]);

@@ -4,8 +4,9 @@ use faer::{Mat, MatRef};
 
 use super::{Equilibrated, ModalProblem};
 use crate::dense;
-use crate::rigid::{absolute_energy, multiply};
+use crate::rigid::absolute_energy;
 use crate::sparse::SparseMatrix;
+use crate::sparse::product;
 
 /// What is known of the error of one mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -23,7 +24,7 @@ pub struct ModeError {
 
 /// Scales every column to xᵀMx = 1, largest component positive.
 pub(super) fn normalise(mass: &SparseMatrix, shapes: &mut Mat<f64>) {
-    let images = multiply(mass, shapes.as_ref());
+    let images = product(mass, shapes.as_ref());
     for j in 0..shapes.ncols() {
         let column = dense::column(shapes.as_ref(), j);
         let length = dense::dot(column, dense::column(images.as_ref(), j)).max(0.0).sqrt();
@@ -36,7 +37,7 @@ pub(super) fn normalise(mass: &SparseMatrix, shapes: &mut Mat<f64>) {
 
 /// λ = xᵀKx of M-orthonormal shapes, and what is known of their errors.
 pub(super) fn rayleigh_quotients(problem: ModalProblem<'_>, shapes: MatRef<'_, f64>) -> (Vec<f64>, Vec<ModeError>) {
-    let (forces, momenta) = rayon::join(|| multiply(problem.stiffness, shapes), || multiply(problem.mass, shapes));
+    let (forces, momenta) = rayon::join(|| product(problem.stiffness, shapes), || product(problem.mass, shapes));
     let (stiffness_terms, mass_terms) =
         rayon::join(|| absolute_energy(problem.stiffness, shapes), || absolute_energy(problem.mass, shapes));
     let norms = Equilibrated::of(problem.stiffness, problem.mass);
@@ -63,7 +64,7 @@ pub(super) fn rayleigh_quotients(problem: ModalProblem<'_>, shapes: MatRef<'_, f
 
 /// max |XᵀMX − I| over all pairs, and the pair it is reached at (M-03).
 pub fn mass_orthogonality(mass: &SparseMatrix, shapes: MatRef<'_, f64>) -> (f64, (usize, usize)) {
-    let products = dense::gram(shapes, multiply(mass, shapes).as_ref());
+    let products = dense::gram(shapes, product(mass, shapes).as_ref());
     let mut worst = (0.0, (0, 0));
     for j in 0..products.ncols() {
         for i in 0..=j {

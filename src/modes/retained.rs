@@ -13,8 +13,9 @@ use crate::error::Result;
 use crate::factor::{Analysis, Cholesky, Pencil};
 use crate::job::{Method, ModeSelection, ReductionJob};
 use crate::partition::Partition;
-use crate::rigid::{RigidBodyModes, multiply};
+use crate::rigid::RigidBodyModes;
 use crate::sparse::SparseMatrix;
+use crate::sparse::product;
 
 /// What the modes are computed from.
 #[derive(Clone, Copy, Debug)]
@@ -110,14 +111,14 @@ fn relative_residual(problem: ModalProblem<'_>, operator: &dyn ShiftInvert) -> f
     });
     let mut probe = Mat::zeros(operator.n(), 1);
     SplitMix64::new(SEED).fill(probe.as_mut());
-    let mut load = multiply(problem.mass, probe.as_ref());
+    let mut load = product(problem.mass, probe.as_ref());
     let resultant = dense::gram(q, load.as_ref());
     dense::add_product(load.as_mut(), -1.0, mass_q, resultant.as_ref());
     let mut x = load.clone();
     operator.solve_in_place(x.as_mut());
     let motion = dense::gram(mass_q, x.as_ref());
     dense::add_product(x.as_mut(), -1.0, q, motion.as_ref());
-    let force = multiply(problem.stiffness, x.as_ref());
+    let force = product(problem.stiffness, x.as_ref());
     let norms = Equilibrated::of(problem.stiffness, problem.mass);
     let load = dense::column(load.as_ref(), 0);
     let residual: Vec<f64> = dense::column(force.as_ref(), 0).iter().zip(load).map(|(k, f)| k - f).collect();

@@ -1,11 +1,12 @@
 //! Rigid-body modes from the matrices alone, by inverse iteration on K − σM.
 
-use super::{RigidBodyModes, RigidEnergy, RigidSource, absolute_energy, largest_residual, multiply};
+use super::{RigidBodyModes, RigidEnergy, RigidSource, absolute_energy, largest_residual};
 use crate::dense;
 use crate::error::Result;
 use crate::factor::{Analysis, Pencil};
 use crate::modes::{ModalProblem, shifted};
 use crate::partition::Partition;
+use crate::sparse::product;
 
 /// The zero modes of a pencil without coordinates, with the factorisations they took.
 ///
@@ -24,7 +25,7 @@ pub fn from_matrices(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
     };
     let found = shifted(&analysis, problem, &|step| partition.name_of(step))?;
     let orthonormal = found.lowest.shapes.as_ref().subcols(0, found.n_zero).to_owned();
-    let forces = multiply(&partition.stiffness, orthonormal.as_ref());
+    let forces = product(&partition.stiffness, orthonormal.as_ref());
     let magnitudes = absolute_energy(&partition.stiffness, orthonormal.as_ref());
     let mut energy = RigidEnergy {
         largest_residual: largest_residual(&partition.stiffness, orthonormal.as_ref()),
@@ -37,7 +38,7 @@ pub fn from_matrices(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
     }
     let rigid = RigidBodyModes {
         modes: orthonormal.clone(),
-        mass_orthonormal: multiply(&partition.mass, orthonormal.as_ref()),
+        mass_orthonormal: product(&partition.mass, orthonormal.as_ref()),
         orthonormal,
         source: RigidSource::Algebraic,
         is_classical: false,

@@ -2,11 +2,12 @@
 
 use faer::{Mat, MatRef};
 
-use super::{RigidBodyModes, RigidEnergy, RigidSource, absolute_energy, largest_residual, multiply};
+use super::{RigidBodyModes, RigidEnergy, RigidSource, absolute_energy, largest_residual};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::model::Bodies;
 use crate::partition::{Partition, Site};
+use crate::sparse::product;
 
 /// Singular values of a body's six unit motions, relative to the largest, below which the motion moves no dof (rotation
 /// of a straight row of translations about its own axis): a thousand times rounding, far below any real thickness.
@@ -39,7 +40,7 @@ pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<
     let orthonormal = join(|body| body.orthonormal.as_ref());
     Ok(RigidBodyModes {
         modes: join(|body| body.modes.as_ref()),
-        mass_orthonormal: multiply(&partition.mass, orthonormal.as_ref()),
+        mass_orthonormal: product(&partition.mass, orthonormal.as_ref()),
         orthonormal,
         source: RigidSource::Geometric,
         is_classical,
@@ -153,7 +154,7 @@ fn mass_orthonormal(partition: &Partition, motions: MatRef<'_, f64>) -> Result<M
     let mut q = motions.to_owned();
     // The second pass removes what rounding of the first left: a body far from round has unlike modal masses.
     for _ in 0..2 {
-        let mut modal_mass = dense::gram(q.as_ref(), multiply(&partition.mass, q.as_ref()).as_ref());
+        let mut modal_mass = dense::gram(q.as_ref(), product(&partition.mass, q.as_ref()).as_ref());
         dense::symmetrise(&mut modal_mass);
         let (masses, directions) = dense::symmetric_eigen(modal_mass.as_ref())?;
         let largest = masses.last().copied().unwrap_or(0.0);
@@ -170,7 +171,7 @@ fn mass_orthonormal(partition: &Partition, motions: MatRef<'_, f64>) -> Result<M
 
 /// Energies qᵀKq in ascending order of size and the combinations that have them.
 fn energies(partition: &Partition, q: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>)> {
-    let mut energy = dense::gram(q, multiply(&partition.stiffness, q).as_ref());
+    let mut energy = dense::gram(q, product(&partition.stiffness, q).as_ref());
     dense::symmetrise(&mut energy);
     dense::symmetric_eigen(energy.as_ref())
 }
@@ -185,7 +186,7 @@ fn noise(partition: &Partition, q: MatRef<'_, f64>) -> f64 {
 /// Translations do not depend on coordinates. Where they are free and a rotation is not, the coordinates are wrong, or
 /// merely rounded if its energy is small enough for that.
 fn only_rounded_coordinates(partition: &Partition, centred: MatRef<'_, f64>, dofs: &[usize]) -> Result<bool> {
-    let forces = multiply(&partition.stiffness, centred);
+    let forces = product(&partition.stiffness, centred);
     let magnitudes = absolute_energy(&partition.stiffness, centred);
     let relative = |j: usize| {
         let energy = dense::dot(dense::column(centred, j), dense::column(forces.as_ref(), j));

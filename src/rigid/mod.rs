@@ -17,7 +17,7 @@ use faer::{Mat, MatRef};
 use crate::dense;
 use crate::error::Result;
 use crate::partition::Partition;
-use crate::sparse::SparseMatrix;
+use crate::sparse::{SparseMatrix, product};
 
 pub use algebraic::from_matrices;
 pub use rank::{ILL_CONDITIONED, InterfaceRank, interface_rank};
@@ -79,7 +79,7 @@ impl RigidBodyModes {
 
     /// M_F = UᵀMU, n_r × n_r.
     pub fn rigid_body_mass(&self, mass: &SparseMatrix) -> Mat<f64> {
-        let mut m_f = dense::gram(self.modes.as_ref(), multiply(mass, self.modes.as_ref()).as_ref());
+        let mut m_f = dense::gram(self.modes.as_ref(), product(mass, self.modes.as_ref()).as_ref());
         dense::symmetrise(&mut m_f);
         m_f
     }
@@ -102,13 +102,6 @@ pub fn rigid_body_modes(partition: &Partition) -> Result<(RigidBodyModes, usize)
 /// Coordinates that do not belong to K; a rigid motion without mass.
 pub fn from_coordinates(partition: &Partition) -> Result<Option<RigidBodyModes>> {
     partition.sites().map(|sites| geometric::rigid_body_modes(partition, &sites)).transpose()
-}
-
-/// A X as a new matrix.
-pub(crate) fn multiply(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> Mat<f64> {
-    let mut y = Mat::zeros(matrix.rows(), x.ncols());
-    crate::sparse::multiply(matrix, x, y.as_mut());
-    y
 }
 
 /// |A||X|, n × k: what rounding of A is measured by.
@@ -142,7 +135,7 @@ pub(crate) fn absolute_energy(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> Vec<
 
 /// The largest ‖Kq‖ / ‖ |K||q| ‖ of the columns.
 fn largest_residual(stiffness: &SparseMatrix, q: MatRef<'_, f64>) -> f64 {
-    let (forces, magnitudes) = (multiply(stiffness, q), absolute_product(stiffness, q));
+    let (forces, magnitudes) = (product(stiffness, q), absolute_product(stiffness, q));
     let ratio = |j: usize| {
         let magnitude = dense::norm(dense::column(magnitudes.as_ref(), j));
         if magnitude > 0.0 { dense::norm(dense::column(forces.as_ref(), j)) / magnitude } else { 0.0 }

@@ -6,7 +6,7 @@
 //! Shapes: matrix n × n, x and y n × k.
 
 use faer::prelude::ReborrowMut;
-use faer::{MatMut, MatRef};
+use faer::{Mat, MatMut, MatRef};
 use rayon::prelude::*;
 
 use super::SparseMatrix;
@@ -37,6 +37,13 @@ pub fn multiply(matrix: &SparseMatrix, x: MatRef<'_, f64>, mut y: MatMut<'_, f64
         }
         col += width;
     }
+}
+
+/// A X as a new matrix, n × k.
+pub fn product(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> Mat<f64> {
+    let mut y = Mat::zeros(matrix.rows(), x.ncols());
+    multiply(matrix, x, y.as_mut());
+    y
 }
 
 /// One row of a packed group of W columns.

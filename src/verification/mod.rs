@@ -11,6 +11,7 @@ mod reduced;
 mod rigid_motion;
 
 use crate::basis::{Basis, ConstraintModes};
+use crate::dense;
 use crate::error::Result;
 use crate::job::Expectation;
 use crate::modes::{Certificate, Equilibrated, Retained};
@@ -81,12 +82,7 @@ fn coordinate_scales(evidence: &Evidence<'_>) -> Vec<f64> {
     let (partition, k) = (evidence.partition, &evidence.reduction.stiffness);
     let (n_i, n_b) = (partition.n_internal, partition.n_interface());
     let uncondensed = |i: usize| partition.stiffness.get(n_i + i, n_i + i).copied().unwrap_or(0.0);
-    (0..k.nrows()).map(|i| power_of_two_root(if i < n_b { uncondensed(i) } else { k[(i, i)] })).collect()
-}
-
-/// The power of two nearest 1/√d; one where d is not positive.
-fn power_of_two_root(d: f64) -> f64 {
-    if d > 0.0 { 2f64.powi((-0.5 * d.log2()).round() as i32) } else { 1.0 }
+    (0..k.nrows()).map(|i| dense::power_of_two_root(if i < n_b { uncondensed(i) } else { k[(i, i)] })).collect()
 }
 
 /// The norms of the reduced pencil that backward errors are relative to; that of K̂ is at least that of its terms before

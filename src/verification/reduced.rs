@@ -3,7 +3,7 @@
 use faer::{Mat, MatRef, Side};
 
 use super::check::{Check, Limits};
-use super::{Evidence, coordinate_scales, power_of_two_root, reduced_norms};
+use super::{Evidence, coordinate_scales, reduced_norms};
 use crate::dense;
 use crate::error::Result;
 use crate::modes::Boundary;
@@ -89,7 +89,7 @@ fn scaled_by(a: MatRef<'_, f64>, scales: &[f64]) -> Mat<f64> {
 
 /// D A D with powers of two D that bring the diagonal of `by` near one.
 fn equilibrated(a: MatRef<'_, f64>, by: MatRef<'_, f64>) -> Mat<f64> {
-    let scales: Vec<f64> = (0..by.nrows()).map(|i| power_of_two_root(by[(i, i)])).collect();
+    let scales: Vec<f64> = (0..by.nrows()).map(|i| dense::power_of_two_root(by[(i, i)])).collect();
     scaled_by(a, &scales)
 }
 
