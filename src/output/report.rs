@@ -11,7 +11,8 @@ use crate::model::{ASYMMETRY_WARN, Finding};
 use crate::modes::Boundary;
 use crate::report::{
     Completeness, DroppedCoordinate, Generator, InterfaceReport, MassProperties, MatrixReport, ModeKind, ModeRow,
-    ModelReport, ReductionReport, ReportBody, RigidBodyModes, RigidBodySource, Warning,
+    ModelReport, Preservation, ReductionReport, ReportBody, RigidBodyEvidence, RigidBodyModes, RigidBodySource,
+    Warning,
 };
 use crate::rigid::{ILL_CONDITIONED, RigidSource};
 
@@ -23,6 +24,9 @@ pub(super) fn body(results: &Results<'_>) -> ReportBody {
         checks: results.checks.to_vec(),
         warnings: warnings(results),
         completeness: completeness(results),
+        trust_intervals: Vec::new(),
+        rigid_body: RigidBodyEvidence::default(),
+        preservation: Preservation::default(),
     }
 }
 
@@ -138,6 +142,7 @@ fn modes(results: &Results<'_>) -> Vec<ModeRow> {
             error_bar_hz: 0.5 * error.relative_bar * frequency_hz,
             backward_error: error.backward,
             kind,
+            enclosure_hz: None,
         }
     };
     modes.lambda.iter().zip(&modes.errors).enumerate().map(row).collect()

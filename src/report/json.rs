@@ -34,7 +34,7 @@ impl Report {
 impl Serialize for ReportBody {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
         let checks: Vec<CheckLine<'_>> = self.checks.iter().map(CheckLine::of).collect();
-        let mut body = serializer.serialize_struct("ReportBody", 8)?;
+        let mut body = serializer.serialize_struct("ReportBody", 11)?;
         body.serialize_field("format_version", &FORMAT_VERSION)?;
         body.serialize_field("generator", &self.generator)?;
         body.serialize_field("verdict", &self.verdict())?;
@@ -43,6 +43,9 @@ impl Serialize for ReportBody {
         body.serialize_field("reduction", &self.reduction)?;
         body.serialize_field("checks", &checks)?;
         body.serialize_field("warnings", &self.warnings)?;
+        body.serialize_field("trust_intervals", &self.trust_intervals)?;
+        body.serialize_field("rigid_body", &self.rigid_body)?;
+        body.serialize_field("preservation", &self.preservation)?;
         body.end()
     }
 }

@@ -7,9 +7,12 @@ mod inspection;
 mod json;
 pub(crate) mod mode_table;
 pub(crate) mod page;
+mod preservation;
+mod rigid_body;
 mod stages;
 pub(crate) mod summary;
 pub(crate) mod table;
+mod trust;
 
 use std::path::PathBuf;
 
@@ -20,8 +23,14 @@ use crate::verification::check::{Check, Verdict};
 
 pub use inspection::inspection;
 pub use page::Paint;
+pub use preservation::{
+    BoundaryComparison, FrequencyPair, HighestFrequency, InterfaceStatics, Preservation, PreservedMode,
+    ResponseComparison, ResponseSample, SizeError,
+};
+pub use rigid_body::{EffectiveMass, Grounding, MassRoute, RigidBodyEvidence};
 pub use stages::{Observer, StageClock, StageTime};
 pub use summary::summary;
+pub use trust::TrustInterval;
 
 /// Body and facts of one run; [`Report::to_json`] gives the document that `schemas/report.schema.json` describes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -47,6 +56,12 @@ pub struct ReportBody {
     pub warnings: Vec<Warning>,
     /// Whether every mode of the band is known to have been found.
     pub completeness: Completeness,
+    /// The intervals in which that is known.
+    pub trust_intervals: Vec<TrustInterval>,
+    /// The component as a rigid body.
+    pub rigid_body: RigidBodyEvidence,
+    /// The reduced beside the full model.
+    pub preservation: Preservation,
 }
 
 /// The program that wrote the report.
@@ -186,6 +201,8 @@ pub struct ModeRow {
     pub backward_error: f64,
     /// Under which boundary the mode was computed.
     pub kind: ModeKind,
+    /// An interval that is proved to hold an eigenvalue, where `--certify full` asked for it.
+    pub enclosure_hz: Option<[f64; 2]>,
 }
 
 /// Under which boundary a mode was computed.

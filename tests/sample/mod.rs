@@ -7,8 +7,8 @@ use supel::job::{Coupling, Eigensolver, Job, Method};
 use supel::outcome::{Outcome, Resources};
 use supel::report::{
     Completeness, DroppedCoordinate, Generator, InterfaceReport, MassProperties, MatrixReport, ModeKind, ModeRow,
-    ModelReport, Observer, ReductionReport, Report, ReportBody, RigidBodyModes, RigidBodySource, RunFacts, StageTime,
-    Warning, WorkCounters,
+    ModelReport, Observer, Preservation, ReductionReport, Report, ReportBody, RigidBodyEvidence, RigidBodyModes,
+    RigidBodySource, RunFacts, StageTime, Warning, WorkCounters,
 };
 use supel::verification::check::{Check, Limits};
 use supel_runtime::{
@@ -62,6 +62,7 @@ fn body() -> ReportBody {
         error_bar_hz: 1.7e-10 * (index as f64),
         backward_error: 3.1e-16,
         kind: ModeKind::FreeInterface,
+        enclosure_hz: None,
     };
     ReportBody {
         generator: Generator::default(),
@@ -91,6 +92,9 @@ fn body() -> ReportBody {
         }],
         warnings: Vec::new(),
         completeness: Completeness::SturmCount { below_hz: 16_200.25, n_counted: 56, n_found: 56 },
+        trust_intervals: Vec::new(),
+        rigid_body: RigidBodyEvidence::default(),
+        preservation: Preservation::default(),
     }
 }
 

@@ -1,0 +1,141 @@
+//! What the reduction preserves: modes, frequencies under other boundaries, statics and the frequency response, each
+//! of the reduced model beside the same of the full one.
+
+use serde::Serialize;
+
+/// Reduced against full model.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Preservation {
+    /// The retained modes under the boundary they were computed with (equations 34 and 35).
+    pub modes: Vec<PreservedMode>,
+    /// Modal assurance criterion of the full (rows) against the reduced (columns) retained modes, in the M-inner product.
+    pub mac: Vec<Vec<f64>>,
+    /// Frequencies under other boundaries.
+    pub boundaries: Vec<BoundaryComparison>,
+    /// Static stiffness at each interface.
+    pub statics: Vec<InterfaceStatics>,
+    /// Frequency response between interface dofs.
+    pub response: Option<ResponseComparison>,
+    /// How many modes would give which error.
+    pub size_errors: Vec<SizeError>,
+    /// The highest frequency of the reduced model and the step that an integrator needs for it.
+    pub highest: Option<HighestFrequency>,
+}
+
+/// One retained mode in the full and in the reduced model.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct PreservedMode {
+    /// Number of the mode, from one.
+    pub index: usize,
+    /// Frequency in the full model.
+    pub full_hz: f64,
+    /// Frequency in the reduced model under the same boundary.
+    pub reduced_hz: f64,
+    /// |reduced / full − 1|.
+    pub relative_difference: f64,
+    /// Backward error of (λ, V̄) in the reduced pencil.
+    pub backward_error: f64,
+    /// Smallest singular value of X_cᵀ M Y_c over the mode's cluster, squared: the MAC of a single mode.
+    pub mac: f64,
+}
+
+/// Frequencies of the full and the reduced model under one boundary.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BoundaryComparison {
+    /// `free`, `fix:hub` or `mass:hub`.
+    pub boundary: String,
+    /// What was done to the component, in words.
+    pub description: String,
+    /// The elastic frequencies, ascending.
+    pub frequencies: Vec<FrequencyPair>,
+    /// The largest relative difference within the band.
+    pub worst_in_band: f64,
+}
+
+/// One frequency in both models.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct FrequencyPair {
+    /// In the full model.
+    pub full_hz: f64,
+    /// In the reduced model.
+    pub reduced_hz: f64,
+    /// Reduced / full − 1.
+    pub relative_difference: f64,
+    /// Whether it lies in the band that the reduction is meant for.
+    pub in_band: bool,
+}
+
+/// Static stiffness at one interface, the other interfaces held.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct InterfaceStatics {
+    /// Name of the interface.
+    pub interface: String,
+    /// Its dofs, `ux` and so on with the node where there are several.
+    pub dofs: Vec<String>,
+    /// From the full model.
+    pub full: Vec<Vec<f64>>,
+    /// From the reduced model.
+    pub reduced: Vec<Vec<f64>>,
+    /// Largest difference over √(K_ii K_jj) of the stiffness before condensation.
+    pub relative_difference: f64,
+}
+
+/// Frequency response between interface dofs, fixed structural damping.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ResponseComparison {
+    /// Boundary of the component.
+    pub boundary: String,
+    /// Structural damping factor η of K (1 + iη).
+    pub damping: f64,
+    /// Length that turns rotations into displacements.
+    pub rotation_length: f64,
+    /// Largest relative residual of the solves with the full model.
+    pub residual: f64,
+    /// The pair of dofs with the largest error: driven and observed.
+    pub worst_pair: [String; 2],
+    /// Largest error of it, in dB.
+    pub worst_db: f64,
+    /// Where.
+    pub worst_at_hz: f64,
+    /// Largest relative shift of a resonance peak.
+    pub peak_shift: f64,
+    /// The samples, ascending in frequency.
+    pub samples: Vec<ResponseSample>,
+}
+
+/// The response at one frequency.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ResponseSample {
+    /// The frequency.
+    pub frequency_hz: f64,
+    /// Magnitude of the worst pair in the full model.
+    pub full: f64,
+    /// The same in the reduced model.
+    pub reduced: f64,
+    /// Largest error over all pairs, in dB.
+    pub error_db: f64,
+}
+
+/// The error that a smaller basis would have.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SizeError {
+    /// Elastic modes kept.
+    pub n_modes: usize,
+    /// Order of the reduced matrices.
+    pub n_reduced: usize,
+    /// Largest relative frequency error in the band, over the boundaries compared.
+    pub frequency_error: f64,
+    /// Largest error of the frequency response in the band, in dB.
+    pub response_error_db: Option<f64>,
+}
+
+/// The highest frequency of the reduced model.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct HighestFrequency {
+    /// The frequency.
+    pub frequency_hz: f64,
+    /// 2/ω: the largest step of the central difference scheme.
+    pub explicit_step_s: f64,
+    /// T/20: the step with which an implicit scheme still follows it.
+    pub resolving_step_s: f64,
+}

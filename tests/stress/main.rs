@@ -1,0 +1,13 @@
+//! The stress catalogue: models made to break a reduction, each with the outcome it must have.
+//!
+//! Outcomes are of three classes: right within a stated figure, a named warning, or a named error that says what to do.
+//! Anything else is a failure.
+
+#[path = "../chain/mod.rs"]
+mod chain;
+
+mod input;
+mod mass;
+mod scaling;
+mod singularity;
+mod spectrum;

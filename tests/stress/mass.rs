@@ -1,0 +1,1 @@
+//! Mass matrices: lines MS-01 to MS-08.

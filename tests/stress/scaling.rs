@@ -1,0 +1,1 @@
+//! Scaling and conditioning: lines C-01 to C-15.

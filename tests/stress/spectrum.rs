@@ -1,0 +1,1 @@
+//! Spectra: lines E-01 to E-11.
