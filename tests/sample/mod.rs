@@ -1,5 +1,7 @@
 //! One full report and the superelement it belongs to, made by hand: a massless spring between two unit masses.
 
+mod evidence;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use supel::error::Result;
@@ -7,8 +9,8 @@ use supel::job::{Coupling, Eigensolver, Job, Method};
 use supel::outcome::{Outcome, Resources};
 use supel::report::{
     Completeness, DroppedCoordinate, Generator, InterfaceReport, MassProperties, MatrixReport, ModeKind, ModeRow,
-    ModelReport, Observer, Preservation, ReductionReport, Report, ReportBody, RigidBodyEvidence, RigidBodyModes,
-    RigidBodySource, RunFacts, StageTime, Warning, WorkCounters,
+    ModelReport, Observer, ReductionReport, Report, ReportBody, RigidBodyModes, RigidBodySource, RunFacts, StageTime,
+    Warning, WorkCounters,
 };
 use supel::verification::check::{Check, Limits};
 use supel_runtime::{
@@ -47,6 +49,10 @@ pub(crate) fn full_report() -> Report {
         coordinate: "mode 7".to_owned(),
         reason: "spanned by the constraint modes to 2.3e-11".to_owned(),
     });
+    for mode in &mut report.body.reduction.modes {
+        let (frequency, bar) = (mode.frequency_hz, 3.0 * mode.error_bar_hz);
+        mode.enclosure_hz = Some([frequency - bar, frequency + bar]);
+    }
     report
 }
 
@@ -58,7 +64,7 @@ pub(crate) fn passing_report() -> Report {
 fn body() -> ReportBody {
     let row = |index: usize| ModeRow {
         index,
-        frequency_hz: 100.0 * (index as f64).powf(1.3),
+        frequency_hz: evidence::frequency(index),
         error_bar_hz: 1.7e-10 * (index as f64),
         backward_error: 3.1e-16,
         kind: ModeKind::FreeInterface,
@@ -92,9 +98,9 @@ fn body() -> ReportBody {
         }],
         warnings: Vec::new(),
         completeness: Completeness::SturmCount { below_hz: 16_200.25, n_counted: 56, n_found: 56 },
-        trust_intervals: Vec::new(),
-        rigid_body: RigidBodyEvidence::default(),
-        preservation: Preservation::default(),
+        trust_intervals: evidence::trust_intervals(),
+        rigid_body: evidence::rigid_body(&model().mass_properties),
+        preservation: evidence::preservation(),
     }
 }
 
@@ -126,6 +132,7 @@ fn run_facts() -> RunFacts {
         stages: vec![stage("read", 1.31), stage("factor", 4.2), stage("modes", 6.9), stage("write", 0.004)],
         peak_memory_bytes: Some(1_932_735_283),
         file_bytes: Some(81_920),
+        file_digest: Some("c".repeat(64)),
         n_threads: 2,
         work: WorkCounters {
             n_factorisations: 2,

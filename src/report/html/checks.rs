@@ -1,0 +1,63 @@
+//! Every check: its line, and what it means.
+
+use super::front::in_words;
+use super::markup::{Cell, Markup, Table};
+use super::words;
+use crate::report::explanation::explanation;
+use crate::report::table::scientific;
+use crate::verification::check::{Check, Verdict};
+
+pub(super) fn checks(page: &mut Markup, checks: &[Check]) {
+    page.paragraph(
+        "Each check compares a measured value with a limit. The limit is the largest of three: what engineering practice \
+         asks, what double-precision arithmetic can give for this model, and what the digits of the input can give; the \
+         table says which one it was. A value past its limit warns, far past it fails. The margin is limit over value.",
+    );
+    let heads = ["id", "check", "value", "limit", "set by", "margin", "verdict"].map(str::to_owned).into();
+    let rows = checks.iter().map(row).collect();
+    page.table(&Table { id: "table-checks".to_owned(), caption: "All checks of this run.".to_owned(), heads, rows });
+    page.heading("What they mean");
+    let mut told: Vec<&str> = Vec::new();
+    for check in checks {
+        if !told.contains(&check.id) {
+            told.push(check.id);
+            let group: Vec<&Check> = checks.iter().filter(|other| other.id == check.id).collect();
+            tell(page, check.id, &group);
+        }
+    }
+}
+
+fn row(check: &Check) -> Vec<Cell> {
+    vec![
+        Cell::Head(check.id.to_owned()),
+        Cell::Text(check.name.to_owned()),
+        Cell::Number(scientific(check.value, 2)),
+        Cell::Number(scientific(check.limits.value(), 1)),
+        Cell::Text(words::active_limit(check.limits.active()).to_owned()),
+        Cell::Number(words::margin(check.margin())),
+        Cell::Verdict(check.verdict()),
+    ]
+}
+
+/// The explanation of one identifier and what each of its checks found.
+fn tell(page: &mut Markup, id: &str, group: &[&Check]) {
+    let names: Vec<&str> = group.iter().map(|check| check.name).collect();
+    page.raw(&format!("<div class=\"check\" id=\"check-{id}\">\n"));
+    page.element("h4", &format!("{id}: {}", names.join("; ")));
+    let known = explanation(id);
+    if let Some(known) = known {
+        page.paragraph(&format!("{} ({}.)", known.meaning, known.proof.word()));
+    }
+    page.raw("<ul>\n");
+    for check in group {
+        let worst = check.worst.as_ref().map(|worst| format!("; worst: {worst}")).unwrap_or_default();
+        let definition = format!("{}: {}{worst}", check.equation, in_words(check.value, 2));
+        page.element("li", &definition);
+    }
+    page.raw("</ul>\n");
+    let is_past = group.iter().any(|check| check.verdict() != Verdict::Pass);
+    if let (true, Some(known)) = (is_past, known) {
+        page.classed("p", "remedy", &format!("What to look at: {}", known.remedy));
+    }
+    page.raw("</div>\n");
+}
