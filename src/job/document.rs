@@ -23,7 +23,7 @@ const KEYS: &[(&str, &[&str])] = &[
     ("reduction", &["method", "modes", "eigensolver"]),
     ("reduction.modes", &["count", "up_to_hz"]),
     ("run", &["certify", "memory_gib"]),
-    ("write", &["superelement", "report"]),
+    ("write", &["superelement", "report", "html", "junit"]),
 ];
 
 /// Above this Jaro-Winkler similarity a known key is offered for an unknown one; below it the offer would be noise.

@@ -23,6 +23,16 @@ impl Proof {
             Self::Shown => "shown",
         }
     }
+
+    /// What the word means.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Certified => "a count, an enclosure or a comparison of bits that leaves room for rounding only",
+            Self::Measured => "computed directly from the full and the reduced matrices",
+            Self::Estimated => "a first-order bound, or a sample that stands for the whole",
+            Self::Shown => "a number for your judgement, because no limit can be right for every use",
+        }
+    }
 }
 
 /// A check in words.

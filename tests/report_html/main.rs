@@ -2,6 +2,7 @@
 //! JUnit XML.
 
 mod browser;
+mod command;
 mod content;
 mod junit;
 #[path = "../sample/mod.rs"]

@@ -1,9 +1,9 @@
 //! Every check: its line, and what it means.
 
-use super::front::in_words;
+use super::front::{in_words, sentence};
 use super::markup::{Cell, Markup, Table};
 use super::words;
-use crate::report::explanation::explanation;
+use crate::report::explanation::{Proof, explanation};
 use crate::report::table::scientific;
 use crate::verification::check::{Check, Verdict};
 
@@ -17,6 +17,9 @@ pub(super) fn checks(page: &mut Markup, checks: &[Check]) {
     let rows = checks.iter().map(row).collect();
     page.table(&Table { id: "table-checks".to_owned(), caption: "All checks of this run.".to_owned(), heads, rows });
     page.heading("What they mean");
+    let kinds = [Proof::Certified, Proof::Measured, Proof::Estimated, Proof::Shown];
+    let kinds = kinds.map(|kind| format!("{}: {}", kind.word(), kind.meaning()));
+    page.paragraph(&sentence(&format!("not every answer is equally firm. {}", kinds.join("; "))));
     let mut told: Vec<&str> = Vec::new();
     for check in checks {
         if !told.contains(&check.id) {
@@ -46,7 +49,7 @@ fn tell(page: &mut Markup, id: &str, group: &[&Check]) {
     page.element("h4", &format!("{id}: {}", names.join("; ")));
     let known = explanation(id);
     if let Some(known) = known {
-        page.paragraph(&format!("{} ({}.)", known.meaning, known.proof.word()));
+        page.paragraph(&format!("{} {}", known.meaning, sentence(known.proof.word())));
     }
     page.raw("<ul>\n");
     for check in group {

@@ -21,15 +21,13 @@ pub(super) fn run(page: &mut Markup, run: &RunFacts) {
         });
     }
     let work = run.work;
-    let mut facts = vec![(
-        "Work",
-        vec![
-            counted(work.n_factorisations, "factorisation", "factorisations"),
-            counted(work.n_solves, "solve", "solves"),
-            counted(work.n_restarts, "restart", "restarts"),
-            counted(run.n_threads, "thread", "threads"),
-        ],
-    )];
+    let counts = [
+        counted(work.n_factorisations, "factorisation", "factorisations"),
+        counted(work.n_solves, "solve", "solves"),
+        counted(work.n_restarts, "restart", "restarts"),
+        counted(run.n_threads, "thread", "threads"),
+    ];
+    let mut facts = vec![("Work", vec![counts.join(", ")])];
     if work.factor_nonzeros > 0 {
         facts.push((
             "Largest factor",
