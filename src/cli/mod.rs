@@ -15,6 +15,7 @@ mod memory;
 mod process;
 mod progress;
 mod reduce;
+mod rehearsal;
 
 use std::error::Error as _;
 use std::ffi::OsString;
@@ -65,6 +66,7 @@ fn execute(flags: flags::CommandLine, pipeline: Pipeline, terminal: &mut Termina
     match Command::build(flags)? {
         Command::Reduce(command) => reduce::run(&command, pipeline, terminal),
         Command::Inspect(command) => inspect::run(&command, terminal),
+        Command::RehearseReading => rehearsal::read_from_stdin().map(|()| ExitCode::Done),
     }
 }
 

@@ -17,7 +17,7 @@ mod source;
 mod table;
 
 pub use digits::significant_digits;
-pub use model_files::{Input, read};
+pub use model_files::{Input, hdf5_file, read};
 pub use note::InputNote;
 
 use std::collections::BTreeMap;
