@@ -239,10 +239,23 @@ pub enum Error {
         /// Entries declared.
         declared: u64,
     },
+    /// Entries of a matrix repeat a position, and the job refuses that.
+    #[error(
+        "{}: {count} entries repeat a position; expected each position once with --strict: assemble the matrix, or leave \
+         --strict out to have them added",
+        path.display()
+    )]
+    Duplicates {
+        /// The file.
+        path: PathBuf,
+        /// How many.
+        count: usize,
+    },
     /// A matrix declared symmetric has entries on both sides of the diagonal.
     #[error(
         "{}: declared symmetric, but entries lie on both sides of the diagonal, ({}, {}) and ({}, {}); \
-         expected one triangle: remove the other, or declare the matrix general",
+         expected one triangle: remove the other, declare the matrix general, or say which holds with --symmetric lower or \
+         upper",
         path.display(), lower.0, lower.1, upper.0, upper.1
     )]
     DoubleTriangle {
@@ -843,7 +856,7 @@ pub enum Error {
     // ---- model -----------------------------------------------------------------------------------------------------
     /// A matrix is not symmetric.
     #[error(
-        "the {matrix} matrix is not symmetric – worst at row {row}, column {col} – found a relative difference of {asymmetry:.1e} – expected below 1e-6 – leave out follower forces, gyroscopic and friction terms"
+        "the {matrix} matrix is not symmetric – worst at row {row}, column {col} – found a relative difference of {asymmetry:.1e} – expected below 1e-6 – leave out follower forces, gyroscopic and friction terms; where the file lacks part of a triangle, take the other one with --symmetric lower or upper"
     )]
     Unsymmetric {
         /// `stiffness` or `mass`.
@@ -875,7 +888,7 @@ pub enum Error {
     NoMass,
     /// Rows without stiffness and mass.
     #[error(
-        "{n_rows} rows have neither stiffness nor mass – the first is row {row}{dof} – expected none – leave unused and constrained dofs out of both matrices"
+        "{n_rows} rows have neither stiffness nor mass – the first is row {row}{dof} – expected none – leave unused and constrained dofs out of both matrices, or drop these rows with --drop-empty"
     )]
     EmptyRows {
         /// How many.
@@ -921,16 +934,16 @@ pub enum Error {
     },
     /// Coordinates that do not belong to K.
     #[error(
-        "the coordinates do not belong to the stiffness – translations cost no energy but the rotation about {rotation} costs {energy:.1e} of its terms, most of it at {dof} – expected below {expected:.1e} – check units, axes and local node frames, or leave the nodes out"
+        "the coordinates do not belong to the stiffness – translations cost no energy but the rotation about {rotation} costs {energy:.1e} of the energy of the first elastic mode, most of it at {dof} – expected below {expected:.0e} – check units, axes and local node frames, or leave the nodes out"
     )]
     CoordinatesDoNotFit {
         /// The axis.
         rotation: &'static str,
-        /// Relative energy of the rotation.
+        /// Largest Rayleigh quotient of a rigid motion by the coordinates over the first elastic eigenvalue.
         energy: f64,
-        /// What rounding allows.
+        /// What rounding of coordinates may cost.
         expected: f64,
-        /// Where the force is largest.
+        /// Where the forces are largest.
         dof: String,
     },
     /// A rigid-body motion whose energy is negative beyond rounding.

@@ -73,6 +73,7 @@ codes! {
     NonFinite => "E-NONFINITE", InputData;
     EntryCount => "E-NNZ", InputData;
     EntriesSurplus => "E-NNZ-SURPLUS", InputData;
+    Duplicates => "E-DUPLICATES", InputData;
     DoubleTriangle => "E-DOUBLE-TRIANGLE", InputData;
     SizeMismatch => "E-DIM", InputData;
     TableColumn => "E-TABLE-COLUMN", InputData;
