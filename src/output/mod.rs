@@ -10,10 +10,10 @@ mod superelement;
 use supel_runtime::Superelement;
 
 use crate::error::Result;
-use crate::input::Input;
+use crate::input::{Input, InputNote};
 use crate::job::Job;
 use crate::model::Model;
-use crate::report::{Report, WorkCounters};
+use crate::report::{Report, Warning, WorkCounters};
 use crate::verification::{Evidence, Findings};
 
 /// What is remembered of the input after its matrices have gone into the model.
@@ -21,8 +21,10 @@ use crate::verification::{Evidence, Findings};
 pub struct InputFacts {
     /// Digits and digest of K and M.
     pub matrices: [MatrixFacts; 2],
-    /// Remarks of the readers.
+    /// Remarks of the readers that are no warnings.
     pub notes: Vec<String>,
+    /// Remarks that are warnings.
+    pub warnings: Vec<Warning>,
 }
 
 /// What is remembered of one matrix.
@@ -46,9 +48,14 @@ impl InputFacts {
         };
         Self {
             matrices: [facts(&input.stiffness), facts(&input.mass)],
-            notes: input.notes.iter().map(ToString::to_string).collect(),
+            notes: input.notes.iter().filter(|note| note.warning_code().is_none()).map(ToString::to_string).collect(),
+            warnings: input.notes.iter().filter_map(warning).collect(),
         }
     }
+}
+
+fn warning(note: &InputNote) -> Option<Warning> {
+    note.warning_code().map(|code| Warning { code, message: note.to_string() })
 }
 
 /// Everything the output is made from.

@@ -140,7 +140,7 @@ fn modes(results: &Results<'_>) -> Vec<ModeRow> {
 
 fn warnings(results: &Results<'_>) -> Vec<Warning> {
     let evidence = &results.evidence;
-    let mut warnings = Vec::new();
+    let mut warnings = results.input.warnings.clone();
     let ratio = evidence.rank.singular_ratio;
     if ratio < ILL_CONDITIONED {
         warnings.push(Warning {
@@ -158,6 +158,19 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
         {
             warnings.push(Warning { code: "W-UNSYMMETRIC", message: finding.to_string() });
         }
+        if let Finding::FreeParticles { .. } = finding {
+            warnings.push(Warning { code: "W-FREE-PARTICLE", message: finding.to_string() });
+        }
+    }
+    if let Some(misfit) = &evidence.rigid.misfit {
+        warnings.push(Warning {
+            code: "W-COORD-ROUNDED",
+            message: format!(
+                "the coordinates are rounded: by them the rotation about {} costs {:.1e} of the energy of the first elastic \
+                 mode, most of it at {}; rigid-body modes were taken from the matrices",
+                misfit.rotation, misfit.energy, misfit.at
+            ),
+        });
     }
     if results.job.model.expect.is_some() && !evidence.rigid.is_classical {
         warnings.push(Warning {
