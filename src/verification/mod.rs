@@ -127,6 +127,15 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     Ok(Findings { checks, rigid_body })
 }
 
+/// What a rigid-body mode is called: `rotation z` of one free body, else by its number.
+fn rigid_name(evidence: &Evidence<'_>, mode: usize) -> String {
+    if evidence.rigid.is_classical {
+        directions::NAMES[mode].to_owned()
+    } else {
+        format!("rigid-body mode {}", mode + 1)
+    }
+}
+
 /// What a reduced coordinate is called: `node 12 uz`, `mode 3`, `inertia relief 2`.
 fn coordinate_name(evidence: &Evidence<'_>, coordinate: usize) -> String {
     let n_b = evidence.partition.n_interface();
