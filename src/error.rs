@@ -761,6 +761,19 @@ pub enum Error {
         /// The name.
         name: String,
     },
+    /// A boundary of the scene is about an interface that the job does not have.
+    #[error(
+        "scene.boundaries: `{boundary}`: no interface is called `{name}` – the job has {}",
+        listed_names(known)
+    )]
+    SceneInterface {
+        /// The boundary.
+        boundary: String,
+        /// The name in it.
+        name: String,
+        /// Names of the job's interfaces.
+        known: Vec<String>,
+    },
     /// An interface lists one node, row or direction twice.
     #[error("interface `{interface}`: {what} is listed twice – list each once")]
     InterfaceRepeats {
@@ -1279,6 +1292,7 @@ impl Error {
             | Self::JobNumber { .. }
             | Self::JobEmpty { .. }
             | Self::InterfaceTwice { .. }
+            | Self::SceneInterface { .. }
             | Self::InterfaceRepeats { .. }
             | Self::InterfaceOverlap { .. }
             | Self::InterfaceNodes { .. }
@@ -1292,6 +1306,11 @@ impl Error {
             Self::SuperelementFile { .. } => ErrorClass::InputData,
         }
     }
+}
+
+/// Names with commas, or that there are none.
+fn listed_names(names: &[String]) -> String {
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
 }
 
 /// `:12` after a path, where the line is known.

@@ -5,6 +5,7 @@
 
 mod document;
 mod interface;
+mod scene;
 mod validation;
 
 use std::path::{Path, PathBuf};
@@ -15,6 +16,7 @@ use crate::error::{Error, Result};
 
 pub use document::Notation;
 pub use interface::{Coupling, InterfaceJob, NodeSelection, Origin, Region};
+pub use scene::{DampingJob, SceneJob, Support};
 
 /// A whole job.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,6 +29,9 @@ pub struct Job {
     pub interfaces: Vec<InterfaceJob>,
     /// Method and modes.
     pub reduction: ReductionJob,
+    /// What the simulation will ask of the component.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scene: Option<SceneJob>,
     /// How the run is done; changes no result.
     #[serde(default)]
     pub run: RunJob,
