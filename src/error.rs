@@ -762,10 +762,7 @@ pub enum Error {
         name: String,
     },
     /// A boundary of the scene is about an interface that the job does not have.
-    #[error(
-        "scene.boundaries: `{boundary}`: no interface is called `{name}` – the job has {}",
-        listed_names(known)
-    )]
+    #[error("scene.boundaries: `{boundary}`: no interface is called `{name}` – the job has {}", listed(known))]
     SceneInterface {
         /// The boundary.
         boundary: String,
@@ -1306,11 +1303,6 @@ impl Error {
             Self::SuperelementFile { .. } => ErrorClass::InputData,
         }
     }
-}
-
-/// Names with commas, or that there are none.
-fn listed_names(names: &[String]) -> String {
-    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
 }
 
 /// `:12` after a path, where the line is known.

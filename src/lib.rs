@@ -129,7 +129,12 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         certificate: certificate.as_ref(),
         expect: job.model.expect.as_ref(),
     };
-    let checks = verification::verify(&evidence)?;
+    let mut checks = verification::verify(&evidence)?;
+
+    observer.stage("preservation");
+    let preserved = verification::preservation(&evidence, &factor, &analysis, job)?;
+    checks.extend(preserved.checks);
+    checks.sort_by_key(|check| check.id);
 
     let work = WorkCounters {
         n_factorisations: 1
@@ -141,7 +146,14 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         factor_flops: analysis.flops,
         factor_nonzeros: analysis.nnz_factor as u64,
     };
-    let (superelement, report) =
-        output::output(&Results { job, input: &facts, model: &model, evidence, checks: &checks, work })?;
+    let (superelement, report) = output::output(&Results {
+        job,
+        input: &facts,
+        model: &model,
+        evidence,
+        checks: &checks,
+        preserved: &preserved.report,
+        work,
+    })?;
     Ok(Outcome { superelement, report })
 }

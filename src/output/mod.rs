@@ -12,7 +12,7 @@ use crate::error::Result;
 use crate::input::Input;
 use crate::job::Job;
 use crate::model::Model;
-use crate::report::{Report, WorkCounters};
+use crate::report::{Preservation, Report, WorkCounters};
 use crate::verification::Evidence;
 use crate::verification::check::Check;
 
@@ -64,6 +64,8 @@ pub struct Results<'a> {
     pub evidence: Evidence<'a>,
     /// The checks.
     pub checks: &'a [Check],
+    /// The reduced beside the full model.
+    pub preserved: &'a Preservation,
     /// What was done, counted.
     pub work: WorkCounters,
 }

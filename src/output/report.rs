@@ -11,8 +11,7 @@ use crate::model::{ASYMMETRY_WARN, Finding};
 use crate::modes::Boundary;
 use crate::report::{
     Completeness, DroppedCoordinate, Generator, InterfaceReport, MassProperties, MatrixReport, ModeKind, ModeRow,
-    ModelReport, Preservation, ReductionReport, ReportBody, RigidBodyEvidence, RigidBodyModes, RigidBodySource,
-    Warning,
+    ModelReport, ReductionReport, ReportBody, RigidBodyEvidence, RigidBodyModes, RigidBodySource, Warning,
 };
 use crate::rigid::{ILL_CONDITIONED, RigidSource};
 
@@ -26,7 +25,7 @@ pub(super) fn body(results: &Results<'_>) -> ReportBody {
         completeness: completeness(results),
         trust_intervals: Vec::new(),
         rigid_body: RigidBodyEvidence::default(),
-        preservation: Preservation::default(),
+        preservation: results.preserved.clone(),
     }
 }
 

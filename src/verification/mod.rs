@@ -7,6 +7,7 @@ pub mod check;
 mod completeness;
 mod eigenpairs;
 mod mass;
+pub mod preservation;
 mod reduced;
 mod rigid_motion;
 
@@ -21,6 +22,8 @@ use crate::rigid::{InterfaceRank, RigidBodyModes};
 use crate::sparse::SparseMatrix;
 
 use check::Check;
+
+pub use preservation::{Compared, preservation};
 
 /// Everything the checks look at: the results of the stages, none of their workings.
 #[derive(Clone, Copy, Debug)]
