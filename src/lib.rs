@@ -120,6 +120,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let evidence = Evidence {
         partition: &partition,
         internal,
+        factor: &factor,
         rigid: &rigid,
         rank,
         constraint: &constraint,
@@ -129,7 +130,10 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         certificate: certificate.as_ref(),
         expect: job.model.expect.as_ref(),
     };
-    let checks = verification::verify(&evidence)?;
+    let findings = verification::verify(&evidence)?;
+
+    observer.stage("preservation");
+    let preserved = verification::preservation(&evidence, &factor, &analysis, job)?;
 
     let work = WorkCounters {
         n_factorisations: 1
@@ -141,7 +145,14 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         factor_flops: analysis.flops,
         factor_nonzeros: analysis.nnz_factor as u64,
     };
-    let (superelement, report) =
-        output::output(&Results { job, input: &facts, model: &model, evidence, checks: &checks, work })?;
+    let (superelement, report) = output::output(&Results {
+        job,
+        input: &facts,
+        model: &model,
+        evidence,
+        findings: &findings,
+        preserved: &preserved,
+        work,
+    })?;
     Ok(Outcome { superelement, report })
 }

@@ -13,8 +13,12 @@ const FINITE: &str = "a finite number";
 pub(super) fn validate(job: &Job) -> Result<()> {
     model(job)?;
     interfaces(&job.interfaces)?;
+    row_numbers(job)?;
     if let ModeSelection::UpTo { up_to_hz } = job.reduction.modes {
         positive("reduction.modes.up_to_hz", up_to_hz)?;
+    }
+    if let Some(scene) = &job.scene {
+        super::scene::validate(scene, &job.interfaces)?;
     }
     if let Some(memory) = job.run.memory_gib {
         positive("run.memory_gib", memory)?;
@@ -129,6 +133,20 @@ fn coupling(interface: &InterfaceJob, place: &str) -> Result<()> {
     }
 }
 
+/// Row numbers that another key would change.
+fn row_numbers(job: &Job) -> Result<()> {
+    let mut by_number = job.interfaces.iter().filter(|interface| matches!(interface.nodes, NodeSelection::Rows { .. }));
+    match by_number.next().filter(|_| job.model.drop_empty) {
+        Some(interface) => Err(Error::InterfaceConflict {
+            interface: interface.name.clone(),
+            key: "rows",
+            situation: "a model whose empty rows are dropped, which numbers the rows anew",
+            remedy: ", or give nodes",
+        }),
+        None => Ok(()),
+    }
+}
+
 /// Two interfaces may share a node only where both couple directly and claim different directions of it.
 fn overlap(first: &InterfaceJob, second: &InterfaceJob) -> Result<()> {
     let direct = first.coupling == Coupling::Direct && second.coupling == Coupling::Direct;
@@ -197,7 +215,7 @@ fn output(key: &'static str, path: &Path, expected: &'static str) -> Result<()> 
     if is_named { Ok(()) } else { Err(Error::OutputName { key, path: path.to_owned(), expected }) }
 }
 
-fn positive(key: &str, value: f64) -> Result<()> {
+pub(super) fn positive(key: &str, value: f64) -> Result<()> {
     if value.is_finite() && value > 0.0 { Ok(()) } else { Err(number(key.to_owned(), value, POSITIVE)) }
 }
 
@@ -221,7 +239,7 @@ fn direction(key: &str, vector: &[f64; 3]) -> Result<()> {
     Ok(())
 }
 
-fn number(key: String, value: f64, expected: &'static str) -> Error {
+pub(super) fn number(key: String, value: f64, expected: &'static str) -> Error {
     Error::JobNumber { key, value, expected }
 }
 

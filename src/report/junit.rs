@@ -68,14 +68,15 @@ fn of_check(check: &Check, warnings: JunitWarnings) -> Outcome {
     let (value, limit) = (scientific(check.value, 3), scientific(check.limits.value(), 3));
     let message = format!("{}: value {value}, limit {limit}", check.id);
     let worst = check.worst.as_ref().map(|worst| format!("\nworst: {worst}")).unwrap_or_default();
-    let details = format!(
-        "{}\n{} = {value}\nlimit {limit}, set by {}; fails above {}{worst}",
-        check.name,
-        check.equation,
-        words::active_limit(check.limits.active()),
-        scientific(check.fail_above, 3)
-    );
+    let limits = if check.is_judged() {
+        let source = words::active_limit(check.limits.active());
+        format!("limit {limit}, set by {source}; fails above {}", scientific(check.fail_above, 3))
+    } else {
+        "no limit: shown, not judged".to_owned()
+    };
+    let details = format!("{}\n{} = {value}\n{limits}{worst}", check.name, check.equation);
     match (check.verdict(), warnings) {
+        (Verdict::Info, _) => Outcome::Told(details),
         (Verdict::Pass, _) => Outcome::Passed,
         (Verdict::Warn, JunitWarnings::Pass) => Outcome::Told(format!("past the limit\n{details}")),
         (Verdict::Warn, JunitWarnings::Fail) => Outcome::Failed { kind: "warn", message, details },

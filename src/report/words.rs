@@ -2,7 +2,7 @@
 
 use super::{ModeKind, table};
 use crate::job::{Coupling, Eigensolver, Method};
-use crate::verification::check::ActiveLimit;
+use crate::verification::check::{ActiveLimit, Check};
 
 pub(super) fn method(method: Method) -> &'static str {
     match method {
@@ -32,6 +32,15 @@ pub(super) fn mode_kind(kind: ModeKind) -> &'static str {
     }
 }
 
+/// Limit, its source and the margin; dashes where a check has none.
+pub(super) fn limit(check: &Check) -> [String; 3] {
+    if !check.is_judged() {
+        return ["–", "–", "–"].map(str::to_owned);
+    }
+    let limit = table::scientific(check.limits.value(), 1);
+    [limit, active_limit(check.limits.active()).to_owned(), margin(check.margin())]
+}
+
 pub(super) fn active_limit(limit: ActiveLimit) -> &'static str {
     match limit {
         ActiveLimit::Engineering => "engineering",
@@ -41,7 +50,7 @@ pub(super) fn active_limit(limit: ActiveLimit) -> &'static str {
 }
 
 /// Margins are looked at, not calculated with: two digits, and no more than a million.
-pub(super) fn margin(margin: f64) -> String {
+fn margin(margin: f64) -> String {
     if margin.is_nan() {
         "–".to_owned()
     } else if margin >= 1e6 {

@@ -39,6 +39,15 @@ pub(crate) fn full_report() -> Report {
         fail_above: 1e-6,
         worst: None,
     });
+    report.body.checks.push(Check {
+        id: "M-19",
+        name: "effective mass of the kept modes, least carried",
+        equation: "min Σ (φᵀΨ_DᵀΓ)² / ΓᵀM_II⁻¹Γ",
+        value: 0.83,
+        limits: Limits::NONE,
+        fail_above: f64::INFINITY,
+        worst: Some("rotation z".to_owned()),
+    });
     report.body.warnings.push(Warning {
         code: "W-INTERFACE-ILL",
         message: "the interface holds the rotation about the axis through nodes 12 and 19 only weakly: singular value \

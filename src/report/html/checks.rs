@@ -11,7 +11,8 @@ pub(super) fn checks(page: &mut Markup, checks: &[Check]) {
     page.paragraph(
         "Each check compares a measured value with a limit. The limit is the largest of three: what engineering practice \
          asks, what double-precision arithmetic can give for this model, and what the digits of the input can give; the \
-         table says which one it was. A value past its limit warns, far past it fails. The margin is limit over value.",
+         table says which one it was. A value past its limit warns, far past it fails. The margin is limit over value. \
+         Where no limit can be right for every use, the value is shown and not judged.",
     );
     let heads = ["id", "check", "value", "limit", "set by", "margin", "verdict"].map(str::to_owned).into();
     let rows = checks.iter().map(row).collect();
@@ -31,13 +32,14 @@ pub(super) fn checks(page: &mut Markup, checks: &[Check]) {
 }
 
 fn row(check: &Check) -> Vec<Cell> {
+    let [limit, active, margin] = words::limit(check);
     vec![
         Cell::Head(check.id.to_owned()),
         Cell::Text(check.name.to_owned()),
         Cell::Number(scientific(check.value, 2)),
-        Cell::Number(scientific(check.limits.value(), 1)),
-        Cell::Text(words::active_limit(check.limits.active()).to_owned()),
-        Cell::Number(words::margin(check.margin())),
+        Cell::Number(limit),
+        Cell::Text(active),
+        Cell::Number(margin),
         Cell::Verdict(check.verdict()),
     ]
 }
@@ -58,7 +60,7 @@ fn tell(page: &mut Markup, id: &str, group: &[&Check]) {
         page.element("li", &definition);
     }
     page.raw("</ul>\n");
-    let is_past = group.iter().any(|check| check.verdict() != Verdict::Pass);
+    let is_past = group.iter().any(|check| check.verdict() > Verdict::Pass);
     if let (true, Some(known)) = (is_past, known) {
         page.classed("p", "remedy", &format!("What to look at: {}", known.remedy));
     }

@@ -35,7 +35,7 @@ pub(super) fn front(page: &mut Markup, body: &ReportBody) {
     page.classed("p", "kind", &generator);
     let verdict = body.verdict();
     let (sign, word) = match verdict {
-        Verdict::Pass => ("✓", "Verified"),
+        Verdict::Info | Verdict::Pass => ("✓", "Verified"),
         Verdict::Warn => ("!", "Verified, with warnings"),
         Verdict::Fail => ("✗", "Not verified"),
     };
@@ -55,6 +55,7 @@ pub(super) fn front(page: &mut Markup, body: &ReportBody) {
         ("Modes kept", vec![modes(&body.reduction)]),
         ("Completeness", vec![sentence(&body.completeness.statement())]),
         ("Valid for", validity(&body.preservation)),
+        ("Not compared", body.preservation.not_compared.clone()),
         ("Done to the data", repairs(body)),
         ("Warnings", body.warnings.iter().map(|warning| format!("{}: {}", warning.code, warning.message)).collect()),
     ]);
@@ -74,13 +75,18 @@ fn counts(body: &ReportBody) -> String {
         ids
     };
     let n_passed = body.checks.iter().filter(|check| check.verdict() == Verdict::Pass).count();
-    let mut parts = vec![format!("{n_passed} of {} passed", counted(body.checks.len(), "check", "checks"))];
+    let n_judged = body.checks.iter().filter(|check| check.is_judged()).count();
+    let mut parts = vec![format!("{n_passed} of {} passed", counted(n_judged, "check", "checks"))];
     let (failed, warned) = (of(Verdict::Fail), of(Verdict::Warn));
     if !failed.is_empty() {
         parts.push(format!("failed: {}", failed.join(", ")));
     }
     if !warned.is_empty() {
         parts.push(format!("past the limit: {}", warned.join(", ")));
+    }
+    let n_shown = body.checks.iter().filter(|check| check.verdict() == Verdict::Info).count();
+    if n_shown > 0 {
+        parts.push(format!("{n_shown} shown without a limit"));
     }
     if !body.warnings.is_empty() {
         parts.push(counted(body.warnings.len(), "warning", "warnings"));

@@ -182,6 +182,7 @@ impl Markup {
 /// The class that colours a verdict; the word beside it says the same.
 pub(super) fn class_of(verdict: Verdict) -> &'static str {
     match verdict {
+        Verdict::Info => "info",
         Verdict::Pass => "pass",
         Verdict::Warn => "warn",
         Verdict::Fail => "fail",

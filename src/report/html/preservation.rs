@@ -20,6 +20,9 @@ const DECIMALS: usize = 6;
 const MATRIX: usize = 6;
 
 pub(super) fn preservation(page: &mut Markup, preservation: &Preservation) {
+    for what in &preservation.not_compared {
+        page.absent(&format!("Not compared: {what}"));
+    }
     page.heading("Shapes");
     if preservation.mac.is_empty() {
         page.absent("The shapes of the reduced model were not compared in this report; M-14 says how well its equations hold for the modes.");

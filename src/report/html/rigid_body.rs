@@ -152,7 +152,9 @@ fn effective_mass(page: &mut Markup, modes: &[EffectiveMass], grounding: &[Groun
         svg: plot::effective_mass(modes, &directions),
         title: "Effective mass, summed over the modes".to_owned(),
         description: format!("The sums over all {} are: {}.", counted(modes.len(), "mode", "modes"), totals.join(", ")),
-        caption: "What is missing to 1 is set in motion by modes above the cut-off only.".to_owned(),
+        caption: "Modes of the reduced model with its interface held, ascending in frequency. What is missing to 1 is set in \
+                  motion by modes that were not kept."
+            .to_owned(),
     });
     let heads = ["mode".to_owned()].into_iter().chain(directions.iter().cloned()).collect();
     let line = |label: String, values: &[f64]| -> Vec<Cell> {
