@@ -53,6 +53,15 @@ pub fn count_below(partition: &Partition, analysis: &Analysis, sigma: f64) -> Re
     })
 }
 
+/// The number of negative eigenvalues of a whole K − σM, and the pivot growth.
+///
+/// # Errors
+/// Those of [`count_below`].
+pub fn negative_pivots(analysis: &Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<(usize, f64)> {
+    let signs = Indefinite::new(analysis, pencil, sigma)?.signs()?;
+    Ok((signs.negative, signs.growth))
+}
+
 /// L B Lᵀ of D (K − σM) D with pivots of order one and two inside each supernode.
 ///
 /// D holds powers of two that bring the diagonal of K near one: pivots are then compared on equal terms whatever the

@@ -32,7 +32,7 @@ use crate::error::{Error, Result};
 use crate::sparse::SparseMatrix;
 
 pub use cholesky::Cholesky;
-pub use inertia::{InertiaCount, count_below};
+pub use inertia::{InertiaCount, count_below, negative_pivots};
 pub use memory::refuse_beyond_memory;
 pub use solve::SolveOperator;
 
