@@ -109,7 +109,7 @@ fn an_interface_left_out() {
 #[test]
 fn a_model_that_is_held() {
     let place = reduced("herting");
-    replace(&place, &supel_models::grounded(&steel_brick(), 67, 1e9));
+    replace(&place, &supel_models::transform::grounded(&steel_brick(), 67, 1e9));
     assert_fails(&failures(&place), "full model has as many free motions");
 }
 
