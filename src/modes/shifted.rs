@@ -4,13 +4,13 @@
 //! badly. σ lies below the spectrum at the distance of the first elastic eigenvalue, far enough from zero for K − σM to
 //! be well conditioned and near enough to separate eigenvalues.
 
+use super::boundary_problem::median_ratio;
 use super::eigenproblem::Wanted;
 use super::operator::Factored;
 use super::{ModalProblem, ModeError, ModeRequest, Modes, SEED, elastic_modes};
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, Cholesky, Pencil};
 use crate::job::Eigensolver;
-use crate::model::diagonal;
 
 /// A factor of K − σM and the lowest modes found on the way.
 #[derive(Debug)]
@@ -73,14 +73,6 @@ pub fn shifted<'a>(
         }
         round += 1;
     }
-}
-
-/// The median of K_ii / M_ii over the dofs that have both; one where none has.
-fn median_ratio(problem: ModalProblem<'_>) -> f64 {
-    let (k, m) = (diagonal(problem.stiffness), diagonal(problem.mass));
-    let mut ratios: Vec<f64> = k.iter().zip(&m).filter(|(k, m)| **k > 0.0 && **m > 0.0).map(|(k, m)| k / m).collect();
-    ratios.sort_unstable_by(f64::total_cmp);
-    ratios.get(ratios.len() / 2).copied().unwrap_or(1.0)
 }
 
 /// Whether an eigenvalue is zero within its bar, which is relative and grows without limit as λ goes to zero, or within

@@ -49,7 +49,9 @@ fn changed(matrix: &Matrix, (i, j): (usize, usize), factor: f64) -> Matrix {
 
 /// The same for a matrix that is not symmetric.
 fn changed_at(matrix: &Matrix, (i, j): (usize, usize), by: f64) -> Matrix {
-    Matrix::from_fn(matrix.rows(), matrix.cols(), |row, col| matrix[(row, col)] + if (row, col) == (i, j) { by } else { 0.0 })
+    Matrix::from_fn(matrix.rows(), matrix.cols(), |row, col| {
+        matrix[(row, col)] + if (row, col) == (i, j) { by } else { 0.0 }
+    })
 }
 
 const PER_MILLE: f64 = 1.001;
