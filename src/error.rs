@@ -457,6 +457,21 @@ pub enum Error {
         /// The library's words.
         reason: String,
     },
+    /// The HDF5 library crashed on a file; a child process took the blow.
+    #[error(
+        "{}: a damaged HDF5 file – the HDF5 library crashes when it reads it – write or copy the file again",
+        path.display()
+    )]
+    Hdf5Crash {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The child process that reads HDF5 first could not be started.
+    #[error("no child process can be started to read the HDF5 input first: {source}")]
+    Rehearsal {
+        /// What the system said.
+        source: std::io::Error,
+    },
     /// The HDF5 library could not read an object of a file.
     #[error("{}:{object}: cannot be read – the HDF5 library says: {reason}", path.display())]
     Hdf5Read {

@@ -15,6 +15,8 @@ use crate::job::{
 pub(super) enum Command {
     Reduce(Box<ReduceCommand>),
     Inspect(InspectCommand),
+    /// What a child process does for its parent, see [`super::rehearsal`].
+    RehearseReading,
 }
 
 /// Reduce a job.
@@ -77,6 +79,7 @@ impl Command {
                 };
                 Ok(Self::Inspect(InspectCommand { file, answer }))
             }
+            Typed::RehearseReading => Ok(Self::RehearseReading),
         }
     }
 }

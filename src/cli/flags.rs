@@ -21,6 +21,9 @@ pub(super) enum Typed {
     Reduce(Box<ReduceFlags>),
     /// Show what is in a superelement file
     Inspect(InspectFlags),
+    /// Read a model described on stdin and forget it
+    #[command(hide = true, name = super::rehearsal::SUBCOMMAND)]
+    RehearseReading,
 }
 
 const EXIT_CODES: &str = "\

@@ -16,6 +16,7 @@ mod process;
 mod progress;
 mod reduce;
 mod refusal;
+mod rehearsal;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -67,6 +68,7 @@ fn execute(flags: flags::CommandLine, pipeline: Pipeline, terminal: &mut Termina
     match Command::build(flags)? {
         Command::Reduce(command) => reduce::run(&command, pipeline, terminal),
         Command::Inspect(command) => inspect::run(&command, terminal),
+        Command::RehearseReading => rehearsal::read_from_stdin().map(|()| ExitCode::Done),
     }
 }
 

@@ -19,7 +19,7 @@ mod table;
 mod triangle;
 
 pub use digits::significant_digits;
-pub use model_files::{Input, read};
+pub use model_files::{Input, hdf5_file, read};
 pub use note::InputNote;
 pub use triangle::Triangle;
 

@@ -59,6 +59,13 @@ pub fn read(model: &ModelJob) -> Result<Input> {
     Ok(Input { stiffness, mass, dofs, nodes, notes })
 }
 
+/// The first file of a model that the HDF5 library reads, where one is.
+pub fn hdf5_file(model: &ModelJob) -> Option<PathBuf> {
+    let matrices = [&model.stiffness, &model.mass].into_iter().filter_map(|path| Some(hdf5_location(path)?.0));
+    let nodes = model.nodes.iter().filter(|path| is_hdf5_mesh(path)).cloned();
+    matrices.chain(nodes).find(|path| path.is_file())
+}
+
 /// A matrix from whichever kind of file.
 enum Matrix {
     Text(TextMatrix),
@@ -84,11 +91,16 @@ fn read_matrix(model: &ModelJob, role: Role) -> Result<Matrix> {
 }
 
 fn read_nodes(path: &Path) -> Result<Nodes> {
-    const MESHES: [&str; 6] = ["h5m", "hmf", "med", "rmed", "xdmf", "xmf"];
-    if has_extension(path, &MESHES) || is_hdf5(path) {
+    if is_hdf5_mesh(path) {
         return read_hdf5_nodes(path);
     }
     node_table::read(path)
+}
+
+/// A mesh in HDF5, or in XML beside it.
+fn is_hdf5_mesh(path: &Path) -> bool {
+    const MESHES: [&str; 6] = ["h5m", "hmf", "med", "rmed", "xdmf", "xmf"];
+    has_extension(path, &MESHES) || is_hdf5(path)
 }
 
 #[cfg(feature = "hdf5")]
