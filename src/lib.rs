@@ -120,6 +120,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let evidence = Evidence {
         partition: &partition,
         internal,
+        factor: &factor,
         rigid: &rigid,
         rank,
         constraint: &constraint,
@@ -129,7 +130,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         certificate: certificate.as_ref(),
         expect: job.model.expect.as_ref(),
     };
-    let checks = verification::verify(&evidence)?;
+    let findings = verification::verify(&evidence)?;
 
     let work = WorkCounters {
         n_factorisations: 1
@@ -142,6 +143,6 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         factor_nonzeros: analysis.nnz_factor as u64,
     };
     let (superelement, report) =
-        output::output(&Results { job, input: &facts, model: &model, evidence, checks: &checks, work })?;
+        output::output(&Results { job, input: &facts, model: &model, evidence, findings: &findings, work })?;
     Ok(Outcome { superelement, report })
 }

@@ -53,7 +53,7 @@ fn write_superelement(command: &ReduceCommand, superelement: &Superelement, repo
     let staged = StagedFile::write(path, &sealed.bytes).map_err(failed)?;
     report.body.checks.push(file_check(staged.path(), superelement));
     let is_verified = match (report.body.verdict(), command.strictness) {
-        (Verdict::Pass, _) | (Verdict::Warn, Strictness::Normal) => true,
+        (Verdict::Info | Verdict::Pass, _) | (Verdict::Warn, Strictness::Normal) => true,
         (Verdict::Warn, Strictness::Strict) | (Verdict::Fail, _) => false,
     };
     if is_verified || command.unverified == Unverified::Written {

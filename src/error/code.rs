@@ -91,6 +91,7 @@ codes! {
     Hdf5Signature => "E-HDF5-SIGNATURE", InputData;
     Hdf5Open => "E-HDF5-OPEN", InputData;
     Hdf5Crash => "E-HDF5-CRASH", InputData;
+    Rehearsal => "E-CHILD", Resources;
     Hdf5Read => "E-HDF5-READ", InputData;
     Hdf5Missing => "E-HDF5-MISSING", InputData;
     Hdf5Link => "E-HDF5-LINK", InputData;
@@ -127,7 +128,6 @@ codes! {
     MissingFlags => "E-FLAGS", Usage;
     FlagText => "E-FLAG-TEXT", Usage;
     Threads => "E-THREADS", Resources;
-    Rehearsal => "E-REHEARSAL", Resources;
     Unsymmetric => "E-UNSYMMETRIC", InputData;
     Swapped => "E-SWAPPED", InputData;
     NoMass => "E-NO-MASS", InputData;

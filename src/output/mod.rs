@@ -4,6 +4,7 @@
 //! that named modes are mass-normalised in the user's units.
 
 mod report;
+mod rigid_body;
 mod superelement;
 
 use supel_runtime::Superelement;
@@ -13,8 +14,7 @@ use crate::input::{Input, InputNote};
 use crate::job::Job;
 use crate::model::Model;
 use crate::report::{Report, Warning, WorkCounters};
-use crate::verification::Evidence;
-use crate::verification::check::Check;
+use crate::verification::{Evidence, Findings};
 
 /// What is remembered of the input after its matrices have gone into the model.
 #[derive(Clone, Debug)]
@@ -69,8 +69,8 @@ pub struct Results<'a> {
     pub model: &'a Model,
     /// The results of the stages.
     pub evidence: Evidence<'a>,
-    /// The checks.
-    pub checks: &'a [Check],
+    /// What verification found.
+    pub findings: &'a Findings,
     /// What was done, counted.
     pub work: WorkCounters,
 }

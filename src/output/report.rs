@@ -2,17 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use supel_runtime::Matrix;
-
-use super::{MatrixFacts, Results, omega};
+use super::{MatrixFacts, Results, omega, rigid_body};
 use crate::basis::DynamicCoordinate;
 use crate::job::{Certify, ModeSelection};
 use crate::model::{ASYMMETRY_WARN, Finding};
 use crate::modes::Boundary;
 use crate::report::{
     Completeness, DroppedCoordinate, Generator, InterfaceReport, MassProperties, MatrixReport, ModeKind, ModeRow,
-    ModelReport, Preservation, ReductionReport, ReportBody, RigidBodyEvidence, RigidBodyModes, RigidBodySource,
-    Warning,
+    ModelReport, Preservation, ReductionReport, ReportBody, RigidBodyModes, RigidBodySource, Warning,
 };
 use crate::rigid::{ILL_CONDITIONED, RigidSource};
 
@@ -21,11 +18,11 @@ pub(super) fn body(results: &Results<'_>) -> ReportBody {
         generator: Generator::default(),
         model: model(results),
         reduction: reduction(results),
-        checks: results.checks.to_vec(),
+        checks: results.findings.checks.clone(),
         warnings: warnings(results),
         completeness: completeness(results),
         trust_intervals: Vec::new(),
-        rigid_body: RigidBodyEvidence::default(),
+        rigid_body: rigid_body::evidence(results),
         preservation: Preservation::default(),
     }
 }
@@ -64,14 +61,7 @@ fn mass_properties(results: &Results<'_>) -> MassProperties {
     if !evidence.rigid.is_classical {
         return MassProperties::default();
     }
-    let m_f = &evidence.reduction.rigid_body_mass;
-    let unit = evidence.partition.scaling.mass_unit();
-    let m_f = Matrix::from_fn(m_f.nrows(), m_f.ncols(), |i, j| m_f[(i, j)] * unit);
-    supel_runtime::mass_properties(&m_f).map_or_else(MassProperties::default, |known| MassProperties {
-        mass: Some(known.mass),
-        cg: Some(known.center_of_mass),
-        inertia: Some(known.inertia),
-    })
+    rigid_body::mass_properties(results, evidence.reduction.rigid_body_mass.as_ref())
 }
 
 fn reduction(results: &Results<'_>) -> ReductionReport {
@@ -161,6 +151,7 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
             ),
         });
     }
+    warnings.extend(rigid_body::grounded(results));
     for finding in &results.model.findings {
         if let Finding::Symmetrised { asymmetry, .. } = finding
             && *asymmetry > ASYMMETRY_WARN
