@@ -29,9 +29,12 @@ use crate::sparse::product;
 /// ratio of the peak to the static response.
 const RESIDUAL: f64 = 1e-7;
 /// Steps after which the residual is taken as it is, and stated.
-const MAX_STEPS: usize = 16;
-/// A step that leaves more than this share of the residual has met the limit of arithmetic.
-const STAGNATION: f64 = 0.7;
+const MAX_STEPS: usize = 24;
+/// Steps without progress after which the limit of arithmetic is met. A band with modes that the basis lacks makes none
+/// for a few steps, until they are found.
+const MAX_IDLE: usize = 4;
+/// A residual above this share of the smallest so far is no progress.
+const PROGRESS: f64 = 0.7;
 /// Residual columns, relative to the largest, that are worth a solve of their own.
 const WORTH_A_SOLVE: f64 = 1e-6;
 /// Length a new direction must keep beside those before it.
@@ -96,7 +99,7 @@ impl<'a> Extended<'a> {
         let n_probes = PROBES.min(n);
         // The last sample is the hardest as a rule and always among them.
         let mut probes: Vec<f64> = (1..=n_probes).map(|i| samples_hz[i * n / n_probes - 1]).collect();
-        let mut before = f64::INFINITY;
+        let (mut smallest, mut n_idle) = (f64::INFINITY, 0);
         loop {
             let residuals = probes.iter().map(|hz| self.residual(*hz));
             let worst = residuals.reduce(|a, b| if dense::worse(b.size, a.size) { b } else { a });
@@ -106,17 +109,18 @@ impl<'a> Extended<'a> {
                 match (0..n).max_by(|a, b| all[*a].total_cmp(&all[*b])).filter(|at| all[*at] > RESIDUAL) {
                     Some(at) if self.steps < MAX_STEPS && !probes.contains(&samples_hz[at]) => {
                         probes.push(samples_hz[at]);
-                        before = f64::INFINITY;
+                        (smallest, n_idle) = (f64::INFINITY, 0);
                         continue;
                     }
                     _ => return Ok(all),
                 }
             }
-            let is_stuck = worst.size.is_nan() || worst.size > STAGNATION * before;
+            n_idle = if worst.size <= PROGRESS * smallest { 0 } else { n_idle + 1 };
+            smallest = worst.size.min(smallest);
+            let is_stuck = worst.size.is_nan() || n_idle == MAX_IDLE;
             if is_stuck || self.steps == MAX_STEPS || !self.grow(&worst)? {
                 return Ok(self.residual_sizes(samples_hz));
             }
-            before = worst.size;
         }
     }
 
