@@ -120,6 +120,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let evidence = Evidence {
         partition: &partition,
         internal,
+        factor: &factor,
         rigid: &rigid,
         rank,
         constraint: &constraint,
@@ -129,12 +130,10 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         certificate: certificate.as_ref(),
         expect: job.model.expect.as_ref(),
     };
-    let mut checks = verification::verify(&evidence)?;
+    let findings = verification::verify(&evidence)?;
 
     observer.stage("preservation");
     let preserved = verification::preservation(&evidence, &factor, &analysis, job)?;
-    checks.extend(preserved.checks);
-    checks.sort_by_key(|check| check.id);
 
     let work = WorkCounters {
         n_factorisations: 1
@@ -151,8 +150,8 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         input: &facts,
         model: &model,
         evidence,
-        checks: &checks,
-        preserved: &preserved.report,
+        findings: &findings,
+        preserved: &preserved,
         work,
     })?;
     Ok(Outcome { superelement, report })

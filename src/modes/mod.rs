@@ -36,6 +36,7 @@ pub use lanczos::lanczos;
 pub use operator::{Factored, FreeAtZero, ShiftInvert};
 pub use orthogonalisation::gram_schmidt;
 pub use quality::{ModeError, mass_orthogonality};
+pub(crate) use random::SplitMix64;
 pub use retained::{Component, Retained, retained};
 pub use shifted::{Shifted, shifted};
 
@@ -127,7 +128,9 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
     };
     let mut shapes = pairs.vectors;
     quality::normalise(problem.mass, &mut shapes);
-    let (lambda, errors) = quality::rayleigh_quotients(problem, shapes.as_ref());
+    let (lambda, mut errors, residuals) = quality::rayleigh_quotients(problem, shapes.as_ref());
+    quality::add_residual_bars(eigenproblem, &lambda, &mut errors, residuals, pairs.next);
+    let work = EigenWork { solves: pairs.work.solves + lambda.len(), ..pairs.work };
     Ok(Modes {
         lambda,
         shapes,
@@ -137,7 +140,7 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
             Wanted::UpTo(limit) => Some(limit),
         },
         next: pairs.next,
-        work: pairs.work,
+        work,
     })
 }
 

@@ -1,6 +1,10 @@
 //! Free modes of real models against reference eigenvalues. Skipped, with a message, where the corpus is absent.
 
+mod aircraft;
 mod pairs;
+#[allow(dead_code, reason = "this crate uses its part")]
+#[path = "../end_to_end/place.rs"]
+mod place;
 mod reference;
 
 use std::collections::BTreeSet;
@@ -48,8 +52,7 @@ fn model_job(pairs: &Path, pair: &Pair) -> ModelJob {
         mass: matrix(pair.files[1]),
         dofs: beside(&["model.dof", "dof.csv"]),
         nodes: beside(&["nodes.csv"]),
-        units: None,
-        expect: None,
+        ..ModelJob::default()
     }
 }
 

@@ -145,6 +145,7 @@ fn passing_motions(
         source: evidence.rigid.source,
         is_classical: false,
         energy: RigidEnergy::default(),
+        misfit: None,
     })
 }
 

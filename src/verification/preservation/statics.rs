@@ -9,7 +9,7 @@ use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef, Side};
 
 use super::super::check::{Check, Limits};
-use super::super::{Evidence, reduced};
+use super::super::{Evidence, spectrum};
 use super::interfaces::Interface;
 use crate::dense;
 use crate::factor::SolveOperator;
@@ -163,7 +163,7 @@ pub(super) fn check(evidence: &Evidence<'_>, statics: &[InterfaceStatics]) -> Op
         }
     }
     // Both sides are sums of the same terms before they cancel.
-    let limits = Limits { engineering: 1e-10, ..reduced::zero_level(evidence) };
+    let limits = Limits { engineering: 1e-10, ..spectrum::zero_level(evidence) };
     (!statics.is_empty()).then(|| Check {
         id: "M-17",
         name: "static stiffness of the interfaces is preserved",
