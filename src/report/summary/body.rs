@@ -37,6 +37,7 @@ pub(super) fn write(page: &mut Page, body: &ReportBody) {
         .map(|mode| Mode { number: mode.index, frequency_hz: mode.frequency_hz, error_bar_hz: Some(mode.error_bar_hz) })
         .collect();
     mode_table(page, &modes);
+    super::preserved::write(page, &body.preservation);
     page.heading("Checked");
     checks(page, &body.checks);
     completeness(page, &body.completeness);
