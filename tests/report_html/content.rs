@@ -1,6 +1,6 @@
 //! What the page says.
 
-use supel::report::{EXPLANATIONS, Preservation, Proof, RigidBodyEvidence, Warning, html};
+use supel::report::{Completeness, EXPLANATIONS, Preservation, Proof, RigidBodyEvidence, Warning, html};
 use supel::verification::check::Verdict;
 
 use super::{by_id, parse, report_of_all_checks, sample, text};
@@ -56,6 +56,15 @@ fn verdict_comes_first_and_counts_the_checks() {
     let expected =
         "✗ Not verified 20 of 26 checks passed; failed: M-03, M-12, M-21; past the limit: M-02, M-11, M-20; 1 warning.";
     assert!(failing.contains(expected), "{failing}");
+    let mut incomplete = sample::passing_report();
+    for (n_found, doubt, expected) in
+        [(56, 0.1, "passed."), (56, 1.5, "likely, not certified."), (55, 0.1, "modes are missing.")]
+    {
+        incomplete.body.completeness = Completeness::SturmCount { below_hz: 1.0, n_counted: 56, n_found, doubt };
+        let said = said(incomplete.clone());
+        assert!(said.contains(expected), "{said}");
+        assert_eq!(said.contains("✓ Verified"), n_found == 56 && doubt < 1.0, "{said}");
+    }
     assert!(failing.contains("Does not prove that") && !failing.contains(SCOPE), "{failing}");
     let passing = said(sample::passing_report());
     assert!(passing.contains("✓ Verified 1 of 1 check passed.") && passing.contains(SCOPE), "{passing}");

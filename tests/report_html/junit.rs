@@ -50,9 +50,15 @@ fn warnings_fail_where_strictness_asks_and_a_missing_certificate_is_skipped() {
     let document = Document::parse(&xml).expect("well-formed");
     let outcomes: Vec<&str> = cases(&document).into_iter().map(|(_, outcome)| outcome).collect();
     assert_eq!(outcomes, ["", "failure", "failure", "system-out", "skipped", "failure"]);
-    report.body.completeness = Completeness::SturmCount { below_hz: 1.0, n_counted: 8, n_found: 7 };
+    report.body.completeness = Completeness::SturmCount { below_hz: 1.0, n_counted: 8, n_found: 7, doubt: 0.0 };
     let xml = junit(&report, JunitWarnings::Pass);
     assert_eq!(cases(&Document::parse(&xml).expect("well-formed"))[4].1, "failure");
+    // Equal counts with signs that are not certain: a warning.
+    report.body.completeness = Completeness::SturmCount { below_hz: 1.0, n_counted: 8, n_found: 8, doubt: 1.5 };
+    for (warnings, expected) in [(JunitWarnings::Pass, "system-out"), (JunitWarnings::Fail, "failure")] {
+        let xml = junit(&report, warnings);
+        assert_eq!(cases(&Document::parse(&xml).expect("well-formed"))[4].1, expected);
+    }
 }
 
 #[test]

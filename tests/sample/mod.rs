@@ -106,7 +106,7 @@ fn body() -> ReportBody {
             worst: Some("mode 12".to_owned()),
         }],
         warnings: Vec::new(),
-        completeness: Completeness::SturmCount { below_hz: 16_200.25, n_counted: 56, n_found: 56 },
+        completeness: Completeness::SturmCount { below_hz: 16_200.25, n_counted: 56, n_found: 56, doubt: 0.01 },
         trust_intervals: evidence::trust_intervals(),
         rigid_body: evidence::rigid_body(&model().mass_properties),
         preservation: evidence::preservation(),

@@ -4,7 +4,9 @@ use super::markup::{Markup, class_of, escaped};
 use super::plot::power_of_ten;
 use crate::report::table::{counted, quantity, scientific};
 use crate::report::words;
-use crate::report::{MatrixReport, ModelReport, Preservation, ReductionReport, ReportBody, RunFacts, table};
+use crate::report::{
+    Completeness, MatrixReport, ModelReport, Preservation, ReductionReport, ReportBody, RunFacts, table,
+};
 use crate::verification::check::{Check, Verdict};
 
 /// What a signature under this page means.
@@ -87,6 +89,14 @@ fn counts(body: &ReportBody) -> String {
     let n_shown = body.checks.iter().filter(|check| check.verdict() == Verdict::Info).count();
     if n_shown > 0 {
         parts.push(format!("{n_shown} shown without a limit"));
+    }
+    match &body.completeness {
+        Completeness::NotCertified { .. } => parts.push("completeness not certified".to_owned()),
+        completeness if completeness.is_certified() => {}
+        Completeness::SturmCount { n_counted, n_found, .. } if n_counted == n_found => {
+            parts.push("completeness likely, not certified".to_owned());
+        }
+        Completeness::SturmCount { .. } => parts.push("modes are missing".to_owned()),
     }
     if !body.warnings.is_empty() {
         parts.push(counted(body.warnings.len(), "warning", "warnings"));
