@@ -36,6 +36,7 @@
 //! 6. Verification never changes a result. It measures, names the equation and compares with a limit.
 //! 7. The same input gives the same bytes, whatever the number of threads.
 
+pub mod audit;
 pub mod basis;
 pub mod cli;
 pub mod dense;
@@ -54,6 +55,7 @@ pub mod rigid;
 pub mod sparse;
 pub mod verification;
 
+use audit::Audit;
 use basis::Basis;
 use error::Result;
 use factor::{Analysis, Cholesky, Pencil};
@@ -65,6 +67,7 @@ use output::{InputFacts, Results};
 use partition::Partition;
 use reduction::Reduction;
 use report::{Observer, WorkCounters};
+use supel_runtime::Superelement;
 use verification::Evidence;
 
 /// Reduces a component: the whole method, step by step.
@@ -141,6 +144,9 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     };
     let findings = verification::verify(&evidence)?;
 
+    observer.stage("preservation");
+    let preserved = verification::preservation(&evidence, &factor, &analysis, job)?;
+
     let work = WorkCounters {
         n_factorisations: 1
             + n_extra
@@ -152,7 +158,40 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         factor_flops: analysis.flops,
         factor_nonzeros: analysis.nnz_factor as u64,
     };
-    let (superelement, report) =
-        output::output(&Results { job, input: &facts, model: &model, evidence, findings: &findings, work })?;
+    let (superelement, report) = output::output(&Results {
+        job,
+        input: &facts,
+        model: &model,
+        evidence,
+        findings: &findings,
+        preserved: &preserved,
+        work,
+    })?;
     Ok(Outcome { superelement, report })
+}
+
+/// Checks a superelement that was made earlier: by its own content, and with a job against the full matrices.
+///
+/// # Errors
+/// Those of reading the model of the job; a dense eigenproblem or an iteration that does not converge.
+pub fn verify(superelement: &Superelement, job: Option<&Job>, observer: &mut dyn Observer) -> Result<Audit> {
+    faer::set_global_parallelism(faer::Par::Seq);
+
+    observer.stage("verification");
+    let by_itself = audit::of_file(superelement)?;
+    let Some(job) = job else { return Ok(by_itself) };
+
+    observer.stage("read");
+    let read = input::read(&job.model)?;
+    let facts = InputFacts::of(&read);
+
+    observer.stage("check");
+    let model = Model::new(read)?;
+
+    observer.stage("partition");
+    let partition = Partition::new(&model, &job.interfaces)?;
+
+    observer.stage("comparison");
+    let against_model = audit::against_model(superelement, &partition, &facts)?;
+    Ok(by_itself.joined(against_model))
 }

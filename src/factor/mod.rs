@@ -33,7 +33,7 @@ use crate::error::{Error, Result};
 use crate::sparse::SparseMatrix;
 
 pub use cholesky::Cholesky;
-pub use inertia::{InertiaCount, ShiftedFactor, count_below, count_negative};
+pub use inertia::{InertiaCount, ShiftedFactor, count_below, count_negative, negative_pivots};
 pub use memory::refuse_beyond_memory;
 pub use solve::SolveOperator;
 

@@ -52,7 +52,7 @@ impl Serialize for ReportBody {
 
 /// A check with what follows from its values.
 #[derive(serde::Serialize)]
-struct CheckLine<'a> {
+pub(super) struct CheckLine<'a> {
     id: &'a str,
     name: &'a str,
     equation: &'a str,
@@ -66,7 +66,7 @@ struct CheckLine<'a> {
 }
 
 impl<'a> CheckLine<'a> {
-    fn of(check: &'a Check) -> Self {
+    pub(super) fn of(check: &'a Check) -> Self {
         Self {
             id: check.id,
             name: check.name,

@@ -13,6 +13,7 @@ mod stages;
 pub(crate) mod summary;
 pub(crate) mod table;
 mod trust;
+mod verification;
 
 use std::path::PathBuf;
 
@@ -31,6 +32,7 @@ pub use rigid_body::{EffectiveMass, Grounding, MassRoute, RigidBodyEvidence};
 pub use stages::{Observer, StageClock, StageTime};
 pub use summary::summary;
 pub use trust::TrustInterval;
+pub use verification::{Against, VerificationReport};
 
 /// Body and facts of one run; [`Report::to_json`] gives the document that `schemas/report.schema.json` describes.
 #[derive(Clone, Debug, PartialEq, Serialize)]

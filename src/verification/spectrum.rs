@@ -3,7 +3,7 @@
 use faer::{Mat, MatRef, Side};
 
 use super::check::Limits;
-use super::{Evidence, coordinate_scales};
+use super::{Evidence, coordinate_scales, data_noise};
 use crate::dense;
 use crate::error::Result;
 use crate::modes::Boundary;
@@ -24,8 +24,8 @@ pub(super) struct Spectrum {
     pub(super) softest: usize,
     /// That of K̂_BB with its rigid-body modes lifted out, in the same scales; one where the interface has no others.
     pub(super) lowest_elastic: f64,
-    /// Whether M̂ has a Cholesky factor.
-    pub(super) mass_is_definite: bool,
+    /// The smallest eigenvalue of M̂ with unit diagonal, and the coordinate that takes the largest part in it.
+    pub(super) lowest_mass: (f64, usize),
 }
 
 impl Spectrum {
@@ -34,6 +34,7 @@ impl Spectrum {
         let n_b = evidence.partition.n_interface();
         let lambda = evidence.retained.modes.lambda.first().copied().unwrap_or(1.0);
         let (scaled_stiffness, vectors) = dense::symmetric_eigen(scaled_by(k, &coordinate_scales(evidence)).as_ref())?;
+        let (masses, mass_vectors) = dense::symmetric_eigen(equilibrated(m, m).as_ref())?;
         let n_r = evidence.rigid.count();
         let lifted = lifted_eigenvalues(evidence)?;
         let zero = zero_level(evidence).value();
@@ -54,7 +55,7 @@ impl Spectrum {
             n_zero,
             lowest_stiffness: scaled_stiffness.first().copied().unwrap_or(0.0),
             softest: largest_component(vectors.as_ref()),
-            mass_is_definite: equilibrated(m, m).llt(Side::Lower).is_ok(),
+            lowest_mass: (masses.first().copied().unwrap_or(0.0), largest_component(mass_vectors.as_ref())),
         })
     }
 
@@ -78,14 +79,17 @@ impl Spectrum {
 
 /// Size below which an eigenvalue of K̂ in the scales of its coordinates is zero: rounding of its r terms before they
 /// cancel, or the precision of the data.
-pub(super) fn zero_level(evidence: &Evidence<'_>) -> Limits {
+///
+/// The terms are those of the basis: constraint modes gone wrong are large and would raise the level. Past four digits
+/// of the interface's own stiffness nothing is excused by arithmetic, past two nothing by the data.
+pub(in crate::verification) fn zero_level(evidence: &Evidence<'_>) -> Limits {
     let cancellation = evidence.constraint.cancellation;
-    let precision = evidence.partition.precision.stiffness;
     Limits {
         engineering: 0.0,
         arithmetic: evidence.reduction.n_reduced() as f64 * f64::EPSILON * cancellation,
-        data: if precision > f64::EPSILON { precision * cancellation } else { 0.0 },
+        data: data_noise(evidence.partition) * cancellation,
     }
+    .capped(1e-4, 1e-2)
 }
 
 /// Eigenvalues of K̂ in the scales of its coordinates, ascending, with its rigid-body modes lifted to order one.

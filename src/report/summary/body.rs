@@ -132,7 +132,7 @@ fn reduced(page: &mut Page, reduction: &ReductionReport) {
     }
 }
 
-fn checks(page: &mut Page, checks: &[Check]) {
+pub(crate) fn checks(page: &mut Page, checks: &[Check]) {
     let heads = ["", "check", "value", "limit", "set by", "margin", "verdict"].map(str::to_owned);
     let rows: Vec<[String; 7]> = std::iter::once(heads).chain(checks.iter().map(check_row)).collect();
     let align = [Align::Left, Align::Left, Align::Right, Align::Right, Align::Left, Align::Right, Align::Left];
