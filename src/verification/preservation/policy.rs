@@ -2,7 +2,7 @@
 
 use super::super::Evidence;
 use crate::factor::Analysis;
-use crate::job::{Job, ModeSelection, SceneJob, Support};
+use crate::job::{Certify, Job, ModeSelection, SceneJob, Support};
 
 /// Modes are kept up to this multiple of the band that a reduction serves: with less, the response at the end of the
 /// band has lost a digit that the modes kept could give (Herting: 5 % against 0.5 %).
@@ -55,13 +55,15 @@ impl Plan {
             (plan.supports, plan.response) = (Vec::new(), false);
         }
         let cost = Cost::of(evidence, analysis);
-        let dear = "it would cost more than reducing does; state it in [scene] or ask for --certify full";
-        if scene.boundaries.is_none() && !plan.supports.is_empty() && cost.support * cost.n_new_supports > UNASKED_FLOPS
-        {
+        let dear = "it would take long on a model of this size; state it in [scene] to have it";
+        // Whoever asks for more than a count asks for the whole comparison.
+        let is_full = !matches!(job.run.certify, Certify::None | Certify::Count);
+        let is_asked = is_full || scene.boundaries.is_some();
+        if !is_asked && !plan.supports.is_empty() && cost.support * cost.n_new_supports > UNASKED_FLOPS {
             plan.not_compared.push(format!("frequencies under other boundaries: {dear}"));
             plan.supports.clear();
         }
-        let is_asked = scene.band_hz.is_some() || scene.damping.is_some();
+        let is_asked = is_full || scene.band_hz.is_some() || scene.damping.is_some();
         if plan.response && !is_asked && cost.response > UNASKED_FLOPS {
             plan.not_compared.push(format!("frequency response: {dear}"));
             plan.response = false;
