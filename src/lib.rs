@@ -132,6 +132,9 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     };
     let findings = verification::verify(&evidence)?;
 
+    observer.stage("preservation");
+    let preserved = verification::preservation(&evidence, &factor, &analysis, job)?;
+
     let work = WorkCounters {
         n_factorisations: 1
             + n_extra
@@ -142,7 +145,14 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         factor_flops: analysis.flops,
         factor_nonzeros: analysis.nnz_factor as u64,
     };
-    let (superelement, report) =
-        output::output(&Results { job, input: &facts, model: &model, evidence, findings: &findings, work })?;
+    let (superelement, report) = output::output(&Results {
+        job,
+        input: &facts,
+        model: &model,
+        evidence,
+        findings: &findings,
+        preserved: &preserved,
+        work,
+    })?;
     Ok(Outcome { superelement, report })
 }

@@ -9,7 +9,7 @@ use crate::model::{ASYMMETRY_WARN, Finding};
 use crate::modes::Boundary;
 use crate::report::{
     Completeness, DroppedCoordinate, Generator, InterfaceReport, MassProperties, MatrixReport, ModeKind, ModeRow,
-    ModelReport, Preservation, ReductionReport, ReportBody, RigidBodyModes, RigidBodySource, Warning,
+    ModelReport, ReductionReport, ReportBody, RigidBodyModes, RigidBodySource, Warning,
 };
 use crate::rigid::{ILL_CONDITIONED, RigidSource};
 
@@ -18,12 +18,12 @@ pub(super) fn body(results: &Results<'_>) -> ReportBody {
         generator: Generator::default(),
         model: model(results),
         reduction: reduction(results),
-        checks: results.findings.checks.clone(),
+        checks: results.checks(),
         warnings: warnings(results),
         completeness: completeness(results),
         trust_intervals: Vec::new(),
         rigid_body: rigid_body::evidence(results),
-        preservation: Preservation::default(),
+        preservation: results.preserved.report.clone(),
     }
 }
 

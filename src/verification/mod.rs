@@ -11,6 +11,7 @@ mod eigenpairs;
 mod grounding;
 mod loads;
 mod mass;
+pub mod preservation;
 mod reduced;
 mod residual;
 mod rigid_body;
@@ -33,6 +34,7 @@ use check::Check;
 
 pub use grounding::{Grounding, Restraint};
 pub use loads::EffectiveMasses;
+pub use preservation::{Compared, preservation};
 pub use rigid_body::MassRoutes;
 
 /// Everything the checks look at: the results of the stages, none of their workings.

@@ -20,6 +20,8 @@ pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[
     // At a tenth of the first elastic frequency nothing tells a rigid-body motion from an elastic one.
     let limits =
         Limits { engineering: 1e-8, arithmetic: noise * share, data: noise * (1.0 - share) }.capped(1e-2, 1e-2);
+    // Energy that the digits of K explain is a warning, up to a quarter of the first elastic frequency.
+    let explained = (noise * (1.0 - share)).min(1.0 / 16.0);
     Check {
         id: "M-05",
         name: "rigid-body motion costs no energy",
@@ -27,7 +29,7 @@ pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[
         value: energy.largest_quotient / first,
         limits,
         // An energy of 10⁻⁴ is a rigid-body frequency of a hundredth of the first elastic one: the model is grounded.
-        fail_above: limits.value().max(1e-4),
+        fail_above: limits.value().max(1e-4).max(explained),
         worst: strained(grounding, |direction| direction.energy_ratio),
     }
 }

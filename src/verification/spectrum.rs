@@ -82,7 +82,7 @@ impl Spectrum {
 ///
 /// The terms are those of the basis: constraint modes gone wrong are large and would raise the level. Past four digits
 /// of the interface's own stiffness nothing is excused by arithmetic, past two nothing by the data.
-pub(super) fn zero_level(evidence: &Evidence<'_>) -> Limits {
+pub(in crate::verification) fn zero_level(evidence: &Evidence<'_>) -> Limits {
     let cancellation = evidence.constraint.cancellation;
     Limits {
         engineering: 0.0,
