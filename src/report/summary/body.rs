@@ -6,7 +6,7 @@ use crate::report::page::{Page, Tone, WIDTH, verdict_word};
 use crate::report::table::{self, Align};
 use crate::report::{
     Completeness, MassProperties, MatrixReport, ModeKind, ModelReport, ReductionReport, ReportBody, RigidBodyEvidence,
-    RigidBodySource,
+    RigidBodySource, TrustInterval,
 };
 use crate::verification::check::{ActiveLimit, Check, Verdict};
 
@@ -38,9 +38,11 @@ pub(super) fn write(page: &mut Page, body: &ReportBody) {
         .map(|mode| Mode { number: mode.index, frequency_hz: mode.frequency_hz, error_bar_hz: Some(mode.error_bar_hz) })
         .collect();
     mode_table(page, &modes);
+    super::preserved::write(page, &body.preservation);
     page.heading("Checked");
     checks(page, &body.checks);
     completeness(page, &body.completeness);
+    trust_intervals(page, &body.trust_intervals);
     if !body.warnings.is_empty() {
         page.heading("Warnings");
         for warning in &body.warnings {
@@ -148,7 +150,7 @@ fn rigid_body(page: &mut Page, found: &RigidBodyEvidence) {
     }
 }
 
-fn checks(page: &mut Page, checks: &[Check]) {
+pub(crate) fn checks(page: &mut Page, checks: &[Check]) {
     let heads = ["", "check", "value", "limit", "set by", "margin", "verdict"].map(str::to_owned);
     let rows: Vec<[String; 7]> = std::iter::once(heads).chain(checks.iter().map(check_row)).collect();
     let align = [Align::Left, Align::Left, Align::Right, Align::Right, Align::Left, Align::Right, Align::Left];
@@ -216,6 +218,21 @@ fn completeness(page: &mut Page, completeness: &Completeness) {
         let line = page.toned(&line, Tone::Of(tone));
         page.line(&format!("  {line}"));
     }
+}
+
+/// One line for each interval; many slices are cut to the first ones.
+fn trust_intervals(page: &mut Page, intervals: &[TrustInterval]) {
+    let line = |interval: &TrustInterval| {
+        format!(
+            "{} to {} Hz · {} counted, {} found · pivot growth {}",
+            table::quantity(interval.from_hz, 4),
+            table::quantity(interval.to_hz, 6),
+            interval.n_counted,
+            interval.n_found,
+            table::quantity(interval.pivot_growth, 3)
+        )
+    };
+    listing(page, "counts", &intervals.iter().map(line).collect::<Vec<_>>());
 }
 
 fn listing(page: &mut Page, label: &str, lines: &[String]) {
