@@ -32,7 +32,7 @@ use crate::sparse::SparseMatrix;
 
 use check::Check;
 
-pub use grounding::Grounding;
+pub use grounding::{Grounding, Restraint};
 pub use loads::EffectiveMasses;
 pub use preservation::{Compared, preservation};
 pub use rigid_body::MassRoutes;

@@ -4,7 +4,7 @@ use crate::report::mode_table::{Mode, mode_table};
 use crate::report::page::{Page, Tone, WIDTH, verdict_word};
 use crate::report::table::{self, Align};
 use crate::report::{
-    Completeness, MassProperties, MatrixReport, ModelReport, ReductionReport, ReportBody, RigidBodySource,
+    Completeness, MassProperties, MatrixReport, ModelReport, ReductionReport, ReportBody, RigidBodyEvidence, RigidBodySource,
     TrustInterval, words,
 };
 use crate::verification::check::{Check, Verdict};
@@ -30,6 +30,7 @@ pub(super) fn write(page: &mut Page, body: &ReportBody) {
     model(page, &body.model);
     page.heading("Reduced");
     reduced(page, reduction);
+    rigid_body(page, &body.rigid_body);
     let modes: Vec<Mode> = reduction
         .modes
         .iter()
@@ -120,6 +121,22 @@ fn reduced(page: &mut Page, reduction: &ReductionReport) {
         let kind = words::mode_kind(mode.kind);
         let worst = table::scientific(worst, 2);
         page.entry("modes", &format!("{kind} · {solver} · backward error at most {worst}"));
+    }
+}
+
+fn rigid_body(page: &mut Page, found: &RigidBodyEvidence) {
+    let highest = found.frequencies_hz.iter().copied().fold(f64::NAN, f64::max);
+    let mut parts = Vec::new();
+    if !highest.is_nan() {
+        parts.push(format!("at most {} Hz", table::quantity(highest, 2)));
+    }
+    let worst = found.grounding.iter().max_by(|a, b| a.energy_ratio.total_cmp(&b.energy_ratio));
+    if let Some(worst) = worst.filter(|_| !parts.is_empty()) {
+        let ratio = table::scientific(worst.energy_ratio, 2);
+        parts.push(format!("worst {}, {ratio} of the first elastic energy", worst.direction));
+    }
+    if !parts.is_empty() {
+        page.entry("rigid body", &parts.join(" · "));
     }
 }
 
