@@ -113,6 +113,9 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     observer.stage("certificate");
     let (retained, certificate) = modes::certified(component, &analysis, job, retained)?;
 
+    observer.stage("enclosures");
+    let enclosures = verification::enclosures(&partition, internal, &rigid, &retained, job)?;
+
     observer.stage("basis");
     let basis = Basis::new(&constraint, retained.columns.clone(), &m_ii);
 
@@ -131,6 +134,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         basis: &basis,
         reduction: &reduction,
         certificate: certificate.as_ref(),
+        enclosures: enclosures.as_ref(),
         expect: job.model.expect.as_ref(),
     };
     let findings = verification::verify(&evidence)?;
@@ -142,7 +146,8 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         n_factorisations: 1
             + n_extra
             + retained.n_factorisations
-            + certificate.map_or(0, |certificate| certificate.n_factorisations),
+            + certificate.map_or(0, |certificate| certificate.n_factorisations)
+            + enclosures.as_ref().map_or(0, |enclosures| enclosures.n_factorisations),
         n_solves: retained.modes.work.solves + partition.n_interface() + rigid.count(),
         n_restarts: retained.modes.work.restarts,
         factor_flops: analysis.flops,

@@ -56,8 +56,7 @@ impl<'a> Content<'a> {
             Some(first) => first,
             None => first_elastic(k.as_ref(), m.as_ref(), n_r)?,
         };
-        let scale: Vec<f64> =
-            (0..k.nrows()).map(|i| dense::power_of_two_root(k[(i, i)] + first * m[(i, i)])).collect();
+        let scale: Vec<f64> = (0..k.nrows()).map(|i| dense::power_of_two_root(k[(i, i)] + first * m[(i, i)])).collect();
         Ok(Self {
             superelement,
             u: unpacked(&tensors.rigid_body_modes),

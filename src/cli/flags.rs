@@ -195,6 +195,7 @@ pub(super) enum Eigensolver {
 pub(super) enum Certify {
     None,
     Count,
+    Full,
 }
 
 impl From<Triangle> for input::Triangle {
@@ -229,6 +230,7 @@ impl From<Certify> for job::Certify {
         match certify {
             Certify::None => Self::None,
             Certify::Count => Self::Count,
+            Certify::Full => Self::Full,
         }
     }
 }

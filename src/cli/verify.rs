@@ -26,8 +26,7 @@ pub(super) fn run(command: &VerifyCommand, terminal: &mut Terminal<'_>) -> Resul
         .build()
         .map_err(|source| Error::Threads { n_threads, source })?;
     let mut stage_line = StageLine::new(terminal.progress);
-    let mut audit =
-        threads.install(|| crate::verify(&superelement, command.job.as_ref(), &mut stage_line))?;
+    let mut audit = threads.install(|| crate::verify(&superelement, command.job.as_ref(), &mut stage_line))?;
     drop(stage_line);
     audit.checks.push(audit::rewritten(&superelement, &bytes));
     let report = VerificationReport {

@@ -4,6 +4,8 @@
 //! With S(σ) = (K − σM)_BB − (K − σM)_BI (K − σM)_II⁻¹ (K − σM)_IB, the free count is the clamped count plus the
 //! negative eigenvalues of S(σ) (Haynsworth 1968): one factorisation certifies both.
 
+mod whole;
+
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::PermRef;
 use faer::sparse::linalg::cholesky::supernodal::{
@@ -18,6 +20,8 @@ use super::{Analysis, Pencil, Triangle};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::partition::Partition;
+
+pub use whole::{WholeCount, whole_count};
 
 /// Numbers of eigenvalues below a shift.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,15 +55,6 @@ pub fn count_below(partition: &Partition, analysis: &Analysis, sigma: f64) -> Re
         growth: signs.growth,
         schur_gap,
     })
-}
-
-/// The number of negative eigenvalues of a whole K − σM, and the pivot growth.
-///
-/// # Errors
-/// Those of [`count_below`].
-pub fn negative_pivots(analysis: &Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<(usize, f64)> {
-    let signs = Indefinite::new(analysis, pencil, sigma)?.signs()?;
-    Ok((signs.negative, signs.growth))
 }
 
 /// L B Lᵀ of D (K − σM) D with pivots of order one and two inside each supernode.

@@ -15,6 +15,7 @@ mod cholesky;
 mod inertia;
 mod memory;
 mod pattern;
+mod rounding;
 mod solve;
 
 use dyn_stack::MemBuffer;
@@ -32,8 +33,9 @@ use crate::error::{Error, Result};
 use crate::sparse::SparseMatrix;
 
 pub use cholesky::Cholesky;
-pub use inertia::{InertiaCount, count_below, negative_pivots};
+pub use inertia::{InertiaCount, WholeCount, count_below, whole_count};
 pub use memory::refuse_beyond_memory;
+pub use rounding::forming_error;
 pub use solve::SolveOperator;
 
 use pattern::{Part, Triangle};

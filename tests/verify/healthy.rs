@@ -63,7 +63,9 @@ fn held_component() {
 #[test]
 fn without_modes() {
     let place = Place::with_brick();
-    place.reduce(&place.model_flags(), "--interface foot=1,11,31,41 --method craig-bampton --modes 0").expect(ExitCode::Done);
+    place
+        .reduce(&place.model_flags(), "--interface foot=1,11,31,41 --method craig-bampton --modes 0")
+        .expect(ExitCode::Done);
     passes(&place, "no modes");
 }
 

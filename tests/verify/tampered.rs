@@ -49,7 +49,9 @@ fn changed(matrix: &Matrix, (i, j): (usize, usize), factor: f64) -> Matrix {
 
 /// The same for a matrix that is not symmetric.
 fn changed_at(matrix: &Matrix, (i, j): (usize, usize), by: f64) -> Matrix {
-    Matrix::from_fn(matrix.rows(), matrix.cols(), |row, col| matrix[(row, col)] + if (row, col) == (i, j) { by } else { 0.0 })
+    Matrix::from_fn(matrix.rows(), matrix.cols(), |row, col| {
+        matrix[(row, col)] + if (row, col) == (i, j) { by } else { 0.0 }
+    })
 }
 
 const PER_MILLE: f64 = 1.001;
@@ -74,11 +76,18 @@ fn stiffness() {
         fails(&place, "M-13 interface and modes are uncoupled in stiffness", &|tensors, _| {
             tensors.stiffness = changed(&tensors.stiffness, (3, 12), PER_MILLE);
         });
-        for at in [(12, 12), (16, 16)] {
-            fails(&place, "M-14 reduced matrices have the stated frequencies", &|tensors, _| {
-                tensors.stiffness = changed(&tensors.stiffness, at, PER_MILLE);
-            });
-        }
+        // The first modal coordinate of Herting's is an inertia-relief mode, which no low frequency feels.
+        let first = match method {
+            "herting" => "M-18 inertia-relief modes answer unit accelerations",
+            _ => "M-14 reduced matrices have the stated frequencies",
+        };
+        fails(&place, first, &|tensors, _| {
+            tensors.stiffness = changed(&tensors.stiffness, (12, 12), PER_MILLE);
+        });
+        let last = place.superelement("x.supel").n_coordinates() - 1;
+        fails(&place, "M-14 reduced matrices have the stated frequencies", &|tensors, _| {
+            tensors.stiffness = changed(&tensors.stiffness, (last, last), PER_MILLE);
+        });
         fails(&place, "M-25 reduced mass is definite, stiffness not negative", &|tensors, _| {
             let negative = |i, j| if i == j { -tensors.stiffness[(i, j)] } else { tensors.stiffness[(i, j)] };
             tensors.stiffness = Matrix::from_fn(tensors.stiffness.rows(), tensors.stiffness.cols(), negative);

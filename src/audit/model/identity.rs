@@ -31,7 +31,9 @@ pub(super) fn interface(superelement: &Superelement, partition: &Partition) -> C
     let n_different = stored.iter().zip(&asked).filter(|(a, b)| a != b).count() + stored.len().abs_diff(asked.len());
     let worst = match first {
         Some((a, b)) => Some(format!("{a} in the file, {b} by the job")),
-        None if n_different > 0 => Some(format!("{} coordinates in the file, {} by the job", stored.len(), asked.len())),
+        None if n_different > 0 => {
+            Some(format!("{} coordinates in the file, {} by the job", stored.len(), asked.len()))
+        }
         None => None,
     };
     Check {

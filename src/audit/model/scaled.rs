@@ -28,12 +28,12 @@ impl Scaled {
         let (tensors, units, n_b) = (superelement.tensors(), partition.scaling, superelement.n_interface());
         let shape = units.shape_unit();
         let of = |i: usize| if i < n_b { 1.0 } else { shape };
-        let both = |a: Mat<f64>, unit: f64| {
-            Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] / (unit * of(i) * of(j)))
-        };
+        let both =
+            |a: Mat<f64>, unit: f64| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] / (unit * of(i) * of(j)));
         let k = both(unpacked(&tensors.stiffness), units.stiffness_unit());
         let m = both(unpacked(&tensors.mass), units.mass_unit());
-        let lambda: Vec<f64> = tensors.frequencies.iter().map(|omega| omega * omega / units.eigenvalue_unit()).collect();
+        let lambda: Vec<f64> =
+            tensors.frequencies.iter().map(|omega| omega * omega / units.eigenvalue_unit()).collect();
         let first = lambda.iter().copied().find(|lambda| *lambda > 0.0).unwrap_or(1.0);
         let gravity = tensors.gravity.as_ref().map(|gravity| {
             Mat::from_fn(gravity.rows(), gravity.cols(), |i, j| gravity[(i, j)] / (units.mass_unit() * of(i)))

@@ -109,8 +109,7 @@ impl Answers {
         let solutions = full.solve_interface_loads(loads.as_ref());
         let (u, q) = (solutions.u.as_ref(), full.rigid.orthonormal.as_ref());
         let k = u.ncols();
-        let motions =
-            Mat::from_fn(u.nrows(), k + q.ncols(), |i, j| if j < k { u[(i, j)] } else { q[(i, j - k)] });
+        let motions = Mat::from_fn(u.nrows(), k + q.ncols(), |i, j| if j < k { u[(i, j)] } else { q[(i, j - k)] });
         let interface = motions.as_ref().subrows(full.partition.n_internal, scaled.n_b).to_owned();
         Ok(Self { loads, mixing, solutions, motions, interface })
     }
