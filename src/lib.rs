@@ -61,7 +61,7 @@ use error::Result;
 use factor::{Analysis, Cholesky, Pencil};
 use job::Job;
 use model::Model;
-use modes::Component;
+use modes::{Component, ModeSource, Retained};
 use outcome::{Outcome, Resources};
 use output::{InputFacts, Results};
 use partition::Partition;
@@ -98,7 +98,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let (k_ii, m_ii) = (partition.internal_stiffness(), partition.internal_mass());
     let pencil = Pencil { stiffness: &k_ii, mass: &m_ii };
     let analysis = Analysis::new(pencil)?;
-    factor::refuse_beyond_memory(&analysis, &partition, job, resources)?;
+    factor::refuse_beyond_memory(&analysis, &partition, job, resources, None)?;
     let factor = Cholesky::new(&analysis, pencil, 0.0, &|dof| partition.name_of(dof))?;
 
     observer.stage("constraint modes");
@@ -106,12 +106,21 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
 
     observer.stage("modes");
     let internal = (&k_ii, &m_ii);
-    let component =
-        Component { partition: &partition, internal, factor: &factor, rigid: &rigid, constraint: &constraint };
-    let retained = modes::retained(component, &job.reduction, modes::SEED)?;
+    let component = Component {
+        partition: &partition,
+        internal,
+        analysis: &analysis,
+        factor: &factor,
+        rigid: &rigid,
+        constraint: &constraint,
+    };
+    let search = modes::Search::new(component, &job.reduction)?;
+    factor::refuse_beyond_memory(&analysis, &partition, job, resources, search.n_expected())?;
+    let found = search.lowest(modes::SEED)?;
 
     observer.stage("certificate");
-    let (retained, certificate) = modes::certified(component, &analysis, job, retained)?;
+    let (found, certificate) = modes::certified(&search, &search.problem, found, search.edge(), job.run.certify)?;
+    let retained = Retained::new(component, search.problem.boundary, found);
 
     observer.stage("enclosures");
     let enclosures = verification::enclosures(&partition, internal, &rigid, &retained, job)?;
@@ -145,8 +154,9 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let work = WorkCounters {
         n_factorisations: 1
             + n_extra
-            + retained.n_factorisations
-            + certificate.map_or(0, |certificate| certificate.n_factorisations)
+            + usize::from(search.edge().is_some())
+            + retained.modes.work.factorisations
+            + certificate.as_ref().map_or(0, |certificate| certificate.n_factorisations)
             + enclosures.as_ref().map_or(0, |enclosures| enclosures.n_factorisations),
         n_solves: retained.modes.work.solves + partition.n_interface() + rigid.count(),
         n_restarts: retained.modes.work.restarts,

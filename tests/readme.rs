@@ -94,7 +94,7 @@ fn every_command_of_the_readme_runs() {
         }
         n_run += usize::from(mark.ends_with(" run") || mark.ends_with(" peers"));
     }
-    assert_eq!(n_run, 7, "blocks that are run");
+    assert_eq!(n_run, 8, "blocks that are run");
     let again = Job::read(&folder.path().join("again.json")).expect("the job kept in the file is a job");
     assert_eq!(again.write.superelement.file_name(), Some("small.supel".as_ref()));
     for name in ["examples/bracket/bracket.supel", "examples/bracket/bracket.report.json", "bracket-cb.supel"] {
@@ -108,6 +108,7 @@ fn files_that_the_readme_names_exist() {
         "schemas/job.schema.json",
         "schemas/report.schema.json",
         "schemas/superelement.schema.json",
+        "schemas/verification.schema.json",
         "LICENSE-MIT",
         "LICENSE-APACHE",
         "setup.sh",

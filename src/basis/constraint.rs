@@ -57,11 +57,14 @@ fn defect(modes: MatRef<'_, f64>, u_i: MatRef<'_, f64>, u_b: MatRef<'_, f64>) ->
 }
 
 /// Largest defect of a rigid-body mode relative to the largest displacement of the mode, and where it is.
+///
+/// A mode that moves interface dofs alone, that of a free mass at the interface, is measured by those.
 fn rigid_error(modes: MatRef<'_, f64>, u_i: MatRef<'_, f64>, u_b: MatRef<'_, f64>) -> (f64, usize) {
     let defect = defect(modes, u_i, u_b);
     let mut worst = (0.0, 0);
     for j in 0..defect.ncols() {
-        let largest = dense::column(u_i, j).iter().fold(0.0f64, |max, value| max.max(value.abs()));
+        let size = |u: MatRef<'_, f64>| dense::column(u, j).iter().fold(0.0f64, |max, value| max.max(value.abs()));
+        let largest = if size(u_i) > 0.0 { size(u_i) } else { size(u_b) };
         for (i, value) in dense::column(defect.as_ref(), j).iter().enumerate() {
             if dense::worse(value.abs() / largest, worst.0) {
                 worst = (value.abs() / largest, i);

@@ -152,6 +152,7 @@ codes! {
     PatchRank => "E-PATCH-RANK", InputData;
     InterfaceRank => "E-INTERFACE-RANK", ModelPhysics;
     NotDefinite => "E-NOT-DEFINITE", ModelPhysics;
+    IndefiniteStiffness => "E-NEGATIVE-STIFFNESS", ModelPhysics;
     MemoryForecast => "E-MEM", Resources;
     OutOfMemory => "E-OUT-OF-MEMORY", Resources;
     SturmPivot => "E-STURM-PIVOT", NumericalLimit;

@@ -86,7 +86,7 @@ impl Serialize for Completeness {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
         let (certificate, below_hz, n_counted, n_found) = match self {
             Self::NotCertified { .. } => ("none", None, None, None),
-            Self::SturmCount { below_hz, n_counted, n_found } => {
+            Self::SturmCount { below_hz, n_counted, n_found, .. } => {
                 ("sturm-count", Some(below_hz), Some(n_counted), Some(n_found))
             }
         };

@@ -16,7 +16,7 @@ pub struct WholeCount {
     pub growth: f64,
     /// Upper bound of ‖D (K − σM − LBLᵀ) D‖₂.
     pub backward_error: f64,
-    /// D, powers of two near 1/√K_ii.
+    /// D, powers of two near 1/√(|K_ii| + |σ| M_ii).
     pub scale: Vec<f64>,
 }
 
@@ -27,7 +27,7 @@ const PIVOT: usize = 64;
 /// Counts the eigenvalues of a whole pencil below σ.
 ///
 /// # Errors
-/// Those of [`super::count_below`].
+/// Those of [`crate::factor::count_below`].
 pub fn whole_count(analysis: &Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<WholeCount> {
     let factor = Indefinite::new(analysis, pencil, sigma)?;
     let signs = factor.signs()?;
