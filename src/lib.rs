@@ -59,7 +59,7 @@ use audit::Audit;
 use basis::Basis;
 use error::Result;
 use factor::{Analysis, Cholesky, Pencil};
-use job::Job;
+use job::{Certify, Job};
 use model::Model;
 use modes::{Component, ModeSource, Retained};
 use outcome::{Outcome, Resources};
@@ -123,7 +123,9 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let retained = Retained::new(component, search.problem.boundary, found);
 
     observer.stage("enclosures");
-    let enclosures = verification::enclosures(&partition, internal, &rigid, &retained, job)?;
+    let enclosures = (job.run.certify == Certify::Full)
+        .then(|| verification::enclosures(&partition, internal, &rigid, &retained.modes, retained.boundary))
+        .transpose()?;
 
     observer.stage("basis");
     let basis = Basis::new(&constraint, retained.columns.clone(), &m_ii);

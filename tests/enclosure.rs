@@ -4,8 +4,12 @@
 #[path = "end_to_end/place.rs"]
 mod place;
 
+mod chain;
+
 use serde_json::Value;
 use supel::cli::ExitCode;
+use supel::modes::{Boundary, Modes};
+use supel::verification::{Enclosures, enclosures};
 use supel_models::{
     Ends, Material, Model, bar, bar_spectrum, brick, known, ring, ring_spectrum, spring, spring_spectrum,
 };
@@ -183,6 +187,65 @@ fn thin_plate() {
     let (a, b) = (solid(&model, "--interface corners=1,15,211,225"), solid(&model, "--interface middle=30,38,150,201"));
     assert_agree(&a, &b);
     println!("plate: half-widths {:e} {:e}", a.width(), b.width());
+}
+
+/// The modes of a free spring chain, altered before they are enclosed.
+fn enclosed(alter: impl FnOnce(&mut Modes)) -> Enclosures {
+    let chain = chain::reduce(&spring(80, Ends::Free), &[chain::rows("ends", &[0, 79])], chain::Method::Herting, 6);
+    let mut chain = chain.expect("a sound model");
+    alter(&mut chain.modes);
+    let (k, m) = (chain.partition.internal_stiffness(), chain.partition.internal_mass());
+    enclosures(&chain.partition, (&k, &m), &chain.rigid, &chain.modes, Boundary::FreeInterface).expect("a metric")
+}
+
+/// λ of a chain of springs in the scaled units of the partition, which divide K by two and M by one.
+fn scaled_spectrum() -> Vec<f64> {
+    spring_spectrum(80, Ends::Free)[1..7].iter().map(|lambda| lambda / 2.0).collect()
+}
+
+#[test]
+fn a_mode_left_out_leaves_the_count_unproved() {
+    assert!(enclosed(|_| {}).count.is_proved());
+    let lacking = enclosed(|modes| {
+        modes.lambda.remove(2);
+        modes.errors.remove(2);
+        let shapes = modes.shapes.clone();
+        modes.shapes = faer::Mat::from_fn(80, 5, |i, j| shapes[(i, if j < 2 { j } else { j + 1 })]);
+    });
+    assert!(!lacking.count.is_proved(), "{:?}", lacking.count);
+    assert_eq!(lacking.count.counted, lacking.count.enclosed + 1);
+    assert!(lacking.angles.iter().all(Option::is_none));
+}
+
+/// A disturbed vector has a wider interval, which still holds its eigenvalue; the angle says how far it lies off.
+#[test]
+fn a_disturbed_mode_is_seen_and_still_enclosed() {
+    let disturbed = enclosed(|modes| {
+        let other = modes.shapes.clone();
+        for i in 0..80 {
+            modes.shapes[(i, 3)] += 1e-4 * other[(i, 4)];
+        }
+    });
+    let (exact, [low, high]) = (scaled_spectrum()[3], disturbed.intervals[3].expect("enclosed"));
+    assert!(low <= exact && exact <= high, "{exact} not in [{low}, {high}]");
+    // The Rayleigh quotient is off by the square of the disturbance times the distance of the eigenvalues.
+    assert!(high - low > 1e-9 * exact, "[{low}, {high}]");
+    let angle = disturbed.angles[3].expect("a proved count");
+    assert!((1e-5..1e-2).contains(&angle), "{angle}");
+    assert!(disturbed.angles[1].expect("a proved count") < 1e-9);
+}
+
+/// Two modes that are one: as a group of two they would need two eigenvalues, and nothing is claimed of them.
+#[test]
+fn a_mode_given_twice_proves_nothing() {
+    let twice = enclosed(|modes| {
+        modes.lambda[3] = modes.lambda[2];
+        let shapes = modes.shapes.clone();
+        for i in 0..80 {
+            modes.shapes[(i, 3)] = shapes[(i, 2)];
+        }
+    });
+    assert!(!twice.count.is_proved(), "{:?}", twice.count);
 }
 
 /// Without the word nothing is enclosed and nothing is said of it.

@@ -22,8 +22,7 @@ use super::check::{Check, Limits};
 use crate::dense;
 use crate::error::Result;
 use crate::factor::{Analysis, Pencil, whole_count};
-use crate::job::{Certify, Job};
-use crate::modes::{Boundary, ModeError, Retained};
+use crate::modes::{Boundary, ModeError, Modes};
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
 use crate::sparse::SparseMatrix;
@@ -63,7 +62,7 @@ impl CountProof {
     }
 }
 
-/// Encloses the retained modes, where the job asks for it.
+/// Encloses modes that were computed under a boundary; `internal` is K_II and M_II.
 ///
 /// # Errors
 /// No memory for a factor; σ of the count lies on an eigenvalue.
@@ -71,26 +70,16 @@ pub fn enclosures(
     partition: &Partition,
     internal: (&SparseMatrix, &SparseMatrix),
     rigid: &RigidBodyModes,
-    retained: &Retained,
-    job: &Job,
-) -> Result<Option<Enclosures>> {
-    if job.run.certify == Certify::Full { enclose(partition, internal, rigid, retained).map(Some) } else { Ok(None) }
-}
-
-fn enclose(
-    partition: &Partition,
-    internal: (&SparseMatrix, &SparseMatrix),
-    rigid: &RigidBodyModes,
-    retained: &Retained,
+    modes: &Modes,
+    boundary: Boundary,
 ) -> Result<Enclosures> {
-    let (pencil, zero_modes) = match retained.boundary {
+    let (pencil, zero_modes) = match boundary {
         Boundary::FreeInterface => {
             let pencil = Pencil { stiffness: &partition.stiffness, mass: &partition.mass };
             (pencil, Some(rigid))
         }
         Boundary::FixedInterface => (Pencil { stiffness: internal.0, mass: internal.1 }, None),
     };
-    let modes = &retained.modes;
     let analysis = Analysis::new(pencil)?;
     let (metric, n_metric) = Metric::new(&analysis, pencil, modes.lambda.first().copied())?;
     let Some(metric) = metric else {
