@@ -44,7 +44,7 @@ write     = { superelement = "x.supel" }
     let job = Job::parse(text, "job.toml".as_ref()).expect("a job");
     let partition = crate::chain::partition(&spring(5, Ends::Fixed), &[]).expect("a chain");
     let resources = Resources { memory_bytes: Some(16 << 30) };
-    let error = refuse_beyond_memory(&analysis, &partition, &job, resources).expect_err("more than 16 GiB");
+    let error = refuse_beyond_memory(&analysis, &partition, &job, resources, None).expect_err("more than 16 GiB");
     assert!(matches!(error, Error::MemoryForecast { needed, .. } if needed >= 8 * exact as u64), "{error}");
     assert_eq!(error.code(), "E-MEM");
 }

@@ -34,17 +34,14 @@ fn compared(chain: &Chain, damage: impl Fn(&mut Reduction)) -> Compared {
     let pencil = Pencil { stiffness: &k_ii, mass: &m_ii };
     let analysis = Analysis::new(pencil).expect("memory");
     let factor = Cholesky::new(&analysis, pencil, 0.0, &|dof| partition.name_of(dof)).expect("definite");
-    let retained = Retained {
-        modes: chain.modes.clone(),
-        boundary: Boundary::FreeInterface,
-        columns: chain.named.clone(),
-        n_factorisations: 0,
-    };
+    let retained =
+        Retained { modes: chain.modes.clone(), boundary: Boundary::FreeInterface, columns: chain.named.clone() };
     let mut reduction = chain.reduction.clone();
     damage(&mut reduction);
     let evidence = Evidence {
         partition,
         internal: (&k_ii, &m_ii),
+        factor: &factor,
         rigid: &chain.rigid,
         rank: rigid::interface_rank(partition, &chain.rigid).expect("reacted"),
         constraint: &chain.constraint,

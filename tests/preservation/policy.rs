@@ -1,7 +1,7 @@
 //! What is compared: cheap defaults, and whatever the scene states.
 
 use supel::basis::DynamicColumns;
-use supel::factor::{Analysis, Pencil};
+use supel::factor::{Analysis, Cholesky, Pencil};
 use supel::job::Job;
 use supel::modes::{Boundary, Retained};
 use supel::rigid;
@@ -16,7 +16,10 @@ fn plan(factor_entries: f64, modes: &str, scene: &str) -> Plan {
     let interfaces = [rigid_group("XMIN"), direct("tip", &[45])];
     let chain = reduce(&block(), &interfaces, Method::Herting, 6).expect("reduced");
     let (k_ii, m_ii) = (chain.partition.internal_stiffness(), chain.partition.internal_mass());
-    let mut analysis = Analysis::new(Pencil { stiffness: &k_ii, mass: &m_ii }).expect("memory");
+    let pencil = Pencil { stiffness: &k_ii, mass: &m_ii };
+    let sound = Analysis::new(pencil).expect("memory");
+    let factor = Cholesky::new(&sound, pencil, 0.0, &|dof| chain.partition.name_of(dof)).expect("definite");
+    let mut analysis = Analysis::new(pencil).expect("memory");
     analysis.nnz_factor = factor_entries;
     let mut modes_kept = chain.modes.clone();
     if modes == "count = 0" {
@@ -24,10 +27,11 @@ fn plan(factor_entries: f64, modes: &str, scene: &str) -> Plan {
     }
     let none = DynamicColumns { columns: chain.named.columns.clone(), coordinates: Vec::new() };
     let boundary = Boundary::FreeInterface;
-    let retained = Retained { modes: modes_kept, boundary, columns: none, n_factorisations: 0 };
+    let retained = Retained { modes: modes_kept, boundary, columns: none };
     let evidence = Evidence {
         partition: &chain.partition,
         internal: (&k_ii, &m_ii),
+        factor: &factor,
         rigid: &chain.rigid,
         rank: rigid::interface_rank(&chain.partition, &chain.rigid).expect("reacted"),
         constraint: &chain.constraint,

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use supel::basis::{Basis, constraint_modes};
 use supel::factor::{Analysis, Cholesky, Pencil};
 use supel::job::{Eigensolver, Method, ModeSelection, ReductionJob};
-use supel::modes::{Component, Retained, SEED, retained};
+use supel::modes::{Component, ModeSource, Retained, SEED, Search};
 use supel::partition::Partition;
 use supel::reduction::Reduction;
 use supel_models::{Material, brick};
@@ -32,10 +32,18 @@ fn built(method: Method, count: usize, seed: u64) -> Built {
     let factor = Cholesky::new(&analysis, pencil, 0.0, &|dof| partition.name_of(dof)).expect("definite");
     let constraint = constraint_modes(&partition, &factor, &rigid);
     let internal = (&k_ii, &m_ii);
-    let component =
-        Component { partition: &partition, internal, factor: &factor, rigid: &rigid, constraint: &constraint };
+    let component = Component {
+        partition: &partition,
+        internal,
+        analysis: &analysis,
+        factor: &factor,
+        rigid: &rigid,
+        constraint: &constraint,
+    };
     let job = ReductionJob { method, modes: ModeSelection::Count { count }, eigensolver: Eigensolver::Lanczos };
-    let retained = retained(component, &job, seed).expect("converges");
+    let search = Search::new(component, &job).expect("counts");
+    let found = search.lowest(seed).expect("converges");
+    let retained = Retained::new(component, search.problem.boundary, found);
     let basis = Basis::new(&constraint, retained.columns.clone(), &m_ii);
     let reduction = Reduction::new(&partition, &basis, &rigid);
     drop(factor);
