@@ -163,7 +163,7 @@ impl<'a> Witness<'a> {
         let limits = Limits { engineering: 1e-6, arithmetic, data: 0.0 };
         Ok(Check {
             id: "M-15",
-            name: "modes act on the interface as in the full model",
+            name: "interface sees the modes of the full model",
             equation: "max |Σ p pᵀ − Σ p̂ p̂ᵀ| of each cluster, p motion of the interface or inertia seen by it, normalised",
             value: worst.0,
             limits,
