@@ -231,6 +231,8 @@ pub enum Certify {
     /// By a Sturm count above the highest mode.
     #[default]
     Count,
+    /// By a count that is proved against rounding, with an interval around every eigenvalue that is proved to hold it.
+    Full,
 }
 
 /// How the run is done.

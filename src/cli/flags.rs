@@ -201,6 +201,7 @@ pub(super) enum Eigensolver {
 pub(super) enum Certify {
     None,
     Count,
+    Full,
 }
 
 impl From<Triangle> for input::Triangle {
@@ -235,6 +236,7 @@ impl From<Certify> for job::Certify {
         match certify {
             Certify::None => Self::None,
             Certify::Count => Self::Count,
+            Certify::Full => Self::Full,
         }
     }
 }

@@ -1,5 +1,7 @@
 //! The Cholesky factor of a definite matrix.
 
+mod backward_error;
+
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::cholesky::supernodal::{
     SupernodalLltRef, factorize_supernodal_numeric_llt, factorize_supernodal_numeric_llt_scratch,

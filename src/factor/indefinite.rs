@@ -1,5 +1,7 @@
 //! L B Lᵀ of a symmetric indefinite matrix K − σM.
 
+mod whole;
+
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::PermRef;
 use faer::sparse::linalg::cholesky::supernodal::{
@@ -14,6 +16,8 @@ use super::{Analysis, Pencil, Triangle};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::model::diagonal;
+
+pub use whole::{WholeCount, whole_count};
 
 /// L B Lᵀ of D (K − σM) D with pivots of order one and two inside each supernode.
 ///

@@ -48,6 +48,7 @@ pub(crate) fn with_evidence<T>(
         basis: &basis,
         reduction: &reduction,
         certificate: None,
+        enclosures: None,
         expect: None,
     })
 }
