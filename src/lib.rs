@@ -106,14 +106,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
 
     observer.stage("modes");
     let internal = (&k_ii, &m_ii);
-    let component = Component {
-        partition: &partition,
-        internal,
-        analysis: &analysis,
-        factor: &factor,
-        rigid: &rigid,
-        constraint: &constraint,
-    };
+    let component = Component::new(&partition, internal, &analysis, &factor, &rigid, &constraint);
     let search = modes::Search::new(component, &job.reduction)?;
     factor::refuse_beyond_memory(&analysis, &partition, job, resources, search.n_expected())?;
     let found = search.lowest(modes::SEED)?;

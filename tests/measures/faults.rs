@@ -100,8 +100,7 @@ fn two_modes_mixed() {
 fn a_mode_that_was_not_found() {
     with_model(&model(), &[direct("ends", &[1, 8, 22, 14])], (Method::CraigBampton, 5), |evidence| {
         let count = supel::factor::InertiaCount { sigma: 1.0, ..certificate_count() };
-        let interval =
-            CountedInterval { from: 0.0, to: 1.0, n_counted: 6, n_found: 5, growth: 1.0, growth_limit: f64::INFINITY };
+        let interval = CountedInterval { from: 0.0, to: 1.0, n_counted: 6, n_found: 5, growth: 1.0, growth_limit: 1e6 };
         let certificate = Certificate {
             count,
             boundary: Boundary::FixedInterface,
