@@ -67,6 +67,10 @@ fn effective_mass(results: &Results<'_>) -> Vec<EffectiveMass> {
 
 /// A warning where a spring, a support left in K or wrong coordinates hold what should be free.
 pub(super) fn grounded(results: &Results<'_>) -> Option<Warning> {
+    if results.evidence.rigid.misfit.is_some() {
+        // Rounded coordinates look like soft springs; they have a warning of their own.
+        return None;
+    }
     let grounding = &results.findings.rigid_body.grounding;
     let worst = grounding
         .iter()

@@ -58,7 +58,7 @@ fn a_factor_that_cannot_be_allocated() {
         let star = star(70_000);
         let pencil = Pencil { stiffness: &star, mass: &star };
         let analysis = Analysis::new(pencil).expect("an analysis");
-        let error = Cholesky::new(&analysis, pencil, 0.0, &|dof| dof.to_string()).err().expect("no memory");
+        let error = Cholesky::new(&analysis, pencil, 0.0, &|dof| dof.to_string()).expect_err("no memory");
         assert!(matches!(error, Error::OutOfMemory { .. }), "{error}");
         assert_eq!(error.code(), "E-OUT-OF-MEMORY");
         return;

@@ -84,10 +84,13 @@ fn compared(
 ) -> InterfaceStatics {
     let (full, uncondensed) = full_stiffness(evidence, factor, interface, motions.shapes.as_ref());
     let reduced = reduced_stiffness(evidence, interface, motions.shapes.as_ref());
+    // A free mass has no stiffness to be measured by; it takes the largest there is.
+    let largest = uncondensed.iter().fold(0.0f64, |max, value| max.max(*value));
+    let own = |i: usize| if uncondensed[i] > 0.0 { uncondensed[i] } else { largest };
     let mut relative_difference = 0.0;
     for j in 0..full.ncols() {
         for i in 0..full.nrows() {
-            let size = (uncondensed[i] * uncondensed[j]).sqrt();
+            let size = (own(i) * own(j)).sqrt();
             let difference = (full[(i, j)] - reduced[(i, j)]).abs();
             if difference != 0.0 && dense::worse(difference / size, relative_difference) {
                 relative_difference = difference / size;
