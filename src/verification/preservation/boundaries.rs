@@ -182,7 +182,10 @@ pub(super) fn monotonicity(evidence: &Evidence<'_>, references: &[Reference]) ->
         for (j, (full, bar)) in reference.lambda.iter().zip(&reference.bars).enumerate() {
             let Some(reduced) = reduced.get(reference.n_zero + j) else { break };
             let below = (1.0 - reduced / full).max(0.0);
-            let limits = Limits { engineering: 1e-9, arithmetic: ROUNDINGS * bar, data: 0.0 };
+            // The full model is solved beside its rigid-body motions q. Where the digits leave them an energy ε = qᵀKq, they
+            // couple with a mode by |qᵀKx| ≤ √(ελ), and leaving them out raises λ by up to |qᵀKx|²/λ = ε each.
+            let data = reference.n_zero as f64 * evidence.rigid.energy.largest_quotient / full;
+            let limits = Limits { engineering: 1e-9, arithmetic: ROUNDINGS * bar, data };
             if dense::worse(below / limits.value(), worst.0 / worst.1.value()) {
                 worst = (below, limits, Some(format!("{}, mode {}", reference.boundary.name, j + 1)));
             }
