@@ -120,7 +120,7 @@ type Known = (&'static str, &'static [&'static str], &'static str);
 const TRUE: &[Known] = &[
     (
         "nastran_pch_mAEWing1_FEMv5p1",
-        &["M-02 warn", "M-02 fail", "M-04 warn", "M-05 warn", "M-09 warn", "M-14 warn", "M-24 warn"],
+        &["M-04 warn", "M-05 warn", "M-09 warn", "M-14 warn", "M-24 warn"],
         "ten digits: rounding turns rigid-body motions into frequencies of an eighth of the first elastic one",
     ),
     ("nastran_pch_1", &["W-FEWER-MODES"], "ten rows have no twenty modes"),
@@ -156,6 +156,7 @@ const OPEN: &[Known] = &[
     ("nastran_cb_nas2cam_csuper_inboard", SUPERELEMENT, ""),
     ("nastran_cb_nas2cam_csuper_inboard_mk", SUPERELEMENT, ""),
     ("nastran_cb_nas2cam_extseout_inboard", SUPERELEMENT, ""),
+    ("nastran_pch_mAEWing1_FEMv5p1", &["M-02 fail"], ""),
     ("nlevp_sandwich_beam_168", &["M-14 warn"], ""),
 ];
 
