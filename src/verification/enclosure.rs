@@ -35,7 +35,7 @@ use metric::Metric;
 pub struct Enclosures {
     /// For each mode an interval that holds an eigenvalue; none where K − σM could not be proved definite.
     pub intervals: Vec<Option<[f64; 2]>>,
-    /// For each mode a bound of the sine of its angle to the eigenvectors of its group; none without a proved count.
+    /// For each mode a bound of the sine of its angle to the eigenvectors of its cluster; none without a proved count.
     pub angles: Vec<Option<f64>>,
     /// What the count is worth.
     pub count: CountProof,
@@ -98,7 +98,13 @@ pub fn enclosures(
         let neighbours = count.is_proved().then(|| bracket::neighbours(&groups, index, ceiling, metric.sigma));
         for member in group.members.clone().filter(|member| *member >= n_zero) {
             intervals[member - n_zero] = Some(group.interval_of(&pairs, member, neighbours));
-            angles[member - n_zero] = neighbours.map(|neighbours| group.angle(neighbours));
+        }
+    }
+    let clusters = bracket::clusters(&pairs, &groups);
+    for (index, cluster) in clusters.iter().enumerate().filter(|_| count.is_proved()) {
+        let angle = cluster.angle(bracket::neighbours(&clusters, index, ceiling, metric.sigma));
+        for member in cluster.members.clone().filter(|member| *member >= n_zero) {
+            angles[member - n_zero] = Some(angle);
         }
     }
     Ok(Enclosures { intervals, angles, count, n_factorisations: n_metric + 1 })
@@ -203,7 +209,7 @@ fn angles(angles: Vec<f64>) -> Check {
     Check {
         id: "M-08",
         name: "modes lie close to eigenvectors",
-        equation: "max sin ∠(x, eigenvectors of its group) ≤ ρ/gap, in the energy of K_s",
+        equation: "max sin ∠(x, eigenvectors of its cluster) ≤ ρ/gap, in the energy of K_s",
         value,
         limits: Limits { engineering: 1e-6, ..Limits::default() },
         fail_above: 1e-2,

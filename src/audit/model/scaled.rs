@@ -1,6 +1,6 @@
 //! The content of the file in the scaled units of the partition.
 
-use faer::{Mat, Side};
+use faer::{Mat, MatRef, Side};
 use supel_runtime::Superelement;
 
 use crate::audit::content::unpacked;
@@ -62,6 +62,7 @@ impl Scaled {
         faer::linalg::triangular_solve::solve_lower_triangular_in_place(l, half.as_mut(), par);
         let mut c = half.transpose().to_owned();
         faer::linalg::triangular_solve::solve_lower_triangular_in_place(l, c.as_mut(), par);
+        self.take_out_rigid_motion(&mut c, l, &d);
         dense::symmetrise(&mut c);
         let (tau, w) = dense::symmetric_eigen(c.as_ref())?;
         let kept: Vec<usize> = (0..n).filter(|j| tau[*j] > RIGID).collect();
@@ -70,5 +71,22 @@ impl Scaled {
         let triangle = Mat::from_fn(n, n, |i, j| if j <= i { l[(i, j)] } else { 0.0 });
         let loads = dense::product(triangle.as_ref(), shares.as_ref());
         Ok(Mat::from_fn(n, kept.len(), |i, j| loads[(i, j)] / d[i]))
+    }
+
+    /// C ← P C P − Z Zᵀ, P = I − Z Zᵀ, with Z spanning Lᵀ D⁻¹ Û_B: rigid-body motion is told from elastic motion by Û, not
+    /// by its energy, which rounding may make larger than that of the softest elastic one.
+    fn take_out_rigid_motion(&self, c: &mut Mat<f64>, l: MatRef<'_, f64>, d: &[f64]) {
+        let (n, n_r) = (self.n_b, self.u.ncols());
+        if n_r == 0 {
+            return;
+        }
+        let upper = Mat::from_fn(n, n, |i, j| if i <= j { l[(j, i)] } else { 0.0 });
+        let motion = Mat::from_fn(n, n_r, |i, j| self.u[(i, j)] / d[i]);
+        let z = dense::product(upper.as_ref(), motion.as_ref()).qr().compute_thin_Q();
+        let mut projector = Mat::<f64>::identity(n, n);
+        dense::add_product(projector.as_mut(), -1.0, z.as_ref(), z.transpose());
+        let half = dense::product(projector.as_ref(), c.as_ref());
+        *c = dense::product(half.as_ref(), projector.as_ref());
+        dense::add_product(c.as_mut(), -1.0, z.as_ref(), z.transpose());
     }
 }

@@ -212,7 +212,7 @@ pub(super) fn mass(scaled: &Scaled, full: &Full<'_>, answers: &Answers) -> Check
 
 /// Rounding of a displacement relative to its length: that of K amplified by its condition.
 fn rounding_of_motion(full: &Full<'_>) -> f64 {
-    (f64::EPSILON * full.condition()).min(LARGEST_EXCUSE)
+    (NOISE_FACTOR * f64::EPSILON * full.condition()).min(LARGEST_EXCUSE)
 }
 
 /// M-18: loads of gravity do the same work on these motions.

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::pair::Pair;
+use crate::modes::CLUSTER_GAP;
 
 /// Modes that cannot be told apart, and the interval that holds as many eigenvalues.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +41,23 @@ pub(super) fn groups(pairs: &[Pair]) -> Vec<Group> {
         groups.push(group);
     }
     groups
+}
+
+/// The same with groups nearer than modes of one cluster put together: within it directions are nobody's own, and the
+/// angle is that to the space of all.
+pub(super) fn clusters(pairs: &[Pair], groups: &[Group]) -> Vec<Group> {
+    let mut clusters: Vec<Group> = Vec::new();
+    for group in groups {
+        let near = |last: &Group| {
+            let gap = group.interval[0] - last.interval[1];
+            gap <= CLUSTER_GAP * group.interval[1].abs()
+        };
+        match clusters.last_mut().filter(|last| near(last)) {
+            Some(last) => *last = Group::of(pairs, last.members.start..group.members.end),
+            None => clusters.push(group.clone()),
+        }
+    }
+    clusters
 }
 
 impl Group {
