@@ -96,10 +96,12 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let pencil = Pencil { stiffness: &k_ii, mass: &m_ii };
     let analysis = Analysis::new(pencil)?;
     factor::refuse_beyond_memory(&analysis, &partition, job, resources)?;
-    let factor = Cholesky::new(&analysis, pencil, 0.0, &|dof| partition.name_of(dof))?;
+    let sigma = modes::shift_of_factor(&partition, &rigid);
+    let factor = Cholesky::new(&analysis, pencil, sigma, &|dof| partition.name_of(dof))?;
 
     observer.stage("constraint modes");
     let constraint = basis::constraint_modes(&partition, &factor, &rigid);
+    let (rigid, loose) = rigid::with_mechanisms(&partition, &constraint, rigid)?;
 
     observer.stage("modes");
     let internal = (&k_ii, &m_ii);
@@ -142,6 +144,6 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         factor_nonzeros: analysis.nnz_factor as u64,
     };
     let (superelement, report) =
-        output::output(&Results { job, input: &facts, model: &model, evidence, checks: &checks, work })?;
+        output::output(&Results { job, input: &facts, model: &model, loose: &loose, evidence, checks: &checks, work })?;
     Ok(Outcome { superelement, report })
 }

@@ -39,12 +39,14 @@ pub fn constraint_modes(partition: &Partition, factor: &dyn SolveOperator, rigid
     let u_i = rigid.orthonormal.as_ref().subrows(0, n_i);
     let u_b = rigid.orthonormal.as_ref().subrows(n_i, n_b);
     let mut raw_rigid_error = 0.0;
-    if rigid.count() > 0 {
+    // Without an interface there is nothing to be carried.
+    let is_carried = rigid.count() > 0 && n_b > 0;
+    if is_carried {
         raw_rigid_error = rigid_error(modes.as_ref(), u_i, u_b).0;
         let defect = defect(modes.as_ref(), u_i, u_b);
         dense::add_product(modes.as_mut(), 1.0, defect.as_ref(), left_inverse(partition, u_b).as_ref());
     }
-    let rigid_error = rigid_error(modes.as_ref(), u_i, u_b);
+    let rigid_error = if is_carried { rigid_error(modes.as_ref(), u_i, u_b) } else { (0.0, 0) };
     let (stiffness, cancellation) = condensed_stiffness(partition, modes.as_ref());
     ConstraintModes { modes, stiffness, cancellation, raw_rigid_error, rigid_error }
 }
@@ -57,11 +59,14 @@ fn defect(modes: MatRef<'_, f64>, u_i: MatRef<'_, f64>, u_b: MatRef<'_, f64>) ->
 }
 
 /// Largest defect of a rigid-body mode relative to the largest displacement of the mode, and where it is.
+///
+/// A mode that moves interface dofs alone, that of a free mass at the interface, is measured by those.
 fn rigid_error(modes: MatRef<'_, f64>, u_i: MatRef<'_, f64>, u_b: MatRef<'_, f64>) -> (f64, usize) {
     let defect = defect(modes, u_i, u_b);
     let mut worst = (0.0, 0);
     for j in 0..defect.ncols() {
-        let largest = dense::column(u_i, j).iter().fold(0.0f64, |max, value| max.max(value.abs()));
+        let size = |u: MatRef<'_, f64>| dense::column(u, j).iter().fold(0.0f64, |max, value| max.max(value.abs()));
+        let largest = if size(u_i) > 0.0 { size(u_i) } else { size(u_b) };
         for (i, value) in dense::column(defect.as_ref(), j).iter().enumerate() {
             if dense::worse(value.abs() / largest, worst.0) {
                 worst = (value.abs() / largest, i);

@@ -10,6 +10,7 @@
 #[cfg(feature = "arpack")]
 mod arpack;
 mod certificate;
+mod cluster;
 mod eigenproblem;
 mod equilibration;
 mod lanczos;
@@ -36,8 +37,9 @@ pub use lanczos::lanczos;
 pub use operator::{Factored, FreeAtZero, ShiftInvert};
 pub use orthogonalisation::gram_schmidt;
 pub use quality::{ModeError, mass_orthogonality};
+pub(crate) use random::SplitMix64;
 pub use retained::{Component, Retained, retained};
-pub use shifted::{Shifted, shifted};
+pub use shifted::{Shifted, shift_of_factor, shifted};
 
 /// Elastic modes of one boundary condition.
 #[derive(Clone, Debug)]
@@ -127,7 +129,13 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
     };
     let mut shapes = pairs.vectors;
     quality::normalise(problem.mass, &mut shapes);
-    let (lambda, errors) = quality::rayleigh_quotients(problem, shapes.as_ref());
+    let (mut lambda, mut errors) = quality::rayleigh_quotients(problem, shapes.as_ref());
+    let repeated = cluster::repeated(&lambda, &errors);
+    if !repeated.is_empty() {
+        cluster::canonicalise(problem.mass, &repeated, &mut shapes);
+        (lambda, errors) = quality::rayleigh_quotients(problem, shapes.as_ref());
+        cluster::average(&repeated, &mut lambda);
+    }
     Ok(Modes {
         lambda,
         shapes,

@@ -7,7 +7,9 @@ use super::{
     Boundary, Equilibrated, Factored, FreeAtZero, ModalProblem, ModeRequest, Modes, SEED, ShiftInvert, Wanted,
     elastic_modes, shifted,
 };
-use crate::basis::{ConstraintModes, DynamicColumns, fixed_interface_columns, mode_acceleration_columns};
+use crate::basis::{
+    ConstraintModes, DynamicColumns, fixed_interface_columns, modal_columns, mode_acceleration_columns,
+};
 use crate::dense;
 use crate::error::Result;
 use crate::factor::{Analysis, Cholesky, Pencil};
@@ -56,6 +58,12 @@ const HOLDS_UP: f64 = 1e-8;
 pub fn retained(component: Component<'_>, job: &ReductionJob, seed: u64) -> Result<Retained> {
     let Component { partition, internal, factor, rigid, constraint } = component;
     let request = ModeRequest { wanted: wanted(job.modes, partition), eigensolver: job.eigensolver, seed };
+    if partition.n_interface() == 0 && rigid.count() > 0 {
+        // Nothing holds the component and nothing is to be condensed: its own modes are the model (S-23).
+        let (modes, n_factorisations) = by_shift(partition, free_problem(component), request)?;
+        let columns = modal_columns(rigid, &modes);
+        return Ok(Retained { modes, boundary: Boundary::FreeInterface, columns, n_factorisations });
+    }
     match job.method {
         Method::CraigBampton => {
             let problem =
@@ -69,17 +77,18 @@ pub fn retained(component: Component<'_>, job: &ReductionJob, seed: u64) -> Resu
             })
         }
         Method::Herting => {
-            let problem = ModalProblem {
-                stiffness: &partition.stiffness,
-                mass: &partition.mass,
-                rigid: Some(rigid),
-                precision: partition.precision,
-            };
-            let (modes, n_factorisations) = free_modes(component, problem, request)?;
+            let (modes, n_factorisations) = free_modes(component, free_problem(component), request)?;
             let columns = mode_acceleration_columns(partition, factor, constraint, rigid, &modes);
             Ok(Retained { modes, boundary: Boundary::FreeInterface, columns, n_factorisations })
         }
     }
+}
+
+/// The component with its interface free, rigid-body modes deflated.
+fn free_problem<'a>(component: Component<'a>) -> ModalProblem<'a> {
+    let Component { partition, rigid, .. } = component;
+    let precision = partition.precision;
+    ModalProblem { stiffness: &partition.stiffness, mass: &partition.mass, rigid: Some(rigid), precision }
 }
 
 /// Free-free modes by the factor of K_II where that holds up, by a factor of K − σM where it does not.

@@ -5,6 +5,7 @@
 
 mod report;
 mod superelement;
+mod warnings;
 
 use supel_runtime::Superelement;
 
@@ -13,6 +14,7 @@ use crate::input::Input;
 use crate::job::Job;
 use crate::model::Model;
 use crate::report::{Report, WorkCounters};
+use crate::rigid::LooseMotions;
 use crate::verification::Evidence;
 use crate::verification::check::Check;
 
@@ -60,6 +62,8 @@ pub struct Results<'a> {
     pub input: &'a InputFacts,
     /// The checked model.
     pub model: &'a Model,
+    /// Mechanisms and what comes near them.
+    pub loose: &'a LooseMotions,
     /// The results of the stages.
     pub evidence: Evidence<'a>,
     /// The checks.

@@ -4,10 +4,9 @@ use std::collections::BTreeSet;
 
 use supel_runtime::Matrix;
 
-use super::{MatrixFacts, Results, omega};
+use super::{MatrixFacts, Results, omega, warnings};
 use crate::basis::DynamicCoordinate;
 use crate::job::{Certify, ModeSelection};
-use crate::model::{ASYMMETRY_WARN, Finding};
 use crate::modes::Boundary;
 use crate::report::{
     Completeness, DroppedCoordinate, Generator, InterfaceReport, MassProperties, MatrixReport, ModeKind, ModeRow,
@@ -66,7 +65,8 @@ fn mass_properties(results: &Results<'_>) -> MassProperties {
     }
     let m_f = &evidence.reduction.rigid_body_mass;
     let unit = evidence.partition.scaling.mass_unit();
-    let m_f = Matrix::from_fn(m_f.nrows(), m_f.ncols(), |i, j| m_f[(i, j)] * unit);
+    // The motions of mechanisms come after the six of the body.
+    let m_f = Matrix::from_fn(6, 6, |i, j| m_f[(i, j)] * unit);
     supel_runtime::mass_properties(&m_f).map_or_else(MassProperties::default, |known| MassProperties {
         mass: Some(known.mass),
         cg: Some(known.center_of_mass),
@@ -79,19 +79,22 @@ fn reduction(results: &Results<'_>) -> ReductionReport {
     let basis = evidence.basis;
     let is_relief = |c: &&DynamicCoordinate| matches!(c, DynamicCoordinate::InertiaRelief(_));
     let n_inertia_relief = basis.coordinates.iter().filter(is_relief).count();
+    let is_rigid = |c: &&DynamicCoordinate| matches!(c, DynamicCoordinate::RigidBody(_));
+    let n_rigid_body = basis.coordinates.iter().filter(is_rigid).count();
     ReductionReport {
         method: results.job.reduction.method,
         eigensolver: results.job.reduction.eigensolver,
         interfaces: interfaces(results),
         n_interface: evidence.partition.n_interface(),
         n_inertia_relief,
-        n_modes: basis.n_dynamic() - n_inertia_relief,
+        n_modes: basis.n_dynamic() - n_inertia_relief - n_rigid_body,
         n_reduced: basis.n_reduced(),
         dropped: basis
             .dropped
             .iter()
             .map(|column| DroppedCoordinate {
                 coordinate: match column.coordinate {
+                    DynamicCoordinate::RigidBody(index) => format!("rigid-body mode {}", index + 1),
                     DynamicCoordinate::InertiaRelief(index) => format!("inertia relief {}", index + 1),
                     DynamicCoordinate::FreeFree(mode) | DynamicCoordinate::FixedInterface(mode) => {
                         format!("mode {}", mode + 1)
@@ -161,13 +164,11 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
             ),
         });
     }
-    for finding in &results.model.findings {
-        if let Finding::Symmetrised { asymmetry, .. } = finding
-            && *asymmetry > ASYMMETRY_WARN
-        {
-            warnings.push(Warning { code: "W-UNSYMMETRIC", message: finding.to_string() });
-        }
+    for finding in results.model.findings.iter().chain(&evidence.partition.findings) {
+        warnings.extend(finding.warning().map(|code| Warning { code, message: finding.to_string() }));
     }
+    warnings.extend(warnings::of_motions(results));
+    warnings.extend(warnings::data_precision(results));
     if results.job.model.expect.is_some() && !evidence.rigid.is_classical {
         warnings.push(Warning {
             code: "W-EXPECT-UNCHECKED",

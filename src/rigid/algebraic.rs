@@ -40,6 +40,8 @@ pub fn from_matrices(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
         modes: orthonormal.clone(),
         mass_orthonormal: product(&partition.mass, orthonormal.as_ref()),
         orthonormal,
+        n_massless: 0,
+        n_mechanisms: 0,
         source: RigidSource::Algebraic,
         is_classical: false,
         energy,

@@ -18,7 +18,8 @@ pub const ILL_CONDITIONED: f64 = 1e-2;
 /// How well the interface reacts the rigid-body motions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InterfaceRank {
-    /// Smallest over largest singular value of U_B, rotations scaled to the size of the component; one without rigid modes.
+    /// Smallest over largest singular value of U_B, rotations scaled to the size of the component; one without rigid modes
+    /// or without interface.
     pub singular_ratio: f64,
 }
 
@@ -28,7 +29,8 @@ pub struct InterfaceRank {
 /// A rigid-body motion leaves the interface at rest; the message names it.
 pub fn interface_rank(partition: &Partition, rigid: &RigidBodyModes) -> Result<InterfaceRank> {
     let (n_i, n_b, n_r) = (partition.n_internal, partition.n_interface(), rigid.count());
-    if n_r == 0 {
+    // Without an interface nothing has to be reacted: the modes are those of the free component.
+    if n_r == 0 || n_b == 0 {
         return Ok(InterfaceRank { singular_ratio: 1.0 });
     }
     let size = partition.sites().map_or(1.0, |sites| size_of(&sites));
