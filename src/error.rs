@@ -3,10 +3,14 @@
 //! A message reads *what – where – found – expected – what to do*, in lower case and without a full stop. The variant
 //! decides the exit code, so that a CI job can tell bad input from a bad model from a full disk.
 
+mod code;
+
 use std::fmt;
 use std::path::{Path, PathBuf};
 
 use supel_runtime::FileError;
+
+pub use code::{ErrorClass, INTERNAL_CODE, USAGE_CODE};
 
 /// The result of every fallible call of this crate.
 pub type Result<T, E = Error> = std::result::Result<T, E>;
@@ -235,10 +239,23 @@ pub enum Error {
         /// Entries declared.
         declared: u64,
     },
+    /// Entries of a matrix repeat a position, and the job refuses that.
+    #[error(
+        "{}: {count} entries repeat a position; expected each position once with --strict: assemble the matrix, or leave \
+         --strict out to have them added",
+        path.display()
+    )]
+    Duplicates {
+        /// The file.
+        path: PathBuf,
+        /// How many.
+        count: usize,
+    },
     /// A matrix declared symmetric has entries on both sides of the diagonal.
     #[error(
         "{}: declared symmetric, but entries lie on both sides of the diagonal, ({}, {}) and ({}, {}); \
-         expected one triangle: remove the other, or declare the matrix general",
+         expected one triangle: remove the other, declare the matrix general, or say which holds with --symmetric lower or \
+         upper",
         path.display(), lower.0, lower.1, upper.0, upper.1
     )]
     DoubleTriangle {
@@ -439,6 +456,21 @@ pub enum Error {
         path: PathBuf,
         /// The library's words.
         reason: String,
+    },
+    /// The HDF5 library crashed on a file; a child process took the blow.
+    #[error(
+        "{}: a damaged HDF5 file – the HDF5 library crashes when it reads it – write or copy the file again",
+        path.display()
+    )]
+    Hdf5Crash {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The child process that reads HDF5 first could not be started.
+    #[error("no child process can be started to read the HDF5 input first: {source}")]
+    Rehearsal {
+        /// What the system said.
+        source: std::io::Error,
     },
     /// The HDF5 library could not read an object of a file.
     #[error("{}:{object}: cannot be read – the HDF5 library says: {reason}", path.display())]
@@ -839,7 +871,7 @@ pub enum Error {
     // ---- model -----------------------------------------------------------------------------------------------------
     /// A matrix is not symmetric.
     #[error(
-        "the {matrix} matrix is not symmetric – worst at row {row}, column {col} – found a relative difference of {asymmetry:.1e} – expected below 1e-6 – leave out follower forces, gyroscopic and friction terms"
+        "the {matrix} matrix is not symmetric – worst at row {row}, column {col} – found a relative difference of {asymmetry:.1e} – expected below 1e-6 – leave out follower forces, gyroscopic and friction terms; where the file lacks part of a triangle, take the other one with --symmetric lower or upper"
     )]
     Unsymmetric {
         /// `stiffness` or `mass`.
@@ -891,7 +923,7 @@ pub enum Error {
     },
     /// Rows without stiffness and mass.
     #[error(
-        "{n_rows} rows have neither stiffness nor mass – the first is row {row}{dof} – expected none – leave unused and constrained dofs out of both matrices"
+        "{n_rows} rows have neither stiffness nor mass – the first is row {row}{dof} – expected none – leave unused and constrained dofs out of both matrices, or drop these rows with --drop-empty"
     )]
     EmptyRows {
         /// How many.
@@ -937,16 +969,16 @@ pub enum Error {
     },
     /// Coordinates that do not belong to K.
     #[error(
-        "the coordinates do not belong to the stiffness – translations cost no energy but the rotation about {rotation} costs {energy:.1e} of its terms, most of it at {dof} – expected below {expected:.1e} – check units, axes and local node frames, or leave the nodes out"
+        "the coordinates do not belong to the stiffness – translations cost no energy but the rotation about {rotation} costs {energy:.1e} of the energy of the first elastic mode, most of it at {dof} – expected below {expected:.0e} – check units, axes and local node frames, or leave the nodes out"
     )]
     CoordinatesDoNotFit {
         /// The axis.
         rotation: &'static str,
-        /// Relative energy of the rotation.
+        /// Largest Rayleigh quotient of a rigid motion by the coordinates over the first elastic eigenvalue.
         energy: f64,
-        /// What rounding allows.
+        /// What rounding of coordinates may cost.
         expected: f64,
-        /// Where the force is largest.
+        /// Where the forces are largest.
         dof: String,
     },
     /// A rigid-body motion whose energy is negative beyond rounding.
@@ -1198,23 +1230,6 @@ pub enum Error {
     },
 }
 
-/// The class of an [`Error`]; its number is the exit code of the process.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ErrorClass {
-    /// The command line or the job document is wrong.
-    Usage = 2,
-    /// A file's content is wrong.
-    InputData = 3,
-    /// The matrices do not describe a component that can be reduced as asked.
-    ModelPhysics = 4,
-    /// The arithmetic cannot give what was asked.
-    NumericalLimit = 5,
-    /// Not enough memory.
-    Resources = 6,
-    /// A file could not be read or written.
-    Io = 7,
-}
-
 impl Error {
     /// The error of this crate for what the superelement file's crate says of `path`.
     pub fn from_file(path: &Path, error: FileError) -> Self {
@@ -1222,120 +1237,6 @@ impl Error {
             FileError::Read { path, source } => Self::Read { path, source },
             FileError::Write { path, source } => Self::Write { path, source },
             source => Self::SuperelementFile { path: path.to_owned(), source },
-        }
-    }
-
-    /// The class of this error, which is its exit code.
-    // One line for each variant, so that a new one cannot be forgotten.
-    #[expect(clippy::too_many_lines)]
-    pub fn class(&self) -> ErrorClass {
-        match self {
-            Self::Read { .. } | Self::Write { .. } => ErrorClass::Io,
-            Self::FeatureMissing { .. } | Self::EigensolverMissing => ErrorClass::Usage,
-            Self::Unsymmetric { .. }
-            | Self::Swapped { .. }
-            | Self::NoMass
-            | Self::EmptyRows { .. }
-            | Self::MultiplierRow { .. }
-            | Self::CoordinatesDoNotFit { .. }
-            | Self::UnitRange { .. }
-            | Self::InterfaceTooLarge { .. }
-            | Self::SelectionNeedsNodes { .. }
-            | Self::RigidNeedsCoordinates { .. }
-            | Self::UnknownGroup { .. }
-            | Self::EmptyInterface { .. }
-            | Self::InterfaceNodeWithoutRows { .. }
-            | Self::DofMissing { .. }
-            | Self::InterfaceRow { .. }
-            | Self::DofTwice { .. }
-            | Self::PatchRank { .. } => ErrorClass::InputData,
-            Self::NegativeStiffness { .. }
-            | Self::NegativeMass { .. }
-            | Self::NegativeRigidEnergy { .. }
-            | Self::MasslessRigidMotion { .. }
-            | Self::IndefiniteMass { .. }
-            | Self::MasslessMechanism { .. }
-            | Self::FloatingBody { .. }
-            | Self::InterfaceRank { .. }
-            | Self::NotDefinite { .. }
-            | Self::Mechanism { .. } => ErrorClass::ModelPhysics,
-            Self::DenseEigen { .. }
-            | Self::SturmPivot { .. }
-            | Self::LanczosStalled { .. }
-            | Self::ModesMissing { .. }
-            | Self::Arpack { .. } => ErrorClass::NumericalLimit,
-            Self::MemoryForecast { .. } | Self::OutOfMemory { .. } => ErrorClass::Resources,
-            Self::NotAFile { .. }
-            | Self::GzipDamaged { .. }
-            | Self::GzipInflation { .. }
-            | Self::LineTooLong { .. }
-            | Self::NoData { .. }
-            | Self::MatrixBanner { .. }
-            | Self::MatrixFlavour { .. }
-            | Self::MatrixSizeLine { .. }
-            | Self::MatrixNotSquare { .. }
-            | Self::MatrixOrder { .. }
-            | Self::MatrixMostlyEmpty { .. }
-            | Self::EntryField { .. }
-            | Self::EntryExcess { .. }
-            | Self::EntryIndex { .. }
-            | Self::NonFinite { .. }
-            | Self::EntryCount { .. }
-            | Self::EntriesSurplus { .. }
-            | Self::DoubleTriangle { .. }
-            | Self::SizeMismatch { .. }
-            | Self::TableColumn { .. }
-            | Self::TableRow { .. }
-            | Self::TableField { .. }
-            | Self::NodeRepeated { .. }
-            | Self::DofText { .. }
-            | Self::DofDirection { .. }
-            | Self::DofRepeated { .. }
-            | Self::DofRowOrder { .. }
-            | Self::DofCount { .. }
-            | Self::DofNodeMissing { .. }
-            | Self::DofOrderUnknown { .. }
-            | Self::Hdf5Signature { .. }
-            | Self::Hdf5Open { .. }
-            | Self::Hdf5Read { .. }
-            | Self::Hdf5Missing { .. }
-            | Self::Hdf5Link { .. }
-            | Self::Hdf5ExternalStorage { .. }
-            | Self::Hdf5Filter { .. }
-            | Self::Hdf5Size { .. }
-            | Self::Hdf5Depth { .. }
-            | Self::Hdf5Type { .. }
-            | Self::Hdf5Shape { .. }
-            | Self::Hdf5NoMatrix { .. }
-            | Self::Hdf5AmbiguousMatrix { .. }
-            | Self::Hdf5EmptyMatrix { .. }
-            | Self::Hdf5NotSquare { .. }
-            | Self::Hdf5Pointer { .. }
-            | Self::Hdf5Index { .. }
-            | Self::Hdf5NotFinite { .. }
-            | Self::MeshUnknown { .. }
-            | Self::MeshNotOne { .. }
-            | Self::MeshUnsupported { .. }
-            | Self::MeshNotFinite { .. }
-            | Self::MeshLabelTwice { .. }
-            | Self::XdmfSyntax { .. }
-            | Self::XdmfReference { .. } => ErrorClass::InputData,
-            Self::JobSyntax { .. }
-            | Self::JobKey { .. }
-            | Self::JobNumber { .. }
-            | Self::JobEmpty { .. }
-            | Self::InterfaceTwice { .. }
-            | Self::InterfaceRepeats { .. }
-            | Self::InterfaceOverlap { .. }
-            | Self::InterfaceNodes { .. }
-            | Self::InterfaceConflict { .. }
-            | Self::OutputName { .. }
-            | Self::MissingFlags { .. }
-            | Self::FlagText { .. } => ErrorClass::Usage,
-            Self::Threads { .. } => ErrorClass::Resources,
-            Self::SuperelementFile { source: FileError::OutOfMemory { .. }, .. } => ErrorClass::Resources,
-            Self::SuperelementFile { source: FileError::NotAFile { .. }, .. } => ErrorClass::Io,
-            Self::SuperelementFile { .. } => ErrorClass::InputData,
         }
     }
 }

@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
+use crate::input::Triangle;
 
 pub use document::Notation;
 pub use interface::{Coupling, InterfaceJob, NodeSelection, Origin, Region};
@@ -39,10 +40,9 @@ impl Job {
     ///
     /// # Errors
     ///
-    /// [`Error::Read`] where there is no such file, and everything that [`Job::parse`] and [`Job::validate`] find.
+    /// [`Error::Read`] where there is no such file, [`Error::NotAFile`] for a folder or a pipe, and everything that [`Job::parse`] and [`Job::validate`] find.
     pub fn read(path: &Path) -> Result<Self> {
-        let text = std::fs::read_to_string(path).map_err(|source| Error::Read { path: path.to_owned(), source })?;
-        let job = Self::parse(&text, path)?;
+        let job = Self::parse(&document::text_of(path)?, path)?;
         job.validate()?;
         job.resolve(path.parent().unwrap_or(Path::new("")))
     }
@@ -87,7 +87,7 @@ impl Job {
 }
 
 /// Where the matrices, the meaning of their rows and the nodes come from.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelJob {
     /// File of K; inside an HDF5 file a group follows the colon: `model.h5:/K`.
@@ -100,12 +100,38 @@ pub struct ModelJob {
     /// File of the nodes: a table or a mesh.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nodes: Option<PathBuf>,
+    /// The triangle of K and M that holds, where the other is incomplete.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub symmetric: Option<Triangle>,
+    /// What becomes of entries that repeat a position.
+    #[serde(default, skip_serializing_if = "Duplicates::are_added")]
+    pub duplicates: Duplicates,
+    /// Whether rows without stiffness and mass are dropped; they are an error otherwise.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub drop_empty: bool,
     /// Label of the unit system, copied to the superelement; no number is converted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub units: Option<String>,
     /// What the user knows of the component, to be compared with what the matrices say.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expect: Option<Expectation>,
+}
+
+/// What becomes of entries of a matrix that repeat a position.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Duplicates {
+    /// They are added, which is the rule of assembled formats; the report counts them.
+    #[default]
+    Add,
+    /// They are an error.
+    Refuse,
+}
+
+impl Duplicates {
+    fn are_added(&self) -> bool {
+        *self == Self::Add
+    }
 }
 
 /// Mass properties known from elsewhere.

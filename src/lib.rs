@@ -122,6 +122,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let evidence = Evidence {
         partition: &partition,
         internal,
+        factor: &factor,
         rigid: &rigid,
         rank,
         constraint: &constraint,
@@ -131,7 +132,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         certificate: certificate.as_ref(),
         expect: job.model.expect.as_ref(),
     };
-    let checks = verification::verify(&evidence)?;
+    let findings = verification::verify(&evidence)?;
 
     let work = WorkCounters {
         n_factorisations: 1
@@ -143,7 +144,14 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         factor_flops: analysis.flops,
         factor_nonzeros: analysis.nnz_factor as u64,
     };
-    let (superelement, report) =
-        output::output(&Results { job, input: &facts, model: &model, loose: &loose, evidence, checks: &checks, work })?;
+    let (superelement, report) = output::output(&Results {
+        job,
+        input: &facts,
+        model: &model,
+        loose: &loose,
+        evidence,
+        findings: &findings,
+        work,
+    })?;
     Ok(Outcome { superelement, report })
 }

@@ -26,16 +26,28 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// A folder with the bundled example, as a copy of the repository has it.
+/// A folder with the bundled example and the comparison with peers, as a copy of the repository has them.
 fn workplace() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("folder");
-    let example = folder.path().join("examples/bracket");
-    std::fs::create_dir_all(&example).expect("folder");
-    for entry in std::fs::read_dir(root().join("examples/bracket")).expect("the bundled example") {
-        let path = entry.expect("entry").path();
-        std::fs::copy(&path, example.join(path.file_name().expect("name"))).expect("copied");
+    for part in ["examples/bracket", "benches/peers"] {
+        let copy = folder.path().join(part);
+        std::fs::create_dir_all(&copy).expect("folder");
+        for entry in std::fs::read_dir(root().join(part)).expect("a folder of the repository") {
+            let path = entry.expect("entry").path();
+            if path.is_file() {
+                std::fs::copy(&path, copy.join(path.file_name().expect("name"))).expect("copied");
+            }
+        }
     }
     folder
+}
+
+/// What the comparison with peers lacks on this machine; nothing is installed to find out.
+fn lacking(folder: &Path, content: &str) -> Option<String> {
+    let check = format!("{content} --check");
+    let ended = Command::new("bash").args(["-c", &check]).current_dir(folder).env("PATH", search_path()).output();
+    let ended = ended.expect("a shell");
+    (!ended.status.success()).then(|| String::from_utf8_lossy(&ended.stderr).trim().replace('\n', "; "))
 }
 
 /// The search path with the program under test in front.
@@ -65,6 +77,10 @@ fn every_command_of_the_readme_runs() {
     let mut n_run = 0;
     for (mark, content) in blocks() {
         match mark {
+            "sh peers" => match lacking(folder.path(), content) {
+                None => run(folder.path(), "bash", &["-euo", "pipefail", "-c", content]),
+                Some(what) => println!("skipped: {content}: {what}"),
+            },
             "sh run" => run(folder.path(), "bash", &["-euo", "pipefail", "-c", content]),
             "python run" if has_python => run(folder.path(), &python, &["-c", content]),
             "python run" => println!("skipped: {python} has no numpy and safetensors; set SUPEL_PYTHON"),
@@ -76,9 +92,9 @@ fn every_command_of_the_readme_runs() {
             }
             _ => panic!("a block of an unknown kind: {mark}"),
         }
-        n_run += usize::from(mark.ends_with(" run"));
+        n_run += usize::from(mark.ends_with(" run") || mark.ends_with(" peers"));
     }
-    assert_eq!(n_run, 6, "blocks that were run");
+    assert_eq!(n_run, 7, "blocks that are run");
     let again = Job::read(&folder.path().join("again.json")).expect("the job kept in the file is a job");
     assert_eq!(again.write.superelement.file_name(), Some("small.supel".as_ref()));
     for name in ["examples/bracket/bracket.supel", "examples/bracket/bracket.report.json", "bracket-cb.supel"] {

@@ -12,6 +12,17 @@ pub struct Terminal<'a> {
     pub(super) paint: Paint,
     /// Whether progress is shown.
     pub(super) progress: Progress,
+    /// Whether the streams are those of a process of `supel`, which can start another one.
+    pub(super) program: Program,
+}
+
+/// What runs the command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Program {
+    /// The program `supel`.
+    Supel,
+    /// A program that calls this library.
+    Other,
 }
 
 /// Whether progress is shown.
@@ -24,7 +35,7 @@ pub(super) enum Progress {
 impl<'a> Terminal<'a> {
     /// Streams that are no terminal: no colour, no progress.
     pub fn plain(out: &'a mut dyn Write, err: &'a mut dyn Write) -> Self {
-        Self { out, err, paint: Paint::Plain, progress: Progress::Hidden }
+        Self { out, err, paint: Paint::Plain, progress: Progress::Hidden, program: Program::Other }
     }
 
     /// The streams of the process: colour and progress where a person looks on and `NO_COLOR` is not set.
@@ -33,7 +44,7 @@ impl<'a> Terminal<'a> {
         let is_colourful = std::io::stdout().is_terminal() && !is_colour_refused;
         let paint = if is_colourful { Paint::Colour } else { Paint::Plain };
         let progress = if std::io::stderr().is_terminal() { Progress::Shown } else { Progress::Hidden };
-        Self { out, err, paint, progress }
+        Self { out, err, paint, progress, program: Program::Supel }
     }
 
     /// Writes to stdout. A reader that has gone away (`supel … | head`) is no error: the exit code still tells how

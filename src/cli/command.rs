@@ -6,8 +6,8 @@ use super::flags::{CommandLine, InspectFlags, ModelFlags, OutputFlags, ReduceFla
 use super::process;
 use crate::error::{Error, Result};
 use crate::job::{
-    Certify, Coupling, InterfaceJob, Job, ModeSelection, ModelJob, NodeSelection, Origin, ReductionJob, RunJob,
-    WriteJob,
+    Certify, Coupling, Duplicates, InterfaceJob, Job, ModeSelection, ModelJob, NodeSelection, Origin, ReductionJob,
+    RunJob, WriteJob,
 };
 
 /// One command, ready to run.
@@ -15,6 +15,8 @@ use crate::job::{
 pub(super) enum Command {
     Reduce(Box<ReduceCommand>),
     Inspect(InspectCommand),
+    /// What a child process does for its parent, see [`super::rehearsal`].
+    RehearseReading,
 }
 
 /// Reduce a job.
@@ -77,6 +79,7 @@ impl Command {
                 };
                 Ok(Self::Inspect(InspectCommand { file, answer }))
             }
+            Typed::RehearseReading => Ok(Self::RehearseReading),
         }
     }
 }
@@ -94,6 +97,9 @@ fn build_reduce(flags: ReduceFlags) -> Result<ReduceCommand> {
         Some(path) => override_job(Job::read(&path)?, model, &reduction, output)?,
         None => one_off_job(model, &reduction, output)?,
     };
+    if strictness == Strictness::Strict {
+        job.model.duplicates = Duplicates::Refuse;
+    }
     job.run.certify = reduction.certify.map_or(job.run.certify, Certify::from);
     job.run.memory_gib = run.memory_gib.or(job.run.memory_gib);
     job.validate()?;
@@ -112,6 +118,8 @@ fn override_job(mut job: Job, model: ModelFlags, reduction: &ReductionFlags, out
     replace(&mut job.model.mass, model.mass);
     job.model.dofs = model.dofs.or(job.model.dofs);
     job.model.nodes = model.nodes.or(job.model.nodes);
+    job.model.symmetric = model.symmetric.map(Into::into).or(job.model.symmetric);
+    job.model.drop_empty |= model.drop_empty;
     replace(&mut job.reduction.method, reduction.method.map(Into::into));
     replace(&mut job.reduction.modes, mode_selection(reduction));
     replace(&mut job.reduction.eigensolver, reduction.eigensolver.map(Into::into));
@@ -141,8 +149,9 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
             mass: mass.clone(),
             dofs: model.dofs,
             nodes: model.nodes,
-            units: None,
-            expect: None,
+            symmetric: model.symmetric.map(Into::into),
+            drop_empty: model.drop_empty,
+            ..ModelJob::default()
         },
         interfaces,
         reduction: ReductionJob {

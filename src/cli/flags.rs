@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 
-use crate::job;
+use crate::{input, job};
 
 /// Turns finite element models into verified superelements for multibody simulation.
 #[derive(Debug, Parser)]
@@ -21,6 +21,9 @@ pub(super) enum Typed {
     Reduce(Box<ReduceFlags>),
     /// Show what is in a superelement file
     Inspect(InspectFlags),
+    /// Read a model described on stdin and forget it
+    #[command(hide = true, name = super::rehearsal::SUBCOMMAND)]
+    RehearseReading,
 }
 
 const EXIT_CODES: &str = "\
@@ -56,6 +59,12 @@ pub(super) struct ModelFlags {
     /// Table of nodes or mesh
     #[arg(long, value_name = "FILE")]
     pub(super) nodes: Option<PathBuf>,
+    /// Triangle of K and M that holds, where the other is incomplete
+    #[arg(long, value_enum)]
+    pub(super) symmetric: Option<Triangle>,
+    /// Drop rows that have neither stiffness nor mass; the report names them
+    #[arg(long)]
+    pub(super) drop_empty: bool,
     /// Interface whose nodes keep their own dofs: hub=12,17,19 or hub=group:HUB or hub=rows:0,1,2 (repeatable)
     #[arg(long, value_name = "NAME=NODES")]
     pub(super) interface: Vec<String>,
@@ -104,7 +113,7 @@ pub(super) struct OutputFlags {
     /// Write the superelement even if a check failed; the exit code stays 1
     #[arg(long)]
     pub(super) allow_unverified: bool,
-    /// Treat warnings as failed checks
+    /// Treat warnings as failed checks and refuse repeated entries
     #[arg(long)]
     pub(super) strict: bool,
 }
@@ -134,6 +143,13 @@ pub(super) struct InspectFlags {
     pub(super) job: bool,
 }
 
+/// The triangles, as they are typed.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum Triangle {
+    Lower,
+    Upper,
+}
+
 /// The methods, as they are typed.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(super) enum Method {
@@ -153,6 +169,15 @@ pub(super) enum Eigensolver {
 pub(super) enum Certify {
     None,
     Count,
+}
+
+impl From<Triangle> for input::Triangle {
+    fn from(triangle: Triangle) -> Self {
+        match triangle {
+            Triangle::Lower => Self::Lower,
+            Triangle::Upper => Self::Upper,
+        }
+    }
 }
 
 impl From<Method> for job::Method {

@@ -1,7 +1,7 @@
 //! The command line: what was typed becomes a checked command, the command runs, and one place reports errors.
 //!
-//! stdout carries the answer, text or one JSON document; stderr carries errors and, on a terminal, progress. The exit
-//! code is a contract, see [`ExitCode`].
+//! stdout carries the answer, text or one JSON document (with `--json` an error is one too); stderr carries errors and,
+//! on a terminal, progress. The exit code is a contract, see [`ExitCode`].
 //!
 //! An interrupt (Ctrl-C) ends the process by the signal itself, which shells and make report as 130: outputs get
 //! their names only when they are whole, so that no handler has anything to undo.
@@ -15,20 +15,22 @@ mod memory;
 mod process;
 mod progress;
 mod reduce;
+mod refusal;
+mod rehearsal;
 
-use std::error::Error as _;
 use std::ffi::OsString;
 use std::io::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use clap::Parser;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::job::Job;
 use crate::outcome::{Outcome, Resources};
 use crate::report::Observer;
 
 use command::Command;
+use refusal::{Form, Refusal};
 
 pub use answer::Terminal;
 pub use exit_code::ExitCode;
@@ -43,21 +45,22 @@ pub fn run<I>(args: I, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> ExitC
 where
     I: IntoIterator<Item = OsString>,
 {
+    let args: Vec<OsString> = args.into_iter().collect();
+    // Known before the rest is: a command line that cannot be read is answered in the form it asks for.
+    let form = if args.iter().any(|arg| arg == "--json") { Form::Json } else { Form::Text };
     let flags = match flags::CommandLine::try_parse_from(args) {
         Ok(flags) => flags,
-        Err(error) => return refuse(&error, terminal),
+        Err(error) if error.use_stderr() => return Refusal::usage(&error).tell(form, terminal),
+        // Help and version are answers.
+        Err(error) => {
+            terminal.answer(&error.render().to_string());
+            return ExitCode::Done;
+        }
     };
     match catch_unwind(AssertUnwindSafe(|| execute(flags, pipeline, terminal))) {
         Ok(Ok(code)) => code,
-        Ok(Err(error)) => {
-            complain(&error, terminal);
-            ExitCode::from(error.class())
-        }
-        Err(_) => {
-            terminal
-                .complain("supel: internal error: this is a defect of supel, please report it with the lines above");
-            ExitCode::InternalError
-        }
+        Ok(Err(error)) => Refusal::of(&error).tell(form, terminal),
+        Err(_) => Refusal::defect().tell(form, terminal),
     }
 }
 
@@ -65,34 +68,7 @@ fn execute(flags: flags::CommandLine, pipeline: Pipeline, terminal: &mut Termina
     match Command::build(flags)? {
         Command::Reduce(command) => reduce::run(&command, pipeline, terminal),
         Command::Inspect(command) => inspect::run(&command, terminal),
-    }
-}
-
-/// What clap says of a command line it cannot read; help and version are answers, not errors.
-fn refuse(error: &clap::Error, terminal: &mut Terminal<'_>) -> ExitCode {
-    if error.use_stderr() {
-        let text = error.render().to_string();
-        let text = text.strip_prefix("error: ").unwrap_or(&text);
-        terminal.complain(&format!("supel: error: {}", text.trim_end()));
-        ExitCode::Usage
-    } else {
-        terminal.answer(&error.render().to_string());
-        ExitCode::Done
-    }
-}
-
-/// The error with its causes, each on a line of its own unless the line before has quoted it.
-fn complain(error: &Error, terminal: &mut Terminal<'_>) {
-    let mut said = error.to_string();
-    terminal.complain(&format!("supel: error: {said}"));
-    let mut cause = error.source();
-    while let Some(deeper) = cause {
-        let text = deeper.to_string();
-        if !said.contains(&text) {
-            terminal.complain(&format!("  caused by: {text}"));
-            said = text;
-        }
-        cause = deeper.source();
+        Command::RehearseReading => rehearsal::read_from_stdin().map(|()| ExitCode::Done),
     }
 }
 

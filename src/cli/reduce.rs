@@ -4,17 +4,20 @@ use std::path::Path;
 
 use supel_runtime::{StagedFile, Superelement, abandoned_parts};
 
-use super::answer::Terminal;
+use super::answer::{Program, Terminal};
 use super::command::{Answer, ReduceCommand, Strictness, Unverified};
 use super::exit_code::ExitCode;
 use super::progress::StageLine;
-use super::{Pipeline, memory, process};
+use super::{Pipeline, memory, process, rehearsal};
 use crate::error::{Error, Result};
 use crate::outcome::{Outcome, Resources};
 use crate::report::{Observer, Report, StageClock, summary};
 use crate::verification::check::{Check, Limits, Verdict};
 
 pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
+    if terminal.program == Program::Supel {
+        rehearsal::rehearse(&command.job.model)?;
+    }
     let n_threads = command.n_threads;
     let threads = rayon::ThreadPoolBuilder::new()
         .num_threads(n_threads)
@@ -50,7 +53,7 @@ fn write_superelement(command: &ReduceCommand, superelement: &Superelement, repo
     let staged = StagedFile::write(path, &sealed.bytes).map_err(failed)?;
     report.body.checks.push(file_check(staged.path(), superelement));
     let is_verified = match (report.body.verdict(), command.strictness) {
-        (Verdict::Pass, _) | (Verdict::Warn, Strictness::Normal) => true,
+        (Verdict::Info | Verdict::Pass, _) | (Verdict::Warn, Strictness::Normal) => true,
         (Verdict::Warn, Strictness::Strict) | (Verdict::Fail, _) => false,
     };
     if is_verified || command.unverified == Unverified::Written {

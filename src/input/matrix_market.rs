@@ -7,11 +7,11 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::MatrixInput;
 use super::banner::{Head, HeadReader, square_order};
 use super::blocks::{BLOCK_BYTES, LastLine, for_each_batch};
 use super::digits::significant_digits;
 use super::entries::{Entries, Fault, parse_entries};
+use super::{MatrixInput, Triangle};
 use crate::error::{Error, Result};
 use crate::sparse::{Declared, MAX_ORDER, Triplets};
 
@@ -40,12 +40,13 @@ pub(super) enum OrderSource {
 }
 
 /// Reads a matrix from text, plain or gzipped.
-pub(super) fn read(path: &Path) -> Result<TextMatrix> {
-    read_in_blocks(path, BLOCK_BYTES)
+/// With a `triangle` asked for, entries on both sides of the diagonal of a matrix declared symmetric are let pass.
+pub(super) fn read(path: &Path, triangle: Option<Triangle>) -> Result<TextMatrix> {
+    read_in_blocks(path, triangle, BLOCK_BYTES)
 }
 
 /// Reads a matrix in blocks of about this many bytes. The block size changes no result.
-pub(super) fn read_in_blocks(path: &Path, block_bytes: usize) -> Result<TextMatrix> {
+fn read_in_blocks(path: &Path, triangle: Option<Triangle>, block_bytes: usize) -> Result<TextMatrix> {
     let mut reading =
         Reading { path, head_reader: HeadReader::new(path), head: None, triplets: Triplets::default(), n_lines: 0 };
     let ending = for_each_batch(path, block_bytes, |batch| reading.take(batch))?;
@@ -64,7 +65,9 @@ pub(super) fn read_in_blocks(path: &Path, block_bytes: usize) -> Result<TextMatr
         }
     };
     check_emptiness(path, n, triplets.len())?;
-    let (matrix, notes) = triplets.assemble(n as usize, declared, path)?;
+    let assembled = if triangle.is_some() { Declared::General } else { declared };
+    let (matrix, mut notes) = triplets.assemble(n as usize, assembled, path)?;
+    notes.mirrored &= declared == Declared::General;
     let digits = significant_digits(matrix.data());
     let input = MatrixInput { matrix, notes, digits, path: path.to_owned(), digest: ending.digest };
     Ok(TextMatrix { input, order, last_line: ending.last_line })
@@ -174,7 +177,7 @@ mod tests {
         }
         let path = folder.join("a.mtx");
         std::fs::write(&path, text).expect("a file");
-        let whole = read(&path).expect("a matrix");
+        let whole = read(&path, None).expect("a matrix");
         (path, whole)
     }
 
@@ -183,7 +186,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let (path, whole) = sample(folder.path());
         for block_bytes in 1..=64 {
-            let blocks = read_in_blocks(&path, block_bytes).expect("a matrix");
+            let blocks = read_in_blocks(&path, None, block_bytes).expect("a matrix");
             assert_eq!(blocks.input.matrix, whole.input.matrix, "{block_bytes}");
             assert_eq!(blocks.input.digest, whole.input.digest);
             assert_eq!(blocks.last_line, LastLine::Terminated);
@@ -197,9 +200,9 @@ mod tests {
         let head = "%%MatrixMarket matrix coordinate real general\n3 3 3\n1 1 1\n\n% x\n";
         for tail in ["2 2 x\n3 3 3\n", "2 2 2\n4 1 1\n", "1 1 1\n2 2 2\n3 3 3\n", "1 1 1\n"] {
             std::fs::write(&path, format!("{head}{tail}")).expect("a file");
-            let whole = read(&path).err().expect("an error").to_string();
+            let whole = read(&path, None).err().expect("an error").to_string();
             for block_bytes in 1..=64 {
-                let blocks = read_in_blocks(&path, block_bytes).err().expect("an error").to_string();
+                let blocks = read_in_blocks(&path, None, block_bytes).err().expect("an error").to_string();
                 assert_eq!(blocks, whole, "{block_bytes}");
             }
         }

@@ -6,6 +6,7 @@ mod banner;
 mod blocks;
 mod digits;
 mod dof_map;
+mod empty_rows;
 mod entries;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
@@ -15,10 +16,12 @@ mod node_table;
 mod note;
 mod source;
 mod table;
+mod triangle;
 
 pub use digits::significant_digits;
-pub use model_files::{Input, read};
+pub use model_files::{Input, hdf5_file, read};
 pub use note::InputNote;
+pub use triangle::Triangle;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

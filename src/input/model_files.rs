@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use super::blocks::LastLine;
 use super::dof_map::{self, DirectionBase};
 use super::matrix_market::{OrderSource, TextMatrix};
-use super::{DofMap, InputNote, MatrixInput, Nodes, matrix_market, node_table};
+use super::{DofMap, InputNote, MatrixInput, Nodes, Triangle, empty_rows, matrix_market, node_table};
 use crate::error::{Error, Result};
-use crate::job::ModelJob;
+use crate::job::{Duplicates, ModelJob};
 use crate::sparse::SparseMatrix;
 
 /// A finite element model as it was read: matrices of one size, a dof map that fits them, nodes that fit the map.
@@ -30,16 +30,20 @@ pub struct Input {
 ///
 /// # Errors
 /// Those of the files; [`Error::SizeMismatch`], [`Error::DofCount`], [`Error::DofNodeMissing`] and
-/// [`Error::DofOrderUnknown`] where they do not fit together.
+/// [`Error::DofOrderUnknown`] where they do not fit together; [`Error::Duplicates`] where the job refuses them.
 pub fn read(model: &ModelJob) -> Result<Input> {
     let mut notes = Vec::new();
-    let (stiffness, mass) =
-        rayon::join(|| read_matrix(&model.stiffness, Role::Stiffness), || read_matrix(&model.mass, Role::Mass));
-    let (stiffness, mass) = fit_matrices(stiffness?, mass?, &mut notes)?;
+    let (stiffness, mass) = rayon::join(|| read_matrix(model, Role::Stiffness), || read_matrix(model, Role::Mass));
+    let (mut stiffness, mut mass) = fit_matrices(stiffness?, mass?, &mut notes)?;
+    for matrix in [&mut stiffness, &mut mass] {
+        refuse_duplicates(matrix, model.duplicates)?;
+        notes.extend(model.symmetric.and_then(|triangle| take_triangle(matrix, triangle)));
+        notes.extend(last_row_empty(matrix));
+    }
     let n = stiffness.matrix.rows();
     let nodes = model.nodes.as_deref().map(read_nodes).transpose()?;
     let given = nodes.as_ref().zip(model.nodes.as_deref());
-    let dofs = match (model.dofs.as_deref(), given) {
+    let mut dofs = match (model.dofs.as_deref(), given) {
         (Some(path), given) => Some(read_dofs(path, n, given, &mut notes)?),
         (None, Some((nodes, path))) => {
             let dofs = dof_map::default_order(nodes, path, n)?;
@@ -49,7 +53,17 @@ pub fn read(model: &ModelJob) -> Result<Input> {
         }
         (None, None) => None,
     };
+    if model.drop_empty {
+        notes.extend(empty_rows::drop_empty(&mut stiffness, &mut mass, &mut dofs));
+    }
     Ok(Input { stiffness, mass, dofs, nodes, notes })
+}
+
+/// The first file of a model that the HDF5 library reads, where one is.
+pub fn hdf5_file(model: &ModelJob) -> Option<PathBuf> {
+    let matrices = [&model.stiffness, &model.mass].into_iter().filter_map(|path| Some(hdf5_location(path)?.0));
+    let nodes = model.nodes.iter().filter(|path| is_hdf5_mesh(path)).cloned();
+    matrices.chain(nodes).find(|path| path.is_file())
 }
 
 /// A matrix from whichever kind of file.
@@ -65,19 +79,28 @@ enum Role {
     Mass,
 }
 
-fn read_matrix(path: &Path, role: Role) -> Result<Matrix> {
+fn read_matrix(model: &ModelJob, role: Role) -> Result<Matrix> {
+    let path = match role {
+        Role::Stiffness => &model.stiffness,
+        Role::Mass => &model.mass,
+    };
     match hdf5_location(path) {
         Some((file, group)) => read_hdf5_matrix(&file, group.as_deref(), role).map(Matrix::Hdf5),
-        None => matrix_market::read(path).map(Matrix::Text),
+        None => matrix_market::read(path, model.symmetric).map(Matrix::Text),
     }
 }
 
 fn read_nodes(path: &Path) -> Result<Nodes> {
-    const MESHES: [&str; 6] = ["h5m", "hmf", "med", "rmed", "xdmf", "xmf"];
-    if has_extension(path, &MESHES) || is_hdf5(path) {
+    if is_hdf5_mesh(path) {
         return read_hdf5_nodes(path);
     }
     node_table::read(path)
+}
+
+/// A mesh in HDF5, or in XML beside it.
+fn is_hdf5_mesh(path: &Path) -> bool {
+    const MESHES: [&str; 6] = ["h5m", "hmf", "med", "rmed", "xdmf", "xmf"];
+    has_extension(path, &MESHES) || is_hdf5(path)
 }
 
 #[cfg(feature = "hdf5")]
@@ -172,6 +195,28 @@ fn take_notes(matrix: Matrix, notes: &mut Vec<InputNote>) -> (MatrixInput, Order
         notes.push(InputNote::Mirrored { path: input.path.clone() });
     }
     (input, order)
+}
+
+fn refuse_duplicates(matrix: &MatrixInput, duplicates: Duplicates) -> Result<()> {
+    match (duplicates, matrix.notes.n_duplicates) {
+        (Duplicates::Refuse, count @ 1..) => Err(Error::Duplicates { path: matrix.path.clone(), count }),
+        _ => Ok(()),
+    }
+}
+
+/// Replaces the other triangle by the mirror image of this one.
+fn take_triangle(matrix: &mut MatrixInput, triangle: Triangle) -> Option<InputNote> {
+    let (mirrored, n_differing) = triangle.mirrored(&matrix.matrix);
+    matrix.matrix = mirrored;
+    (n_differing > 0).then(|| InputNote::TriangleTaken { path: matrix.path.clone(), triangle, n_differing })
+}
+
+/// An empty last row where no other row is empty: what indices from zero leave in a matrix that reads as if from one.
+fn last_row_empty(matrix: &MatrixInput) -> Option<InputNote> {
+    let n = matrix.matrix.rows();
+    let mut empty = (0..n).filter(|row| matrix.matrix.outer_view(*row).is_none_or(|view| view.nnz() == 0));
+    let is_last = n > 1 && empty.next() == Some(n - 1);
+    is_last.then(|| InputNote::LastRowEmpty { path: matrix.path.clone(), n })
 }
 
 /// Adds empty rows and columns up to the order n.

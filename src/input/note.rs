@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use super::{Dof, Triangle};
+
 /// A remark on the input that is no error. Its text is one line for the report.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -18,6 +20,31 @@ pub enum InputNote {
     Mirrored {
         /// The file of the matrix.
         path: PathBuf,
+    },
+    /// One triangle was taken for both on request, and the other differed.
+    TriangleTaken {
+        /// The file of the matrix.
+        path: PathBuf,
+        /// The triangle that holds.
+        triangle: Triangle,
+        /// Positions of the other triangle that held something else.
+        n_differing: usize,
+    },
+    /// Rows without stiffness and mass were dropped on request.
+    EmptyRowsDropped {
+        /// How many.
+        count: usize,
+        /// The first, from 1.
+        row: usize,
+        /// What it stands for, where known.
+        dof: Option<Dof>,
+    },
+    /// The last row of a matrix, and no other, is empty: its indices may count from zero.
+    LastRowEmpty {
+        /// The file of the matrix.
+        path: PathBuf,
+        /// The order, which is the row.
+        n: usize,
     },
     /// A file without a size line: its order is the largest index.
     OrderFromIndices {
@@ -61,6 +88,16 @@ pub enum InputNote {
     },
 }
 
+impl InputNote {
+    /// The code of the warning that this remark is, where it is more than a remark.
+    pub fn warning_code(&self) -> Option<&'static str> {
+        match self {
+            Self::LastRowEmpty { .. } => Some("W-INDEX-BASE"),
+            _ => None,
+        }
+    }
+}
+
 impl fmt::Display for InputNote {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -71,6 +108,29 @@ impl fmt::Display for InputNote {
                 write!(
                     f,
                     "{}: only one triangle is given; it was mirrored, as stiffness and mass are symmetric",
+                    file_name(path)
+                )
+            }
+            Self::TriangleTaken { path, triangle, n_differing } => {
+                let (kept, other) = match triangle {
+                    Triangle::Lower => ("lower", "above"),
+                    Triangle::Upper => ("upper", "below"),
+                };
+                write!(
+                    f,
+                    "{}: the {kept} triangle was taken for both as asked; {n_differing} positions {other} the diagonal differ \
+                     from it and were left out",
+                    file_name(path)
+                )
+            }
+            Self::EmptyRowsDropped { count, row, dof } => {
+                let dof = dof.map(|dof| format!(", {dof}")).unwrap_or_default();
+                write!(f, "{count} rows without stiffness and mass were dropped as asked; the first is row {row}{dof}")
+            }
+            Self::LastRowEmpty { path, n } => {
+                write!(
+                    f,
+                    "{}: row {n}, the last one, is empty and no other is; if its indices count from zero, add one to each",
                     file_name(path)
                 )
             }

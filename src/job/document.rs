@@ -3,6 +3,7 @@
 //! Keys are checked before values are read, because the place and the nearest known key tell a user more than the
 //! list of expected keys that a deserialiser gives.
 
+use std::io::Read;
 use std::path::Path;
 
 use super::Job;
@@ -11,7 +12,7 @@ use crate::error::{Error, Result};
 /// The keys of a job by the table they belong to; `[]` stands for each element of a list.
 const KEYS: &[(&str, &[&str])] = &[
     ("", &["model", "interface", "reduction", "run", "write"]),
-    ("model", &["stiffness", "mass", "dofs", "nodes", "units", "expect"]),
+    ("model", &["stiffness", "mass", "dofs", "nodes", "symmetric", "duplicates", "drop_empty", "units", "expect"]),
     ("model.expect", &["mass", "cg"]),
     ("interface[]", &["name", "nodes", "coupling", "origin", "dofs"]),
     ("interface[].nodes", &["within", "rows"]),
@@ -48,6 +49,28 @@ impl Notation {
             _ => Self::Toml,
         }
     }
+}
+
+/// The longest job document: a million labels of interface nodes, written as JSON with a line for each.
+const MAX_BYTES: u64 = 1 << 24;
+
+/// The text of the document at `path`.
+pub(super) fn text_of(path: &Path) -> Result<String> {
+    let failed = |source| Error::Read { path: path.to_owned(), source };
+    let wrong = |message: String| Error::JobSyntax { path: path.to_owned(), line: None, message };
+    // A pipe would be waited for, and a device has no end.
+    if !std::fs::metadata(path).map_err(failed)?.is_file() {
+        return Err(Error::NotAFile { path: path.to_owned() });
+    }
+    let mut bytes = Vec::new();
+    std::fs::File::open(path).map_err(failed)?.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(wrong(format!("longer than {MAX_BYTES} bytes; no job document is, is this a matrix?")));
+    }
+    String::from_utf8(bytes).map_err(|fault| {
+        let at = fault.utf8_error().valid_up_to();
+        wrong(format!("byte {at} is not UTF-8 text; expected a job document in TOML or JSON"))
+    })
 }
 
 pub(super) fn parse(text: &str, path: &Path) -> Result<Job> {

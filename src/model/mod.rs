@@ -95,7 +95,8 @@ impl Finding {
     pub fn warning(&self) -> Option<&'static str> {
         match self {
             Self::Symmetrised { asymmetry, .. } => (*asymmetry > ASYMMETRY_WARN).then_some("W-UNSYMMETRIC"),
-            Self::MasslessRows { .. } | Self::FreeParticles { .. } => None,
+            Self::MasslessRows { .. } => None,
+            Self::FreeParticles { .. } => Some("W-FREE-PARTICLE"),
             Self::NegativeMassByRounding { .. } => Some("W-NEGATIVE-MASS"),
             Self::ConstrainedInterface { .. } => Some("W-CONSTRAINED-INTERFACE"),
             Self::HangingInterface { .. } => Some("W-HANGING"),

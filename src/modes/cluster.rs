@@ -95,7 +95,7 @@ mod tests {
         let n = 7;
         let mass = SparseMatrix::new((n, n), (0..=n).collect(), (0..n as u32).collect(), vec![1.0; n]);
         let plane = Mat::from_fn(n, 2, |i, j| if i % 2 == j { (1.0 + i as f64) / 9.0 } else { 0.0 });
-        let error = ModeError { backward: 0.0, cancellation: 4.0, relative_bar: 0.0, rounding_floor: 0.0 };
+        let error = ModeError { cancellation: 4.0, ..ModeError::default() };
         let turned = |angle: f64| {
             let (s, c) = angle.sin_cos();
             let mut x = Mat::from_fn(n, 2, |i, j| {

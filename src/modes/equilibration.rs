@@ -38,6 +38,17 @@ impl Equilibrated {
         dense::norm(&r) / ((self.stiffness_norm + lambda.abs() * self.mass_norm) * self.scaled_norm(x))
     }
 
+    /// The row where a residual is largest, equilibrated; a row that is not a number comes first.
+    pub fn largest(&self, residual: &[f64]) -> usize {
+        let mut worst = (0.0, 0);
+        for (row, (r, d)) in residual.iter().zip(&self.scale).enumerate() {
+            if dense::worse(r.abs() * d, worst.0) {
+                worst = (r.abs() * d, row);
+            }
+        }
+        worst.1
+    }
+
     /// ‖D⁻¹x‖.
     pub fn scaled_norm(&self, x: &[f64]) -> f64 {
         let x: Vec<f64> = x.iter().zip(&self.scale).map(|(x, d)| x / d).collect();

@@ -129,13 +129,15 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
     };
     let mut shapes = pairs.vectors;
     quality::normalise(problem.mass, &mut shapes);
-    let (mut lambda, mut errors) = quality::rayleigh_quotients(problem, shapes.as_ref());
+    let (mut lambda, mut errors, mut residuals) = quality::rayleigh_quotients(problem, shapes.as_ref());
     let repeated = cluster::repeated(&lambda, &errors);
     if !repeated.is_empty() {
         cluster::canonicalise(problem.mass, &repeated, &mut shapes);
-        (lambda, errors) = quality::rayleigh_quotients(problem, shapes.as_ref());
+        (lambda, errors, residuals) = quality::rayleigh_quotients(problem, shapes.as_ref());
         cluster::average(&repeated, &mut lambda);
     }
+    quality::add_residual_bars(eigenproblem, &lambda, &mut errors, residuals, pairs.next);
+    let work = EigenWork { solves: pairs.work.solves + lambda.len(), ..pairs.work };
     Ok(Modes {
         lambda,
         shapes,
@@ -145,7 +147,7 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
             Wanted::UpTo(limit) => Some(limit),
         },
         next: pairs.next,
-        work: pairs.work,
+        work,
     })
 }
 

@@ -2,7 +2,8 @@
 
 use faer::{Mat, MatRef};
 
-use super::{Equilibrated, ModalProblem};
+use super::eigenproblem::Problem;
+use super::{CLUSTER_GAP, Equilibrated, ModalProblem};
 use crate::dense;
 use crate::rigid::absolute_energy;
 use crate::sparse::SparseMatrix;
@@ -15,8 +16,12 @@ pub struct ModeError {
     pub backward: f64,
     /// c = (|x|ᵀ|K||x| + λ|x|ᵀ|M||x|) / (λ xᵀMx): how much larger the cancelling terms are than the modal energy (M-09).
     pub cancellation: f64,
-    /// Relative error bar of λ: the digits of the data and of the arithmetic, each times its share of c.
+    /// Relative error bar of λ: that of the data and that of the residual.
     pub relative_bar: f64,
+    /// The share of the digits of the data and of the arithmetic, each times its share of c.
+    pub data_bar: f64,
+    /// The share of the residual: what the eigensolver left, by Kato and Temple.
+    pub residual_bar: f64,
     /// ε ‖K‖ ‖x‖² / xᵀMx, equilibrated: an eigenvalue of this size is rounding of whoever made K, whatever the terms of
     /// xᵀKx, which may all vanish for a matrix that was itself projected.
     pub rounding_floor: f64,
@@ -35,31 +40,93 @@ pub(super) fn normalise(mass: &SparseMatrix, shapes: &mut Mat<f64>) {
     }
 }
 
-/// λ = xᵀKx of M-orthonormal shapes, and what is known of their errors.
-pub(super) fn rayleigh_quotients(problem: ModalProblem<'_>, shapes: MatRef<'_, f64>) -> (Vec<f64>, Vec<ModeError>) {
-    let (forces, momenta) = rayon::join(|| product(problem.stiffness, shapes), || product(problem.mass, shapes));
+/// λ = xᵀKx of M-orthonormal shapes, what is known of their errors but for the residual, and r = Kx − λMx.
+pub(super) fn rayleigh_quotients(
+    problem: ModalProblem<'_>,
+    shapes: MatRef<'_, f64>,
+) -> (Vec<f64>, Vec<ModeError>, Mat<f64>) {
+    let (mut forces, momenta) = rayon::join(|| product(problem.stiffness, shapes), || product(problem.mass, shapes));
     let (stiffness_terms, mass_terms) =
         rayon::join(|| absolute_energy(problem.stiffness, shapes), || absolute_energy(problem.mass, shapes));
     let norms = Equilibrated::of(problem.stiffness, problem.mass);
     let rounding = f64::EPSILON;
-    (0..shapes.ncols())
+    let (lambda, errors) = (0..shapes.ncols())
         .map(|j| {
             let x = dense::column(shapes, j);
-            let (force, momentum) = (dense::column(forces.as_ref(), j), dense::column(momenta.as_ref(), j));
+            let (force, momentum) = (dense::column_mut(forces.as_mut(), j), dense::column(momenta.as_ref(), j));
             let modal_mass = dense::dot(x, momentum);
             let lambda = dense::dot(x, force) / modal_mass;
-            let residual: Vec<f64> = force.iter().zip(momentum).map(|(f, p)| f - lambda * p).collect();
+            dense::add_scaled(force, -lambda, momentum);
             let (k_share, m_share) = (stiffness_terms[j] / (lambda.abs() * modal_mass), mass_terms[j] / modal_mass);
+            let data_bar =
+                (problem.precision.stiffness + rounding) * k_share + (problem.precision.mass + rounding) * m_share;
             let error = ModeError {
-                backward: norms.backward_error(lambda, x, &residual),
+                backward: norms.backward_error(lambda, x, force),
                 cancellation: k_share + m_share,
-                relative_bar: (problem.precision.stiffness + rounding) * k_share
-                    + (problem.precision.mass + rounding) * m_share,
+                relative_bar: data_bar,
+                data_bar,
+                residual_bar: 0.0,
                 rounding_floor: rounding * norms.stiffness_norm * norms.scaled_norm(x).powi(2) / modal_mass,
             };
             (lambda, error)
         })
-        .unzip()
+        .unzip();
+    (lambda, errors, forces)
+}
+
+/// Adds to the error bars what the residuals leave in doubt; one solve for each mode.
+///
+/// With y = (K − σM)⁻¹ r and δ² = rᵀy / (λ − σ), some θ = 1/(λ − σ) lies within the relative distance δ of the Rayleigh
+/// quotient's, and for a group of modes that are a relative distance γ of θ away from all others within Σδ²/γ (Kato 1949,
+/// Temple 1928), δ added up over the group. What a residual moves along the rigid-body modes, which deflation took out,
+/// counts (‖Qᵀr‖/λ)².
+///
+/// `next` is the eigenvalue above the highest mode, where there is one.
+pub(super) fn add_residual_bars(
+    problem: Problem<'_>,
+    lambda: &[f64],
+    errors: &mut [ModeError],
+    mut residuals: Mat<f64>,
+    next: Option<f64>,
+) {
+    let sigma = problem.operator.shift();
+    let resultants = dense::gram(problem.deflated[0], residuals.as_ref());
+    problem.equilibrate(residuals.as_mut());
+    let mut y = residuals.clone();
+    problem.operator.solve_in_place(y.as_mut());
+    problem.deflate(y.as_mut());
+    let squares: Vec<f64> = (0..lambda.len())
+        .map(|j| {
+            let energy = dense::dot(dense::column(residuals.as_ref(), j), dense::column(y.as_ref(), j));
+            energy.abs() / (lambda[j] - sigma).abs()
+        })
+        .collect();
+    let mut first = 0;
+    while first < lambda.len() {
+        let mut end = first + 1;
+        while end < lambda.len() && (lambda[end] - lambda[end - 1]).abs() <= CLUSTER_GAP * (lambda[end] - sigma).abs() {
+            end += 1;
+        }
+        let sum: f64 = squares[first..end].iter().sum();
+        let below = first.checked_sub(1).map(|below| lambda[below]);
+        let above = lambda.get(end).copied().or(next);
+        for j in first..end {
+            let gap = relative_gap(lambda[j] - sigma, below.map(|l| l - sigma), above.map(|l| l - sigma));
+            let of_theta = sum.sqrt().min(sum / gap);
+            let resultant: f64 = (0..resultants.nrows()).map(|i| (resultants[(i, j)] / lambda[j]).powi(2)).sum();
+            let error = &mut errors[j];
+            error.residual_bar = of_theta * (1.0 - sigma / lambda[j]).abs() + resultant;
+            error.relative_bar = error.data_bar + error.residual_bar;
+        }
+        first = end;
+    }
+}
+
+/// The distance of θ = 1/μ to those of the neighbours, relative to it; the infinite eigenvalues of massless motions are at
+/// θ = 0.
+fn relative_gap(mu: f64, below: Option<f64>, above: Option<f64>) -> f64 {
+    let distance = |other: f64| (mu / other - 1.0).abs();
+    [below, above].into_iter().flatten().map(distance).fold(1.0, f64::min)
 }
 
 /// max |XᵀMX − I| over all pairs, and the pair it is reached at (M-03).

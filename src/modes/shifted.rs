@@ -98,7 +98,7 @@ fn median_ratio(problem: ModalProblem<'_>) -> f64 {
 /// Whether an eigenvalue is zero within its bar, which is relative and grows without limit as λ goes to zero, or within
 /// rounding of the matrix.
 fn is_zero(lambda: f64, error: &ModeError) -> bool {
-    let within = error.relative_bar * ZERO_WITHIN_BARS;
+    let within = error.data_bar * ZERO_WITHIN_BARS;
     // A free particle has no terms to cancel: 0/0.
     within.is_nan() || within >= 1.0 || lambda.abs() <= ZERO_WITHIN_BARS * error.rounding_floor
 }
@@ -113,7 +113,7 @@ fn refuse_negative(modes: &Modes, first_elastic: Option<f64>) -> Result<()> {
     let mut pairs = modes.lambda.iter().zip(&modes.errors);
     match pairs.find(|(lambda, error)| **lambda < -negligible && !is_zero(**lambda, error)) {
         Some((lambda, error)) => {
-            let noise = negligible.max(error.relative_bar * lambda.abs());
+            let noise = negligible.max(error.data_bar * lambda.abs());
             Err(Error::NegativeRigidEnergy { energy: *lambda, noise })
         }
         None => Ok(()),

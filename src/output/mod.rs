@@ -4,27 +4,29 @@
 //! that named modes are mass-normalised in the user's units.
 
 mod report;
+mod rigid_body;
 mod superelement;
 mod warnings;
 
 use supel_runtime::Superelement;
 
 use crate::error::Result;
-use crate::input::Input;
+use crate::input::{Input, InputNote};
 use crate::job::Job;
 use crate::model::Model;
-use crate::report::{Report, WorkCounters};
+use crate::report::{Report, Warning, WorkCounters};
 use crate::rigid::LooseMotions;
-use crate::verification::Evidence;
-use crate::verification::check::Check;
+use crate::verification::{Evidence, Findings};
 
 /// What is remembered of the input after its matrices have gone into the model.
 #[derive(Clone, Debug)]
 pub struct InputFacts {
     /// Digits and digest of K and M.
     pub matrices: [MatrixFacts; 2],
-    /// Remarks of the readers.
+    /// Remarks of the readers that are no warnings.
     pub notes: Vec<String>,
+    /// Remarks that are warnings.
+    pub warnings: Vec<Warning>,
 }
 
 /// What is remembered of one matrix.
@@ -48,9 +50,14 @@ impl InputFacts {
         };
         Self {
             matrices: [facts(&input.stiffness), facts(&input.mass)],
-            notes: input.notes.iter().map(ToString::to_string).collect(),
+            notes: input.notes.iter().filter(|note| note.warning_code().is_none()).map(ToString::to_string).collect(),
+            warnings: input.notes.iter().filter_map(warning).collect(),
         }
     }
+}
+
+fn warning(note: &InputNote) -> Option<Warning> {
+    note.warning_code().map(|code| Warning { code, message: note.to_string() })
 }
 
 /// Everything the output is made from.
@@ -66,8 +73,8 @@ pub struct Results<'a> {
     pub loose: &'a LooseMotions,
     /// The results of the stages.
     pub evidence: Evidence<'a>,
-    /// The checks.
-    pub checks: &'a [Check],
+    /// What verification found.
+    pub findings: &'a Findings,
     /// What was done, counted.
     pub work: WorkCounters,
 }

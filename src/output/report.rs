@@ -2,16 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use supel_runtime::Matrix;
-
-use super::{MatrixFacts, Results, omega, warnings};
+use super::{MatrixFacts, Results, omega, rigid_body, warnings};
 use crate::basis::DynamicCoordinate;
 use crate::job::{Certify, ModeSelection};
 use crate::modes::Boundary;
 use crate::report::{
     Completeness, DroppedCoordinate, Generator, InterfaceReport, MassProperties, MatrixReport, ModeKind, ModeRow,
-    ModelReport, Preservation, ReductionReport, ReportBody, RigidBodyEvidence, RigidBodyModes, RigidBodySource,
-    Warning,
+    ModelReport, Preservation, ReductionReport, ReportBody, RigidBodyModes, RigidBodySource, Warning,
 };
 use crate::rigid::{ILL_CONDITIONED, RigidSource};
 
@@ -20,11 +17,11 @@ pub(super) fn body(results: &Results<'_>) -> ReportBody {
         generator: Generator::default(),
         model: model(results),
         reduction: reduction(results),
-        checks: results.checks.to_vec(),
+        checks: results.findings.checks.clone(),
         warnings: warnings(results),
         completeness: completeness(results),
         trust_intervals: Vec::new(),
-        rigid_body: RigidBodyEvidence::default(),
+        rigid_body: rigid_body::evidence(results),
         preservation: Preservation::default(),
     }
 }
@@ -63,15 +60,7 @@ fn mass_properties(results: &Results<'_>) -> MassProperties {
     if !evidence.rigid.is_classical {
         return MassProperties::default();
     }
-    let m_f = &evidence.reduction.rigid_body_mass;
-    let unit = evidence.partition.scaling.mass_unit();
-    // The motions of mechanisms come after the six of the body.
-    let m_f = Matrix::from_fn(6, 6, |i, j| m_f[(i, j)] * unit);
-    supel_runtime::mass_properties(&m_f).map_or_else(MassProperties::default, |known| MassProperties {
-        mass: Some(known.mass),
-        cg: Some(known.center_of_mass),
-        inertia: Some(known.inertia),
-    })
+    rigid_body::mass_properties(results, evidence.reduction.rigid_body_mass.as_ref())
 }
 
 fn reduction(results: &Results<'_>) -> ReductionReport {
@@ -153,7 +142,7 @@ fn modes(results: &Results<'_>) -> Vec<ModeRow> {
 
 fn warnings(results: &Results<'_>) -> Vec<Warning> {
     let evidence = &results.evidence;
-    let mut warnings = Vec::new();
+    let mut warnings = results.input.warnings.clone();
     let ratio = evidence.rank.singular_ratio;
     if ratio < ILL_CONDITIONED {
         warnings.push(Warning {
@@ -164,8 +153,19 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
             ),
         });
     }
+    warnings.extend(rigid_body::grounded(results));
     for finding in results.model.findings.iter().chain(&evidence.partition.findings) {
         warnings.extend(finding.warning().map(|code| Warning { code, message: finding.to_string() }));
+    }
+    if let Some(misfit) = &evidence.rigid.misfit {
+        warnings.push(Warning {
+            code: "W-COORD-ROUNDED",
+            message: format!(
+                "the coordinates are rounded: by them the rotation about {} costs {:.1e} of the energy of the first elastic \
+                 mode, most of it at {}; rigid-body modes were taken from the matrices",
+                misfit.rotation, misfit.energy, misfit.at
+            ),
+        });
     }
     warnings.extend(warnings::of_motions(results));
     warnings.extend(warnings::data_precision(results));

@@ -154,7 +154,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
             ("mass".to_owned(), mass.digest.clone()),
         ]),
         job: job_document(results.job),
-        verification: verification(results.checks, verdict),
+        verification: verification(&results.findings.checks, verdict),
     }
 }
 
@@ -225,7 +225,7 @@ fn relative_to(path: &Path, folder: &Path) -> PathBuf {
 
 fn verification(checks: &[Check], verdict: Verdict) -> file::Verification {
     let verdict_of = |verdict: Verdict| match verdict {
-        Verdict::Pass => file::Verdict::Pass,
+        Verdict::Info | Verdict::Pass => file::Verdict::Pass,
         Verdict::Warn => file::Verdict::Warn,
         Verdict::Fail => file::Verdict::Fail,
     };
@@ -235,5 +235,7 @@ fn verification(checks: &[Check], verdict: Verdict) -> file::Verification {
         limit: check.limits.value(),
         verdict: verdict_of(check.verdict()),
     };
-    file::Verification { verdict: verdict_of(verdict), checks: checks.iter().map(summary).collect() }
+    // The file keeps what was judged; values that are only shown have no limit to be kept with.
+    let judged = checks.iter().filter(|check| check.is_judged());
+    file::Verification { verdict: verdict_of(verdict), checks: judged.map(summary).collect() }
 }

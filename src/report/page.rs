@@ -66,6 +66,7 @@ impl Page {
         let code = match tone {
             Tone::Heading => "1",
             Tone::Faint => "2",
+            Tone::Of(Verdict::Info) => "36",
             Tone::Of(Verdict::Pass) => "32",
             Tone::Of(Verdict::Warn) => "33",
             Tone::Of(Verdict::Fail) => "1;31",
@@ -80,6 +81,7 @@ impl Page {
 /// The sign and the word of a verdict.
 pub(crate) fn verdict_word(verdict: Verdict) -> &'static str {
     match verdict {
+        Verdict::Info => "· shown",
         Verdict::Pass => "✓ pass",
         Verdict::Warn => "! warn",
         Verdict::Fail => "✗ fail",

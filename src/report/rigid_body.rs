@@ -40,12 +40,15 @@ pub struct Grounding {
     pub worst: Option<String>,
 }
 
-/// Effective mass of one mode.
+/// Effective mass of one mode of the reduced model with its interface held.
+///
+/// For fixed-interface modes these are the retained modes themselves.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EffectiveMass {
-    /// Number of the mode, from one.
+    /// Number of the mode, from one, ascending in frequency.
     pub mode: usize,
-    /// Share of the total in each rigid direction.
+    /// Share of the inertia of the interior in each direction, in the order of [`RigidBodyEvidence::grounding`] where
+    /// coordinates are known, else in that of the rigid-body modes.
     pub share: Vec<f64>,
     /// Sum of the shares up to this mode.
     pub cumulated: Vec<f64>,

@@ -15,6 +15,11 @@ use crate::sparse::product;
 /// # Errors
 /// K − σM is not definite for a negative σ; the eigensolver fails.
 pub fn from_matrices(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
+    zero_modes(partition).map(|(rigid, _, n_factorisations)| (rigid, n_factorisations))
+}
+
+/// The same with the first eigenvalue above zero.
+pub(super) fn zero_modes(partition: &Partition) -> Result<(RigidBodyModes, Option<f64>, usize)> {
     let pencil = Pencil { stiffness: &partition.stiffness, mass: &partition.mass };
     let analysis = Analysis::new(pencil)?;
     let problem = ModalProblem {
@@ -45,6 +50,8 @@ pub fn from_matrices(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
         source: RigidSource::Algebraic,
         is_classical: false,
         energy,
+        misfit: None,
     };
-    Ok((rigid, found.n_factorisations))
+    let first_elastic = found.lowest.lambda.get(found.n_zero).copied().or(found.lowest.next);
+    Ok((rigid, first_elastic, found.n_factorisations))
 }

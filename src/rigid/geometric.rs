@@ -1,8 +1,10 @@
 //! Rigid-body modes from coordinates, body by body, verified against K.
 
+use std::collections::BTreeMap;
+
 use faer::{Mat, MatRef};
 
-use super::{RigidBodyModes, RigidEnergy, RigidSource, absolute_energy, largest_residual};
+use super::{Misfit, RigidBodyModes, RigidEnergy, RigidSource, absolute_energy, absolute_product, largest_residual};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::model::Bodies;
@@ -18,11 +20,23 @@ const NO_MASS: f64 = 1e-24;
 /// A motion is free when its energy stays below this many times the noise of the data. The noise bound adds all
 /// roundings with one sign; measured energies of exact rigid motions stay below it, so ten is generous.
 const FREE_BELOW_NOISE: f64 = 10.0;
-/// Energy of a rotation relative to |u|ᵀ|K||u| that coordinates rounded to six or seven digits can make: (10⁻⁶)².
-const ROUNDED_COORDINATES: f64 = 1e-12;
+/// Nodes out of place that a message names.
+const SHOWN_NODES: usize = 3;
+
+/// What the coordinates say.
+pub(super) struct Geometric {
+    /// The motions that K lets pass.
+    pub(super) rigid: RigidBodyModes,
+    /// Those and the motions of the bodies that it should let pass, n' × k.
+    pub(super) motions: Mat<f64>,
+    /// True where `motions` are the six unit motions of one body.
+    pub(super) are_classical: bool,
+    /// The worst of the motions that it does not let pass.
+    pub(super) misfit: Option<Misfit>,
+}
 
 /// The zero-energy rigid motions of every body.
-pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<RigidBodyModes> {
+pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<Geometric> {
     let node_of_dof: Vec<u32> = partition.dofs.iter().map(|dof| dof.node).collect();
     let bodies = Bodies::of(&partition.stiffness, &dense_numbers(&node_of_dof));
     let mut found = Vec::new();
@@ -45,7 +59,12 @@ pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<
         [body] if body.is_classical => unit_motions(sites, &body.dofs),
         _ => orthonormal.clone(),
     };
-    Ok(RigidBodyModes {
+    let motions = match found.iter().any(|body| body.motions.is_some()) {
+        true => concatenate(n, found.iter().map(|body| body.motions.as_ref().unwrap_or(&body.orthonormal).as_ref())),
+        false => modes.clone(),
+    };
+    let are_classical = found.len() == 1 && motions.ncols() == 6;
+    let rigid = RigidBodyModes {
         modes,
         mass_orthonormal: product(&partition.mass, orthonormal.as_ref()),
         orthonormal,
@@ -54,7 +73,11 @@ pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<
         source: RigidSource::Geometric,
         is_classical,
         energy,
-    })
+        misfit: None,
+    };
+    let misfits = found.into_iter().filter_map(|body| body.misfit);
+    let misfit = misfits.max_by(|a, b| a.energy.total_cmp(&b.energy));
+    Ok(Geometric { rigid, motions, are_classical, misfit })
 }
 
 /// A body that can move and that no interface holds makes K_II singular, and nothing could drive it (catalogue S-04).
@@ -103,6 +126,9 @@ struct Body {
     /// Whether all six motions are free.
     is_classical: bool,
     energy: RigidEnergy,
+    /// All motions by the coordinates, where K lets only some of them pass and should let all.
+    motions: Option<Mat<f64>>,
+    misfit: Option<Misfit>,
 }
 
 impl Body {
@@ -134,8 +160,14 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
         return Err(Error::NegativeRigidEnergy { energy: *energy, noise });
     }
     let n_free = energies.iter().filter(|energy| **energy <= FREE_BELOW_NOISE * noise).count();
-    let only_rounded = n_free < energies.len() && only_rounded_coordinates(partition, centred.as_ref(), dofs)?;
-    let n_free = if only_rounded { energies.len() } else { n_free };
+    let is_partly_free = n_free < energies.len();
+    let suspect = if is_partly_free { costly_rotation(partition, (sites, dofs), centred.as_ref()) } else { None };
+    let misfit = suspect.map(|Costly { rotation, concentration, at }| {
+        let energy = energies.iter().fold(0.0, |max: f64, energy| max.max(energy.abs()));
+        Misfit { rotation, energy, concentration, at }
+    });
+    let motions =
+        misfit.as_ref().map(|_| if energies.len() == 6 { unit_motions(sites, dofs) } else { orthonormal.clone() });
     let orthonormal = dense::product(orthonormal.as_ref(), directions.as_ref().subcols(0, n_free));
     let energy = RigidEnergy {
         largest_quotient: energies[..n_free].iter().fold(0.0, |max: f64, energy| max.max(energy.abs())),
@@ -143,7 +175,7 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
         noise,
     };
     let is_classical = n_free + massless.ncols() == 6;
-    Ok(Body { dofs: dofs.to_vec(), orthonormal, massless, is_classical, energy })
+    Ok(Body { dofs: dofs.to_vec(), orthonormal, massless, is_classical, energy, motions, misfit })
 }
 
 /// Those of the motions without mass that cost no energy either; one that is held is no rigid-body mode.
@@ -244,11 +276,21 @@ fn noise(partition: &Partition, q: MatRef<'_, f64>) -> f64 {
     (partition.precision.stiffness + f64::EPSILON) * largest
 }
 
-/// Tells a component that is held (false) from one whose coordinates are rounded (true).
+/// A rotation that is not free.
+struct Costly {
+    rotation: &'static str,
+    concentration: f64,
+    at: String,
+}
+
+/// The rotation that costs most, and where, of a body whose translations cost nothing; `None` where a translation is held.
 ///
-/// Translations do not depend on coordinates. Where they are free and a rotation is not, the coordinates are wrong, or
-/// merely rounded if its energy is small enough for that.
-fn only_rounded_coordinates(partition: &Partition, centred: MatRef<'_, f64>, dofs: &[usize]) -> Result<bool> {
+/// Translations do not depend on coordinates. Where they are free and a rotation is not, the coordinates are in doubt.
+fn costly_rotation(
+    partition: &Partition,
+    (sites, dofs): (&[Site], &[usize]),
+    centred: MatRef<'_, f64>,
+) -> Option<Costly> {
     let forces = product(&partition.stiffness, centred);
     let magnitudes = absolute_energy(&partition.stiffness, centred);
     let relative = |j: usize| {
@@ -257,20 +299,27 @@ fn only_rounded_coordinates(partition: &Partition, centred: MatRef<'_, f64>, dof
     };
     let data = FREE_BELOW_NOISE * (partition.precision.stiffness + f64::EPSILON);
     if (0..3).any(|j| relative(j) > data) {
-        return Ok(false);
+        return None;
     }
-    let (worst, energy) = (3..6).map(|j| (j, relative(j))).fold((3, 0.0), |a, b| if b.1 > a.1 { b } else { a });
-    if energy <= ROUNDED_COORDINATES {
-        return Ok(true);
+    let (worst, _) = (3..6).map(|j| (j, relative(j))).fold((3, 0.0), |a, b| if b.1 > a.1 { b } else { a });
+    // The forces of all rotations, relative to those of a unit motion of every translation alone.
+    let translation = Mat::from_fn(sites.len(), 1, |dof, _| f64::from(u8::from(!sites[dof].direction.is_rotation())));
+    let stiffness = absolute_product(&partition.stiffness, translation.as_ref());
+    let mut of_node: BTreeMap<u32, (f64, usize)> = BTreeMap::new();
+    for dof in dofs.iter().copied().filter(|dof| !sites[*dof].direction.is_rotation()) {
+        let force = (3..6).map(|j| forces[(dof, j)].abs()).fold(0.0, f64::max);
+        let force = if stiffness[(dof, 0)] > 0.0 { force / stiffness[(dof, 0)] } else { 0.0 };
+        let node = of_node.entry(partition.dofs[dof].node).or_insert((force, dof));
+        if force > node.0 {
+            *node = (force, dof);
+        }
     }
-    let force = dense::column(forces.as_ref(), worst);
-    let at = dofs.iter().copied().max_by(|a, b| force[*a].abs().total_cmp(&force[*b].abs())).unwrap_or_default();
-    Err(Error::CoordinatesDoNotFit {
-        rotation: ["x", "y", "z"][worst - 3],
-        energy,
-        expected: data.max(ROUNDED_COORDINATES),
-        dof: partition.name_of(at),
-    })
+    let mut nodes: Vec<(f64, usize)> = of_node.into_values().collect();
+    nodes.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let median = nodes.get(nodes.len() / 2).map_or(0.0, |node| node.0);
+    let at: Vec<String> = nodes.iter().take(SHOWN_NODES).map(|(_, dof)| partition.name_of(*dof)).collect();
+    let concentration = nodes.first().map_or(1.0, |node| node.0 / median);
+    Some(Costly { rotation: ["x", "y", "z"][worst - 3], concentration, at: at.join(", ") })
 }
 
 /// The six unit motions about the origin, restricted to the dofs of a body.

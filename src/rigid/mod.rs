@@ -11,6 +11,7 @@
 mod algebraic;
 mod geometric;
 mod mechanism;
+mod misfit;
 mod rank;
 
 use faer::{Mat, MatRef};
@@ -22,6 +23,7 @@ use crate::sparse::{SparseMatrix, product};
 
 pub use algebraic::from_matrices;
 pub use mechanism::{Loose, LooseMotions, with_mechanisms};
+pub use misfit::Misfit;
 pub use rank::{ILL_CONDITIONED, InterfaceRank, interface_rank};
 
 /// Where rigid-body modes come from.
@@ -52,6 +54,9 @@ pub struct RigidBodyModes {
     pub is_classical: bool,
     /// Energies of the modes against the noise of the data.
     pub energy: RigidEnergy,
+    /// The rotation that K does not know by these coordinates, where they are rounded; the modes are then from the
+    /// matrices.
+    pub misfit: Option<Misfit>,
 }
 
 /// How well K lets the rigid-body modes pass.
@@ -92,6 +97,7 @@ impl RigidBodyModes {
             source: RigidSource::Geometric,
             is_classical: false,
             energy: RigidEnergy::default(),
+            misfit: None,
         }
     }
 
@@ -103,16 +109,22 @@ impl RigidBodyModes {
     }
 }
 
-/// The rigid-body modes, and the factorisations they took: from coordinates none.
+/// The rigid-body modes, and the factorisations they took: from coordinates that fit none.
 ///
 /// Without an interface there is no S in which mechanisms would show, so that a free component is counted by its matrices too.
 ///
 /// # Errors
-/// Those of [`from_coordinates`] and [`from_matrices`].
+/// [`Error::CoordinatesDoNotFit`](crate::error::Error::CoordinatesDoNotFit) and those of [`from_coordinates`] and
+/// [`from_matrices`].
 pub fn rigid_body_modes(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
-    let Some(rigid) = from_coordinates(partition)? else {
+    let Some(sites) = partition.sites() else {
         return from_matrices(partition);
     };
+    let found = geometric::rigid_body_modes(partition, &sites)?;
+    if let Some(misfit) = found.misfit.clone() {
+        return misfit::settled(partition, found, misfit);
+    }
+    let rigid = found.rigid;
     if partition.n_interface() > 0 || rigid.count() == 0 {
         return Ok((rigid, 0));
     }
@@ -122,12 +134,13 @@ pub fn rigid_body_modes(partition: &Partition) -> Result<(RigidBodyModes, usize)
     Ok((rigid, n_factorisations))
 }
 
-/// The rigid-body modes from the coordinates, or `None` where the model has none.
+/// The rigid-body modes from the coordinates, or `None` where the model has none that K lets pass.
 ///
 /// # Errors
-/// Coordinates that do not belong to K; a rigid motion without mass.
+/// A rigid motion without mass or of negative energy.
 pub fn from_coordinates(partition: &Partition) -> Result<Option<RigidBodyModes>> {
-    partition.sites().map(|sites| geometric::rigid_body_modes(partition, &sites)).transpose()
+    let found = partition.sites().map(|sites| geometric::rigid_body_modes(partition, &sites)).transpose()?;
+    Ok(found.filter(|found| found.misfit.is_none()).map(|found| found.rigid))
 }
 
 /// |A||X|, n × k: what rounding of A is measured by.

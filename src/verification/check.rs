@@ -1,4 +1,6 @@
 //! One line of the verification: a measured value, the limits it is judged by and the verdict.
+//!
+//! Some measures have no limit that would be true of every model: they are shown, not judged.
 
 use serde::Serialize;
 
@@ -29,6 +31,18 @@ pub enum ActiveLimit {
 }
 
 impl Limits {
+    /// No limit: the value is shown, not judged.
+    pub const NONE: Self = Self { engineering: f64::INFINITY, arithmetic: 0.0, data: 0.0 };
+
+    /// The same limits with what arithmetic and data may excuse capped.
+    ///
+    /// An excuse is computed from the results it excuses. Without a cap a bad result would loosen its own judge.
+    pub fn capped(self, arithmetic: f64, data: f64) -> Self {
+        // A value that is not a number excuses nothing.
+        let cap = |value: f64, most: f64| if value <= most { value } else { most };
+        Self { arithmetic: cap(self.arithmetic, arithmetic), data: cap(self.data, data), ..self }
+    }
+
     /// The limit in force.
     pub fn value(&self) -> f64 {
         self.engineering.max(self.arithmetic).max(self.data)
@@ -50,6 +64,8 @@ impl Limits {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
+    /// Shown, not judged: there is no limit.
+    Info,
     /// Within the limit.
     Pass,
     /// Past the limit, not past the point of failure.
@@ -59,6 +75,8 @@ pub enum Verdict {
 }
 
 /// One measure of the reduction.
+///
+/// A check without a limit ([`Limits::NONE`]) and with `fail_above` infinite only shows its value.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Check {
     /// Stable identifier, `M-05`.
@@ -78,15 +96,22 @@ pub struct Check {
 }
 
 impl Check {
-    /// The verdict; a value that is not a number fails.
+    /// The verdict; a value that is not a number fails, and so does one that only an infinite excuse would let pass.
     pub fn verdict(&self) -> Verdict {
-        if self.value <= self.limits.value() {
+        if self.value.is_finite() && !self.is_judged() {
+            Verdict::Info
+        } else if self.limits.value().is_finite() && self.value <= self.limits.value() {
             Verdict::Pass
-        } else if self.value <= self.fail_above {
+        } else if self.fail_above.is_finite() && self.value <= self.fail_above {
             Verdict::Warn
         } else {
             Verdict::Fail
         }
+    }
+
+    /// False where there is no limit and the value is only shown.
+    pub fn is_judged(&self) -> bool {
+        self.limits.engineering.is_finite()
     }
 
     /// How many times the value fits into the limit: above one is good.

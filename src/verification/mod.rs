@@ -5,14 +5,23 @@
 
 pub mod check;
 mod completeness;
+mod conditioning;
+mod directions;
 mod eigenpairs;
+mod grounding;
+mod loads;
 mod mass;
 mod reduced;
+mod residual;
+mod rigid_body;
 mod rigid_motion;
+mod solves;
+mod spectrum;
 
-use crate::basis::{Basis, ConstraintModes};
+use crate::basis::{Basis, ConstraintModes, DynamicCoordinate};
 use crate::dense;
 use crate::error::Result;
+use crate::factor::Cholesky;
 use crate::job::Expectation;
 use crate::modes::{Certificate, Equilibrated, Retained};
 use crate::partition::Partition;
@@ -22,6 +31,10 @@ use crate::sparse::SparseMatrix;
 
 use check::Check;
 
+pub use grounding::Grounding;
+pub use loads::EffectiveMasses;
+pub use rigid_body::MassRoutes;
+
 /// Everything the checks look at: the results of the stages, none of their workings.
 #[derive(Clone, Copy, Debug)]
 pub struct Evidence<'a> {
@@ -29,6 +42,8 @@ pub struct Evidence<'a> {
     pub partition: &'a Partition,
     /// K_II and M_II.
     pub internal: (&'a SparseMatrix, &'a SparseMatrix),
+    /// The factor of K_II.
+    pub factor: &'a Cholesky<'a>,
     /// The rigid-body modes.
     pub rigid: &'a RigidBodyModes,
     /// How well the interface reacts them.
@@ -47,31 +62,88 @@ pub struct Evidence<'a> {
     pub expect: Option<&'a Expectation>,
 }
 
-/// All checks, in the order of their identifiers.
+/// What verification found.
+#[derive(Clone, Debug)]
+pub struct Findings {
+    /// All checks, in the order of their identifiers.
+    pub checks: Vec<Check>,
+    /// The component as a rigid body, in scaled units.
+    pub rigid_body: RigidBody,
+}
+
+/// The component as a rigid body.
+#[derive(Clone, Debug)]
+pub struct RigidBody {
+    /// M_F by three routes, for one free body with coordinates.
+    pub routes: Option<MassRoutes>,
+    /// Eigenvalues of the zero modes of the reduced pencil.
+    pub eigenvalues: Vec<f64>,
+    /// How far motion in each direction is from straining the component.
+    pub grounding: Vec<Grounding>,
+    /// What the modes carry of the inertia in each direction.
+    pub effective_mass: Option<EffectiveMasses>,
+}
+
+/// All checks and what they rest on.
 ///
 /// # Errors
 /// A dense eigenproblem that does not converge.
-pub fn verify(evidence: &Evidence<'_>) -> Result<Vec<Check>> {
-    let spectrum = reduced::Spectrum::of(evidence)?;
+pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
+    let spectrum = spectrum::Spectrum::of(evidence)?;
+    let condition = conditioning::internal_condition(evidence);
+    let rigid_body = RigidBody {
+        routes: rigid_body::mass_routes(evidence, &spectrum)?,
+        eigenvalues: spectrum.rigid().to_vec(),
+        grounding: grounding::groundings(evidence, &spectrum),
+        effective_mass: loads::effective_masses(evidence)?,
+    };
+    let pairs = eigenpairs::Pairs::of(evidence);
+    let terms = reduced::Terms::of(evidence);
     let mut checks = vec![
-        eigenpairs::backward_error(evidence),
+        eigenpairs::backward_error(evidence, &pairs),
+        eigenpairs::componentwise_error(evidence, &pairs),
         eigenpairs::orthogonality(evidence),
-        rigid_motion::energy(evidence, &spectrum),
-        rigid_motion::residual(evidence),
+        eigenpairs::stiffness_orthogonality(evidence, &pairs),
+        rigid_motion::energy(evidence, &spectrum, &rigid_body.grounding),
+        rigid_motion::residual(evidence, &rigid_body.grounding),
     ];
     checks.extend(completeness::count(evidence));
     checks.push(eigenpairs::data_precision(evidence));
+    checks.push(solves::static_solves(evidence));
     checks.push(rigid_motion::carried_by_interface(evidence));
     checks.push(rigid_motion::null_space(evidence));
     checks.push(rigid_motion::zero_modes(evidence, &spectrum));
-    checks.push(reduced::block_coupling(evidence));
+    checks.push(reduced::block_coupling(evidence, &terms));
     checks.push(reduced::pair_residual(evidence));
     checks.push(reduced::frequency_difference(evidence, &spectrum));
     checks.push(mass::preserved(evidence));
+    checks.extend(rigid_body.routes.as_ref().map(|routes| rigid_body::routes_agree(evidence, &spectrum, routes)));
     checks.extend(mass::expected(evidence));
-    checks.push(reduced::symmetry(evidence));
+    checks.extend(loads::accelerations(evidence, condition));
+    checks.extend(rigid_body.effective_mass.as_ref().and_then(loads::effective_mass));
+    checks.extend(conditioning::conditioning(evidence, condition)?);
+    checks.push(reduced::symmetry(evidence, &terms));
     checks.push(reduced::definiteness(evidence, &spectrum));
-    Ok(checks)
+    Ok(Findings { checks, rigid_body })
+}
+
+/// What a reduced coordinate is called: `node 12 uz`, `mode 3`, `inertia relief 2`.
+fn coordinate_name(evidence: &Evidence<'_>, coordinate: usize) -> String {
+    let n_b = evidence.partition.n_interface();
+    match coordinate.checked_sub(n_b).map(|slot| evidence.basis.coordinates[slot]) {
+        None => evidence.partition.name_of(evidence.partition.n_internal + coordinate),
+        Some(DynamicCoordinate::RigidBody(index)) => format!("rigid-body mode {}", index + 1),
+        Some(DynamicCoordinate::InertiaRelief(index)) => format!("inertia relief {}", index + 1),
+        Some(DynamicCoordinate::FreeFree(mode) | DynamicCoordinate::FixedInterface(mode)) => {
+            format!("mode {}", mode + 1)
+        }
+    }
+}
+
+/// The precision of the data of K where it is coarser than that of the arithmetic, else nothing.
+fn data_noise(partition: &Partition) -> f64 {
+    let precision = partition.precision.stiffness;
+    if precision > f64::EPSILON { precision * partition.cancellation } else { 0.0 }
 }
 
 /// Scales of the reduced coordinates, powers of two: near 1/√K_BB,ii for an interface dof and near 1/√K̂_ηη,ii for a mode.

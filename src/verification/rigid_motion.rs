@@ -1,21 +1,25 @@
 //! Rigid-body motion passes through the model, the basis and the reduced stiffness: M-05, M-11, M-12.
 
 use super::check::{Check, Limits};
-use super::reduced::{Spectrum, zero_level};
-use super::{Evidence, reduced_norms};
+use super::grounding::Grounding;
+use super::residual::Worst;
+use super::spectrum::{Spectrum, zero_level};
+use super::{Evidence, coordinate_name, reduced_norms};
 use crate::dense;
 
 /// How far roundings of one sign may exceed their typical sum.
 const NOISE_FACTOR: f64 = 10.0;
 
 /// M-05, energy.
-pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check {
+pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[Grounding]) -> Check {
     let energy = evidence.rigid.energy;
     let first = spectrum.first_elastic();
     let precision = evidence.partition.precision.stiffness;
     let noise = NOISE_FACTOR * evidence.partition.cancellation * energy.noise / first;
     let share = f64::EPSILON / (f64::EPSILON + precision);
-    let limits = Limits { engineering: 1e-8, arithmetic: noise * share, data: noise * (1.0 - share) };
+    // At a tenth of the first elastic frequency nothing tells a rigid-body motion from an elastic one.
+    let limits =
+        Limits { engineering: 1e-8, arithmetic: noise * share, data: noise * (1.0 - share) }.capped(1e-2, 1e-2);
     Check {
         id: "M-05",
         name: "rigid-body motion costs no energy",
@@ -24,12 +28,12 @@ pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check {
         limits,
         // An energy of 10⁻⁴ is a rigid-body frequency of a hundredth of the first elastic one: the model is grounded.
         fail_above: limits.value().max(1e-4),
-        worst: None,
+        worst: strained(grounding, |direction| direction.energy_ratio),
     }
 }
 
 /// M-05, residual.
-pub(super) fn residual(evidence: &Evidence<'_>) -> Check {
+pub(super) fn residual(evidence: &Evidence<'_>, grounding: &[Grounding]) -> Check {
     let precision = evidence.partition.precision.stiffness;
     let cancellation = evidence.partition.cancellation;
     let data = if precision > f64::EPSILON { NOISE_FACTOR * precision * cancellation } else { 0.0 };
@@ -41,22 +45,42 @@ pub(super) fn residual(evidence: &Evidence<'_>) -> Check {
         value: evidence.rigid.energy.largest_residual,
         limits,
         fail_above: limits.value().max(1e-6),
-        worst: None,
+        worst: strained(grounding, |direction| direction.force_ratio),
     }
 }
 
-/// M-11, equation (24).
+/// The direction that is worst, with the dof that its force is largest at.
+fn strained(grounding: &[Grounding], measure: impl Fn(&Grounding) -> f64) -> Option<String> {
+    let worst =
+        grounding.iter().filter(|direction| direction.is_free).max_by(|a, b| measure(a).total_cmp(&measure(b)))?;
+    Some(match &worst.worst {
+        Some(dof) => format!("{}, {dof}", worst.direction),
+        None => worst.direction.clone(),
+    })
+}
+
+/// M-11, equation (24), measured on the basis.
 pub(super) fn carried_by_interface(evidence: &Evidence<'_>) -> Check {
-    let (value, at) = evidence.constraint.rigid_error;
+    let n_i = evidence.partition.n_internal;
+    let (u_i, u_b) = evidence.rigid.orthonormal.as_ref().split_at_row(n_i);
+    let mut defect = u_i.to_owned();
+    dense::add_product(defect.as_mut(), -1.0, evidence.basis.constraint_modes.as_ref(), u_b);
+    let mut worst = Worst::none();
+    for j in 0..defect.ncols() {
+        let largest = dense::column(u_i, j).iter().fold(0.0f64, |max, value| max.max(value.abs()));
+        for (i, value) in dense::column(defect.as_ref(), j).iter().enumerate() {
+            worst.take(value.abs() / largest, j, i);
+        }
+    }
     let raw = evidence.constraint.raw_rigid_error;
     Check {
         id: "M-11",
         name: "interface carries rigid-body motion",
         equation: "max |Ψ_S U_B − U_I| / max |U_I| (24), after the correction",
-        value,
+        value: worst.value,
         limits: Limits { engineering: 1e-12, ..Limits::default() },
         fail_above: 1e-9,
-        worst: (value > 0.0).then(|| format!("{}, {raw:.1e} before the correction", evidence.partition.name_of(at))),
+        worst: worst.name(evidence, "rigid-body mode").map(|at| format!("{at}, {raw:.1e} before the correction")),
     }
 }
 
@@ -70,10 +94,11 @@ pub(super) fn null_space(evidence: &Evidence<'_>) -> Check {
         let u = dense::column(reduction.rigid_body_modes.as_ref(), j);
         let error = norms.backward_error(0.0, u, dense::column(forces.as_ref(), j));
         if dense::worse(error, worst.0) {
-            worst = (error, Some(format!("rigid-body mode {}", j + 1)));
+            let at = coordinate_name(evidence, norms.largest(dense::column(forces.as_ref(), j)));
+            worst = (error, Some(format!("rigid-body mode {}, {at}", j + 1)));
         }
     }
-    let limits = Limits { engineering: 1e-12, ..zero_level(evidence) };
+    let limits = Limits { engineering: 1e-12, ..zero_level(evidence) }.capped(1e-8, 1e-2);
     Check {
         id: "M-12",
         name: "reduced stiffness lets rigid motion pass",

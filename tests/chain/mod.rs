@@ -100,10 +100,7 @@ pub(crate) fn rigid_of(
     interfaces: &[InterfaceJob],
 ) -> Result<(Partition, RigidBodyModes), Error> {
     let partition = partition(model, interfaces)?;
-    let rigid = match rigid::from_coordinates(&partition)? {
-        Some(rigid) => rigid,
-        None => rigid::from_matrices(&partition)?.0,
-    };
+    let rigid = rigid::rigid_body_modes(&partition)?.0;
     Ok((partition, rigid))
 }
 

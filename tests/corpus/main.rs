@@ -48,8 +48,7 @@ fn model_job(pairs: &Path, pair: &Pair) -> ModelJob {
         mass: matrix(pair.files[1]),
         dofs: beside(&["model.dof", "dof.csv"]),
         nodes: beside(&["nodes.csv"]),
-        units: None,
-        expect: None,
+        ..ModelJob::default()
     }
 }
 

@@ -107,7 +107,7 @@ fn a_superelement_cut_anywhere_is_refused() {
         place.write("cut.supel", &whole[..length]);
         let ended = supel(&["inspect", &cut]);
         assert_eq!(ended.code, ExitCode::InputData, "{length} bytes: {}{}", ended.out, ended.err);
-        assert!(ended.err.starts_with("supel: error: "), "{}", ended.err);
+        assert!(ended.err.starts_with("supel: error[E-"), "{}", ended.err);
     }
 }
 

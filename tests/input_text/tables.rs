@@ -8,7 +8,7 @@ use crate::{Folder, gzip, job, mtx};
 /// Reads a model of n rows with these tables beside it.
 fn read_tables(n: usize, dofs: Option<&[u8]>, nodes: Option<&[u8]>) -> Result<Input> {
     let folder = Folder::new();
-    let matrix = folder.write("k.mtx", mtx("symmetric", n, &[(1, 1, 1.0)]));
+    let matrix = folder.write("k.mtx", mtx("symmetric", n, &[(1, 1, 1.0), (n, n, 1.0)]));
     let mut model = job(&matrix, &matrix);
     model.dofs = dofs.map(|bytes| folder.write("map.dof", bytes));
     model.nodes = nodes.map(|bytes| folder.write("nodes.csv", bytes));

@@ -3,7 +3,8 @@
 //! The C library is called through a crate that takes one process-wide lock for each call, so that reading from several
 //! threads is safe. It is never asked to believe a header: a dataset is read only when its stored bytes can hold what it
 //! promises, links that could leave the file are refused, only filters with a bounded expansion are accepted, and numbers
-//! are converted here. What remains is the library's own parsing of damaged metadata, which these checks cannot reach.
+//! are converted here. What remains is the library's own parsing of damaged metadata, which these checks cannot reach:
+//! the program therefore lets a child process read HDF5 input first.
 
 mod attribute;
 mod compressed;

@@ -143,7 +143,7 @@ fn checks(page: &mut Page, checks: &[Check]) {
         let [id, name, value, limit, active, margin, word] = line;
         let word = page.toned(word.trim_end(), Tone::Of(check.verdict()));
         page.line(&format!("  {id}  {name}  {value}  {limit}  {active}  {margin}  {word}"));
-        if let Some(worst) = check.worst.as_ref().filter(|_| check.verdict() != Verdict::Pass) {
+        if let Some(worst) = check.worst.as_ref().filter(|_| check.verdict() > Verdict::Pass) {
             let worst = table::shorten(&format!("worst at {worst} ({})", check.equation), WIDTH - 10);
             let worst = page.toned(&worst, Tone::Faint);
             page.line(&format!("        {worst}"));
@@ -152,18 +152,24 @@ fn checks(page: &mut Page, checks: &[Check]) {
 }
 
 fn check_row(check: &Check) -> [String; 7] {
-    let active = match check.limits.active() {
-        ActiveLimit::Engineering => "engineering",
-        ActiveLimit::Arithmetic => "arithmetic",
-        ActiveLimit::Data => "data",
+    let [limit, active, margin] = match check.limits.active() {
+        _ if !check.is_judged() => ["–", "–", "–"].map(str::to_owned),
+        active => {
+            let active = match active {
+                ActiveLimit::Engineering => "engineering",
+                ActiveLimit::Arithmetic => "arithmetic",
+                ActiveLimit::Data => "data",
+            };
+            [table::scientific(check.limits.value(), 1), active.to_owned(), margin(check.margin())]
+        }
     };
     [
         check.id.to_owned(),
         table::shorten(check.name, NAME),
         table::scientific(check.value, 2),
-        table::scientific(check.limits.value(), 1),
-        active.to_owned(),
-        margin(check.margin()),
+        limit,
+        active,
+        margin,
         verdict_word(check.verdict()).to_owned(),
     ]
 }

@@ -67,12 +67,12 @@ fn verdict(page: &mut Page, report: &Report) {
     let of = |verdict| -> Vec<&str> {
         body.checks.iter().filter(|check| check.verdict() == verdict).map(|check| check.id).collect()
     };
-    let n_checks = table::counted(body.checks.len(), "check", "checks");
+    let n_checks = table::counted(body.checks.iter().filter(|check| check.is_judged()).count(), "check", "checks");
     let n_warnings = table::counted(body.warnings.len(), "warning", "warnings");
     let (failed, warned): (Vec<&str>, Vec<&str>) = (of(Verdict::Fail), of(Verdict::Warn));
     let verdict = body.verdict();
     let text = match verdict {
-        Verdict::Pass => format!("✓ verified: {n_checks} passed"),
+        Verdict::Info | Verdict::Pass => format!("✓ verified: {n_checks} passed"),
         Verdict::Warn if warned.is_empty() => format!("! verified with {n_warnings}: {n_checks} passed"),
         Verdict::Warn => format!("! verified with {n_warnings}; past the limit: {}", warned.join(", ")),
         Verdict::Fail if failed.is_empty() => "✗ not verified: modes are missing".to_owned(),

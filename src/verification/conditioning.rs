@@ -1,0 +1,129 @@
+//! How much the matrices amplify rounding: M-23.
+
+use faer::{Mat, MatRef};
+
+use super::check::{Check, Limits};
+use super::spectrum::scaled_by;
+use super::{Evidence, coordinate_name, coordinate_scales};
+use crate::dense;
+use crate::error::Result;
+use crate::factor::SolveOperator;
+use crate::modes::Equilibrated;
+use crate::rigid::ILL_CONDITIONED;
+
+/// ‖DK_IID‖₁ ‖(DK_IID)⁻¹‖₁, the second norm estimated from below by a few solves (Hager 1984, Higham 1988).
+///
+/// The estimate is within a factor of three of the truth in practice.
+pub(super) fn internal_condition(evidence: &Evidence<'_>) -> f64 {
+    const MAX_STEPS: usize = 5;
+    let (stiffness, mass) = evidence.internal;
+    let norms = Equilibrated::of(stiffness, mass);
+    let n = norms.scale.len();
+    let solve = |x: &[f64]| -> Vec<f64> {
+        let mut block = Mat::from_fn(n, 1, |i, _| x[i] / norms.scale[i]);
+        evidence.factor.solve_in_place(block.as_mut());
+        dense::column(block.as_ref(), 0).iter().zip(&norms.scale).map(|(y, d)| y / d).collect()
+    };
+    let mut x = vec![1.0 / n as f64; n];
+    let mut estimate = 0.0;
+    for _ in 0..MAX_STEPS {
+        let y = solve(&x);
+        let norm: f64 = y.iter().map(|y| y.abs()).sum();
+        if norm.is_nan() {
+            return norm;
+        }
+        if norm <= estimate {
+            break;
+        }
+        estimate = norm;
+        let signs: Vec<f64> = y.iter().map(|y| if *y < 0.0 { -1.0 } else { 1.0 }).collect();
+        let z = solve(&signs);
+        let (mut at, mut largest) = (0, 0.0);
+        for (i, z) in z.iter().enumerate() {
+            if z.abs() > largest {
+                (at, largest) = (i, z.abs());
+            }
+        }
+        if largest <= dense::dot(&z, &x) {
+            break;
+        }
+        x.fill(0.0);
+        x[at] = 1.0;
+    }
+    norms.stiffness_norm * estimate
+}
+
+/// M-23 in its five lines.
+pub(super) fn conditioning(evidence: &Evidence<'_>, internal: f64) -> Result<Vec<Check>> {
+    let mut checks = vec![
+        judged(
+            "interface reacts all rigid-body motions alike",
+            "s_max / s_min of U_B, rotations times the size of the component",
+            (1.0 / evidence.rank.singular_ratio, None),
+            1.0 / ILL_CONDITIONED,
+        ),
+        shown("condition of the internal stiffness", "κ₁(D K_II D), estimated", (internal, None)),
+    ];
+    let (mass, softest) = condition(evidence, evidence.reduction.mass.as_ref(), &mass_scales(evidence), 0)?;
+    // At this condition a client that factors M̂ loses half its digits.
+    checks.push(judged("condition of the reduced mass", "κ₂(D M̂ D), unit diagonal", (mass, softest), 1e8));
+    let stiffness = evidence.reduction.stiffness.as_ref();
+    let (stiffness, softest) = condition(evidence, stiffness, &coordinate_scales(evidence), evidence.rigid.count())?;
+    let equation = "κ₂(D K̂ D) without its rigid-body modes, in the scales of the uncondensed stiffness";
+    checks.push(shown("condition of the reduced elastic stiffness", equation, (stiffness, softest)));
+    if evidence.basis.n_dynamic() > 0 {
+        let equation = "min |R_jj| / ‖R_j‖ of Ψ_D = named columns · R⁻¹";
+        checks.push(shown("least independent dynamic mode", equation, independence(evidence)));
+    }
+    Ok(checks)
+}
+
+/// Near 1/√M̂_ii.
+fn mass_scales(evidence: &Evidence<'_>) -> Vec<f64> {
+    let mass = &evidence.reduction.mass;
+    (0..mass.nrows()).map(|i| dense::power_of_two_root(mass[(i, i)])).collect()
+}
+
+/// Largest over smallest eigenvalue of D A D, the first `n_zero` left out, and the coordinate with the largest part in the
+/// smallest.
+fn condition(
+    evidence: &Evidence<'_>,
+    a: MatRef<'_, f64>,
+    scales: &[f64],
+    n_zero: usize,
+) -> Result<(f64, Option<String>)> {
+    let (values, vectors) = dense::symmetric_eigen(scaled_by(a, scales).as_ref())?;
+    let Some(least) = values.get(n_zero) else {
+        return Ok((1.0, None));
+    };
+    let part = |i: usize| vectors[(i, n_zero)].abs();
+    let softest = (0..values.len()).max_by(|a, b| part(*a).total_cmp(&part(*b)));
+    // An eigenvalue below zero is rounding or worse; M-25 says which.
+    let ratio = if *least > 0.0 { values[values.len() - 1] / least } else { f64::MAX };
+    Ok((ratio, softest.map(|i| coordinate_name(evidence, i))))
+}
+
+/// The smallest share of its length that a column of Ψ_D keeps beside the columns before it.
+fn independence(evidence: &Evidence<'_>) -> (f64, Option<String>) {
+    let basis = evidence.basis;
+    let mut least = (1.0, None);
+    for (slot, named) in basis.kept.iter().enumerate() {
+        let length = dense::norm(dense::column(basis.mixing.as_ref(), *named));
+        let share = basis.mixing[(slot, *named)].abs() / length;
+        // Below, or not a number.
+        if share.is_nan() || share < least.0 {
+            least = (share, Some(coordinate_name(evidence, evidence.partition.n_interface() + slot)));
+        }
+    }
+    least
+}
+
+fn shown(name: &'static str, equation: &'static str, (value, worst): (f64, Option<String>)) -> Check {
+    Check { id: "M-23", name, equation, value, limits: Limits::NONE, fail_above: f64::INFINITY, worst }
+}
+
+/// A line that warns above its limit and never fails: a bad condition loses digits, and other measures say whether too many.
+fn judged(name: &'static str, equation: &'static str, (value, worst): (f64, Option<String>), limit: f64) -> Check {
+    let limits = Limits { engineering: limit, ..Limits::default() };
+    Check { id: "M-23", name, equation, value, limits, fail_above: f64::MAX, worst }
+}

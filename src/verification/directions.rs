@@ -1,0 +1,93 @@
+//! The rigid directions in which a component is looked at.
+
+use faer::Mat;
+
+use super::Evidence;
+use crate::dense;
+use crate::input::Direction;
+use crate::partition::{Partition, Site};
+use crate::sparse::product;
+
+/// Motions of the component as a whole, by name.
+pub(super) struct Directions {
+    /// `translation x`, `rotation z`, `rigid-body mode 2`.
+    pub(super) names: Vec<String>,
+    /// The motions, n' × k.
+    pub(super) motions: Mat<f64>,
+    /// uᵀMu of each.
+    pub(super) masses: Vec<f64>,
+}
+
+/// Share of the largest modal mass below which a motion moves nothing: a rotation about the line all mass lies on.
+const NOTHING: f64 = 1e-12;
+
+const NAMES: [&str; 6] = ["translation x", "translation y", "translation z", "rotation x", "rotation y", "rotation z"];
+
+impl Directions {
+    /// The unit translations and the unit rotations about the middle of the mass, whether K lets them pass or not;
+    /// without coordinates the rigid-body modes.
+    pub(super) fn of(evidence: &Evidence<'_>) -> Self {
+        match evidence.partition.sites() {
+            Some(sites) => Self::unit_motions(evidence.partition, &sites),
+            None => Self::rigid_body_modes(evidence),
+        }
+    }
+
+    /// The motions that K lets pass: the unit motions where they are that, else the rigid-body modes by number.
+    pub(super) fn free(evidence: &Evidence<'_>) -> Self {
+        if evidence.rigid.is_classical { Self::of(evidence) } else { Self::rigid_body_modes(evidence) }
+    }
+
+    fn rigid_body_modes(evidence: &Evidence<'_>) -> Self {
+        let motions = evidence.rigid.orthonormal.clone();
+        let names = (1..=motions.ncols()).map(|mode| format!("rigid-body mode {mode}")).collect();
+        Self { names, masses: vec![1.0; motions.ncols()], motions }
+    }
+
+    fn unit_motions(partition: &Partition, sites: &[Site]) -> Self {
+        let centre = middle_of_mass(partition, sites);
+        let mut motions = Mat::zeros(sites.len(), 6);
+        for (row, site) in sites.iter().enumerate() {
+            let position = std::array::from_fn(|axis| site.position[axis] - centre[axis]);
+            let motion = Site { position, ..*site }.rigid_motion();
+            motion.iter().enumerate().for_each(|(j, value)| motions[(row, j)] = *value);
+        }
+        let momenta = product(&partition.mass, motions.as_ref());
+        let of = |j: usize| dense::dot(dense::column(motions.as_ref(), j), dense::column(momenta.as_ref(), j));
+        let masses: Vec<f64> = (0..6).map(of).collect();
+        let largest = |range: std::ops::Range<usize>| masses[range].iter().copied().fold(0.0, f64::max);
+        let of_kind = [largest(0..3), largest(3..6)];
+        let moving: Vec<usize> = (0..6).filter(|j| masses[*j] > NOTHING * of_kind[j / 3]).collect();
+        Self {
+            names: moving.iter().map(|j| NAMES[*j].to_owned()).collect(),
+            motions: Mat::from_fn(sites.len(), moving.len(), |i, j| motions[(i, moving[j])]),
+            masses: moving.iter().map(|j| masses[*j]).collect(),
+        }
+    }
+
+    /// The unit translations alone; none without coordinates.
+    pub(super) fn translations(self) -> Option<Self> {
+        let chosen: Vec<usize> = (0..self.count()).filter(|j| self.names[*j].starts_with("translation")).collect();
+        (!chosen.is_empty()).then(|| Self {
+            names: chosen.iter().map(|j| self.names[*j].clone()).collect(),
+            motions: Mat::from_fn(self.motions.nrows(), chosen.len(), |i, j| self.motions[(i, chosen[j])]),
+            masses: chosen.iter().map(|j| self.masses[*j]).collect(),
+        })
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.names.len()
+    }
+}
+
+/// The mean position of the translations, weighted with the diagonal of M: near the centre of mass, which is all that a
+/// rotation that is looked at by itself asks for.
+fn middle_of_mass(partition: &Partition, sites: &[Site]) -> [f64; 3] {
+    let (mut sum, mut total) = ([0.0; 3], 0.0);
+    for (row, site) in sites.iter().enumerate().filter(|(_, site)| site.direction <= Direction::Uz) {
+        let weight = partition.mass.get(row, row).copied().unwrap_or(0.0);
+        (0..3).for_each(|axis| sum[axis] += weight * site.position[axis]);
+        total += weight;
+    }
+    if total > 0.0 { sum.map(|sum| sum / total) } else { [0.0; 3] }
+}

@@ -1,0 +1,78 @@
+//! How far rigid-body motion is from straining the component, direction by direction.
+
+use super::Evidence;
+use super::directions::Directions;
+use super::spectrum::Spectrum;
+use crate::dense;
+use crate::modes::Equilibrated;
+use crate::rigid::absolute_product;
+use crate::sparse::product;
+
+/// One direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grounding {
+    /// `translation x`, `rotation z`.
+    pub direction: String,
+    /// uᵀKu / (λ uᵀMu), λ the first eigenvalue beyond all directions.
+    pub energy_ratio: f64,
+    /// What rounding and the digits of K can make of it.
+    pub noise: f64,
+    /// max |Ku| / max (|K||u|), equilibrated.
+    pub force_ratio: f64,
+    /// Node and direction of the largest force.
+    pub worst: Option<String>,
+    /// Whether K lets the motion pass within its noise, so that it counts as a rigid-body motion.
+    pub is_free: bool,
+    /// Whether a spring holds what should be free.
+    pub is_grounded: bool,
+}
+
+/// Energy ratio above which a free motion is not free: a rigid-body frequency of a thousandth of the first elastic one.
+const GROUNDED_ABOVE: f64 = 1e-6;
+/// Energy ratio above which a motion is held in earnest: its frequency is a tenth of the first elastic one.
+const HELD_ABOVE: f64 = 1e-2;
+/// How far roundings of one sign may exceed their typical sum.
+const NOISE_FACTOR: f64 = 10.0;
+
+/// All directions.
+pub(super) fn groundings(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Vec<Grounding> {
+    let directions = Directions::of(evidence);
+    let partition = evidence.partition;
+    let (forces, terms) = (
+        product(&partition.stiffness, directions.motions.as_ref()),
+        absolute_product(&partition.stiffness, directions.motions.as_ref()),
+    );
+    let scale = Equilibrated::of(&partition.stiffness, &partition.mass).scale;
+    let first = spectrum.eigenvalue(directions.count().max(evidence.rigid.count()));
+    // Where K lets fewer motions pass than there are directions, some are held.
+    let all_free = directions.count() <= evidence.rigid.count();
+    let precision = partition.precision.stiffness + f64::EPSILON;
+    (0..directions.count())
+        .map(|j| {
+            let (u, force) = (dense::column(directions.motions.as_ref(), j), dense::column(forces.as_ref(), j));
+            let terms = dense::column(terms.as_ref(), j);
+            let of = |energy: f64| energy.abs() / (first * directions.masses[j]);
+            let energy_ratio = of(dense::dot(u, force));
+            let size: f64 = u.iter().zip(terms).map(|(u, terms)| u.abs() * terms).sum();
+            let noise = NOISE_FACTOR * partition.cancellation * precision * of(size);
+            let (mut largest, mut at, mut of_terms) = (0.0, None, 0.0f64);
+            for (row, d) in scale.iter().enumerate() {
+                of_terms = of_terms.max(d * terms[row]);
+                if dense::worse(d * force[row].abs(), largest) {
+                    (largest, at) = (d * force[row].abs(), Some(row));
+                }
+            }
+            let is_free = all_free || energy_ratio <= noise;
+            let least = if all_free { noise.max(GROUNDED_ABOVE) } else { noise };
+            Grounding {
+                direction: directions.names[j].clone(),
+                energy_ratio,
+                noise,
+                force_ratio: if of_terms > 0.0 { largest / of_terms } else { 0.0 },
+                worst: at.map(|row| partition.name_of(row)),
+                is_free,
+                is_grounded: energy_ratio > least && (all_free || energy_ratio < HELD_ABOVE),
+            }
+        })
+        .collect()
+}

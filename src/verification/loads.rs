@@ -1,0 +1,186 @@
+//! Loads of inertia: deflection under unit accelerations (M-18), effective mass (M-19).
+
+use faer::linalg::solvers::Solve;
+use faer::{Mat, MatRef, Side};
+
+use super::check::{Check, Limits};
+use super::directions::Directions;
+use super::spectrum::{lowest_eigenpairs, scaled_by};
+use super::{Evidence, data_noise};
+use crate::basis::DynamicCoordinate;
+use crate::dense;
+use crate::error::Result;
+use crate::factor::SolveOperator;
+use crate::model::diagonal;
+use crate::sparse::product;
+
+/// Share of each direction's inertia that a mode of the reduced model carries, its interface held.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EffectiveMasses {
+    /// The directions.
+    pub directions: Vec<String>,
+    /// For each mode, the shares in each direction.
+    pub shares: Vec<Vec<f64>>,
+}
+
+/// M-18, where the translations are known.
+pub(super) fn accelerations(evidence: &Evidence<'_>, condition: f64) -> Option<Check> {
+    const FAIL: f64 = 1e-6;
+    let partition = evidence.partition;
+    let n_i = partition.n_internal;
+    let directions = Directions::of(evidence).translations()?;
+    let inertia = product(&partition.mass, directions.motions.as_ref());
+    let loads = inertia.as_ref().subrows(0, n_i);
+    let mut full = loads.to_owned();
+    evidence.factor.solve_in_place(full.as_mut());
+    let reduced = reduced_deflections(evidence, loads)?;
+    let error = &full - &reduced;
+    let forces = product(evidence.internal.0, error.as_ref());
+    let mut worst = (0.0, None);
+    for j in 0..directions.count() {
+        let energy = |a: &Mat<f64>, b: MatRef<'_, f64>| {
+            dense::dot(dense::column(a.as_ref(), j), dense::column(b, j)).max(0.0).sqrt()
+        };
+        let (missed, whole) = (energy(&error, forces.as_ref()), energy(&full, loads));
+        let share = if whole > 0.0 { missed / whole } else { 0.0 };
+        if dense::worse(share, worst.0) {
+            worst =
+                (share, Some(format!("acceleration along {}", directions.names[j].trim_start_matches("translation "))));
+        }
+    }
+    let limits = if is_exact(evidence, &directions) {
+        let arithmetic = f64::EPSILON * condition;
+        Limits { engineering: 1e-9, arithmetic, data: data_noise(partition) * condition }.capped(FAIL, 1e-2)
+    } else {
+        Limits::NONE
+    };
+    Some(Check {
+        id: "M-18",
+        name: "deflection under unit accelerations",
+        equation: "max ‖u − Ψ_D η‖_K / ‖u‖_K, interface held, u = K_II⁻¹ (M t)_I, η = K̂_ηη⁻¹ Ψ_Dᵀ (M t)_I",
+        value: worst.0,
+        limits,
+        fail_above: if limits.engineering.is_finite() { limits.value().max(FAIL) } else { f64::INFINITY },
+        worst: worst.1,
+    })
+}
+
+/// Ψ_D K̂_ηη⁻¹ Ψ_Dᵀ F; none where K̂_ηη is not definite, which M-25 says.
+fn reduced_deflections(evidence: &Evidence<'_>, loads: MatRef<'_, f64>) -> Option<Mat<f64>> {
+    let psi_d = evidence.basis.dynamic_modes.as_ref();
+    let (n_b, n_eta) = (evidence.partition.n_interface(), psi_d.ncols());
+    let stiffness = evidence.reduction.stiffness.as_ref().submatrix(n_b, n_b, n_eta, n_eta);
+    let scales: Vec<f64> = (0..n_eta).map(|i| dense::power_of_two_root(stiffness[(i, i)])).collect();
+    let factor = scaled_by(stiffness, &scales).llt(Side::Lower).ok()?;
+    let mut eta = dense::gram(psi_d, loads);
+    let scale = |eta: &mut Mat<f64>| {
+        *eta = Mat::from_fn(eta.nrows(), eta.ncols(), |i, j| eta[(i, j)] * scales[i]);
+    };
+    scale(&mut eta);
+    factor.solve_in_place(eta.as_mut());
+    scale(&mut eta);
+    Some(dense::product(psi_d, eta.as_ref()))
+}
+
+/// Whether the answers to these accelerations are among the columns of Ψ_D: inertia relief is there for every rigid-body
+/// mode, and the accelerations are rigid-body motions that K lets pass.
+fn is_exact(evidence: &Evidence<'_>, directions: &Directions) -> bool {
+    // What is left of a translation that is a rigid-body motion is rounding; of one that is held, all of it.
+    const SAME: f64 = 1e-6;
+    let basis = evidence.basis;
+    let is_relief = |c: &DynamicCoordinate| matches!(c, DynamicCoordinate::InertiaRelief(_));
+    let kept = basis.coordinates.iter().filter(|c| is_relief(c)).count();
+    let dropped = basis.dropped.iter().filter(|column| is_relief(&column.coordinate)).count();
+    let rigid = evidence.rigid;
+    if rigid.count() == 0 || kept + dropped < rigid.count() {
+        return false;
+    }
+    let along = dense::gram(rigid.mass_orthonormal.as_ref(), directions.motions.as_ref());
+    (0..directions.count()).all(|j| {
+        let kept: f64 = (0..along.nrows()).map(|i| along[(i, j)].powi(2)).sum();
+        (1.0 - kept / directions.masses[j]).abs() <= SAME
+    })
+}
+
+/// The effective masses of the reduced model with its interface held, for a free component.
+///
+/// Γ = M_II U_I + M_IB U_B is the inertia of a rigid-body acceleration on the interior; a mode φ carries (φᵀΨ_DᵀΓ)² of the
+/// total ΓᵀM_II⁻¹Γ.
+pub(super) fn effective_masses(evidence: &Evidence<'_>) -> Result<Option<EffectiveMasses>> {
+    let partition = evidence.partition;
+    let (n_i, n_b, n_eta) = (partition.n_internal, partition.n_interface(), evidence.basis.n_dynamic());
+    let directions = Directions::free(evidence);
+    let inertia = product(&partition.mass, directions.motions.as_ref());
+    let gamma = inertia.as_ref().subrows(0, n_i);
+    let Some(totals) = interior_masses(evidence, gamma, directions.motions.as_ref().subrows(0, n_i)) else {
+        return Ok(None);
+    };
+    let (k, m) = (evidence.reduction.stiffness.as_ref(), evidence.reduction.mass.as_ref());
+    let held = |a: MatRef<'_, f64>| a.submatrix(n_b, n_b, n_eta, n_eta).to_owned();
+    let first = (0..n_eta).map(|i| k[(n_b + i, n_b + i)]).fold(f64::INFINITY, f64::min);
+    let (_, shapes) = lowest_eigenpairs(held(k).as_ref(), held(m).as_ref(), first, n_eta)?;
+    let participation = dense::gram(evidence.basis.dynamic_modes.as_ref(), gamma);
+    let participation = dense::gram(shapes.as_ref(), participation.as_ref());
+    let share =
+        |mode: usize, j: usize| if totals[j] > 0.0 { participation[(mode, j)].powi(2) / totals[j] } else { 0.0 };
+    let shares = (0..shapes.ncols()).map(|mode| (0..totals.len()).map(|j| share(mode, j)).collect()).collect();
+    Ok(Some(EffectiveMasses { directions: directions.names, shares }))
+}
+
+/// γᵀ M_II⁻¹ γ of each column, by conjugate gradients with the diagonal of M_II: a mass matrix is that well conditioned.
+/// None where it is not.
+fn interior_masses(evidence: &Evidence<'_>, gamma: MatRef<'_, f64>, start: MatRef<'_, f64>) -> Option<Vec<f64>> {
+    // Shares are read to three digits; the square of this is what the total is off by.
+    const ENOUGH: f64 = 1e-6;
+    const MAX_STEPS: usize = 500;
+    let mass = evidence.internal.1;
+    let inverse: Vec<f64> = diagonal(mass).into_iter().map(|m| if m > 0.0 { 1.0 / m } else { 0.0 }).collect();
+    let times_mass = |x: &[f64]| {
+        let x = Mat::from_fn(x.len(), 1, |i, _| x[i]);
+        dense::column(product(mass, x.as_ref()).as_ref(), 0).to_vec()
+    };
+    let precondition = |r: &[f64]| -> Vec<f64> { r.iter().zip(&inverse).map(|(r, w)| r * w).collect() };
+    let of_column = |j: usize| {
+        let gamma = dense::column(gamma, j);
+        let mut x: Vec<f64> = dense::column(start, j).to_vec();
+        let mut r: Vec<f64> = gamma.iter().zip(times_mass(&x)).map(|(g, m)| g - m).collect();
+        let size = dense::dot(gamma, &precondition(gamma));
+        let mut z = precondition(&r);
+        let (mut p, mut rz) = (z.clone(), dense::dot(&r, &z));
+        for _ in 0..MAX_STEPS {
+            if rz <= ENOUGH * ENOUGH * size {
+                // The total that the residual still owes is of second order.
+                return Some(dense::dot(gamma, &x) + dense::dot(&r, &x));
+            }
+            let image = times_mass(&p);
+            let alpha = rz / dense::dot(&p, &image);
+            dense::add_scaled(&mut x, alpha, &p);
+            dense::add_scaled(&mut r, -alpha, &image);
+            z = precondition(&r);
+            let next = dense::dot(&r, &z);
+            p.iter_mut().zip(&z).for_each(|(p, z)| *p = z + next / rz * *p);
+            rz = next;
+        }
+        None
+    };
+    (0..gamma.ncols()).map(of_column).collect()
+}
+
+/// M-19: the direction that is carried least.
+///
+/// It is shown, not judged. M̂ holds the whole rigid-body mass whatever the modes (M-16), so what the modes leave out
+/// still moves with the interface; what it misses is its own vibration above the highest mode, which nobody asked for, and
+/// the deflection under its own inertia, which M-18 measures.
+pub(super) fn effective_mass(masses: &EffectiveMasses) -> Option<Check> {
+    let carried = |j: usize| masses.shares.iter().map(|shares| shares[j]).sum::<f64>();
+    let least = (0..masses.directions.len()).map(|j| (carried(j), j)).min_by(|a, b| a.0.total_cmp(&b.0));
+    least.map(|(value, j)| Check {
+        id: "M-19",
+        name: "effective mass of the kept modes, least carried",
+        equation: "min Σ (φᵀΨ_DᵀΓ)² / ΓᵀM_II⁻¹Γ, interface held, Γ = M_II U_I + M_IB U_B",
+        value,
+        limits: Limits::NONE,
+        fail_above: f64::INFINITY,
+        worst: Some(masses.directions[j].clone()),
+    })
+}

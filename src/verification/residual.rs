@@ -1,0 +1,96 @@
+//! Residuals row by row, each against the terms of its own row.
+//!
+//! ```text
+//! ω_i = |r_i| / ((|K| + |λ||M|)|x|)_i                         a row that moves
+//! ω_i = |r_i| / ((‖K_i‖ + |λ|‖M_i‖) ‖x‖_∞), equilibrated      a row at rest: its own terms are rounding themselves
+//! ```
+//! After Arioli, Demmel and Duff (1989), who tell the two kinds of rows apart by the size of their terms.
+
+use faer::{Mat, MatRef};
+
+use super::Evidence;
+use crate::dense;
+use crate::modes::Equilibrated;
+use crate::rigid::absolute_product;
+use crate::sparse::SparseMatrix;
+
+/// Share of its own norm below which the terms of a row are at rest. An eigensolver leaves 10⁻¹² of a residual anywhere in a
+/// vector; a row whose terms are smaller than this share of what they could be cannot be judged by them to 10⁻¹¹.
+const AT_REST: f64 = 0.1;
+
+/// Row norms of a pencil.
+pub(super) struct Rows<'a> {
+    stiffness: &'a SparseMatrix,
+    mass: &'a SparseMatrix,
+    /// D and the norms of the whole.
+    pub(super) norms: Equilibrated,
+    /// ‖(DKD)_i‖₁ and ‖(DMD)_i‖₁.
+    of_row: Vec<[f64; 2]>,
+}
+
+impl<'a> Rows<'a> {
+    pub(super) fn of(stiffness: &'a SparseMatrix, mass: &'a SparseMatrix) -> Self {
+        let norms = Equilibrated::of(stiffness, mass);
+        let row_norm = |matrix: &SparseMatrix, row: usize| {
+            let entries = matrix.outer_view(row);
+            let sum = entries.map_or(0.0, |view| view.iter().map(|(col, a)| norms.scale[col] * a.abs()).sum::<f64>());
+            norms.scale[row] * sum
+        };
+        let of_row = (0..stiffness.rows()).map(|row| [row_norm(stiffness, row), row_norm(mass, row)]).collect();
+        Self { stiffness, mass, norms, of_row }
+    }
+
+    /// (|K| + |λ_j||M|)|x_j|, n × k.
+    pub(super) fn terms(&self, x: MatRef<'_, f64>, lambda: &[f64]) -> Mat<f64> {
+        let mut terms = absolute_product(self.stiffness, x);
+        if lambda.iter().any(|lambda| *lambda != 0.0) {
+            let mass = absolute_product(self.mass, x);
+            for (j, lambda) in lambda.iter().enumerate() {
+                dense::add_scaled(dense::column_mut(terms.as_mut(), j), lambda.abs(), dense::column(mass.as_ref(), j));
+            }
+        }
+        terms
+    }
+
+    /// max ω_i over the rows that have a residual, and the row it is reached at.
+    pub(super) fn componentwise(&self, lambda: f64, x: &[f64], residual: &[f64], terms: &[f64]) -> (f64, usize) {
+        let d = &self.norms.scale;
+        let largest = x.iter().zip(d).fold(0.0f64, |max, (x, d)| max.max((x / d).abs()));
+        let mut worst = (0.0, 0);
+        for (row, (r, terms)) in residual.iter().zip(terms).enumerate() {
+            let [k, m] = self.of_row[row];
+            let norm = (k + lambda.abs() * m) * largest / d[row];
+            let size = if *terms > AT_REST * norm { *terms } else { norm };
+            // A row without terms has nothing to leave a residual of.
+            let error = if *r == 0.0 { 0.0 } else { r.abs() / size };
+            if dense::worse(error, worst.0) {
+                worst = (error, row);
+            }
+        }
+        worst
+    }
+}
+
+/// The largest of several errors, with the column and the row it belongs to.
+#[derive(Clone, Copy)]
+pub(super) struct Worst {
+    pub(super) value: f64,
+    at: Option<(usize, usize)>,
+}
+
+impl Worst {
+    pub(super) fn none() -> Self {
+        Self { value: 0.0, at: None }
+    }
+
+    pub(super) fn take(&mut self, value: f64, column: usize, row: usize) {
+        if dense::worse(value, self.value) {
+            *self = Self { value, at: Some((column, row)) };
+        }
+    }
+
+    /// `mode 3, node 12 uz`.
+    pub(super) fn name(&self, evidence: &Evidence<'_>, column_is: &str) -> Option<String> {
+        self.at.map(|(column, row)| format!("{column_is} {}, {}", column + 1, evidence.partition.name_of(row)))
+    }
+}

@@ -1,0 +1,84 @@
+//! The static solves behind the constraint modes: M-10.
+
+use faer::{Mat, MatRef};
+
+use super::check::{Check, Limits};
+use super::residual::{Rows, Worst};
+use super::{Evidence, data_noise};
+use crate::dense;
+use crate::sparse::product;
+
+/// Constraint modes that are all looked at; of more, random combinations are.
+const FEW: usize = 64;
+/// Random combinations: a column that is wrong shows in each of them but for a set of measure zero, and eight leave it a
+/// chance of 10⁻⁸ to be ten times smaller in all of them than it is.
+const PROBES: usize = 8;
+/// How far roundings of one sign may exceed their typical sum.
+const NOISE_FACTOR: f64 = 10.0;
+/// Columns multiplied at a time.
+const PANEL: usize = 32;
+
+/// M-10: K_II Ψ_S = −K_IB, row by row.
+pub(super) fn static_solves(evidence: &Evidence<'_>) -> Check {
+    const FAIL: f64 = 1e-9;
+    let partition = evidence.partition;
+    let rows = Rows::of(&partition.stiffness, &partition.mass);
+    let n_b = partition.n_interface();
+    let (combinations, column_is) = if n_b <= FEW {
+        (Mat::identity(n_b, n_b), "constraint mode")
+    } else {
+        (gaussian(n_b, &rows.norms.scale[partition.n_internal..]), "random combination")
+    };
+    let mut worst = Worst::none();
+    for start in (0..combinations.ncols()).step_by(PANEL) {
+        let width = PANEL.min(combinations.ncols() - start);
+        let panel = constraint_panel(evidence, combinations.as_ref().subcols(start, width));
+        let forces = product(&partition.stiffness, panel.as_ref());
+        let terms = rows.terms(panel.as_ref(), &vec![0.0; width]);
+        for j in 0..width {
+            let mut residual = dense::column(forces.as_ref(), j).to_vec();
+            // The rows of the interface carry its reactions.
+            residual[partition.n_internal..].fill(0.0);
+            let x = dense::column(panel.as_ref(), j);
+            let (error, at) = rows.componentwise(0.0, x, &residual, dense::column(terms.as_ref(), j));
+            worst.take(error, start + j, at);
+        }
+    }
+    let limits = Limits {
+        engineering: 1e-12,
+        arithmetic: 0.0,
+        // The correction makes the interface carry rigid-body motion; what K lets pass of it is as good as its digits.
+        data: NOISE_FACTOR * data_noise(partition) / evidence.rank.singular_ratio,
+    }
+    .capped(0.0, 1e-2);
+    Check {
+        id: "M-10",
+        name: "interface displacements are in equilibrium",
+        equation: "max |K_II Ψ_S + K_IB|_i / (|K_II||Ψ_S| + |K_IB|)_i (23); rows at rest against their own norm",
+        value: worst.value,
+        limits,
+        fail_above: limits.value().max(FAIL),
+        worst: worst.name(evidence, column_is),
+    }
+}
+
+/// [Ψ_S; I] G, n' × k.
+fn constraint_panel(evidence: &Evidence<'_>, g: MatRef<'_, f64>) -> Mat<f64> {
+    let (n_i, n_b) = (evidence.partition.n_internal, evidence.partition.n_interface());
+    let mut panel = Mat::zeros(n_i + n_b, g.ncols());
+    let psi_s = evidence.basis.constraint_modes.as_ref();
+    dense::add_product(panel.as_mut().subrows_mut(0, n_i), 1.0, psi_s, g);
+    panel.as_mut().subrows_mut(n_i, n_b).copy_from(g);
+    panel
+}
+
+/// Normal numbers in the scales of the interface, from a fixed seed.
+fn gaussian(n_b: usize, scale: &[f64]) -> Mat<f64> {
+    let mut uniform = Mat::zeros(2 * n_b, PROBES);
+    crate::modes::SplitMix64::new(crate::modes::SEED).fill(uniform.as_mut());
+    // Box and Muller, from numbers in (−1, 1).
+    Mat::from_fn(n_b, PROBES, |i, j| {
+        let radius = (-2.0 * uniform[(2 * i, j)].abs().max(f64::MIN_POSITIVE).ln()).sqrt();
+        scale[i] * radius * (std::f64::consts::PI * uniform[(2 * i + 1, j)]).cos()
+    })
+}

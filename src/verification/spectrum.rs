@@ -1,0 +1,157 @@
+//! The spectrum of the reduced pencil, by dense decompositions of its own.
+
+use faer::{Mat, MatRef, Side};
+
+use super::check::Limits;
+use super::{Evidence, coordinate_scales};
+use crate::dense;
+use crate::error::Result;
+use crate::modes::Boundary;
+
+/// Eigenvalues of the reduced pencil with its interface free, and under the boundary of the retained modes.
+pub(super) struct Spectrum {
+    /// All finite ones, ascending, interface free.
+    free: Vec<f64>,
+    /// The M̂-orthonormal eigenvectors of as many as there are rigid-body modes, r × n_r or fewer.
+    pub(super) zero_shapes: Mat<f64>,
+    /// Those under the boundary of the retained modes, zero modes left out.
+    pub(super) same_boundary: Vec<f64>,
+    /// Zero modes of K̂.
+    pub(super) n_zero: usize,
+    /// The smallest eigenvalue of K̂ in the scales of its coordinates.
+    pub(super) lowest_stiffness: f64,
+    /// The coordinate that takes the largest part in it.
+    pub(super) softest: usize,
+    /// That of K̂_BB with its rigid-body modes lifted out, in the same scales; one where the interface has no others.
+    pub(super) lowest_elastic: f64,
+    /// Whether M̂ has a Cholesky factor.
+    pub(super) mass_is_definite: bool,
+}
+
+impl Spectrum {
+    pub(super) fn of(evidence: &Evidence<'_>) -> Result<Self> {
+        let (k, m) = (evidence.reduction.stiffness.as_ref(), evidence.reduction.mass.as_ref());
+        let n_b = evidence.partition.n_interface();
+        let lambda = evidence.retained.modes.lambda.first().copied().unwrap_or(1.0);
+        let (scaled_stiffness, vectors) = dense::symmetric_eigen(scaled_by(k, &coordinate_scales(evidence)).as_ref())?;
+        let n_r = evidence.rigid.count();
+        let lifted = lifted_eigenvalues(evidence)?;
+        let zero = zero_level(evidence).value();
+        let n_zero = n_r + lifted.iter().filter(|value| **value <= zero).count();
+        let (free, zero_shapes) = lowest_eigenpairs(k, m, lambda, n_r)?;
+        let same_boundary = match evidence.retained.boundary {
+            Boundary::FreeInterface => free.get(n_r..).unwrap_or_default().to_vec(),
+            Boundary::FixedInterface => {
+                let n = k.nrows() - n_b;
+                lowest_eigenpairs(k.submatrix(n_b, n_b, n, n), m.submatrix(n_b, n_b, n, n), lambda, 0)?.0
+            }
+        };
+        Ok(Self {
+            free,
+            zero_shapes,
+            lowest_elastic: lifted.first().copied().unwrap_or(1.0),
+            same_boundary,
+            n_zero,
+            lowest_stiffness: scaled_stiffness.first().copied().unwrap_or(0.0),
+            softest: largest_component(vectors.as_ref()),
+            mass_is_definite: equilibrated(m, m).llt(Side::Lower).is_ok(),
+        })
+    }
+
+    /// The eigenvalue of a number, from zero: infinite where there are not so many.
+    pub(super) fn eigenvalue(&self, index: usize) -> f64 {
+        let beyond = if self.free.is_empty() { f64::NAN } else { f64::INFINITY };
+        self.free.get(index).copied().unwrap_or(beyond)
+    }
+
+    /// The lowest eigenvalues, one for each rigid-body mode.
+    pub(super) fn rigid(&self) -> &[f64] {
+        &self.free[..self.zero_shapes.ncols()]
+    }
+
+    /// The first eigenvalue of the free reduced model that is no zero mode: infinite where all are, not a number where the
+    /// reduced pencil is too far from definite to have a spectrum.
+    pub(super) fn first_elastic(&self) -> f64 {
+        self.eigenvalue(self.n_zero)
+    }
+}
+
+/// Size below which an eigenvalue of K̂ in the scales of its coordinates is zero: rounding of its r terms before they
+/// cancel, or the precision of the data.
+pub(super) fn zero_level(evidence: &Evidence<'_>) -> Limits {
+    let cancellation = evidence.constraint.cancellation;
+    let precision = evidence.partition.precision.stiffness;
+    Limits {
+        engineering: 0.0,
+        arithmetic: evidence.reduction.n_reduced() as f64 * f64::EPSILON * cancellation,
+        data: if precision > f64::EPSILON { precision * cancellation } else { 0.0 },
+    }
+}
+
+/// Eigenvalues of K̂ in the scales of its coordinates, ascending, with its rigid-body modes lifted to order one.
+fn lifted_eigenvalues(evidence: &Evidence<'_>) -> Result<Vec<f64>> {
+    let (k, u) = (&evidence.reduction.stiffness, &evidence.reduction.rigid_body_modes);
+    let scales = coordinate_scales(evidence);
+    let mut lifted = scaled_by(k.as_ref(), &scales);
+    if u.ncols() > 0 {
+        let scaled = Mat::from_fn(u.nrows(), u.ncols(), |i, j| u[(i, j)] / scales[i]);
+        let z = scaled.qr().compute_thin_Q();
+        dense::add_product(lifted.as_mut(), 1.0, z.as_ref(), z.transpose());
+        dense::symmetrise(&mut lifted);
+    }
+    Ok(dense::symmetric_eigen(lifted.as_ref())?.0)
+}
+
+/// The row of the largest entry of the first column.
+fn largest_component(vectors: MatRef<'_, f64>) -> usize {
+    let size = |i: usize| if vectors.ncols() > 0 { vectors[(i, 0)].abs() } else { 0.0 };
+    (0..vectors.nrows()).max_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap_or(0)
+}
+
+/// D A D.
+pub(super) fn scaled_by(a: MatRef<'_, f64>, scales: &[f64]) -> Mat<f64> {
+    Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * scales[i] * scales[j])
+}
+
+/// D A D with powers of two D that bring the diagonal of `by` near one.
+fn equilibrated(a: MatRef<'_, f64>, by: MatRef<'_, f64>) -> Mat<f64> {
+    let scales: Vec<f64> = (0..by.nrows()).map(|i| dense::power_of_two_root(by[(i, i)])).collect();
+    scaled_by(a, &scales)
+}
+
+/// Eigenvalues of K x = λ M x, ascending, and the first `n_shapes` M-orthonormal eigenvectors; accurate at the low end:
+/// θ = 1/(λ + α) of (M, K + αM) with α at the first elastic eigenvalue, so that rounding is relative to the low
+/// eigenvalues and not to the high ones. A pencil that is too far from definite has none.
+pub(super) fn lowest_eigenpairs(
+    k: MatRef<'_, f64>,
+    m: MatRef<'_, f64>,
+    alpha: f64,
+    n_shapes: usize,
+) -> Result<(Vec<f64>, Mat<f64>)> {
+    let n = k.nrows();
+    let shifted = Mat::from_fn(n, n, |i, j| k[(i, j)] + alpha * m[(i, j)]);
+    let scales: Vec<f64> = (0..n).map(|i| dense::power_of_two_root(shifted[(i, i)])).collect();
+    let Ok(factor) = scaled_by(shifted.as_ref(), &scales).llt(Side::Lower) else {
+        return Ok((Vec::new(), Mat::zeros(n, 0)));
+    };
+    let l = factor.L();
+    let mut c = scaled_by(m, &scales);
+    let par = faer::Par::Seq;
+    faer::linalg::triangular_solve::solve_lower_triangular_in_place(l, c.as_mut(), par);
+    let mut c = c.transpose().to_owned();
+    faer::linalg::triangular_solve::solve_lower_triangular_in_place(l, c.as_mut(), par);
+    dense::symmetrise(&mut c);
+    let (theta, vectors) = dense::symmetric_eigen(c.as_ref())?;
+    let largest = theta.last().copied().unwrap_or(0.0);
+    let lambda: Vec<f64> = theta
+        .iter()
+        .rev()
+        .take_while(|theta| **theta > f64::EPSILON * largest)
+        .map(|theta| 1.0 / theta - alpha)
+        .collect();
+    let n_shapes = n_shapes.min(lambda.len());
+    // x = D L⁻ᵀ z with zᵀz = 1 has xᵀMx = θ.
+    let mut shapes = Mat::from_fn(n, n_shapes, |i, j| vectors[(i, n - 1 - j)] / theta[n - 1 - j].sqrt());
+    faer::linalg::triangular_solve::solve_upper_triangular_in_place(l.transpose(), shapes.as_mut(), par);
+    Ok((lambda, Mat::from_fn(n, n_shapes, |i, j| shapes[(i, j)] * scales[i])))
+}
