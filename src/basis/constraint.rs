@@ -6,7 +6,7 @@ use faer::{Mat, MatRef};
 use crate::dense;
 use crate::factor::SolveOperator;
 use crate::partition::Partition;
-use crate::rigid::{RigidBodyModes, absolute_energy};
+use crate::rigid::{RigidBodyModes, absolute_energy, unit_motions};
 use crate::sparse::product;
 
 /// Ψ_S with what it took to make it exact.
@@ -43,6 +43,9 @@ pub fn constraint_modes(partition: &Partition, factor: &dyn SolveOperator, rigid
     let is_carried = rigid.count() > 0 && n_b > 0;
     if is_carried {
         raw_rigid_error = rigid_error(modes.as_ref(), u_i, u_b).0;
+        // Any basis of the motions serves; those of unit length U_B⁺ can tell apart whatever the mass they move.
+        let unit = unit_motions(partition, rigid).unwrap_or_else(|_| rigid.orthonormal.clone());
+        let (u_i, u_b) = unit.as_ref().split_at_row(n_i);
         let defect = defect(modes.as_ref(), u_i, u_b);
         dense::add_product(modes.as_mut(), 1.0, defect.as_ref(), left_inverse(partition, u_b).as_ref());
     }

@@ -24,6 +24,7 @@ use crate::sparse::{SparseMatrix, product};
 pub use algebraic::from_matrices;
 pub use mechanism::{Loose, LooseMotions, with_mechanisms};
 pub use misfit::Misfit;
+pub(crate) use rank::unit_motions;
 pub use rank::{ILL_CONDITIONED, InterfaceRank, interface_rank};
 
 /// Where rigid-body modes come from.

@@ -33,29 +33,50 @@ pub fn interface_rank(partition: &Partition, rigid: &RigidBodyModes) -> Result<I
     if n_r == 0 || n_b == 0 {
         return Ok(InterfaceRank { singular_ratio: 1.0 });
     }
-    let size = partition.sites().map_or(1.0, |sites| size_of(&sites));
+    let size = size_of_component(partition);
     let row_scale = |i: usize| match partition.dofs[n_i + i].site {
         Some(site) if site.direction.is_rotation() => size,
         _ => 1.0,
     };
-    let u_b =
-        Mat::from_fn(
-            n_b.max(n_r),
-            n_r,
-            |i, j| {
-                if i < n_b { rigid.orthonormal[(n_i + i, j)] * row_scale(i) } else { 0.0 }
-            },
-        );
+    // Motions of unit length, not of unit mass: a seismic mass would make its own motions small.
+    let unit = unit_motions(partition, rigid)?;
+    let u_b = Mat::from_fn(n_b.max(n_r), n_r, |i, j| if i < n_b { unit[(n_i + i, j)] * row_scale(i) } else { 0.0 });
     let (singular, v) = dense::right_singular(u_b.as_ref())?;
     let largest = singular.first().copied().unwrap_or(0.0);
     let rank = singular.iter().filter(|value| **value > RANK_TOLERANCE * largest).count();
     if largest == 0.0 || rank < n_r {
-        let free = rigid.orthonormal.as_ref() * v.as_ref().subcols(n_r - 1, 1);
+        let free = unit.as_ref() * v.as_ref().subcols(n_r - 1, 1);
         let motion =
             partition.sites().map_or_else(String::new, |sites| describe(&sites, dense::column(free.as_ref(), 0)));
         return Err(Error::InterfaceRank { rank, n_rigid: n_r, motion });
     }
     Ok(InterfaceRank { singular_ratio: singular[n_r - 1] / largest })
+}
+
+fn size_of_component(partition: &Partition) -> f64 {
+    partition.sites().map_or(1.0, |sites| size_of(&sites))
+}
+
+/// The rigid-body modes as motions that are orthogonal and of unit length over all dofs, rotations times the size of the component.
+pub(crate) fn unit_motions(partition: &Partition, rigid: &RigidBodyModes) -> Result<Mat<f64>> {
+    let size = size_of_component(partition);
+    let scale = |i: usize| match partition.dofs[i].site {
+        Some(site) if site.direction.is_rotation() => size,
+        _ => 1.0,
+    };
+    let mut unit = rigid.orthonormal.clone();
+    // The second pass removes what rounding of the first left of lengths that differ by many orders.
+    for _ in 0..2 {
+        let scaled = Mat::from_fn(unit.nrows(), unit.ncols(), |i, j| unit[(i, j)] * scale(i));
+        let lengths: Vec<f64> = (0..scaled.ncols()).map(|j| dense::norm(dense::column(scaled.as_ref(), j))).collect();
+        let even = Mat::from_fn(scaled.nrows(), scaled.ncols(), |i, j| scaled[(i, j)] / lengths[j]);
+        let (squares, directions) = dense::symmetric_eigen(dense::gram(even.as_ref(), even.as_ref()).as_ref())?;
+        let turn = Mat::from_fn(lengths.len(), lengths.len(), |i, j| {
+            directions[(i, j)] / (lengths[i] * squares[j].max(f64::EPSILON).sqrt())
+        });
+        unit = dense::product(unit.as_ref(), turn.as_ref());
+    }
+    Ok(unit)
 }
 
 fn size_of(sites: &[Site]) -> f64 {

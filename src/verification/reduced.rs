@@ -167,19 +167,22 @@ pub(super) fn symmetry(evidence: &Evidence<'_>, terms: &Terms) -> Check {
 /// M-25, definiteness.
 pub(super) fn definiteness(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check {
     let negative = (-spectrum.lowest_stiffness).max(0.0);
-    let value = if spectrum.mass_is_definite { negative } else { f64::INFINITY };
     let limits = zero_level(evidence).capped(1e-8, 1e-2);
+    // Interface dofs without mass make M̂ singular, which M-23 tells; below zero by more than rounding it is wrong.
+    let rounding = NOISE_FACTOR * evidence.reduction.n_reduced() as f64 * f64::EPSILON;
+    let is_indefinite = spectrum.lowest_mass.is_nan() || spectrum.lowest_mass < -rounding;
+    let value = if is_indefinite { f64::INFINITY } else { negative };
     Check {
         id: "M-25",
-        name: "reduced mass is definite, stiffness not negative",
-        equation: "M̂ = LLᵀ; max(0, −λ_min(K̂)), in the scales of the uncondensed stiffness",
+        name: "reduced mass and stiffness are not negative",
+        equation: "λ_min(D M̂ D) ≥ 0 with unit diagonal; max(0, −λ_min(K̂)), in the scales of the uncondensed stiffness",
         value,
         limits,
         fail_above: limits.value(),
-        worst: if spectrum.mass_is_definite {
-            (negative > 0.0).then(|| coordinate_name(evidence, spectrum.softest))
+        worst: if is_indefinite {
+            Some(format!("the reduced mass has the eigenvalue {:.1e}", spectrum.lowest_mass))
         } else {
-            Some("the reduced mass has no Cholesky factor".to_owned())
+            (negative > 0.0).then(|| coordinate_name(evidence, spectrum.softest))
         },
     }
 }

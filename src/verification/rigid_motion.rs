@@ -1,5 +1,7 @@
 //! Rigid-body motion passes through the model, the basis and the reduced stiffness: M-05, M-11, M-12.
 
+use faer::MatRef;
+
 use super::check::{Check, Limits};
 use super::grounding::Grounding;
 use super::residual::Worst;
@@ -67,7 +69,9 @@ pub(super) fn carried_by_interface(evidence: &Evidence<'_>) -> Check {
     dense::add_product(defect.as_mut(), -1.0, evidence.basis.constraint_modes.as_ref(), u_b);
     let mut worst = Worst::none();
     for j in 0..defect.ncols() {
-        let largest = dense::column(u_i, j).iter().fold(0.0f64, |max, value| max.max(value.abs()));
+        let size = |u: MatRef<'_, f64>| dense::column(u, j).iter().fold(0.0f64, |max, value| max.max(value.abs()));
+        // A free mass at the interface moves interface dofs alone.
+        let largest = if size(u_i) > 0.0 { size(u_i) } else { size(u_b) };
         for (i, value) in dense::column(defect.as_ref(), j).iter().enumerate() {
             worst.take(value.abs() / largest, j, i);
         }
