@@ -15,7 +15,7 @@ use crate::sparse::SparseMatrix;
 
 /// Eigenvalues nearer than this many roundings ε c of them are one: c adds all roundings with one sign, and neither of the
 /// two is off by more.
-const TIED: f64 = 4.0;
+pub const REPEATED_WITHIN: f64 = 4.0;
 /// Shares of the modal mass nearer than this, relatively, are alike, as in symmetric structures; the first dof is then
 /// taken. Far above the error of a subspace, far below what differs by design.
 const ALIKE: f64 = 1e-6;
@@ -24,7 +24,7 @@ const ALIKE: f64 = 1e-6;
 pub(super) fn repeated(lambda: &[f64], errors: &[ModeError]) -> Vec<Range<usize>> {
     let is_tied = |j: usize| {
         let rounding = |j: usize| f64::EPSILON * errors[j].cancellation * lambda[j].abs();
-        (lambda[j] - lambda[j - 1]).abs() <= TIED * rounding(j).max(rounding(j - 1))
+        (lambda[j] - lambda[j - 1]).abs() <= REPEATED_WITHIN * rounding(j).max(rounding(j - 1))
     };
     let mut runs = Vec::new();
     let mut start = 0;

@@ -31,6 +31,7 @@ use crate::rigid::RigidBodyModes;
 use crate::sparse::SparseMatrix;
 
 pub use certificate::{Certificate, certified};
+pub use cluster::REPEATED_WITHIN;
 pub use eigenproblem::{CLUSTER_GAP, EigenWork, Eigenpairs, Problem, Wanted};
 pub use equilibration::Equilibrated;
 pub use lanczos::lanczos;

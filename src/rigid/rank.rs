@@ -107,7 +107,11 @@ fn describe(sites: &[Site], motion: &[f64]) -> String {
     // The point of the axis nearest the origin: (θ × t) / θ².
     let cross = [r[1] * t[2] - r[2] * t[1], r[2] * t[0] - r[0] * t[2], r[0] * t[1] - r[1] * t[0]];
     let point = cross.map(|value| value / (turning * turning));
-    let show = |values: [f64; 3]| format!("({:.4}, {:.4}, {:.4})", values[0] + 0.0, values[1] + 0.0, values[2] + 0.0);
+    let show = |values: [f64; 3]| {
+        // What rounds to zero has no sign.
+        let [x, y, z] = values.map(|value| (value * 1e4).round() / 1e4 + 0.0);
+        format!("({x:.4}, {y:.4}, {z:.4})")
+    };
     format!("; free: rotation about the axis through {} along {}", show(point), show(axis))
 }
 
