@@ -793,6 +793,16 @@ pub enum Error {
         /// The name.
         name: String,
     },
+    /// A boundary of the scene is about an interface that the job does not have.
+    #[error("scene.boundaries: `{boundary}`: no interface is called `{name}` – the job has {}", listed(known))]
+    SceneInterface {
+        /// The boundary.
+        boundary: String,
+        /// The name in it.
+        name: String,
+        /// Names of the job's interfaces.
+        known: Vec<String>,
+    },
     /// An interface lists one node, row or direction twice.
     #[error("interface `{interface}`: {what} is listed twice – list each once")]
     InterfaceRepeats {

@@ -5,6 +5,7 @@
 
 mod document;
 mod interface;
+mod scene;
 mod validation;
 
 use std::path::{Path, PathBuf};
@@ -16,6 +17,7 @@ use crate::input::Triangle;
 
 pub use document::Notation;
 pub use interface::{Coupling, InterfaceJob, NodeSelection, Origin, Region};
+pub use scene::{DampingJob, SceneJob, Support};
 
 /// A whole job.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,6 +30,9 @@ pub struct Job {
     pub interfaces: Vec<InterfaceJob>,
     /// Method and modes.
     pub reduction: ReductionJob,
+    /// What the simulation will ask of the component.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scene: Option<SceneJob>,
     /// How the run is done; changes no result.
     #[serde(default)]
     pub run: RunJob,

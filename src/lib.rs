@@ -134,6 +134,9 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     };
     let findings = verification::verify(&evidence)?;
 
+    observer.stage("preservation");
+    let preserved = verification::preservation(&evidence, &factor, &analysis, job)?;
+
     let work = WorkCounters {
         n_factorisations: 1
             + n_extra
@@ -151,6 +154,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         loose: &loose,
         evidence,
         findings: &findings,
+        preserved: &preserved,
         work,
     })?;
     Ok(Outcome { superelement, report })

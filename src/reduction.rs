@@ -108,7 +108,7 @@ fn project(matrix: &SparseMatrix, basis: &Basis) -> Mat<f64> {
 }
 
 /// Columns start .. start + width of Ψ, n' × width.
-fn panel_of(basis: &Basis, start: usize, width: usize) -> Mat<f64> {
+pub(crate) fn panel_of(basis: &Basis, start: usize, width: usize) -> Mat<f64> {
     let (n_i, n_b) = (basis.constraint_modes.nrows(), basis.constraint_modes.ncols());
     let mut panel = Mat::zeros(n_i + n_b, width);
     for j in 0..width {
@@ -125,7 +125,7 @@ fn panel_of(basis: &Basis, start: usize, width: usize) -> Mat<f64> {
 }
 
 /// Ψᵀ F, r × k.
-fn transpose_apply(basis: &Basis, forces: MatRef<'_, f64>) -> Mat<f64> {
+pub(crate) fn transpose_apply(basis: &Basis, forces: MatRef<'_, f64>) -> Mat<f64> {
     let (n_i, n_b) = (basis.constraint_modes.nrows(), basis.constraint_modes.ncols());
     let (internal, interface) = (forces.subrows(0, n_i), forces.subrows(n_i, n_b));
     let mut reduced = Mat::zeros(basis.n_reduced(), forces.ncols());

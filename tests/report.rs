@@ -93,6 +93,9 @@ fn verdicts_follow_from_values_and_limits() {
     assert_eq!(of(0), ("pass".into(), "engineering".into()));
     assert_eq!(of(1), ("warn".into(), "data".into()));
     assert_eq!(of(2), ("fail".into(), "arithmetic".into()));
+    // Shown, not judged: no limit, no margin, and no part in the verdict.
+    assert_eq!(of(3), ("info".into(), Value::Null));
+    assert_eq!([&checks[3]["limit"], &checks[3]["margin"], &checks[3]["fail_above"]], [&Value::Null; 3]);
     // 4e-9 or the like would show that the margin is not limit over value: 1e-13 / 3.1e-16 = 322.58….
     assert!((checks[0]["margin"].as_f64().expect("margin") - 1e-13 / 3.1e-16).abs() < 1e-9);
     assert_eq!(report.body.verdict(), Verdict::Fail);

@@ -159,6 +159,7 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
             modes,
             eigensolver: reduction.eigensolver.map(Into::into).unwrap_or_default(),
         },
+        scene: None,
         run: RunJob::default(),
         write: WriteJob { superelement: superelement.clone(), report: output.report },
     })

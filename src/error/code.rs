@@ -120,6 +120,7 @@ codes! {
     JobNumber => "E-ARG", Usage;
     JobEmpty => "E-JOB-EMPTY", Usage;
     InterfaceTwice => "E-INTERFACE-NAME", Usage;
+    SceneInterface => "E-SCENE-INTERFACE", Usage;
     InterfaceRepeats => "E-DUP-INTERFACE", Usage;
     InterfaceOverlap => "E-INTERFACE-OVERLAP", Usage;
     InterfaceNodes => "E-INTERFACE-NODES", Usage;

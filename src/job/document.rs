@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 
 /// The keys of a job by the table they belong to; `[]` stands for each element of a list.
 const KEYS: &[(&str, &[&str])] = &[
-    ("", &["model", "interface", "reduction", "run", "write"]),
+    ("", &["model", "interface", "reduction", "scene", "run", "write"]),
     ("model", &["stiffness", "mass", "dofs", "nodes", "symmetric", "duplicates", "drop_empty", "units", "expect"]),
     ("model.expect", &["mass", "cg"]),
     ("interface[]", &["name", "nodes", "coupling", "origin", "dofs"]),
@@ -23,6 +23,8 @@ const KEYS: &[(&str, &[&str])] = &[
     ("interface[].nodes.within.sphere", &["center", "radius"]),
     ("reduction", &["method", "modes", "eigensolver"]),
     ("reduction.modes", &["count", "up_to_hz"]),
+    ("scene", &["band_hz", "boundaries", "damping"]),
+    ("scene.damping", &["ratio"]),
     ("run", &["certify", "memory_gib"]),
     ("write", &["superelement", "report"]),
 ];

@@ -17,6 +17,9 @@ pub(super) fn validate(job: &Job) -> Result<()> {
     if let ModeSelection::UpTo { up_to_hz } = job.reduction.modes {
         positive("reduction.modes.up_to_hz", up_to_hz)?;
     }
+    if let Some(scene) = &job.scene {
+        super::scene::validate(scene, &job.interfaces)?;
+    }
     if let Some(memory) = job.run.memory_gib {
         positive("run.memory_gib", memory)?;
     }
@@ -206,7 +209,7 @@ fn output(key: &'static str, path: &Path, expected: &'static str) -> Result<()> 
     if is_named { Ok(()) } else { Err(Error::OutputName { key, path: path.to_owned(), expected }) }
 }
 
-fn positive(key: &str, value: f64) -> Result<()> {
+pub(super) fn positive(key: &str, value: f64) -> Result<()> {
     if value.is_finite() && value > 0.0 { Ok(()) } else { Err(number(key.to_owned(), value, POSITIVE)) }
 }
 
@@ -230,7 +233,7 @@ fn direction(key: &str, vector: &[f64; 3]) -> Result<()> {
     Ok(())
 }
 
-fn number(key: String, value: f64, expected: &'static str) -> Error {
+pub(super) fn number(key: String, value: f64, expected: &'static str) -> Error {
     Error::JobNumber { key, value, expected }
 }
 

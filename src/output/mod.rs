@@ -16,7 +16,8 @@ use crate::job::Job;
 use crate::model::Model;
 use crate::report::{Report, Warning, WorkCounters};
 use crate::rigid::LooseMotions;
-use crate::verification::{Evidence, Findings};
+use crate::verification::check::Check;
+use crate::verification::{Compared, Evidence, Findings};
 
 /// What is remembered of the input after its matrices have gone into the model.
 #[derive(Clone, Debug)]
@@ -75,8 +76,19 @@ pub struct Results<'a> {
     pub evidence: Evidence<'a>,
     /// What verification found.
     pub findings: &'a Findings,
+    /// The reduced beside the full model.
+    pub preserved: &'a Compared,
     /// What was done, counted.
     pub work: WorkCounters,
+}
+
+impl Results<'_> {
+    /// All checks in the order of their identifiers.
+    fn checks(&self) -> Vec<Check> {
+        let mut checks = [&self.findings.checks[..], &self.preserved.checks].concat();
+        checks.sort_by_key(|check| check.id);
+        checks
+    }
 }
 
 /// The superelement and its report.

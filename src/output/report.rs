@@ -8,7 +8,7 @@ use crate::job::{Certify, ModeSelection};
 use crate::modes::Boundary;
 use crate::report::{
     Completeness, DroppedCoordinate, Generator, InterfaceReport, MassProperties, MatrixReport, ModeKind, ModeRow,
-    ModelReport, Preservation, ReductionReport, ReportBody, RigidBodyModes, RigidBodySource, Warning,
+    ModelReport, ReductionReport, ReportBody, RigidBodyModes, RigidBodySource, Warning,
 };
 use crate::rigid::{ILL_CONDITIONED, RigidSource};
 
@@ -17,12 +17,12 @@ pub(super) fn body(results: &Results<'_>) -> ReportBody {
         generator: Generator::default(),
         model: model(results),
         reduction: reduction(results),
-        checks: results.findings.checks.clone(),
+        checks: results.checks(),
         warnings: warnings(results),
         completeness: completeness(results),
         trust_intervals: Vec::new(),
         rigid_body: rigid_body::evidence(results),
-        preservation: Preservation::default(),
+        preservation: results.preserved.report.clone(),
     }
 }
 

@@ -154,7 +154,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
             ("mass".to_owned(), mass.digest.clone()),
         ]),
         job: job_document(results.job),
-        verification: verification(&results.findings.checks, verdict),
+        verification: verification(&results.checks(), verdict),
     }
 }
 

@@ -20,6 +20,8 @@ pub struct Preservation {
     pub size_errors: Vec<SizeError>,
     /// The highest frequency of the reduced model and the step that an integrator needs for it.
     pub highest: Option<HighestFrequency>,
+    /// What was not compared, and why.
+    pub not_compared: Vec<String>,
 }
 
 /// One retained mode in the full and in the reduced model.

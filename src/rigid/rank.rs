@@ -36,7 +36,12 @@ pub fn interface_rank(partition: &Partition, rigid: &RigidBodyModes) -> Result<I
     let size = size_of_component(partition);
     let row_scale = |i: usize| match partition.dofs[n_i + i].site {
         Some(site) if site.direction.is_rotation() => size,
-        _ => 1.0,
+        Some(_) => 1.0,
+        // Without coordinates nothing tells a rotation from a translation; their stiffness makes them alike.
+        None => {
+            let stiffness = partition.stiffness.get(n_i + i, n_i + i).copied().unwrap_or(0.0);
+            1.0 / dense::power_of_two_root(stiffness)
+        }
     };
     // Motions of unit length, not of unit mass: a seismic mass would make its own motions small.
     let unit = unit_motions(partition, rigid)?;

@@ -39,7 +39,7 @@ impl Limits {
     /// An excuse is computed from the results it excuses. Without a cap a bad result would loosen its own judge.
     pub fn capped(self, arithmetic: f64, data: f64) -> Self {
         // A value that is not a number excuses nothing.
-        let cap = |value: f64, most: f64| if value <= most { value } else { most };
+        let cap = |value: f64, most: f64| if value.is_nan() { 0.0 } else { value.min(most) };
         Self { arithmetic: cap(self.arithmetic, arithmetic), data: cap(self.data, data), ..self }
     }
 

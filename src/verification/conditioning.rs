@@ -104,7 +104,7 @@ fn condition(
 }
 
 /// The smallest share of its length that a column of Ψ_D keeps beside the columns before it.
-fn independence(evidence: &Evidence<'_>) -> (f64, Option<String>) {
+pub(super) fn independence(evidence: &Evidence<'_>) -> (f64, Option<String>) {
     let basis = evidence.basis;
     let mut least = (1.0, None);
     for (slot, named) in basis.kept.iter().enumerate() {

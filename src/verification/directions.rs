@@ -21,7 +21,8 @@ pub(super) struct Directions {
 /// Share of the largest modal mass below which a motion moves nothing: a rotation about the line all mass lies on.
 const NOTHING: f64 = 1e-12;
 
-const NAMES: [&str; 6] = ["translation x", "translation y", "translation z", "rotation x", "rotation y", "rotation z"];
+pub(super) const NAMES: [&str; 6] =
+    ["translation x", "translation y", "translation z", "rotation x", "rotation y", "rotation z"];
 
 impl Directions {
     /// The unit translations and the unit rotations about the middle of the mass, whether K lets them pass or not;

@@ -39,10 +39,12 @@ pub(super) fn accelerations(evidence: &Evidence<'_>, condition: f64) -> Option<C
     let mut worst = (0.0, None);
     for j in 0..directions.count() {
         let energy = |a: &Mat<f64>, b: MatRef<'_, f64>| {
-            dense::dot(dense::column(a.as_ref(), j), dense::column(b, j)).max(0.0).sqrt()
+            let energy = dense::dot(dense::column(a.as_ref(), j), dense::column(b, j));
+            // Below zero it is rounding; what is not a number stays so.
+            if energy < 0.0 { 0.0 } else { energy.sqrt() }
         };
         let (missed, whole) = (energy(&error, forces.as_ref()), energy(&full, loads));
-        let share = if whole > 0.0 { missed / whole } else { 0.0 };
+        let share = if missed == 0.0 { 0.0 } else { missed / whole };
         if dense::worse(share, worst.0) {
             worst =
                 (share, Some(format!("acceleration along {}", directions.names[j].trim_start_matches("translation "))));
@@ -50,7 +52,8 @@ pub(super) fn accelerations(evidence: &Evidence<'_>, condition: f64) -> Option<C
     }
     let limits = if is_exact(evidence, &directions) {
         let arithmetic = f64::EPSILON * condition;
-        Limits { engineering: 1e-9, arithmetic, data: data_noise(partition) * condition }.capped(FAIL, 1e-2)
+        // The condition is that of the matrix, not of this solve; a thousandth of a deflection is read by nobody.
+        Limits { engineering: 1e-9, arithmetic, data: data_noise(partition) * condition }.capped(1e-3, 1e-2)
     } else {
         Limits::NONE
     };
@@ -135,35 +138,36 @@ fn interior_masses(evidence: &Evidence<'_>, gamma: MatRef<'_, f64>, start: MatRe
     const MAX_STEPS: usize = 500;
     let mass = evidence.internal.1;
     let inverse: Vec<f64> = diagonal(mass).into_iter().map(|m| if m > 0.0 { 1.0 / m } else { 0.0 }).collect();
-    let times_mass = |x: &[f64]| {
-        let x = Mat::from_fn(x.len(), 1, |i, _| x[i]);
-        dense::column(product(mass, x.as_ref()).as_ref(), 0).to_vec()
+    let precondition = |r: &Mat<f64>| Mat::from_fn(r.nrows(), r.ncols(), |i, j| r[(i, j)] * inverse[i]);
+    let dots = |a: &Mat<f64>, b: &Mat<f64>| -> Vec<f64> {
+        (0..a.ncols()).map(|j| dense::dot(dense::column(a.as_ref(), j), dense::column(b.as_ref(), j))).collect()
     };
-    let precondition = |r: &[f64]| -> Vec<f64> { r.iter().zip(&inverse).map(|(r, w)| r * w).collect() };
-    let of_column = |j: usize| {
-        let gamma = dense::column(gamma, j);
-        let mut x: Vec<f64> = dense::column(start, j).to_vec();
-        let mut r: Vec<f64> = gamma.iter().zip(times_mass(&x)).map(|(g, m)| g - m).collect();
-        let size = dense::dot(gamma, &precondition(gamma));
-        let mut z = precondition(&r);
-        let (mut p, mut rz) = (z.clone(), dense::dot(&r, &z));
-        for _ in 0..MAX_STEPS {
-            if rz <= ENOUGH * ENOUGH * size {
-                // The total that the residual still owes is of second order.
-                return Some(dense::dot(gamma, &x) + dense::dot(&r, &x));
-            }
-            let image = times_mass(&p);
-            let alpha = rz / dense::dot(&p, &image);
-            dense::add_scaled(&mut x, alpha, &p);
-            dense::add_scaled(&mut r, -alpha, &image);
-            z = precondition(&r);
-            let next = dense::dot(&r, &z);
-            p.iter_mut().zip(&z).for_each(|(p, z)| *p = z + next / rz * *p);
-            rz = next;
+    let gamma = gamma.to_owned();
+    let sizes = dots(&gamma, &precondition(&gamma));
+    let mut x = start.to_owned();
+    let mut r = &gamma - &product(mass, x.as_ref());
+    let mut z = precondition(&r);
+    let (mut p, mut rz) = (z.clone(), dots(&r, &z));
+    for _ in 0..MAX_STEPS {
+        if rz.iter().zip(&sizes).all(|(rz, size)| *rz <= ENOUGH * ENOUGH * size) {
+            // The total that the residual still owes is of second order.
+            return Some(dots(&gamma, &x).iter().zip(dots(&r, &x)).map(|(found, owed)| found + owed).collect());
         }
-        None
-    };
-    (0..gamma.ncols()).map(of_column).collect()
+        let image = product(mass, p.as_ref());
+        let curvature = dots(&p, &image);
+        for j in 0..x.ncols() {
+            // A column that is done has no direction left.
+            let alpha = if curvature[j] > 0.0 { rz[j] / curvature[j] } else { 0.0 };
+            dense::add_scaled(dense::column_mut(x.as_mut(), j), alpha, dense::column(p.as_ref(), j));
+            dense::add_scaled(dense::column_mut(r.as_mut(), j), -alpha, dense::column(image.as_ref(), j));
+        }
+        z = precondition(&r);
+        let next = dots(&r, &z);
+        let beta: Vec<f64> = next.iter().zip(&rz).map(|(new, old)| if *old > 0.0 { new / old } else { 0.0 }).collect();
+        p = Mat::from_fn(p.nrows(), p.ncols(), |i, j| z[(i, j)] + beta[j] * p[(i, j)]);
+        rz = next;
+    }
+    None
 }
 
 /// M-19: the direction that is carried least.

@@ -11,6 +11,7 @@ mod eigenpairs;
 mod grounding;
 mod loads;
 mod mass;
+pub mod preservation;
 mod reduced;
 mod residual;
 mod rigid_body;
@@ -33,6 +34,7 @@ use check::Check;
 
 pub use grounding::Grounding;
 pub use loads::EffectiveMasses;
+pub use preservation::{Compared, preservation};
 pub use rigid_body::MassRoutes;
 
 /// Everything the checks look at: the results of the stages, none of their workings.
@@ -127,6 +129,15 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     checks.push(reduced::symmetry(evidence, &terms));
     checks.push(reduced::definiteness(evidence, &spectrum));
     Ok(Findings { checks, rigid_body })
+}
+
+/// What a rigid-body mode is called: `rotation z` of one free body, else by its number.
+fn rigid_name(evidence: &Evidence<'_>, mode: usize) -> String {
+    if evidence.rigid.is_classical {
+        directions::NAMES[mode].to_owned()
+    } else {
+        format!("rigid-body mode {}", mode + 1)
+    }
 }
 
 /// What a reduced coordinate is called: `node 12 uz`, `mode 3`, `inertia relief 2`.

@@ -14,9 +14,9 @@ use crate::modes::Equilibrated;
 use crate::rigid::absolute_product;
 use crate::sparse::SparseMatrix;
 
-/// Share of its own norm below which the terms of a row are at rest. An eigensolver leaves 10⁻¹² of a residual anywhere in a
-/// vector; a row whose terms are smaller than this share of what they could be cannot be judged by them to 10⁻¹¹.
-const AT_REST: f64 = 0.1;
+/// Share of its own norm below which the terms of a row are at rest: a pair may leave 10⁻¹³ of a row's norm (M-01), which a
+/// row of smaller terms than this could not keep within 10⁻¹¹ of them (M-02).
+pub(super) const AT_REST: f64 = 1e-2;
 
 /// Row norms of a pencil.
 pub(super) struct Rows<'a> {

@@ -6,7 +6,7 @@ use super::check::{Check, Limits};
 use super::grounding::Grounding;
 use super::residual::Worst;
 use super::spectrum::{Spectrum, zero_level};
-use super::{Evidence, coordinate_name, reduced_norms};
+use super::{Evidence, coordinate_name, reduced_norms, rigid_name};
 use crate::dense;
 
 /// How far roundings of one sign may exceed their typical sum.
@@ -22,6 +22,8 @@ pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[
     // At a tenth of the first elastic frequency nothing tells a rigid-body motion from an elastic one.
     let limits =
         Limits { engineering: 1e-8, arithmetic: noise * share, data: noise * (1.0 - share) }.capped(1e-2, 1e-2);
+    // Energy that the digits of K explain is a warning, up to a quarter of the first elastic frequency.
+    let explained = (noise * (1.0 - share)).min(1.0 / 16.0);
     Check {
         id: "M-05",
         name: "rigid-body motion costs no energy",
@@ -29,7 +31,7 @@ pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[
         value: energy.largest_quotient / first,
         limits,
         // An energy of 10⁻⁴ is a rigid-body frequency of a hundredth of the first elastic one: the model is grounded.
-        fail_above: limits.value().max(1e-4),
+        fail_above: limits.value().max(1e-4).max(explained),
         worst: strained(grounding, |direction| direction.energy_ratio),
     }
 }
@@ -39,7 +41,9 @@ pub(super) fn residual(evidence: &Evidence<'_>, grounding: &[Grounding]) -> Chec
     let precision = evidence.partition.precision.stiffness;
     let cancellation = evidence.partition.cancellation;
     let data = if precision > f64::EPSILON { NOISE_FACTOR * precision * cancellation } else { 0.0 };
-    let limits = Limits { engineering: 1e-14, arithmetic: f64::EPSILON * cancellation, data };
+    // Coordinates far from the origin are rounded to that distance, and with them the levers of a rotation.
+    let arithmetic = f64::EPSILON * cancellation.max(remoteness(evidence));
+    let limits = Limits { engineering: 1e-14, arithmetic, data };
     Check {
         id: "M-05",
         name: "rigid-body motion makes no force",
@@ -49,6 +53,21 @@ pub(super) fn residual(evidence: &Evidence<'_>, grounding: &[Grounding]) -> Chec
         fail_above: limits.value().max(1e-6),
         worst: strained(grounding, |direction| direction.force_ratio),
     }
+}
+
+/// The distance of the component from the origin over its size; one where coordinates are unknown.
+fn remoteness(evidence: &Evidence<'_>) -> f64 {
+    let Some(sites) = evidence.partition.sites() else { return 1.0 };
+    let (mut farthest, mut low, mut high) = (0.0f64, [f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for site in &sites {
+        for (axis, x) in site.position.into_iter().enumerate() {
+            farthest = farthest.max(x.abs());
+            (low[axis], high[axis]) = (low[axis].min(x), high[axis].max(x));
+        }
+    }
+    let size = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
+    // A component of one node turns about itself.
+    if size > 0.0 { farthest / size } else { 1.0 }
 }
 
 /// The direction that is worst, with the dof that its force is largest at.
@@ -99,10 +118,10 @@ pub(super) fn null_space(evidence: &Evidence<'_>) -> Check {
         let error = norms.backward_error(0.0, u, dense::column(forces.as_ref(), j));
         if dense::worse(error, worst.0) {
             let at = coordinate_name(evidence, norms.largest(dense::column(forces.as_ref(), j)));
-            worst = (error, Some(format!("rigid-body mode {}, {at}", j + 1)));
+            worst = (error, Some(format!("{}, {at}", rigid_name(evidence, j))));
         }
     }
-    let limits = Limits { engineering: 1e-12, ..zero_level(evidence) }.capped(1e-8, 1e-2);
+    let limits = Limits { engineering: 1e-12, ..zero_level(evidence) };
     Check {
         id: "M-12",
         name: "reduced stiffness lets rigid motion pass",

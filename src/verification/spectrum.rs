@@ -3,7 +3,7 @@
 use faer::{Mat, MatRef, Side};
 
 use super::check::Limits;
-use super::{Evidence, coordinate_scales};
+use super::{Evidence, coordinate_scales, data_noise};
 use crate::dense;
 use crate::error::Result;
 use crate::modes::Boundary;
@@ -26,8 +26,8 @@ pub(super) struct Spectrum {
     pub(super) softest: usize,
     /// That of K̂_BB with its rigid-body modes lifted out, in the same scales; one where the interface has no others.
     pub(super) lowest_elastic: f64,
-    /// The smallest eigenvalue of M̂ with unit diagonal: zero where dofs of the interface have no mass.
-    pub(super) lowest_mass: f64,
+    /// The smallest eigenvalue of M̂ with unit diagonal, and the coordinate that takes the largest part in it.
+    pub(super) lowest_mass: (f64, usize),
 }
 
 impl Spectrum {
@@ -36,6 +36,7 @@ impl Spectrum {
         let n_b = evidence.partition.n_interface();
         let lambda = evidence.retained.modes.lambda.first().copied().unwrap_or(1.0);
         let (scaled_stiffness, vectors) = dense::symmetric_eigen(scaled_by(k, &coordinate_scales(evidence)).as_ref())?;
+        let (masses, mass_vectors) = dense::symmetric_eigen(equilibrated(m, m).as_ref())?;
         let n_r = evidence.rigid.count();
         let (k_held, n_pencil) = (with_massless_lifted(evidence), n_r - evidence.rigid.n_massless);
         let lifted = lifted_eigenvalues(evidence)?;
@@ -58,7 +59,7 @@ impl Spectrum {
             n_zero_of_pencil: n_zero - evidence.rigid.n_massless,
             lowest_stiffness: scaled_stiffness.first().copied().unwrap_or(0.0),
             softest: largest_component(vectors.as_ref()),
-            lowest_mass: dense::symmetric_eigen(equilibrated(m, m).as_ref())?.0.first().copied().unwrap_or(1.0),
+            lowest_mass: (masses.first().copied().unwrap_or(0.0), largest_component(mass_vectors.as_ref())),
         })
     }
 
@@ -82,14 +83,17 @@ impl Spectrum {
 
 /// Size below which an eigenvalue of K̂ in the scales of its coordinates is zero: rounding of its r terms before they
 /// cancel, or the precision of the data.
-pub(super) fn zero_level(evidence: &Evidence<'_>) -> Limits {
+///
+/// The terms are those of the basis: constraint modes gone wrong are large and would raise the level. Past four digits
+/// of the interface's own stiffness nothing is excused by arithmetic, past two nothing by the data.
+pub(in crate::verification) fn zero_level(evidence: &Evidence<'_>) -> Limits {
     let cancellation = evidence.constraint.cancellation;
-    let precision = evidence.partition.precision.stiffness;
     Limits {
         engineering: 0.0,
         arithmetic: evidence.reduction.n_reduced() as f64 * f64::EPSILON * cancellation,
-        data: if precision > f64::EPSILON { precision * cancellation } else { 0.0 },
+        data: data_noise(evidence.partition) * cancellation,
     }
+    .capped(1e-4, 1e-2)
 }
 
 /// Eigenvalues of K̂ in the scales of its coordinates, ascending, with its rigid-body modes lifted to order one.

@@ -1,6 +1,10 @@
 //! Free modes of real models against reference eigenvalues. Skipped, with a message, where the corpus is absent.
 
+mod aircraft;
 mod pairs;
+#[allow(dead_code, reason = "this crate uses its part")]
+#[path = "../end_to_end/place.rs"]
+mod place;
 mod reference;
 
 use std::collections::BTreeSet;

@@ -6,9 +6,9 @@ use supel::error::Result;
 use supel::job::{Coupling, Eigensolver, Job, Method};
 use supel::outcome::{Outcome, Resources};
 use supel::report::{
-    Completeness, DroppedCoordinate, Generator, InterfaceReport, MassProperties, MatrixReport, ModeKind, ModeRow,
-    ModelReport, Observer, Preservation, ReductionReport, Report, ReportBody, RigidBodyEvidence, RigidBodyModes,
-    RigidBodySource, RunFacts, StageTime, Warning, WorkCounters,
+    Completeness, DroppedCoordinate, EffectiveMass, Generator, Grounding, InterfaceReport, MassProperties, MassRoute,
+    MatrixReport, ModeKind, ModeRow, ModelReport, Observer, Preservation, ReductionReport, Report, ReportBody,
+    RigidBodyEvidence, RigidBodyModes, RigidBodySource, RunFacts, StageTime, Warning, WorkCounters,
 };
 use supel::verification::check::{Check, Limits};
 use supel_runtime::{
@@ -37,6 +37,28 @@ pub(crate) fn full_report() -> Report {
         fail_above: 1e-6,
         worst: None,
     });
+    report.body.checks.push(Check {
+        id: "M-19",
+        name: "effective mass of the kept modes, least carried",
+        equation: "min Σ (φᵀΨ_DᵀΓ)² / ΓᵀM_II⁻¹Γ",
+        value: 0.83,
+        limits: Limits::NONE,
+        fail_above: f64::INFINITY,
+        worst: Some("rotation z".to_owned()),
+    });
+    report
+        .body
+        .rigid_body
+        .mass_routes
+        .push(MassRoute { route: "geometry", properties: report.body.model.mass_properties.clone() });
+    report.body.rigid_body.frequencies_hz.push(2.3e-6);
+    report.body.rigid_body.grounding.push(Grounding {
+        direction: "rotation z".to_owned(),
+        energy_ratio: 4.2e-14,
+        force_ratio: 3.1e-17,
+        worst: Some("node 12 ux".to_owned()),
+    });
+    report.body.rigid_body.effective_mass.push(EffectiveMass { mode: 1, share: vec![0.83], cumulated: vec![0.83] });
     report.body.warnings.push(Warning {
         code: "W-INTERFACE-ILL",
         message: "the interface holds the rotation about the axis through nodes 12 and 19 only weakly: singular value \

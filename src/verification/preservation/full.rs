@@ -1,0 +1,167 @@
+//! The full model under a boundary of the scene: its eigenvalues from the factor that is already there.
+//!
+//! Holding interface dofs takes rows and columns away, loading them adds to the diagonal of M; K_II stays as it is, and
+//! with it its factor. Where that does not hold up, K − σM of the supported model is factored anew.
+
+use faer::{Mat, MatRef};
+
+use super::super::Evidence;
+use super::boundaries::Boundary;
+use crate::dense;
+use crate::error::Result;
+use crate::factor::{Analysis, Pencil, SolveOperator};
+use crate::job::Eigensolver;
+use crate::model::diagonal;
+use crate::modes::{Factored, FreeAtZero, ModalProblem, ModeRequest, Modes, SEED, Wanted, elastic_modes, shifted};
+use crate::rigid::{RigidBodyModes, RigidEnergy};
+use crate::sparse::{SparseMatrix, product};
+
+/// Backward error up to which a pair counts as one of the full model: its Rayleigh quotient then errs by the square.
+const HOLDS_UP: f64 = 1e-8;
+/// Singular values of the rigid-body motions at the held dofs, relative to the largest, below which a motion passes. The
+/// interface rank uses the same figure.
+const PASSES: f64 = 1e-10;
+
+/// A supported full model.
+pub(super) struct Supported {
+    stiffness: SparseMatrix,
+    mass: SparseMatrix,
+    /// Numbers of the interface dofs that are not held.
+    free: Vec<usize>,
+    rigid: RigidBodyModes,
+}
+
+impl Supported {
+    /// Takes away the held dofs and adds the load.
+    ///
+    /// # Errors
+    /// A dense eigenproblem that does not converge.
+    pub(super) fn new(evidence: &Evidence<'_>, boundary: &Boundary) -> Result<Self> {
+        let partition = evidence.partition;
+        let n_i = partition.n_internal;
+        let free: Vec<usize> = (0..partition.n_interface()).filter(|dof| !boundary.held[*dof]).collect();
+        let kept: Vec<usize> = (0..n_i).chain(free.iter().map(|dof| n_i + dof)).collect();
+        let load: Vec<f64> = (0..n_i).map(|_| 0.0).chain(boundary.load.iter().copied()).collect();
+        let mass = restricted(&partition.mass, &kept, &load);
+        let rigid = passing_motions(evidence, boundary, &kept, &mass)?;
+        Ok(Self { stiffness: restricted(&partition.stiffness, &kept, &vec![0.0; load.len()]), mass, free, rigid })
+    }
+
+    /// Rigid-body motions that the support lets pass.
+    pub(super) fn n_rigid(&self) -> usize {
+        self.rigid.count()
+    }
+
+    /// The elastic modes up to a λ.
+    ///
+    /// # Errors
+    /// The eigensolver does not converge; no memory.
+    pub(super) fn modes_up_to(&self, evidence: &Evidence<'_>, factor: &dyn SolveOperator, limit: f64) -> Result<Modes> {
+        let request = ModeRequest { wanted: Wanted::UpTo(limit), eigensolver: Eigensolver::Lanczos, seed: SEED };
+        let problem = ModalProblem {
+            stiffness: &self.stiffness,
+            mass: &self.mass,
+            rigid: Some(&self.rigid),
+            precision: evidence.partition.precision,
+        };
+        let modes = self.by_factor(evidence, factor, problem, request)?;
+        if modes.errors.iter().all(|error| error.backward <= HOLDS_UP) {
+            return Ok(modes);
+        }
+        let analysis = Analysis::new(Pencil { stiffness: &self.stiffness, mass: &self.mass })?;
+        let shifted = shifted(&analysis, problem, &|dof| evidence.partition.name_of(dof))?;
+        elastic_modes(problem, &Factored::new(&shifted.factor, shifted.sigma), request)
+    }
+
+    fn by_factor(
+        &self,
+        evidence: &Evidence<'_>,
+        factor: &dyn SolveOperator,
+        problem: ModalProblem<'_>,
+        request: ModeRequest,
+    ) -> Result<Modes> {
+        if self.free.is_empty() {
+            return elastic_modes(problem, &Factored::new(factor, 0.0), request);
+        }
+        let constraint = evidence.constraint;
+        let (n_i, n_f) = (evidence.partition.n_internal, self.free.len());
+        let psi_s = Mat::from_fn(n_i, n_f, |i, j| constraint.modes[(i, self.free[j])]);
+        let schur = Mat::from_fn(n_f, n_f, |i, j| constraint.stiffness[(self.free[i], self.free[j])]);
+        let operator = FreeAtZero::new(factor, &self.stiffness, psi_s.as_ref(), schur.as_ref(), &self.rigid)?;
+        elastic_modes(problem, &operator, request)
+    }
+}
+
+/// Rows and columns `kept` (ascending) of a matrix with `load` added to its diagonal.
+fn restricted(matrix: &SparseMatrix, kept: &[usize], load: &[f64]) -> SparseMatrix {
+    let mut position = vec![None; matrix.rows()];
+    kept.iter().enumerate().for_each(|(new, old)| position[*old] = Some(new as u32));
+    let (mut pointers, mut columns, mut values) = (vec![0], Vec::new(), Vec::new());
+    for (new, old) in kept.iter().enumerate() {
+        let mut entries: Vec<(u32, f64)> = matrix
+            .outer_view(*old)
+            .into_iter()
+            .flat_map(|row| row.iter().map(|(col, value)| (col, *value)).collect::<Vec<_>>())
+            .filter_map(|(col, value)| position[col].map(|col| (col, value)))
+            .collect();
+        if load[*old] != 0.0 {
+            match entries.binary_search_by_key(&(new as u32), |entry| entry.0) {
+                Ok(at) => entries[at].1 += load[*old],
+                Err(at) => entries.insert(at, (new as u32, load[*old])),
+            }
+        }
+        columns.extend(entries.iter().map(|entry| entry.0));
+        values.extend(entries.iter().map(|entry| entry.1));
+        pointers.push(columns.len());
+    }
+    SparseMatrix::new((kept.len(), kept.len()), pointers, columns, values)
+}
+
+/// The rigid-body motions that leave the held dofs at rest, orthonormal in the mass with its load.
+fn passing_motions(
+    evidence: &Evidence<'_>,
+    boundary: &Boundary,
+    kept: &[usize],
+    mass: &SparseMatrix,
+) -> Result<RigidBodyModes> {
+    let (q, n_i) = (evidence.rigid.massive(), evidence.partition.n_internal);
+    let stiffness = diagonal(&evidence.partition.stiffness);
+    let held: Vec<usize> = (0..boundary.held.len()).filter(|dof| boundary.held[*dof]).map(|dof| n_i + dof).collect();
+    let passing = passing(q, &held, &stiffness)?;
+    let motions = dense::product(q, passing.as_ref());
+    let mut motions = Mat::from_fn(kept.len(), motions.ncols(), |i, j| motions[(kept[i], j)]);
+    // The second pass takes up the rounding of the first.
+    for _ in 0..2 {
+        let mut modal = dense::gram(motions.as_ref(), product(mass, motions.as_ref()).as_ref());
+        dense::symmetrise(&mut modal);
+        let (masses, directions) = dense::symmetric_eigen(modal.as_ref())?;
+        let unit = Mat::from_fn(masses.len(), masses.len(), |i, j| directions[(i, j)] / masses[j].sqrt());
+        motions = dense::product(motions.as_ref(), unit.as_ref());
+    }
+    Ok(RigidBodyModes {
+        mass_orthonormal: product(mass, motions.as_ref()),
+        modes: motions.clone(),
+        orthonormal: motions,
+        n_massless: 0,
+        n_mechanisms: 0,
+        source: evidence.rigid.source,
+        is_classical: false,
+        energy: RigidEnergy::default(),
+        misfit: None,
+    })
+}
+
+/// Combinations of the motions that vanish at the held dofs; rows weighted by stiffness, so that rotations and
+/// translations count alike.
+fn passing(q: MatRef<'_, f64>, held: &[usize], stiffness: &[f64]) -> Result<Mat<f64>> {
+    let n_r = q.ncols();
+    if held.is_empty() || n_r == 0 {
+        return Ok(Mat::identity(n_r, n_r));
+    }
+    let at_held = Mat::from_fn(held.len().max(n_r), n_r, |i, j| {
+        held.get(i).map_or(0.0, |dof| q[(*dof, j)] * stiffness[*dof].max(0.0).sqrt())
+    });
+    let (singular, v) = dense::right_singular(at_held.as_ref())?;
+    let rank = singular.iter().filter(|value| **value > PASSES * singular[0]).count();
+    Ok(v.as_ref().subcols(rank, n_r - rank).to_owned())
+}

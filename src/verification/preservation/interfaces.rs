@@ -1,0 +1,94 @@
+//! The interfaces of the job with their dofs, and the masses that load them.
+
+use super::super::Evidence;
+use crate::dense;
+use crate::partition::{Partition, Site};
+use crate::sparse::product;
+use faer::Mat;
+
+/// An interface of the job.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Interface {
+    /// Its name.
+    pub(super) name: String,
+    /// Numbers of its dofs among the interface dofs.
+    pub(super) dofs: Vec<usize>,
+    /// Number of its nodes; rows without a dof map count as nodes.
+    pub(super) n_nodes: usize,
+}
+
+/// The interfaces in the order of the job.
+pub(super) fn interfaces(partition: &Partition) -> Vec<Interface> {
+    let mut all: Vec<Interface> = Vec::new();
+    let mut next = 0;
+    for node in &partition.interface {
+        // A node without directions is a list of rows.
+        let is_rows = node.directions.is_empty();
+        let n_dofs = if is_rows { node.n_nodes } else { node.directions.len() };
+        if all.last().is_none_or(|last| last.name != node.name) {
+            all.push(Interface { name: node.name.clone(), dofs: Vec::new(), n_nodes: 0 });
+        }
+        if let Some(last) = all.last_mut() {
+            last.dofs.extend(next..next + n_dofs);
+            last.n_nodes += if is_rows { n_dofs } else { 1 };
+        }
+        next += n_dofs;
+    }
+    all
+}
+
+/// Mass of the component and its mean moment of inertia about its centre, in scaled units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Inertia {
+    pub(super) mass: f64,
+    pub(super) moment: f64,
+}
+
+impl Inertia {
+    /// The inertia of the component: from coordinates where there are any, otherwise that of all rows moving together.
+    pub(super) fn of(evidence: &Evidence<'_>) -> Self {
+        let partition = evidence.partition;
+        let n = partition.n_dofs();
+        let Some(sites) = partition.sites() else {
+            let together = Mat::from_fn(n, 1, |_, _| 1.0);
+            let momentum = product(&partition.mass, together.as_ref());
+            return Self { mass: momentum.col(0).iter().sum(), moment: 0.0 };
+        };
+        let centre = [0, 1, 2].map(|axis| sites.iter().map(|site| site.position[axis]).sum::<f64>() / n as f64);
+        let motions: Vec<[f64; 6]> = sites
+            .iter()
+            .map(|site| {
+                let position = [0, 1, 2].map(|axis| site.position[axis] - centre[axis]);
+                Site { position, direction: site.direction }.rigid_motion()
+            })
+            .collect();
+        let u = Mat::from_fn(n, 6, |i, j| motions[i][j]);
+        let m_f = dense::gram(u.as_ref(), product(&partition.mass, u.as_ref()).as_ref());
+        let mass = (0..3).map(|axis| m_f[(axis, axis)]).fold(0.0, f64::max);
+        let offset = [m_f[(1, 5)], m_f[(2, 3)], m_f[(0, 4)]].map(|moment| moment / mass);
+        let shift: f64 = offset.iter().map(|value| value * value).sum();
+        let trace: f64 = (3..6).map(|axis| m_f[(axis, axis)]).sum();
+        Self { mass, moment: ((trace - 2.0 * mass * shift) / 3.0).max(0.0) }
+    }
+
+    /// The inertia of another mass of the same radius of gyration.
+    pub(super) fn with_mass(self, mass: f64) -> Self {
+        Self { mass, moment: self.moment * mass / self.mass }
+    }
+}
+
+/// Length that turns rotations into displacements: the root mean square distance of the interface nodes from their
+/// centre or, with one node, of the component's dofs from theirs; one without coordinates.
+pub(super) fn rotation_length(partition: &Partition) -> f64 {
+    let spread = |positions: &[[f64; 3]]| {
+        let n = positions.len() as f64;
+        let centre = [0, 1, 2].map(|axis| positions.iter().map(|p| p[axis]).sum::<f64>() / n);
+        let squares = positions.iter().map(|p| (0..3).map(|axis| (p[axis] - centre[axis]).powi(2)).sum::<f64>());
+        (squares.sum::<f64>() / n).sqrt()
+    };
+    let nodes: Vec<[f64; 3]> = partition.interface.iter().filter_map(|node| node.position).collect();
+    let all = || partition.sites().map(|sites| sites.iter().map(|site| site.position).collect::<Vec<_>>());
+    let of_nodes = if nodes.len() > 1 { spread(&nodes) } else { 0.0 };
+    let length = if of_nodes > 0.0 { of_nodes } else { all().map_or(0.0, |all| spread(&all)) };
+    if length > 0.0 { length } else { 1.0 }
+}

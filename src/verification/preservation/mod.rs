@@ -1,0 +1,168 @@
+//! What the reduction preserves: the reduced model beside the full one.
+//!
+//! ```text
+//! mac          retained modes as eigenpairs of both models             (34) (35), M-15
+//! boundaries   frequencies with interfaces held, free, loaded           M-24
+//! statics      stiffness of each interface by direct solves             M-17
+//! response     frequency response of all pairs of interface dofs        M-20, M-21
+//! sizes        the same errors of a smaller basis
+//! ```
+//! Every answer of the full model comes from the full sparse matrices with a residual that is looked at; the factor of
+//! K_II, which is there already, only speeds it up. What would be dear and nobody asked for is left out by name.
+
+mod boundaries;
+mod extended;
+mod full;
+mod interfaces;
+mod mac;
+mod pencil;
+mod policy;
+mod response;
+mod samples;
+mod sizes;
+mod statics;
+
+use super::Evidence;
+use super::check::Check;
+use crate::error::{Error, Result};
+use crate::factor::{Analysis, SolveOperator};
+use crate::job::Job;
+use crate::report::Preservation;
+
+use boundaries::{Boundary, Reference};
+use interfaces::Interface;
+use pencil::Spectral;
+
+pub use policy::Plan;
+
+/// The comparison for the report, and the checks that follow from it.
+#[derive(Clone, Debug, Default)]
+pub struct Compared {
+    /// Reduced beside full.
+    pub report: Preservation,
+    /// M-15, M-17, M-20, M-21 and M-24, as far as they were made.
+    pub checks: Vec<Check>,
+}
+
+/// Compares the reduced with the full model; `factor` is that of K_II, `analysis` its structure.
+///
+/// # Errors
+/// No memory. What the arithmetic cannot do is left out by name.
+pub fn preservation(
+    evidence: &Evidence<'_>,
+    factor: &dyn SolveOperator,
+    analysis: &Analysis,
+    job: &Job,
+) -> Result<Compared> {
+    let plan = Plan::new(evidence, analysis, job);
+    let interfaces = interfaces::interfaces(evidence.partition);
+    let mut compared = Compared::default();
+    compared.report.not_compared = plan.not_compared.clone();
+    if evidence.reduction.n_reduced() == 0 {
+        return Ok(compared);
+    }
+    compared.modes(evidence)?;
+    let notes = &mut compared.report.not_compared;
+    compared.report.statics = statics::statics(evidence, factor, &interfaces, notes);
+    compared.checks.extend(statics::check(evidence, &compared.report.statics));
+    if let Some(band_hz) = plan.band_hz {
+        let references = compared.references(evidence, factor, &interfaces, &plan)?;
+        compared.dynamics(evidence, factor, (&plan, band_hz), &references)?;
+    }
+    Ok(compared)
+}
+
+impl Compared {
+    /// Keeps a result, or notes what could not be compared; only a lack of memory ends the run.
+    fn kept<T>(&mut self, what: &str, result: Result<T>) -> Result<Option<T>> {
+        match result {
+            Ok(value) => Ok(Some(value)),
+            Err(error @ Error::OutOfMemory { .. }) => Err(error),
+            Err(error) => {
+                self.report.not_compared.push(format!("{what}: {error}"));
+                Ok(None)
+            }
+        }
+    }
+
+    fn modes(&mut self, evidence: &Evidence<'_>) -> Result<()> {
+        if evidence.retained.modes.count() > 0
+            && let Some(preserved) = self.kept("shapes of the retained modes", mac::preserved(evidence))?
+        {
+            self.checks.push(mac::check(&preserved.modes));
+            (self.report.modes, self.report.mac) = (preserved.modes, preserved.mac);
+        }
+        let (k, m) = (&evidence.reduction.stiffness, &evidence.reduction.mass);
+        let spectral = Spectral::of(k.as_ref(), m.as_ref(), shift(evidence));
+        let spectral = self.kept("highest reduced frequency", spectral)?;
+        self.report.highest = spectral.and_then(|spectral| sizes::highest(evidence, &spectral));
+        Ok(())
+    }
+
+    /// The full model under each boundary of the plan.
+    fn references(
+        &mut self,
+        evidence: &Evidence<'_>,
+        factor: &dyn SolveOperator,
+        interfaces: &[Interface],
+        plan: &Plan,
+    ) -> Result<Vec<Reference>> {
+        let mut references = Vec::new();
+        let limit = plan.band_hz.map_or(0.0, |[_, high]| eigenvalue(evidence, high));
+        for support in &plan.supports {
+            let boundary = Boundary::new(evidence, interfaces, support);
+            let what = format!("frequencies with boundary {support}");
+            references.extend(self.kept(&what, Reference::new(evidence, factor, boundary, limit))?);
+        }
+        Ok(references)
+    }
+
+    fn dynamics(
+        &mut self,
+        evidence: &Evidence<'_>,
+        factor: &dyn SolveOperator,
+        (plan, band_hz): (&Plan, [f64; 2]),
+        references: &[Reference],
+    ) -> Result<()> {
+        for reference in references {
+            let what = format!("frequencies with boundary {}", reference.boundary.name);
+            let comparison = self.kept(&what, reference.comparison(evidence, band_hz))?;
+            self.report.boundaries.extend(comparison);
+        }
+        let response = if plan.response {
+            self.kept("frequency response", response::compared(evidence, factor, band_hz, plan.eta))?
+        } else {
+            None
+        };
+        if let Some(response) = &response {
+            self.checks.extend(response::checks(response));
+            self.report.response = Some(response.report.clone());
+        }
+        self.checks.extend(boundaries::monotonicity(references, &self.report.boundaries));
+        let full = response.as_ref().map(|response| &response.full);
+        let sizes = sizes::size_errors(evidence, references, full, band_hz);
+        self.report.size_errors = self.kept("errors of smaller bases", sizes)?.unwrap_or_default();
+        Ok(())
+    }
+}
+
+/// The frequency of an eigenvalue in scaled units, in Hz; that of a negative one is negative.
+fn hertz(evidence: &Evidence<'_>, lambda: f64) -> f64 {
+    let unit = evidence.partition.scaling.eigenvalue_unit();
+    (lambda * unit).abs().sqrt().copysign(lambda) / std::f64::consts::TAU
+}
+
+/// The eigenvalue of a frequency, in scaled units.
+fn eigenvalue(evidence: &Evidence<'_>, frequency_hz: f64) -> f64 {
+    let omega = std::f64::consts::TAU * frequency_hz;
+    omega * omega / evidence.partition.scaling.eigenvalue_unit()
+}
+
+/// A shift near the lowest elastic eigenvalue, which spectral forms are accurate about.
+fn shift(evidence: &Evidence<'_>) -> f64 {
+    let (k, m) = (&evidence.reduction.stiffness, &evidence.reduction.mass);
+    let ratios = (0..k.nrows()).filter(|i| k[(*i, *i)] > 0.0 && m[(*i, *i)] > 0.0).map(|i| k[(i, i)] / m[(i, i)]);
+    let of_diagonal = || ratios.fold(f64::INFINITY, f64::min);
+    let lowest = evidence.retained.modes.lambda.first().copied().unwrap_or_else(of_diagonal);
+    if lowest > 0.0 && lowest.is_finite() { lowest } else { 1.0 }
+}

@@ -1,0 +1,135 @@
+//! A small symmetric pencil in spectral form: its eigenvalues, and its response at any frequency for the price of a sum.
+//!
+//! ```text
+//! K + αM = L Lᵀ,  L⁻¹ M L⁻ᵀ = Q Θ Qᵀ,  P = L⁻ᵀ Q         r × r, α > 0
+//! (K − zM)⁻¹ = P [1 − (z + α) θ]⁻¹ Pᵀ                       for any complex z
+//! λ = 1/θ − α                                               accurate at the low end
+//! ```
+//! No θ is divided by, so that coordinates without mass (θ = 0) answer statically, as they should. With structural
+//! damping K (1 + iη) − ω²M = (1 + iη) (K − zM) at z = ω² / (1 + iη): a complex symmetric matrix is never factored.
+
+use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
+use faer::{Mat, MatRef, Par, Side, c64};
+
+use crate::dense;
+use crate::error::{Error, Result};
+
+/// The spectral form of K − zM.
+#[derive(Clone, Debug)]
+pub(super) struct Spectral {
+    /// α.
+    alpha: f64,
+    /// θ, descending.
+    theta: Vec<f64>,
+    /// P, r × r, in the order of θ.
+    shapes: Mat<f64>,
+}
+
+impl Spectral {
+    /// The spectral form of a pencil; α should be near the lowest elastic eigenvalue.
+    ///
+    /// # Errors
+    /// [`Error::DenseEigen`] where K + αM is not definite or holds values that are not numbers.
+    pub(super) fn of(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Result<Self> {
+        let n = k.nrows();
+        let shifted = Mat::from_fn(n, n, |i, j| k[(i, j)] + alpha * m[(i, j)]);
+        let scale: Vec<f64> = (0..n).map(|i| dense::power_of_two_root(shifted[(i, i)])).collect();
+        let scaled = |a: MatRef<'_, f64>| Mat::from_fn(n, n, |i, j| a[(i, j)] * scale[i] * scale[j]);
+        let factor = scaled(shifted.as_ref()).llt(Side::Lower).map_err(|_| Error::DenseEigen { n })?;
+        let mut c = scaled(m);
+        solve_lower_triangular_in_place(factor.L(), c.as_mut(), Par::Seq);
+        let mut c = c.transpose().to_owned();
+        solve_lower_triangular_in_place(factor.L(), c.as_mut(), Par::Seq);
+        dense::symmetrise(&mut c);
+        let (mut theta, q) = dense::symmetric_eigen(c.as_ref())?;
+        theta.reverse();
+        let mut shapes = Mat::from_fn(n, n, |i, j| q[(i, n - 1 - j)]);
+        solve_upper_triangular_in_place(factor.L().transpose(), shapes.as_mut(), Par::Seq);
+        for j in 0..n {
+            dense::column_mut(shapes.as_mut(), j).iter_mut().zip(&scale).for_each(|(value, d)| *value *= d);
+        }
+        Ok(Self { alpha, theta, shapes })
+    }
+
+    /// r.
+    pub(super) fn n(&self) -> usize {
+        self.shapes.nrows()
+    }
+
+    /// The finite eigenvalues, ascending.
+    pub(super) fn eigenvalues(&self) -> Vec<f64> {
+        let largest = self.theta.first().copied().unwrap_or(0.0);
+        // A θ at the rounding of the largest belongs to an infinite eigenvalue.
+        let finite = self.theta.iter().take_while(|theta| **theta > f64::EPSILON * largest);
+        finite.map(|theta| 1.0 / theta - self.alpha).collect()
+    }
+
+    /// Eigenvector j at unit modal mass.
+    pub(super) fn eigenvector(&self, j: usize) -> Vec<f64> {
+        let length = self.theta[j].sqrt();
+        dense::column(self.shapes.as_ref(), j).iter().map(|value| value / length).collect()
+    }
+
+    /// The columns of (K − zM)⁻¹ that belong to the leading `n_b` coordinates, real and imaginary part, r × n_b each.
+    pub(super) fn columns(&self, z: c64, n_b: usize) -> [Mat<f64>; 2] {
+        self.weighted(self.shapes.as_ref(), z, n_b)
+    }
+
+    /// The leading n_b × n_b block of (K − zM)⁻¹, real and imaginary part.
+    pub(super) fn block(&self, z: c64, n_b: usize) -> [Mat<f64>; 2] {
+        self.weighted(self.shapes.as_ref().subrows(0, n_b), z, n_b)
+    }
+
+    fn weighted(&self, rows: MatRef<'_, f64>, z: c64, n_b: usize) -> [Mat<f64>; 2] {
+        let one = c64::new(1.0, 0.0);
+        let weight: Vec<c64> = self.theta.iter().map(|theta| one / (one - (z + self.alpha) * theta)).collect();
+        let right = self.shapes.as_ref().subrows(0, n_b).transpose();
+        [|w: c64| w.re, |w: c64| w.im].map(|part| {
+            let left = Mat::from_fn(rows.nrows(), self.n(), |i, j| rows[(i, j)] * part(weight[j]));
+            dense::product(left.as_ref(), right)
+        })
+    }
+}
+
+/// z = ω² / (1 + iη) at a frequency, in scaled units.
+pub(super) fn complex_shift(frequency_hz: f64, eta: f64, eigenvalue_unit: f64) -> c64 {
+    let omega = std::f64::consts::TAU * frequency_hz;
+    c64::new(omega * omega / eigenvalue_unit, 0.0) / c64::new(1.0, eta)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two springs in a row, the second mass missing.
+    fn pencil() -> (Mat<f64>, Mat<f64>) {
+        let k = Mat::from_fn(2, 2, |i, j| [[3.0, -1.0], [-1.0, 1.0]][i][j]);
+        let m = Mat::from_fn(2, 2, |i, j| if i == 0 && j == 0 { 2.0 } else { 0.0 });
+        (k, m)
+    }
+
+    #[test]
+    fn eigenvalues_leave_out_coordinates_without_mass() {
+        let (k, m) = pencil();
+        let spectral = Spectral::of(k.as_ref(), m.as_ref(), 1.0).expect("definite");
+        // The massless end follows: 2 x = λ 2 x. Rounding of four operations on numbers of order one.
+        let found = spectral.eigenvalues();
+        assert!(found.len() == 1 && (found[0] - 1.0).abs() < 1e-14, "{found:?}");
+    }
+
+    #[test]
+    fn response_is_the_inverse() {
+        let (k, m) = pencil();
+        let spectral = Spectral::of(k.as_ref(), m.as_ref(), 1.0).expect("definite");
+        let z = c64::new(0.7, -0.2);
+        let [re, im] = spectral.columns(z, 2);
+        for i in 0..2 {
+            for j in 0..2 {
+                let entry = |a: usize, b: usize| c64::new(k[(a, b)], 0.0) - z * m[(a, b)];
+                let sum: c64 = (0..2).map(|l| entry(i, l) * c64::new(re[(l, j)], im[(l, j)])).sum();
+                let expected = f64::from(u8::from(i == j));
+                assert!((sum - expected).norm() < 1e-14, "{i} {j}: {sum}");
+            }
+        }
+    }
+}

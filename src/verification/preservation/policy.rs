@@ -1,0 +1,125 @@
+//! What is compared with the full model: the one place where its cost is weighed.
+
+use super::super::Evidence;
+use crate::factor::Analysis;
+use crate::job::{Job, ModeSelection, SceneJob, Support};
+use crate::modes::Boundary;
+
+/// Modes are kept up to this multiple of the band that a reduction serves: with less, the response at the end of the
+/// band has lost a digit that the modes kept could give (Herting: 5 % against 0.5 %).
+const CUT_OFF: f64 = 1.5;
+/// Floating-point operations that a comparison nobody asked for may cost: a few seconds of one core.
+const UNASKED_FLOPS: f64 = 1e10;
+/// Right-hand sides an eigensolution takes beside three for each mode found.
+const SOLVES_BESIDE: f64 = 64.0;
+/// Blocks of n_B right-hand sides that the response converges in.
+const RESPONSE_BLOCKS: f64 = 6.0;
+/// Samples of the response.
+const RESPONSE_SAMPLES: f64 = 80.0;
+
+/// What will be compared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Lowest and highest frequency of interest, in Hz; none where no mode tells and nobody says.
+    pub band_hz: Option<[f64; 2]>,
+    /// Structural damping factor η of K (1 + iη).
+    pub eta: f64,
+    /// Supports under which frequencies are compared.
+    pub supports: Vec<Support>,
+    /// Whether the frequency response is compared.
+    pub response: bool,
+    /// What is not compared, and why.
+    pub not_compared: Vec<String>,
+}
+
+impl Plan {
+    /// Whatever the scene states is compared at any cost, the defaults only while they are cheap.
+    ///
+    /// A support costs an eigensolution with the factor that is already there: 3k + 64 solves of 4 nnz(L) operations each.
+    /// The response costs six blocks of n_B such solves, and 8 n r n_B operations for the residual of each sample.
+    pub fn new(evidence: &Evidence<'_>, analysis: &Analysis, job: &Job) -> Self {
+        let default = SceneJob::default();
+        let scene = job.scene.as_ref().unwrap_or(&default);
+        let mut plan = Self {
+            band_hz: scene.band_hz.or_else(|| default_band(evidence, job)),
+            eta: 2.0 * scene.damping.unwrap_or_default().ratio,
+            supports: scene.boundaries.clone().unwrap_or_else(|| default_supports(evidence)),
+            response: true,
+            not_compared: Vec::new(),
+        };
+        let mut leave_out = |what: &str, why: &str| plan.not_compared.push(format!("{what}: {why}"));
+        const DYNAMICS: &str = "frequencies under other boundaries and the frequency response";
+        if evidence.partition.n_interface() == 0 {
+            leave_out(DYNAMICS, "the component has no interface");
+            (plan.supports, plan.response) = (Vec::new(), false);
+        } else if plan.band_hz.is_none() {
+            leave_out(DYNAMICS, "no elastic mode is kept and the scene gives no band_hz");
+            (plan.supports, plan.response) = (Vec::new(), false);
+        }
+        let cost = Cost::of(evidence, analysis);
+        let dear = "it would cost more than reducing does; state it in [scene] or ask for --certify full";
+        if scene.boundaries.is_none() && !plan.supports.is_empty() && cost.support * cost.n_new_supports > UNASKED_FLOPS
+        {
+            plan.not_compared.push(format!("frequencies under other boundaries: {dear}"));
+            plan.supports.clear();
+        }
+        let is_asked = scene.band_hz.is_some() || scene.damping.is_some();
+        if plan.response && !is_asked && cost.response > UNASKED_FLOPS {
+            plan.not_compared.push(format!("frequency response: {dear}"));
+            plan.response = false;
+        }
+        plan
+    }
+}
+
+/// Predicted floating-point operations.
+struct Cost {
+    support: f64,
+    n_new_supports: f64,
+    response: f64,
+}
+
+impl Cost {
+    fn of(evidence: &Evidence<'_>, analysis: &Analysis) -> Self {
+        let n = evidence.partition.n_dofs() as f64;
+        let n_b = evidence.partition.n_interface() as f64;
+        let n_modes = evidence.retained.modes.count() as f64;
+        let solve = 4.0 * analysis.nnz_factor;
+        let extended = evidence.reduction.n_reduced() as f64 + RESPONSE_BLOCKS * n_b;
+        let samples = RESPONSE_SAMPLES * 8.0 * n_b * extended * (n + 4.0 * n_b);
+        Self {
+            support: (3.0 * n_modes + SOLVES_BESIDE) * solve,
+            n_new_supports: default_supports(evidence).len().saturating_sub(1) as f64,
+            response: RESPONSE_BLOCKS * n_b * solve + samples,
+        }
+    }
+}
+
+/// From zero to where the modes that were kept serve.
+fn default_band(evidence: &Evidence<'_>, job: &Job) -> Option<[f64; 2]> {
+    let unit = evidence.partition.scaling.eigenvalue_unit();
+    let highest = match job.reduction.modes {
+        ModeSelection::UpTo { up_to_hz } => Some(up_to_hz),
+        ModeSelection::Count { .. } => {
+            evidence.retained.modes.lambda.last().map(|lambda| (lambda * unit).max(0.0).sqrt() / std::f64::consts::TAU)
+        }
+    };
+    highest.filter(|highest| *highest > 0.0).map(|highest| [0.0, highest / CUT_OFF])
+}
+
+/// Free, each interface held, each interface loaded.
+fn default_supports(evidence: &Evidence<'_>) -> Vec<Support> {
+    let mut names: Vec<&str> = evidence.partition.interface.iter().map(|node| node.name.as_str()).collect();
+    names.dedup();
+    let fixed = names.iter().map(|name| Support::Fixed { interface: (*name).to_owned() });
+    let loaded = names.iter().map(|name| Support::Loaded { interface: (*name).to_owned(), mass: None });
+    std::iter::once(Support::Free).chain(fixed).chain(loaded).collect()
+}
+
+/// Whether the retained modes are those of a component of which this much is held.
+pub(super) fn is_own_boundary(evidence: &Evidence<'_>, held: &[bool], is_loaded: bool) -> bool {
+    match evidence.retained.boundary {
+        Boundary::FreeInterface => !is_loaded && held.iter().all(|held| !held),
+        Boundary::FixedInterface => held.iter().all(|held| *held),
+    }
+}

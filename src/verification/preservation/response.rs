@@ -1,0 +1,226 @@
+//! Frequency response of the reduced against the full model, pair by pair of interface dofs: M-20, M-21.
+
+use faer::c64;
+use rayon::prelude::*;
+
+use super::super::Evidence;
+use super::super::check::{Check, Limits};
+use super::extended::{Extended, Response};
+use super::interfaces::rotation_length;
+use super::pencil::Spectral;
+use super::samples;
+use crate::dense;
+use crate::error::Result;
+use crate::factor::SolveOperator;
+use crate::report::{ResponseComparison, ResponseSample};
+
+/// A pair that responds this much less than its two driving points do is judged by them: symmetry uncouples such pairs,
+/// and what is left of them is rounding. A thousandth is 60 dB, the dynamic range of a good measurement.
+const UNCOUPLED: f64 = 1e-3;
+
+/// The answers of the full model, for further reduced models to be compared with.
+pub(super) struct FullResponse {
+    pub(super) samples_hz: Vec<f64>,
+    pub(super) answers: Vec<Response>,
+    eta: f64,
+}
+
+/// The comparison and what it rests on.
+pub(super) struct Compared {
+    pub(super) report: ResponseComparison,
+    pub(super) full: FullResponse,
+    /// Bound on the relative error of the full response at its worst sample, and that sample.
+    uncertainty: (f64, f64),
+}
+
+/// Error of one pair.
+#[derive(Clone, Copy)]
+pub(super) struct PairError {
+    pair: (usize, usize),
+    decibel: f64,
+}
+
+/// Compares the response of all pairs of interface dofs over the band.
+///
+/// # Errors
+/// A pencil that is not definite.
+pub(super) fn compared(
+    evidence: &Evidence<'_>,
+    factor: &dyn SolveOperator,
+    band_hz: [f64; 2],
+    eta: f64,
+) -> Result<Compared> {
+    let reduction = evidence.reduction;
+    let reduced = Spectral::of(reduction.stiffness.as_ref(), reduction.mass.as_ref(), super::shift(evidence))?;
+    let mut extended = Extended::new(evidence, factor, eta)?;
+    let first = samples::first(evidence, &reduced, band_hz);
+    extended.settle(&first)?;
+    let (worst, _) = FullResponse::new(&extended, &first, eta).worst(evidence, &reduced);
+    let samples_hz = samples::second(evidence, &extended.spectral, &first, [worst.pair.0, worst.pair.1])?;
+    let residuals = extended.settle(&samples_hz)?;
+    let full = FullResponse::new(&extended, &samples_hz, eta);
+    let (worst, at) = full.worst(evidence, &reduced);
+    let residual = residuals.iter().fold(0.0, |a, b| if dense::worse(*b, a) { *b } else { a });
+    let least_known = (0..residuals.len()).fold(0, |a, b| if dense::worse(residuals[b], residuals[a]) { b } else { a });
+    let name = |dof: usize| evidence.partition.name_of(evidence.partition.n_internal + dof);
+    Ok(Compared {
+        report: ResponseComparison {
+            boundary: "free".to_owned(),
+            damping: eta,
+            rotation_length: rotation_length(evidence.partition),
+            residual,
+            worst_pair: [name(worst.pair.1), name(worst.pair.0)],
+            worst_db: worst.decibel,
+            worst_at_hz: full.samples_hz[at],
+            peak_shift: peak_shift(evidence, &extended.spectral, &reduced, band_hz),
+            samples: full.shown(evidence, &reduced, worst.pair),
+        },
+        uncertainty: (full.uncertainty(&extended, least_known), full.samples_hz[least_known]),
+        full,
+    })
+}
+
+impl FullResponse {
+    fn new(extended: &Extended<'_>, samples_hz: &[f64], eta: f64) -> Self {
+        let answers = samples_hz.par_iter().map(|hz| extended.response(*hz)).collect();
+        Self { samples_hz: samples_hz.to_vec(), answers, eta }
+    }
+
+    /// The worst pair of a reduced model and the sample it is worst at.
+    pub(super) fn worst(&self, evidence: &Evidence<'_>, reduced: &Spectral) -> (PairError, usize) {
+        let start = (PairError { pair: (0, 0), decibel: 0.0 }, 0);
+        self.errors(evidence, reduced).into_iter().enumerate().fold(start, |worst, (at, error)| {
+            if dense::worse(error.decibel, worst.0.decibel) { (error, at) } else { worst }
+        })
+    }
+
+    /// Largest error over all pairs and samples, in dB.
+    pub(super) fn worst_decibel(&self, evidence: &Evidence<'_>, reduced: &Spectral) -> f64 {
+        self.worst(evidence, reduced).0.decibel
+    }
+
+    /// The worst pair of every sample.
+    fn errors(&self, evidence: &Evidence<'_>, reduced: &Spectral) -> Vec<PairError> {
+        let samples = self.samples_hz.par_iter().zip(&self.answers);
+        samples.map(|(hz, full)| worst_pair(full, &Response::of(reduced, evidence, *hz, self.eta))).collect()
+    }
+
+    /// Magnitudes of one pair beside the largest error of all pairs; rotations count as displacements at the length.
+    fn shown(&self, evidence: &Evidence<'_>, reduced: &Spectral, pair: (usize, usize)) -> Vec<ResponseSample> {
+        let partition = evidence.partition;
+        let length = rotation_length(partition);
+        let scale = |dof: usize| match partition.dofs[partition.n_internal + dof].site {
+            Some(site) if site.direction.is_rotation() => length,
+            _ => 1.0,
+        };
+        let unit = scale(pair.0) * scale(pair.1) / partition.scaling.stiffness_unit();
+        let errors = self.errors(evidence, reduced);
+        let sample = |(at, hz): (usize, &f64)| ResponseSample {
+            frequency_hz: *hz,
+            full: unit * self.answers[at].get(pair.0, pair.1).norm(),
+            reduced: unit * Response::of(reduced, evidence, *hz, self.eta).get(pair.0, pair.1).norm(),
+            error_db: errors[at].decibel,
+        };
+        self.samples_hz.iter().enumerate().map(sample).collect()
+    }
+
+    /// Largest bound on the error of an entry of the full response over that entry, at one sample.
+    fn uncertainty(&self, extended: &Extended<'_>, at: usize) -> f64 {
+        let (answer, bound) = (&self.answers[at], extended.bound(self.samples_hz[at]));
+        let mut largest = 0.0;
+        for j in 0..answer.n() {
+            for i in 0..=j {
+                let relative = bound[i] * bound[j] / magnitude(answer, i, j);
+                if dense::worse(relative, largest) {
+                    largest = relative;
+                }
+            }
+        }
+        largest
+    }
+}
+
+/// |H_ij|, or the floor set by its driving points.
+fn magnitude(response: &Response, i: usize, j: usize) -> f64 {
+    response.get(i, j).norm().max(floor(response, i, j))
+}
+
+fn floor(response: &Response, i: usize, j: usize) -> f64 {
+    UNCOUPLED * (response.get(i, i).norm() * response.get(j, j).norm()).sqrt()
+}
+
+fn worst_pair(full: &Response, reduced: &Response) -> PairError {
+    let mut worst = PairError { pair: (0, 0), decibel: 0.0 };
+    for j in 0..full.n() {
+        for i in 0..=j {
+            let decibel = decibel(full.get(i, j), reduced.get(i, j), floor(full, i, j));
+            if dense::worse(decibel, worst.decibel) {
+                worst = PairError { pair: (i, j), decibel };
+            }
+        }
+    }
+    worst
+}
+
+/// Error of a response in dB: the difference of the levels or, where that is larger, the level that the complex
+/// difference adds, so that a wrong phase counts too.
+fn decibel(full: c64, reduced: c64, floor: f64) -> f64 {
+    let (size, other) = (full.norm().max(floor), reduced.norm().max(floor));
+    let levels = (20.0 * (other / size).log10()).abs();
+    let difference = 20.0 * ((reduced - full).norm() / size).ln_1p() / std::f64::consts::LN_10;
+    if dense::worse(difference, levels) { difference } else { levels }
+}
+
+/// Largest relative distance of a resonance in the band in both models: with light damping the peaks lie at the
+/// eigenvalues.
+fn peak_shift(evidence: &Evidence<'_>, full: &Spectral, reduced: &Spectral, band_hz: [f64; 2]) -> f64 {
+    let [full, reduced] = [full, reduced].map(|spectral| samples::elastic_hz(evidence, spectral));
+    let in_band = full.iter().enumerate().filter(|(_, hz)| (band_hz[0]..=band_hz[1]).contains(*hz));
+    let shift = |(j, hz): (usize, &f64)| (reduced.get(j).copied().unwrap_or(f64::INFINITY) / hz - 1.0).abs();
+    in_band.map(shift).fold(0.0, |worst, shift| if dense::worse(shift, worst) { shift } else { worst })
+}
+
+/// M-20 and M-21.
+pub(super) fn checks(compared: &Compared) -> [Check; 2] {
+    let report = &compared.report;
+    let [driven, observed] = &report.worst_pair;
+    [
+        Check {
+            id: "M-20",
+            name: "frequency response of the interfaces",
+            equation: "max |20 log₁₀ |Ĥ/H||, 20 log₁₀(1 + |Ĥ − H|/|H|) in dB over pairs of dofs and the band",
+            value: report.worst_db,
+            // How much is tolerable is for the scene to say; nobody has said.
+            limits: Limits::NONE,
+            fail_above: f64::INFINITY,
+            worst: Some(format!("{driven} to {observed} at {:.6} Hz", report.worst_at_hz)),
+        },
+        Check {
+            id: "M-21",
+            name: "full response is known well enough",
+            equation: "max ρ_i ρ_j / (η |H_ij|), ρ the residual in the norm of K_II⁻¹, at the worst sample",
+            value: compared.uncertainty.0,
+            // A hundredth is a tenth of a dB.
+            limits: Limits { engineering: 1e-2, ..Limits::default() },
+            // Past it the comparison says nothing, which makes no reduction wrong.
+            fail_above: f64::MAX,
+            worst: Some(format!("{:.6} Hz", compared.uncertainty.1)),
+        },
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decibels_count_levels_and_phases() {
+        let one = c64::new(1.0, 0.0);
+        // Twice is 6.02 dB and half as well; the same size with the phase turned by 60° differs by one: 6.02 dB.
+        let six = 20.0 * 2f64.log10();
+        for other in [c64::new(2.0, 0.0), c64::new(0.5, 0.0), c64::new(0.5, 0.75f64.sqrt())] {
+            assert!((decibel(one, other, 0.0) - six).abs() < 1e-12, "{other}");
+        }
+        assert!(decibel(one * 1e-9, one * 2e-9, 1.0) < 1e-7, "below the floor");
+    }
+}

@@ -1,0 +1,83 @@
+//! What a smaller basis would cost in accuracy, and what the size that was chosen asks of an integrator.
+
+use super::super::Evidence;
+use super::boundaries::Reference;
+use super::pencil::Spectral;
+use super::response::FullResponse;
+use crate::basis::DynamicCoordinate;
+use crate::dense;
+use crate::error::Result;
+use crate::report::{HighestFrequency, SizeError};
+
+/// Points of the curve.
+const POINTS: usize = 9;
+/// Steps in a period with which an implicit scheme still follows an oscillation.
+const STEPS_PER_PERIOD: f64 = 20.0;
+
+/// The error of the reduced model cut down to its first modes, against the answers of the full model already there.
+///
+/// The dynamic columns were made orthogonal in their order, so the leading ones span what a smaller job would have kept.
+///
+/// # Errors
+/// A reduced pencil that is not definite.
+pub(super) fn size_errors(
+    evidence: &Evidence<'_>,
+    references: &[Reference],
+    response: Option<&FullResponse>,
+    band_hz: [f64; 2],
+) -> Result<Vec<SizeError>> {
+    if references.is_empty() && response.is_none() {
+        return Ok(Vec::new());
+    }
+    let n_modes = evidence.basis.coordinates.iter().filter(|coordinate| is_mode(coordinate)).count();
+    let mut counts: Vec<usize> = (0..POINTS).map(|i| i * n_modes / (POINTS - 1)).collect();
+    counts.dedup();
+    counts.into_iter().map(|count| size_error(evidence, references, response, (count, band_hz))).collect()
+}
+
+fn size_error(
+    evidence: &Evidence<'_>,
+    references: &[Reference],
+    response: Option<&FullResponse>,
+    (n_modes, band_hz): (usize, [f64; 2]),
+) -> Result<SizeError> {
+    let n = evidence.partition.n_interface() + n_columns(evidence, n_modes);
+    let (k, m) = (&evidence.reduction.stiffness, &evidence.reduction.mass);
+    let (k, m) = (k.submatrix(0, 0, n, n), m.submatrix(0, 0, n, n));
+    let shift = super::shift(evidence);
+    let mut frequency_error = 0.0;
+    for reference in references {
+        let reduced = reference.boundary.of_reduced(k, m, shift)?;
+        let error = reference.worst_difference(evidence, &reduced, band_hz);
+        if dense::worse(error, frequency_error) {
+            frequency_error = error;
+        }
+    }
+    let response_error_db = match response {
+        Some(full) => Some(full.worst_decibel(evidence, &Spectral::of(k, m, shift)?)),
+        None => None,
+    };
+    Ok(SizeError { n_modes, n_reduced: n, frequency_error, response_error_db })
+}
+
+fn is_mode(coordinate: &DynamicCoordinate) -> bool {
+    !matches!(coordinate, DynamicCoordinate::InertiaRelief(_))
+}
+
+/// Dynamic columns up to and without the mode after the first `n_modes`.
+fn n_columns(evidence: &Evidence<'_>, n_modes: usize) -> usize {
+    let coordinates = &evidence.basis.coordinates;
+    let modes = coordinates.iter().enumerate().filter(|(_, coordinate)| is_mode(coordinate));
+    modes.map(|(at, _)| at).nth(n_modes).unwrap_or(coordinates.len())
+}
+
+/// The highest frequency of the reduced model with its interface free.
+pub(super) fn highest(evidence: &Evidence<'_>, reduced: &Spectral) -> Option<HighestFrequency> {
+    let lambda = reduced.eigenvalues().last().copied().filter(|lambda| *lambda > 0.0)?;
+    let frequency_hz = super::hertz(evidence, lambda);
+    Some(HighestFrequency {
+        frequency_hz,
+        explicit_step_s: 1.0 / (std::f64::consts::PI * frequency_hz),
+        resolving_step_s: 1.0 / (STEPS_PER_PERIOD * frequency_hz),
+    })
+}

@@ -1,0 +1,16 @@
+//! The measures of the report: no false alarm on healthy models, and for every measure a fault that it finds.
+//!
+//! A fault is put into the evidence itself – a mode, a column of Ψ_S, an entry of K̂ – so that nothing but the checks can
+//! notice it: the checker is checked.
+
+#[path = "../theorems/cases.rs"]
+#[allow(dead_code, reason = "the theorems use the rest")]
+mod cases;
+#[path = "../chain/mod.rs"]
+mod chain;
+mod digits;
+mod error_bars;
+mod evidence;
+mod faults;
+mod grounded;
+mod healthy;
