@@ -30,6 +30,14 @@ impl Scaling {
             ("the mass", scaling.mass),
             ("the ratio of stiffness to mass, the square of a frequency,", of_lambda),
         ];
+        // Beside one huge entry the others may fall below what the range holds with all digits.
+        let least = |matrix: &SparseMatrix| {
+            let positive = diagonal(matrix).into_iter().filter(|value| *value > 0.0);
+            positive.fold(f64::INFINITY, f64::min)
+        };
+        let smallest = least(stiffness).min(least(mass));
+        let smallest = if smallest.is_finite() { binary_exponent(smallest) } else { 0 };
+        let sizes = sizes.into_iter().chain([("the smallest diagonal entry beside the largest", smallest)]);
         match sizes.into_iter().find(|(_, exponent)| !EXPONENTS.contains(exponent)) {
             Some((what, exponent)) => Err(Error::UnitRange { what, exponent }),
             None => Ok(scaling),

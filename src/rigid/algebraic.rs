@@ -47,6 +47,7 @@ pub(super) fn zero_modes(partition: &Partition) -> Result<(RigidBodyModes, Optio
         orthonormal,
         n_massless: 0,
         n_mechanisms: 0,
+        n_grey: 0,
         source: RigidSource::Algebraic,
         is_classical: false,
         energy,

@@ -70,6 +70,7 @@ pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<
         orthonormal,
         n_massless: massless().map(|motions| motions.ncols()).sum(),
         n_mechanisms: 0,
+        n_grey: 0,
         source: RigidSource::Geometric,
         is_classical,
         energy,

@@ -81,7 +81,8 @@ pub fn with_mechanisms(
         }
     }
     let zero = Mat::from_fn(motions.nrows(), zero.len(), |i, j| motions[(i, zero[j])]);
-    Ok((joined(partition, rigid, zero.as_ref()), found))
+    let rigid = RigidBodyModes { n_grey: found.grey.len(), ..joined(partition, rigid, zero.as_ref()) };
+    Ok((rigid, found))
 }
 
 /// V for every eigenvector of S that is soft and no rigid-body motion; columns of unit length in the scales of the dofs.

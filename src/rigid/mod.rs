@@ -49,6 +49,8 @@ pub struct RigidBodyModes {
     pub n_massless: usize,
     /// How many motions, the last of U, are those of mechanisms and not of rigid bodies.
     pub n_mechanisms: usize,
+    /// How many further motions are so soft that the data hardly tell them from motions without energy; they count as elastic.
+    pub n_grey: usize,
     /// Where they come from.
     pub source: RigidSource,
     /// True where the first six columns of U are the unit motions of one free body, so that UᵀMU holds its mass properties.
@@ -95,6 +97,7 @@ impl RigidBodyModes {
             mass_orthonormal: Mat::zeros(n_dofs, 0),
             n_massless: 0,
             n_mechanisms: 0,
+            n_grey: 0,
             source: RigidSource::Geometric,
             is_classical: false,
             energy: RigidEnergy::default(),

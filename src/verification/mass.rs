@@ -5,7 +5,6 @@ use super::rigid_body::mass_difference;
 use super::{Evidence, rigid_name};
 use crate::dense;
 
-
 /// M-16: ÛᵀM̂Û against UᵀMU.
 pub(super) fn preserved(evidence: &Evidence<'_>) -> Check {
     const FAIL: f64 = 1e-6;

@@ -143,11 +143,12 @@ fn rigid_name(evidence: &Evidence<'_>, mode: usize) -> String {
 /// What a reduced coordinate is called: `node 12 uz`, `mode 3`, `inertia relief 2`.
 fn coordinate_name(evidence: &Evidence<'_>, coordinate: usize) -> String {
     let n_b = evidence.partition.n_interface();
-    match coordinate.checked_sub(n_b).map(|slot| evidence.basis.coordinates[slot]) {
+    match coordinate.checked_sub(n_b).map(|slot| evidence.basis.coordinates.get(slot).copied()) {
+        Some(None) => format!("coordinate {}", coordinate + 1),
         None => evidence.partition.name_of(evidence.partition.n_internal + coordinate),
-        Some(DynamicCoordinate::RigidBody(index)) => format!("rigid-body mode {}", index + 1),
-        Some(DynamicCoordinate::InertiaRelief(index)) => format!("inertia relief {}", index + 1),
-        Some(DynamicCoordinate::FreeFree(mode) | DynamicCoordinate::FixedInterface(mode)) => {
+        Some(Some(DynamicCoordinate::RigidBody(index))) => format!("rigid-body mode {}", index + 1),
+        Some(Some(DynamicCoordinate::InertiaRelief(index))) => format!("inertia relief {}", index + 1),
+        Some(Some(DynamicCoordinate::FreeFree(mode) | DynamicCoordinate::FixedInterface(mode))) => {
             format!("mode {}", mode + 1)
         }
     }

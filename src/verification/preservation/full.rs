@@ -144,6 +144,7 @@ fn passing_motions(
         orthonormal: motions,
         n_massless: 0,
         n_mechanisms: 0,
+        n_grey: 0,
         source: evidence.rigid.source,
         is_classical: false,
         energy: RigidEnergy::default(),
