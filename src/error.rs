@@ -1159,6 +1159,16 @@ pub enum Error {
         /// The dof eliminated when it happened.
         dof: String,
     },
+    /// Eigenvalues of K below zero.
+    #[error(
+        "the stiffness has {count} negative eigenvalues with the interface {boundary}, by a Sturm count – expected none – the component is preloaded beyond buckling, has negative springs, or its matrix lacks digits; reduce it at a smaller preload"
+    )]
+    IndefiniteStiffness {
+        /// How many.
+        count: usize,
+        /// `free` or `held`.
+        boundary: &'static str,
+    },
     /// The forecast exceeds the memory there is.
     #[error("the run needs {:.1} GiB – {:.1} GiB are available – {what} – free memory, raise run.memory_gib, or use --certify none, which saves one factor", gib(*needed), gib(*available))]
     MemoryForecast {
@@ -1206,7 +1216,7 @@ pub enum Error {
     },
     /// The modes found are not all there are.
     #[error(
-        "modes are missing below {below_hz:.6} Hz – found {found}, the Sturm count says {counted} – restarting found no more – use --eigensolver arpack to compare"
+        "modes are missing below {below_hz:.6} Hz – found {found}, the Sturm count says {counted} – neither another start nor slices of the band found more – use --eigensolver arpack to compare"
     )]
     ModesMissing {
         /// Frequency of the shift.

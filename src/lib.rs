@@ -36,6 +36,7 @@
 //! 6. Verification never changes a result. It measures, names the equation and compares with a limit.
 //! 7. The same input gives the same bytes, whatever the number of threads.
 
+pub mod audit;
 pub mod basis;
 pub mod cli;
 pub mod dense;
@@ -54,17 +55,19 @@ pub mod rigid;
 pub mod sparse;
 pub mod verification;
 
+use audit::Audit;
 use basis::Basis;
 use error::Result;
 use factor::{Analysis, Cholesky, Pencil};
 use job::Job;
 use model::Model;
-use modes::Component;
+use modes::{Component, ModeSource, Retained};
 use outcome::{Outcome, Resources};
 use output::{InputFacts, Results};
 use partition::Partition;
 use reduction::Reduction;
 use report::{Observer, WorkCounters};
+use supel_runtime::Superelement;
 use verification::Evidence;
 
 /// Reduces a component: the whole method, step by step.
@@ -95,7 +98,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let (k_ii, m_ii) = (partition.internal_stiffness(), partition.internal_mass());
     let pencil = Pencil { stiffness: &k_ii, mass: &m_ii };
     let analysis = Analysis::new(pencil)?;
-    factor::refuse_beyond_memory(&analysis, &partition, job, resources)?;
+    factor::refuse_beyond_memory(&analysis, &partition, job, resources, None)?;
     let sigma = modes::shift_of_factor(&partition, &rigid);
     let factor = Cholesky::new(&analysis, pencil, sigma, &|dof| partition.name_of(dof))?;
 
@@ -105,12 +108,21 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
 
     observer.stage("modes");
     let internal = (&k_ii, &m_ii);
-    let component =
-        Component { partition: &partition, internal, factor: &factor, rigid: &rigid, constraint: &constraint };
-    let retained = modes::retained(component, &job.reduction, modes::SEED)?;
+    let component = Component {
+        partition: &partition,
+        internal,
+        analysis: &analysis,
+        factor: &factor,
+        rigid: &rigid,
+        constraint: &constraint,
+    };
+    let search = modes::Search::new(component, &job.reduction)?;
+    factor::refuse_beyond_memory(&analysis, &partition, job, resources, search.n_expected())?;
+    let found = search.lowest(modes::SEED)?;
 
     observer.stage("certificate");
-    let (retained, certificate) = modes::certified(component, &analysis, job, retained)?;
+    let (found, certificate) = modes::certified(&search, &search.problem, found, search.edge(), job.run.certify)?;
+    let retained = Retained::new(component, search.problem.boundary, found);
 
     observer.stage("basis");
     let basis = Basis::new(&constraint, retained.columns.clone(), &m_ii);
@@ -140,8 +152,9 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let work = WorkCounters {
         n_factorisations: 1
             + n_extra
-            + retained.n_factorisations
-            + certificate.map_or(0, |certificate| certificate.n_factorisations),
+            + usize::from(search.edge().is_some())
+            + retained.modes.work.factorisations
+            + certificate.as_ref().map_or(0, |certificate| certificate.n_factorisations),
         n_solves: retained.modes.work.solves + partition.n_interface() + rigid.count(),
         n_restarts: retained.modes.work.restarts,
         factor_flops: analysis.flops,
@@ -158,4 +171,30 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         work,
     })?;
     Ok(Outcome { superelement, report })
+}
+
+/// Checks a superelement that was made earlier: by its own content, and with a job against the full matrices.
+///
+/// # Errors
+/// Those of reading the model of the job; a dense eigenproblem or an iteration that does not converge.
+pub fn verify(superelement: &Superelement, job: Option<&Job>, observer: &mut dyn Observer) -> Result<Audit> {
+    faer::set_global_parallelism(faer::Par::Seq);
+
+    observer.stage("verification");
+    let by_itself = audit::of_file(superelement)?;
+    let Some(job) = job else { return Ok(by_itself) };
+
+    observer.stage("read");
+    let read = input::read(&job.model)?;
+    let facts = InputFacts::of(&read);
+
+    observer.stage("check");
+    let model = Model::new(read)?;
+
+    observer.stage("partition");
+    let partition = Partition::new(&model, &job.interfaces)?;
+
+    observer.stage("comparison");
+    let against_model = audit::against_model(superelement, &partition, &facts)?;
+    Ok(by_itself.joined(against_model))
 }

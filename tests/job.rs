@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 use supel::error::{Error, ErrorClass, Result};
-use supel::job::{Coupling, Job, Method, ModeSelection, NodeSelection, Origin, Region};
+use supel::job::{Coupling, Job, Method, ModeSelection, NodeSelection, Origin, Region, Support};
 
 const FULL: &str = r#"
 [model]
@@ -35,6 +35,11 @@ coupling = "rigid"
 method      = "herting"
 modes       = { up_to_hz = 1000 }
 eigensolver = "arpack"
+
+[scene]
+band_hz    = [0, 500]
+boundaries = ["free", "fix:hub", "mass:foot", "mass:rim=2.5"]
+damping    = { ratio = 0.02 }
 
 [run]
 certify    = "none"
@@ -171,7 +176,7 @@ fn values_of_the_wrong_kind_are_located() {
     assert!(wrong("nodes = [412, 413]", "nodes = 412").contains("\"group:NAME\""));
     assert!(wrong("origin   = [0, 0, 12.5]", "origin = \"middle\"").contains("\"centroid\" or [x, y, z]"));
     assert!(wrong("radius = 5", "inner_radius = 5").contains("missing field `radius`"));
-    assert!(wrong("[write]", "[write").starts_with("job.toml:35:"));
+    assert!(wrong("[write]", "[write").starts_with("job.toml:40:"));
     let error = Job::parse("{\n \"model\": }", Path::new("job.json")).expect_err("not JSON");
     assert_eq!(error.to_string(), "job.json:2: expected value");
 }
@@ -187,6 +192,43 @@ fn numbers_out_of_range_are_refused() {
     assert!(read(&with("/reduction/modes", json!({ "count": 0 }))).is_ok(), "no modes is static condensation");
     assert!(read(&with("/run", json!({ "memory_gib": 0 }))).is_err());
     assert!(read(&with("/model/expect", json!({ "mass": -1 }))).is_err());
+}
+
+#[test]
+fn scenes_are_checked() {
+    let scene = |scene: Value| with("/scene", scene);
+    let job = Job::parse(FULL, Path::new("job.toml")).expect("a job").scene.expect("a scene");
+    assert_eq!((job.band_hz, job.damping.map(|damping| damping.ratio)), (Some([0.0, 500.0]), Some(0.02)));
+    let loaded = |interface: &str, mass| Support::Loaded { interface: interface.to_owned(), mass };
+    let fixed = Support::Fixed { interface: "hub".to_owned() };
+    assert_eq!(job.boundaries, Some(vec![Support::Free, fixed, loaded("foot", None), loaded("rim", Some(2.5))]));
+    assert_eq!(
+        message(&scene(json!({ "band_hz": [5, 4] }))),
+        "`scene.band_hz[1]` is 4 – expected a frequency above that of `band_hz[0]`"
+    );
+    assert_eq!(
+        message(&scene(json!({ "boundaries": ["free", "fix:pin"] }))),
+        "scene.boundaries: `fix:pin`: no interface is called `pin` – the job has hub"
+    );
+    for (wrong, expected) in [
+        (json!({ "band_hz": [-1, 4] }), "zero or more"),
+        (json!({ "boundaries": ["mass:hub=-2"] }), "a positive number"),
+        (json!({ "boundaries": ["mass:hub=much"] }), "expected `free`, `fix:NAME`"),
+        (json!({ "boundaries": ["held"] }), "boundary `held`"),
+        (json!({ "boundaries": ["fix:"] }), "boundary `fix:`"),
+        (json!({ "damping": { "ratio": 0 } }), "a positive number"),
+        (json!({ "damping": { "ratio": 1 } }), "below 1"),
+        (json!({ "bandwidth": 3 }), "did you mean `band_hz`"),
+    ] {
+        let message = message(&scene(wrong));
+        assert!(message.contains(expected), "{message}");
+    }
+    for wrong in ["band_hz    = [nan, 500]", "band_hz    = [0, nan]", "band_hz    = [0, inf]"] {
+        let text = FULL.replace("band_hz    = [0, 500]", wrong);
+        let error = Job::parse(&text, Path::new("job.toml")).and_then(|job| job.validate()).expect_err("not a number");
+        assert!(matches!(error, Error::JobNumber { .. }), "{error}");
+    }
+    assert!(read(&scene(json!({ "boundaries": [] }))).is_ok(), "an empty list compares none");
 }
 
 #[test]
@@ -310,6 +352,17 @@ fn changed_jobs() -> Vec<Value> {
         with("/reduction/modes", json!({ "count": -3 })),
         with("/reduction/modes", json!({ "up_to_hz": 0 })),
         with("/reduction/eigensolver", "arpack".into()),
+        with("/scene", json!({})),
+        with("/scene", json!({ "band_hz": [0, 50], "boundaries": ["free", "fix:hub", "mass:hub", "mass:hub=2.5e3"] })),
+        with("/scene", json!({ "band_hz": [0, -50] })),
+        with("/scene", json!({ "band_hz": [0, 5, 50] })),
+        with("/scene", json!({ "boundaries": "free" })),
+        with("/scene", json!({ "boundaries": ["freed"] })),
+        with("/scene", json!({ "boundaries": ["mass:hub="] })),
+        with("/scene", json!({ "damping": { "ratio": 0.02 } })),
+        with("/scene", json!({ "damping": { "ratio": 1.0 } })),
+        with("/scene", json!({ "damping": {} })),
+        with("/scene", json!({ "gravity": true })),
         with("/run", json!({ "certify": "full" })),
         with("/run", json!({ "certify": "count", "memory_gib": 0.5 })),
         with("/write/superelement", "x.json".into()),

@@ -108,9 +108,13 @@ fn warnings_and_missing_modes_weigh_in_the_verdict() {
     warned.body.warnings = sample::full_report().body.warnings;
     assert_eq!(warned.body.verdict(), Verdict::Warn);
     let mut incomplete = sample::passing_report();
-    incomplete.body.completeness = Completeness::SturmCount { below_hz: 1.0, n_counted: 8, n_found: 7 };
+    incomplete.body.completeness = Completeness::SturmCount { below_hz: 1.0, n_counted: 8, n_found: 7, doubt: 0.0 };
     assert!(!incomplete.body.completeness.is_certified());
     assert_eq!(incomplete.body.verdict(), Verdict::Fail);
+    let mut likely = sample::passing_report();
+    likely.body.completeness = Completeness::SturmCount { below_hz: 1.0, n_counted: 8, n_found: 8, doubt: 1.5 };
+    assert!(!likely.body.completeness.is_certified() && likely.body.completeness.statement().contains("likely"));
+    assert_eq!(likely.body.verdict(), Verdict::Warn);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Dynamic modes: what the interior does beyond following the interface statically.
 
+use faer::prelude::ReborrowMut;
 use faer::{Mat, MatRef};
 
 use super::{ConstraintModes, DroppedColumn, DynamicCoordinate};
@@ -64,9 +65,29 @@ pub fn mode_acceleration_columns(
     let (x_i, x_b) = (modes.shapes.as_ref().subrows(0, n_i), modes.shapes.as_ref().subrows(n_i, n_b));
     let mut accelerated = columns.as_mut().subcols_mut(n_r, modes.count());
     accelerated.copy_from(x_i);
-    dense::add_product(accelerated, -1.0, constraint.modes.as_ref(), x_b);
+    dense::add_product(accelerated.rb_mut(), -1.0, constraint.modes.as_ref(), x_b);
+    let sizes = |j: usize| following_sizes(dense::column(x_i, j), constraint.modes.as_ref(), dense::column(x_b, j));
+    let stiffness = |i: usize| partition.stiffness.get(i, i).copied().unwrap_or(0.0).abs();
+    for j in 0..modes.count() {
+        let column = dense::column_mut(accelerated.rb_mut(), j);
+        let length = |column: &[f64]| (0..n_i).map(|i| stiffness(i) * column[i].powi(2)).sum::<f64>().sqrt();
+        // The interior follows the interface statically: what is left is rounding, which scaled to unit length would be a
+        // column that no one asked for.
+        if length(column) <= INDEPENDENT * length(&sizes(j)) {
+            column.fill(0.0);
+        }
+    }
     let relief = (0..n_r).map(DynamicCoordinate::InertiaRelief);
     DynamicColumns { columns, coordinates: relief.chain((0..modes.count()).map(DynamicCoordinate::FreeFree)).collect() }
+}
+
+/// |x_I| + |Ψ_S||x_B|: the terms that a mode-accelerated column is the difference of.
+fn following_sizes(x_i: &[f64], psi_s: MatRef<'_, f64>, x_b: &[f64]) -> Vec<f64> {
+    let mut sizes: Vec<f64> = x_i.iter().map(|value| value.abs()).collect();
+    for (b, weight) in x_b.iter().enumerate() {
+        sizes.iter_mut().zip(dense::column(psi_s, b)).for_each(|(size, value)| *size += (value * weight).abs());
+    }
+    sizes
 }
 
 /// Columns that are M_II-orthonormal, with the triangle that gives the named ones back.

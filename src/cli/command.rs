@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::flags::{CommandLine, InspectFlags, ModelFlags, OutputFlags, ReduceFlags, ReductionFlags, Typed};
+use super::flags::{
+    CommandLine, InspectFlags, ModelFlags, OutputFlags, ReduceFlags, ReductionFlags, Typed, VerifyFlags,
+};
 use super::process;
 use crate::error::{Error, Result};
 use crate::job::{
@@ -14,6 +16,7 @@ use crate::job::{
 #[derive(Debug)]
 pub(super) enum Command {
     Reduce(Box<ReduceCommand>),
+    Verify(Box<VerifyCommand>),
     Inspect(InspectCommand),
     /// What a child process does for its parent, see [`super::rehearsal`].
     RehearseReading,
@@ -27,6 +30,17 @@ pub(super) struct ReduceCommand {
     pub(super) n_threads: usize,
     pub(super) answer: Answer,
     pub(super) unverified: Unverified,
+    pub(super) strictness: Strictness,
+}
+
+/// Check a superelement file again.
+#[derive(Debug)]
+pub(super) struct VerifyCommand {
+    pub(super) file: PathBuf,
+    /// The model to compare with: checked, paths absolute.
+    pub(super) job: Option<Job>,
+    pub(super) n_threads: usize,
+    pub(super) answer: Answer,
     pub(super) strictness: Strictness,
 }
 
@@ -71,6 +85,7 @@ impl Command {
     pub(super) fn build(line: CommandLine) -> Result<Self> {
         match line.command {
             Typed::Reduce(flags) => build_reduce(*flags).map(|command| Self::Reduce(Box::new(command))),
+            Typed::Verify(flags) => build_verify(flags).map(|command| Self::Verify(Box::new(command))),
             Typed::Inspect(InspectFlags { file, json, job }) => {
                 let answer = match (json, job) {
                     (_, true) => InspectAnswer::Job,
@@ -82,6 +97,20 @@ impl Command {
             Typed::RehearseReading => Ok(Self::RehearseReading),
         }
     }
+}
+
+fn build_verify(flags: VerifyFlags) -> Result<VerifyCommand> {
+    Ok(VerifyCommand {
+        file: flags.file,
+        job: flags.job.as_deref().map(Job::read).transpose()?,
+        n_threads: flags.threads.map_or_else(process::available_threads, usize::from),
+        answer: match (flags.json, flags.quiet) {
+            (true, _) => Answer::Json,
+            (false, true) => Answer::Nothing,
+            (false, false) => Answer::Text,
+        },
+        strictness: if flags.strict { Strictness::Strict } else { Strictness::Normal },
+    })
 }
 
 fn build_reduce(flags: ReduceFlags) -> Result<ReduceCommand> {

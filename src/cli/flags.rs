@@ -19,6 +19,9 @@ pub(super) enum Typed {
     /// Reduce a model, verify the result and write superelement and report
     #[command(after_help = EXIT_CODES)]
     Reduce(Box<ReduceFlags>),
+    /// Check a superelement file again: by itself, or with --job against the full matrices
+    #[command(after_help = EXIT_CODES)]
+    Verify(VerifyFlags),
     /// Show what is in a superelement file
     Inspect(InspectFlags),
     /// Read a model described on stdin and forget it
@@ -141,6 +144,29 @@ pub(super) struct InspectFlags {
     /// Print the job that made the file, as JSON that `supel reduce` accepts
     #[arg(long)]
     pub(super) job: bool,
+}
+
+#[derive(Debug, Args)]
+// One field for each switch that can be typed.
+#[expect(clippy::struct_excessive_bools)]
+pub(super) struct VerifyFlags {
+    /// Superelement file
+    pub(super) file: PathBuf,
+    /// Job document of the model: compare with its full matrices
+    #[arg(long, value_name = "JOB")]
+    pub(super) job: Option<PathBuf>,
+    /// Print the checks as JSON
+    #[arg(long, conflicts_with = "quiet")]
+    pub(super) json: bool,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    pub(super) quiet: bool,
+    /// Treat warnings as failed checks
+    #[arg(long)]
+    pub(super) strict: bool,
+    /// Working threads; changes no result [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(super) threads: Option<u16>,
 }
 
 /// The triangles, as they are typed.

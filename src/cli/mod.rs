@@ -17,6 +17,7 @@ mod progress;
 mod reduce;
 mod refusal;
 mod rehearsal;
+mod verify;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -67,6 +68,7 @@ where
 fn execute(flags: flags::CommandLine, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
     match Command::build(flags)? {
         Command::Reduce(command) => reduce::run(&command, pipeline, terminal),
+        Command::Verify(command) => verify::run(&command, terminal),
         Command::Inspect(command) => inspect::run(&command, terminal),
         Command::RehearseReading => rehearsal::read_from_stdin().map(|()| ExitCode::Done),
     }

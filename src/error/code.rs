@@ -156,6 +156,7 @@ codes! {
     FloatingBody => "E-FLOATING-BODY", ModelPhysics;
     InterfaceRank => "E-INTERFACE-RANK", ModelPhysics;
     NotDefinite => "E-NOT-DEFINITE", ModelPhysics;
+    IndefiniteStiffness => "E-NEGATIVE-STIFFNESS", ModelPhysics;
     MemoryForecast => "E-MEM", Resources;
     OutOfMemory => "E-OUT-OF-MEMORY", Resources;
     SturmPivot => "E-STURM-PIVOT", NumericalLimit;

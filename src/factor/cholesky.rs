@@ -8,6 +8,7 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{MatMut, Par, Spec};
 
 use super::block_solve;
+use super::inertia::count_negative;
 use super::{Analysis, Pencil, SolveOperator, Triangle};
 use crate::error::{Error, Result};
 
@@ -28,7 +29,8 @@ impl<'a> Cholesky<'a> {
     /// Factors K − σM; `name` says what the dof of a step of elimination is called.
     ///
     /// # Errors
-    /// [`Error::NotDefinite`] with the dof at which a pivot was not positive beyond rounding; no memory.
+    /// [`Error::NotDefinite`] with the dof at which a pivot was not positive beyond rounding, or
+    /// [`Error::IndefiniteStiffness`] with the number of negative eigenvalues of K; no memory.
     pub fn new(analysis: &'a Analysis, pencil: Pencil<'_>, sigma: f64, name: &dyn Fn(usize) -> String) -> Result<Self> {
         let symbolic = &analysis.symbolic;
         let lower = Triangle::shifted(pencil, sigma);
@@ -48,14 +50,14 @@ impl<'a> Cholesky<'a> {
             MemStack::new(&mut memory),
             parameters,
         )
-        .map_err(|faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }| {
-            Error::NotDefinite { dof: name(index) }
+        .or_else(|faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }| {
+            Err(not_definite(analysis, pencil, name(index)))
         })?;
         let mut factor = Self { analysis, values, smallest_pivot_ratio: 1.0 };
         let (ratio, step) = factor.smallest_pivot(&lower);
         // Rounding decides the sign of a pivot that should be zero, so a singular matrix may well get this far.
         if ratio.is_nan() || ratio <= SINGULAR {
-            return Err(Error::NotDefinite { dof: name(step) });
+            return Err(not_definite(analysis, pencil, name(step)));
         }
         factor.smallest_pivot_ratio = ratio;
         Ok(factor)
@@ -87,6 +89,14 @@ impl SolveOperator for Cholesky<'_> {
 
     fn solve_in_place(&self, block: MatMut<'_, f64>) {
         block_solve::solve_in_place(SupernodalLltRef::new(&self.analysis.symbolic, &self.values), block);
+    }
+}
+
+/// Why there is no Cholesky factor: negative eigenvalues of K where a count finds any, otherwise a mechanism at `dof`.
+fn not_definite(analysis: &Analysis, pencil: Pencil<'_>, dof: String) -> Error {
+    match count_negative(analysis, pencil.stiffness) {
+        Ok(count) if count > 0 => Error::IndefiniteStiffness { count, boundary: "held" },
+        _ => Error::NotDefinite { dof },
     }
 }
 

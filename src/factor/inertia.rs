@@ -2,22 +2,16 @@
 //!
 //! (K − σM)_II = L B Lᵀ has as many negative eigenvalues in B as there are clamped eigenvalues below σ (Sylvester).
 //! With S(σ) = (K − σM)_BB − (K − σM)_BI (K − σM)_II⁻¹ (K − σM)_IB, the free count is the clamped count plus the
-//! negative eigenvalues of S(σ) (Haynsworth 1968): one factorisation certifies both.
+//! negative eigenvalues of S(σ) (Haynsworth 1968): one factorisation certifies both, and solves with K − σM too.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::perm::PermRef;
-use faer::sparse::linalg::cholesky::supernodal::{
-    SupernodalIntranodeLbltRef, factorize_supernodal_numeric_intranode_lblt,
-    factorize_supernodal_numeric_intranode_lblt_scratch,
-};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Conj, Mat, Par, Spec};
+use faer::{Mat, MatMut};
 
-use super::cholesky::zeros;
-use super::{Analysis, Pencil, Triangle};
+use super::indefinite::Indefinite;
+use super::{Analysis, Pencil};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::partition::Partition;
+use crate::sparse::SparseMatrix;
 
 /// Numbers of eigenvalues below a shift.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,8 +24,28 @@ pub struct InertiaCount {
     pub free: usize,
     /// Largest pivot over largest entry: near one, the signs can be trusted.
     pub growth: f64,
+    /// Smallest pivot over largest entry: near rounding, σ lies on an eigenvalue with the interface held.
+    pub pivot_gap: f64,
     /// Smallest |eigenvalue| of S(σ) over its largest: near rounding, σ lies on a free eigenvalue.
     pub schur_gap: f64,
+}
+
+/// Below this share an eigenvalue of S(σ) is rounding, and σ too near a free eigenvalue.
+const SCHUR_GAP: f64 = 1e-12;
+/// Below this share a pivot of B is rounding, as in the Cholesky factorisation, and σ too near a clamped eigenvalue.
+const PIVOT_GAP: f64 = 1024.0 * f64::EPSILON;
+
+impl InertiaCount {
+    /// Whether σ lies off the clamped eigenvalues as far as the pivots tell. Where it does not, S(σ) is dominated by one
+    /// term and the free count is in doubt too.
+    pub fn is_off_clamped(&self) -> bool {
+        self.pivot_gap > PIVOT_GAP
+    }
+
+    /// Whether σ lies off the free eigenvalues as far as S(σ) tells.
+    pub fn is_off_free(&self) -> bool {
+        self.schur_gap > SCHUR_GAP
+    }
 }
 
 /// Counts the eigenvalues of the partition's pencil below σ; `analysis` is that of K_II and M_II.
@@ -40,137 +54,144 @@ pub struct InertiaCount {
 /// No memory for the second factor; pivots that are not numbers, which means that σ hits an eigenvalue exactly.
 pub fn count_below(partition: &Partition, analysis: &Analysis, sigma: f64) -> Result<InertiaCount> {
     let (stiffness, mass) = (partition.internal_stiffness(), partition.internal_mass());
-    let pencil = Pencil { stiffness: &stiffness, mass: &mass };
-    let factor = Indefinite::new(analysis, pencil, sigma)?;
-    let signs = factor.signs()?;
-    let (below_free, schur_gap) = factor.schur_signs(partition, sigma)?;
-    Ok(InertiaCount {
-        sigma,
-        clamped: signs.negative,
-        free: signs.negative + below_free,
-        growth: signs.growth,
-        schur_gap,
-    })
+    let shifted = ShiftedFactor::new(partition, (&stiffness, &mass), analysis, sigma)?;
+    Ok(shifted.count)
 }
 
-/// L B Lᵀ of D (K − σM) D with pivots of order one and two inside each supernode.
+/// The number of negative eigenvalues of a whole K − σM, and the pivot growth.
 ///
-/// D holds powers of two that bring the diagonal of K near one: pivots are then compared on equal terms whatever the
-/// units of translations and rotations.
-struct Indefinite<'a> {
-    analysis: &'a Analysis,
+/// # Errors
+/// Those of [`count_below`].
+pub fn negative_pivots(analysis: &Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<(usize, f64)> {
+    let signs = Indefinite::new(analysis, pencil, sigma)?.signs()?;
+    Ok((signs.negative, signs.growth))
+}
+
+/// Eigenvalues of K_II below zero by more than rounding of its entries, however σ and M are.
+///
+/// K_II + τ diag(K_II) is counted: a negative eigenvalue that a relative change τ of the diagonal makes vanish is one that
+/// rounding may have made. τ is the share below which the Cholesky factorisation calls a pivot rounding.
+///
+/// # Errors
+/// As [`count_below`].
+pub fn count_negative(analysis: &Analysis, stiffness: &SparseMatrix) -> Result<usize> {
+    let n = stiffness.rows();
+    let diagonal = crate::model::diagonal(stiffness).into_iter().map(f64::abs).collect();
+    let diagonal = SparseMatrix::new((n, n), (0..=n).collect(), (0..n as u32).collect(), diagonal);
+    let pencil = Pencil { stiffness, mass: &diagonal };
+    Ok(Indefinite::new(analysis, pencil, -PIVOT_GAP)?.signs()?.negative)
+}
+
+/// K − σM factored, σ inside the spectrum: counts, and solves with the interface held or free.
+#[allow(missing_debug_implementations)]
+pub struct ShiftedFactor<'a> {
+    factor: Indefinite<'a>,
+    /// (K − σM)_IB.
+    coupling: Mat<f64>,
+    /// (K − σM)_II⁻¹ (K − σM)_IB.
+    solution: Mat<f64>,
+    schur: Schur,
+    /// The counts below σ.
+    pub count: InertiaCount,
+}
+
+/// S(σ) = D⁻¹ V diag(μ) Vᵀ D⁻¹.
+struct Schur {
     scale: Vec<f64>,
-    largest: f64,
-    values: Vec<f64>,
-    subdiagonal: Vec<f64>,
-    forward: Vec<usize>,
-    inverse: Vec<usize>,
+    eigenvalues: Vec<f64>,
+    vectors: Mat<f64>,
 }
 
-struct Signs {
-    negative: usize,
-    growth: f64,
-}
-
-impl<'a> Indefinite<'a> {
-    fn new(analysis: &'a Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<Self> {
-        let (symbolic, n) = (&analysis.symbolic, analysis.n);
-        let scale: Vec<f64> =
-            crate::model::diagonal(pencil.stiffness).into_iter().map(|d| dense::power_of_two_root(d.abs())).collect();
-        let lower = Triangle::shifted_and_scaled(pencil, sigma, &scale);
-        let largest = lower.values.iter().fold(0.0, |max: f64, value| max.max(value.abs()));
-        let pattern = SymbolicSparseColMatRef::new_checked(n, n, &lower.pointers, None, &lower.indices);
-        let mut factor = Self {
-            analysis,
-            scale,
-            largest,
-            values: zeros(symbolic.len_val())?,
-            subdiagonal: vec![0.0; n],
-            forward: vec![0; n],
-            inverse: vec![0; n],
-        };
-        let parameters = Spec::default();
-        let scratch = factorize_supernodal_numeric_intranode_lblt_scratch::<usize, f64>(symbolic, Par::Seq, parameters);
-        let mut memory = MemBuffer::try_new(scratch).map_err(|_| Error::OutOfMemory { what: "the Sturm count" })?;
-        factorize_supernodal_numeric_intranode_lblt(
-            &mut factor.values,
-            &mut factor.subdiagonal,
-            &mut factor.forward,
-            &mut factor.inverse,
-            SparseColMatRef::new(pattern, lower.values.as_slice()),
-            symbolic,
-            Par::Seq,
-            MemStack::new(&mut memory),
-            parameters,
-        );
-        Ok(factor)
-    }
-
-    fn as_ref(&self) -> SupernodalIntranodeLbltRef<'_, usize, f64> {
-        let permutation = PermRef::new_checked(&self.forward, &self.inverse, self.analysis.n);
-        SupernodalIntranodeLbltRef::new(&self.analysis.symbolic, &self.values, &self.subdiagonal, permutation)
-    }
-
-    /// Signs of the pivots of B.
-    fn signs(&self) -> Result<Signs> {
-        let factor = self.as_ref();
-        let mut signs = Signs { negative: 0, growth: 0.0 };
-        let mut largest_pivot = 0.0f64;
-        for s in 0..self.analysis.symbolic.n_supernodes() {
-            let node = factor.supernode(s);
-            let (size, start) = (node.val().ncols(), node.start());
-            let mut j = 0;
-            while j < size {
-                let (d, below) = (node.val()[(j, j)], self.subdiagonal[start + j]);
-                largest_pivot = largest_pivot.max(d.abs()).max(below.abs());
-                if !d.is_finite() || (d == 0.0 && below == 0.0) {
-                    return Err(Error::SturmPivot { step: start + j });
-                }
-                if below == 0.0 {
-                    signs.negative += usize::from(d < 0.0);
-                    j += 1;
-                } else {
-                    let next = node.val()[(j + 1, j + 1)];
-                    // One of each sign unless the determinant is positive; then both have the sign of the trace.
-                    signs.negative += if d * next - below * below < 0.0 { 1 } else { 2 * usize::from(d < 0.0) };
-                    j += 2;
-                }
-            }
-        }
-        signs.growth = largest_pivot / self.largest;
-        Ok(signs)
-    }
-
-    /// (K − σM)_II⁻¹ applied to a block.
-    fn solve(&self, block: &Mat<f64>) -> Mat<f64> {
-        let mut x = Mat::from_fn(block.nrows(), block.ncols(), |i, j| {
-            let row = self.forward[i];
-            block[(row, j)] * self.scale[row]
-        });
-        let scratch = self.analysis.symbolic.solve_in_place_scratch::<f64>(x.ncols(), Par::Seq);
-        let mut memory = MemBuffer::new(scratch);
-        let stack = MemStack::new(&mut memory);
-        self.as_ref().solve_in_place_no_numeric_permute_with_conj(Conj::No, x.as_mut(), Par::Seq, stack);
-        Mat::from_fn(x.nrows(), x.ncols(), |i, j| x[(self.inverse[i], j)] * self.scale[i])
-    }
-
-    /// Negative eigenvalues of S(σ), and how far its smallest is from zero.
-    fn schur_signs(&self, partition: &Partition, sigma: f64) -> Result<(usize, f64)> {
+impl<'a> ShiftedFactor<'a> {
+    /// Factors K − σM; `internal` is K_II and M_II, `analysis` theirs.
+    ///
+    /// # Errors
+    /// As [`count_below`].
+    pub fn new(
+        partition: &Partition,
+        internal: (&SparseMatrix, &SparseMatrix),
+        analysis: &'a Analysis,
+        sigma: f64,
+    ) -> Result<Self> {
+        let factor = Indefinite::new(analysis, Pencil { stiffness: internal.0, mass: internal.1 }, sigma)?;
+        let signs = factor.signs()?;
         let (n_i, n_b) = (partition.n_internal, partition.n_interface());
-        if n_b == 0 {
-            return Ok((0, 1.0));
+        let columns = partition.interface_columns(sigma);
+        let coupling = columns.as_ref().subrows(0, n_i).to_owned();
+        let solution = if n_b == 0 { coupling.clone() } else { factor.solve(coupling.as_ref()) };
+        let mut schur = columns.as_ref().subrows(n_i, n_b).to_owned();
+        dense::add_product(schur.as_mut(), -1.0, coupling.transpose(), solution.as_ref());
+        let schur = Schur::new(schur)?;
+        let count = InertiaCount {
+            sigma,
+            clamped: signs.negative,
+            free: signs.negative + schur.n_negative(),
+            growth: signs.growth,
+            pivot_gap: signs.smallest,
+            schur_gap: schur.gap(),
+        };
+        if !count.schur_gap.is_finite() {
+            return Err(Error::SturmPivot { step: n_i });
         }
-        let coupling = partition.interface_columns(sigma);
-        let internal = coupling.as_ref().subrows(0, n_i).to_owned();
-        let solution = self.solve(&internal);
-        let mut schur = coupling.as_ref().subrows(n_i, n_b).to_owned();
-        dense::add_product(schur.as_mut(), -1.0, internal.transpose(), solution.as_ref());
+        Ok(Self { factor, coupling, solution, schur, count })
+    }
+
+    /// F ← (K − σM)_II⁻¹ F, the interface held: n_I rows.
+    pub fn solve_held(&self, mut block: MatMut<'_, f64>) {
+        let solution = self.factor.solve(block.as_ref());
+        block.copy_from(&solution);
+    }
+
+    /// F ← (K − σM)⁻¹ F, the interface free: n_I + n_B rows.
+    ///
+    /// ```text
+    /// y   = (K − σM)_II⁻¹ f_I
+    /// x_B = S(σ)⁻¹ (f_B − (K − σM)_BI y)
+    /// x_I = y − (K − σM)_II⁻¹ (K − σM)_IB x_B
+    /// ```
+    pub fn solve_free(&self, mut block: MatMut<'_, f64>) {
+        let n_i = self.coupling.nrows();
+        let n_b = block.nrows() - n_i;
+        self.solve_held(block.as_mut().subrows_mut(0, n_i));
+        let mut loads = block.as_ref().subrows(n_i, n_b).to_owned();
+        let reactions = dense::gram(self.coupling.as_ref(), block.as_ref().subrows(0, n_i));
+        loads -= &reactions;
+        let x_b = self.schur.solve(&loads);
+        dense::add_product(block.as_mut().subrows_mut(0, n_i), -1.0, self.solution.as_ref(), x_b.as_ref());
+        block.subrows_mut(n_i, n_b).copy_from(&x_b);
+    }
+}
+
+impl Schur {
+    fn new(mut schur: Mat<f64>) -> Result<Self> {
         dense::symmetrise(&mut schur);
+        let n_b = schur.nrows();
         let scale: Vec<f64> = (0..n_b).map(|i| dense::power_of_two_root(schur[(i, i)].abs())).collect();
         let scaled = Mat::from_fn(n_b, n_b, |i, j| schur[(i, j)] * scale[i] * scale[j]);
-        let (eigenvalues, _) = dense::symmetric_eigen(scaled.as_ref())?;
-        let largest = eigenvalues.iter().fold(0.0f64, |max, value| max.max(value.abs()));
-        let smallest = eigenvalues.iter().fold(f64::INFINITY, |min, value| min.min(value.abs()));
-        Ok((eigenvalues.iter().filter(|value| **value < 0.0).count(), smallest / largest))
+        let (eigenvalues, vectors) = dense::symmetric_eigen(scaled.as_ref())?;
+        Ok(Self { scale, eigenvalues, vectors })
+    }
+
+    fn n_negative(&self) -> usize {
+        self.eigenvalues.iter().filter(|value| **value < 0.0).count()
+    }
+
+    /// Smallest |eigenvalue| over the largest; one without an interface.
+    fn gap(&self) -> f64 {
+        let largest = self.eigenvalues.iter().fold(0.0f64, |max, value| max.max(value.abs()));
+        let smallest = self.eigenvalues.iter().fold(f64::INFINITY, |min, value| min.min(value.abs()));
+        if self.eigenvalues.is_empty() { 1.0 } else { smallest / largest }
+    }
+
+    fn solve(&self, loads: &Mat<f64>) -> Mat<f64> {
+        let scaled = Mat::from_fn(loads.nrows(), loads.ncols(), |i, j| loads[(i, j)] * self.scale[i]);
+        let mut along = dense::gram(self.vectors.as_ref(), scaled.as_ref());
+        for j in 0..along.ncols() {
+            for i in 0..along.nrows() {
+                along[(i, j)] /= self.eigenvalues[i];
+            }
+        }
+        let x = dense::product(self.vectors.as_ref(), along.as_ref());
+        Mat::from_fn(x.nrows(), x.ncols(), |i, j| x[(i, j)] * self.scale[i])
     }
 }

@@ -16,19 +16,26 @@ const MODES_IN_A_BAND: u64 = 50;
 /// Refuses a run whose forecast exceeds the memory allowed by the job, or else what the machine offers.
 ///
 /// Counted are the matrices, one factor (two where a Sturm count needs a second), the constraint modes and the basis of
-/// the eigensolver: three vectors for each mode and eight blocks of eight.
+/// the eigensolver: three vectors for each mode and eight blocks of eight. `n_modes` is what a count in the band has found,
+/// once there is one.
 ///
 /// # Errors
 /// [`Error::MemoryForecast`].
-pub fn refuse_beyond_memory(analysis: &Analysis, partition: &Partition, job: &Job, resources: Resources) -> Result<()> {
+pub fn refuse_beyond_memory(
+    analysis: &Analysis,
+    partition: &Partition,
+    job: &Job,
+    resources: Resources,
+    n_modes: Option<usize>,
+) -> Result<()> {
     let allowed = job.run.memory_gib.map(|gib| (gib * f64::from(1 << 30)) as u64);
     let Some(available) = allowed.or(resources.memory_bytes) else {
         return Ok(());
     };
     let n = partition.n_dofs() as u64;
-    let n_modes = match job.reduction.modes {
-        ModeSelection::Count { count } => (count as u64).min(n),
-        ModeSelection::UpTo { .. } => MODES_IN_A_BAND,
+    let n_modes = match (n_modes, job.reduction.modes) {
+        (Some(count), _) | (None, ModeSelection::Count { count }) => (count as u64).min(n),
+        (None, ModeSelection::UpTo { .. }) => MODES_IN_A_BAND,
     };
     // The partitioned matrices, their internal blocks, and one triangle with wide indices while a factor is made.
     let entries = (partition.stiffness.nnz() + partition.mass.nnz()) as u64;

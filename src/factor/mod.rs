@@ -3,7 +3,7 @@
 //! ```text
 //! Analysis       order given, elimination tree, supernodes; shared by every factorisation of the same pattern
 //! Cholesky       K = L Lᵀ for a definite matrix: solves on blocks of right-hand sides
-//! InertiaCount   K − σM = L B Lᵀ: how many eigenvalues lie below σ
+//! ShiftedFactor  K − σM = L B Lᵀ: how many eigenvalues lie below σ, and solves with it
 //! ```
 //!
 //! The matrices arrive in their order of elimination. Everything here runs on faer's supernodal kernels with one
@@ -12,6 +12,7 @@
 
 mod block_solve;
 mod cholesky;
+mod indefinite;
 mod inertia;
 mod memory;
 mod pattern;
@@ -32,7 +33,7 @@ use crate::error::{Error, Result};
 use crate::sparse::SparseMatrix;
 
 pub use cholesky::Cholesky;
-pub use inertia::{InertiaCount, count_below};
+pub use inertia::{InertiaCount, ShiftedFactor, count_below, count_negative, negative_pivots};
 pub use memory::refuse_beyond_memory;
 pub use solve::SolveOperator;
 

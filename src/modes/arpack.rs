@@ -21,7 +21,7 @@ use std::sync::{Mutex, PoisonError};
 
 use faer::{Mat, MatMut, MatRef};
 
-use super::eigenproblem::{EigenWork, Eigenpairs, Problem, Wanted, are_clustered, mass_norm};
+use super::eigenproblem::{EigenWork, Eigenpairs, Problem, Wanted, are_clustered, is_above, mass_norm};
 use super::random::SplitMix64;
 use super::ritz::{RESIDUAL_FLOOR, ROUNDING, TOLERANCE};
 use crate::dense;
@@ -203,7 +203,7 @@ impl<'a> Search<'a> {
         let lambda: Vec<f64> = order.iter().map(|j| sigma + 1.0 / self.theta[*j]).collect();
         let beyond = match wanted {
             Wanted::Count(count) => count,
-            Wanted::UpTo(limit) => lambda.iter().position(|lambda| *lambda > limit).unwrap_or(lambda.len()),
+            Wanted::UpTo(limit) => lambda.iter().position(|lambda| is_above(*lambda, limit)).unwrap_or(lambda.len()),
         };
         let mut count = beyond.min(lambda.len());
         while count > 0 && count < lambda.len() && are_clustered(lambda[count - 1], lambda[count]) {

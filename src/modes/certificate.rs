@@ -1,91 +1,213 @@
-//! The certificate that no mode is missing.
+//! The certificate that no mode is missing: Sturm counts at both ends of the band, and what happens when they disagree.
+//!
+//! # Both ends
+//! The lower end takes no factorisation of its own. K_II = L Lᵀ with positive pivots is a count at zero with the interface
+//! held, and with it free the eigenvalues of S complete it (see [`super::indefinite`]): nothing lies below zero. The zero
+//! modes themselves are n_r independent vectors whose Rayleigh quotients are zero to rounding (M-05), so n_r eigenvalues
+//! at least lie below any shift above those; and the count at the upper end, which equals n_r and the elastic modes found,
+//! leaves no further one. Between the two ends every eigenvalue is thus matched by a vector, one to one, because the
+//! vectors are M-orthonormal (M-03) and each is an eigenvector to its residual (M-01).
+//!
+//! # How far a count can be trusted
+//! L B Lᵀ is the factorisation of K − σM + E with ‖E‖ ≤ c ε ρ ‖K − σM‖, ρ the growth of the pivots (Higham 2002, theorem 11.4),
+//! so the signs are those of that matrix. E moves λ_j by xᵀEx ≤ c ρ φ_j with φ_j = ε ‖K‖ ‖x‖² / xᵀMx, all norms equilibrated:
+//! the count is right as long as no eigenvalue lies nearer to σ than c ρ φ. Roundings add up like the root of the depth of
+//! the elimination, which is 10⁴ for the largest meshes: c = [`ROUNDINGS`]. Growth beyond the limit makes a count likely,
+//! not certain, and the report says so.
 
-use super::{Boundary, Component, Modes, Retained, SEED, retained};
+use super::boundary_problem::{BoundaryProblem, ElasticCount, median_ratio};
+use super::slices::{ModeSource, fill, missing};
+use super::{Boundary, Modes, SEED};
 use crate::error::{Error, Result};
-use crate::factor::{Analysis, InertiaCount, count_below};
-use crate::job::{Certify, Job};
-use crate::partition::Partition;
+use crate::factor::InertiaCount;
+use crate::job::Certify;
 
-/// A Sturm count above the highest mode, against what was found.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Sturm counts against the modes found.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Certificate {
-    /// The count.
+    /// The count at the upper end.
     pub count: InertiaCount,
-    /// Eigenvalues below the shift under the modes' own boundary.
+    /// Boundary of the modes.
+    pub boundary: Boundary,
+    /// Eigenvalues below the upper end under that boundary, rigid-body modes included.
     pub n_counted: usize,
     /// Modes found below it, rigid-body modes included.
     pub n_found: usize,
+    /// The intervals between neighbouring counts, from below zero to the upper end.
+    pub intervals: Vec<CountedInterval>,
+    /// How the modes had to be completed.
+    pub mending: Mending,
     /// Factorisations it took.
     pub n_factorisations: usize,
 }
 
+/// An interval between two counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CountedInterval {
+    /// Lower shift, in scaled units.
+    pub from: f64,
+    /// Upper shift.
+    pub to: f64,
+    /// Eigenvalues between them.
+    pub n_counted: usize,
+    /// Modes found between them.
+    pub n_found: usize,
+    /// Pivot growth of the two counts, the larger; one for the lower end, which is a Cholesky factor.
+    pub growth: f64,
+    /// The growth up to which the counts are certain, the smaller.
+    pub growth_limit: f64,
+}
+
+/// How modes that a count had found missing were completed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mending {
+    /// None was missing.
+    None,
+    /// By a search from another start.
+    Restart,
+    /// By slices of the band.
+    Slices,
+}
+
 impl Certificate {
-    /// True where every mode below the shift was found.
+    /// True where every mode below the upper end was found, interval by interval.
     pub fn holds(&self) -> bool {
-        self.n_counted == self.n_found
+        self.intervals.iter().all(|interval| interval.n_counted == interval.n_found)
+    }
+
+    /// The largest growth over its limit: up to one the counts are certain, above they are likely.
+    pub fn doubt(&self) -> f64 {
+        self.intervals.iter().map(|interval| interval.growth / interval.growth_limit).fold(0.0, f64::max)
     }
 }
 
-/// Where in the gap above the highest mode the count is taken: the middle, unless that is an eigenvalue itself.
+/// c: eigenvalues that rounding φ of the factorisation moves by less than this many times decide no sign.
+const ROUNDINGS: f64 = 100.0;
+/// Where in the gap above the highest mode a count is taken: the middle, unless that is an eigenvalue itself.
 const PLACES: [f64; 3] = [0.5, 0.375, 0.625];
-/// Below this relative size an eigenvalue of S(σ) is rounding, and σ too near an eigenvalue.
-const SCHUR_GAP: f64 = 1e-12;
 
-/// Certifies the modes by a Sturm count; modes that are missing are looked for once more from another start.
+/// Certifies the modes; those that are missing are looked for from another start, then in slices of the band.
+///
+/// `edge` is a count at the end of the band that was taken before the search; it serves where it is off the modes.
 ///
 /// # Errors
-/// [`Error::ModesMissing`] where the second search finds no more; the count's own errors.
+/// [`Error::ModesMissing`] where that finds no more; those of the source and of the counts.
 pub fn certified(
-    component: Component<'_>,
-    analysis: &Analysis,
-    job: &Job,
-    found: Retained,
-) -> Result<(Retained, Option<Certificate>)> {
-    if job.run.certify == Certify::None {
+    source: &dyn ModeSource,
+    problem: &BoundaryProblem<'_>,
+    found: Modes,
+    edge: Option<ElasticCount>,
+    certify: Certify,
+) -> Result<(Modes, Option<Certificate>)> {
+    if certify == Certify::None {
         return Ok((found, None));
     }
-    let n_rigid = component.rigid.count();
-    let count = |found: &Retained| certify(component.partition, analysis, &found.modes, found.boundary, n_rigid);
-    let first = count(&found)?;
+    let first = certify_modes(problem, &found, edge)?;
     if first.holds() {
         return Ok((found, Some(first)));
     }
-    let again = retained(component, &job.reduction, SEED + 1)?;
-    let second = count(&again)?;
+    let mut n_factorisations = first.n_factorisations;
+    let again = source.lowest(SEED + 1)?;
+    let second = certify_modes(problem, &again, edge)?;
+    n_factorisations += second.n_factorisations;
     if second.holds() {
-        let n_factorisations = first.n_factorisations + second.n_factorisations;
-        return Ok((again, Some(Certificate { n_factorisations, ..second })));
+        return Ok((again, Some(Certificate { mending: Mending::Restart, n_factorisations, ..second })));
     }
-    let unit = component.partition.scaling.eigenvalue_unit();
-    Err(Error::ModesMissing {
-        below_hz: (second.count.sigma * unit).max(0.0).sqrt() / std::f64::consts::TAU,
-        found: second.n_found,
-        counted: second.n_counted,
-    })
+    // The larger set is the better start for the slices.
+    let (known, last) = if again.count() >= found.count() { (again, second) } else { (found, first) };
+    let upper = ElasticCount { inertia: last.count, n_elastic: last.n_counted.saturating_sub(problem.n_rigid()) };
+    let mut ends = known.counts.clone();
+    ends.retain(|end| end.inertia.sigma < upper.inertia.sigma);
+    ends.push(upper);
+    let known = Modes { counts: Vec::new(), ..known };
+    let modes = fill(source, problem, known, &ends)?;
+    let third = judge(problem, &modes, upper);
+    match third.holds() {
+        true => Ok((modes, Some(Certificate { mending: Mending::Slices, n_factorisations, ..third }))),
+        false => Err(missing(problem, &modes, upper)),
+    }
 }
 
-/// Counts the eigenvalues in the gap above the highest mode.
-///
-/// # Errors
-/// Every shift tried lies on an eigenvalue; no memory for the factor.
-fn certify(
-    partition: &Partition,
-    analysis: &Analysis,
-    modes: &Modes,
-    boundary: Boundary,
-    n_rigid: usize,
-) -> Result<Certificate> {
-    let mut last = Err(Error::SturmPivot { step: 0 });
-    for (attempt, place) in PLACES.into_iter().enumerate() {
-        last = count_below(partition, analysis, modes.shift_above(place));
-        let Ok(count) = last else { continue };
-        let (n_counted, n_found) = match boundary {
-            Boundary::FreeInterface => (count.free, modes.count() + n_rigid),
-            Boundary::FixedInterface => (count.clamped, modes.count()),
-        };
-        if boundary == Boundary::FixedInterface || count.schur_gap > SCHUR_GAP {
-            return Ok(Certificate { count, n_counted, n_found, n_factorisations: attempt + 1 });
+/// Takes the count at the upper end and compares.
+fn certify_modes(problem: &BoundaryProblem<'_>, modes: &Modes, edge: Option<ElasticCount>) -> Result<Certificate> {
+    let serves = |edge: &ElasticCount| {
+        let sigma = edge.inertia.sigma;
+        let above_all = modes.lambda.last().is_none_or(|last| *last < sigma);
+        above_all && modes.next.is_none_or(|next| sigma < next) && modes.is_clear(sigma)
+    };
+    if let Some(edge) = edge.filter(serves) {
+        let certificate = judge(problem, modes, edge);
+        if certificate.doubt() <= 1.0 {
+            return Ok(certificate);
         }
     }
-    last.and(Err(Error::SturmPivot { step: partition.n_internal }))
+    let mut best: Option<Certificate> = None;
+    let mut failure = Error::SturmPivot { step: 0 };
+    for (attempt, place) in PLACES.into_iter().enumerate() {
+        match problem.count_below(modes.shift_above(place)) {
+            Ok(count) => {
+                let certificate = Certificate { n_factorisations: attempt + 1, ..judge(problem, modes, count) };
+                let is_certain = certificate.doubt() <= 1.0;
+                if best.as_ref().is_none_or(|best| certificate.doubt() < best.doubt()) {
+                    best = Some(certificate);
+                }
+                if is_certain {
+                    break;
+                }
+            }
+            Err(error) => failure = error,
+        }
+    }
+    best.ok_or(failure)
+}
+
+/// Compares the counts up to an upper end with the modes.
+fn judge(problem: &BoundaryProblem<'_>, modes: &Modes, upper: ElasticCount) -> Certificate {
+    let n_rigid = problem.n_rigid();
+    let mut ends: Vec<ElasticCount> = modes.counts.clone();
+    ends.retain(|end| end.inertia.sigma < upper.inertia.sigma);
+    ends.push(upper);
+    let (mut from, mut below, mut lower) = (lower_end(problem), 0, (1.0, f64::INFINITY));
+    let mut intervals = Vec::with_capacity(ends.len());
+    for end in ends {
+        let to = end.inertia.sigma;
+        let limit = growth_limit(problem, modes, to);
+        let rigid = if intervals.is_empty() { n_rigid } else { 0 };
+        intervals.push(CountedInterval {
+            from,
+            to,
+            // A count that falls with the shift is off by more than it says: no interval then holds what it should.
+            n_counted: (end.n_elastic + rigid).saturating_sub(below),
+            n_found: modes.n_between(from, to) + rigid,
+            growth: end.inertia.growth.max(lower.0),
+            growth_limit: limit.min(lower.1),
+        });
+        (from, below, lower) = (to, end.n_elastic, (end.inertia.growth, limit));
+    }
+    Certificate {
+        count: upper.inertia,
+        boundary: problem.boundary,
+        n_counted: upper.n_elastic + n_rigid,
+        n_found: modes.n_between(f64::NEG_INFINITY, upper.inertia.sigma) + n_rigid,
+        intervals,
+        mending: Mending::None,
+        n_factorisations: 0,
+    }
+}
+
+/// Just below the zero modes, whose eigenvalues rounding of the data moves about zero; zero where there are none.
+fn lower_end(problem: &BoundaryProblem<'_>) -> f64 {
+    let energy = problem.component.rigid.energy;
+    if problem.n_rigid() == 0 { 0.0 } else { -(energy.largest_quotient.abs() + energy.noise) }
+}
+
+/// The pivot growth up to which no eigenvalue can have crossed σ by rounding of the factorisation.
+fn growth_limit(problem: &BoundaryProblem<'_>, modes: &Modes, sigma: f64) -> f64 {
+    let floors = modes.errors.iter().map(|error| error.rounding_floor);
+    let largest = floors.clone().fold(0.0, f64::max);
+    // Without a mode to tell, rounding moves an eigenvalue by ε of the largest of a mesh of like dofs.
+    let floor = if largest > 0.0 { largest } else { f64::EPSILON * median_ratio(problem.modal()) };
+    let of_found = modes.lambda.iter().zip(floors).map(|(lambda, floor)| (sigma - lambda).abs() / floor);
+    let of_next = modes.next.map(|next| (next - sigma).abs() / floor);
+    of_found.chain(of_next).fold(f64::INFINITY, f64::min) / ROUNDINGS
 }

@@ -43,8 +43,27 @@ impl Problem<'_> {
 pub enum Wanted {
     /// The lowest ones, completed to whole clusters.
     Count(usize),
-    /// All up to this λ, completed to whole clusters.
+    /// All up to this λ, completed to whole clusters; one that lies above it by no more than the gap of a cluster belongs to
+    /// the band too, so that rounding does not decide on a mode at its edge.
     UpTo(f64),
+}
+
+/// The eigenpairs between two shifts, of which a Sturm count says how many there are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// Lower shift.
+    pub from: f64,
+    /// Upper shift.
+    pub to: f64,
+    /// Eigenvalues between them that are to be found.
+    pub count: usize,
+}
+
+impl Interval {
+    /// Whether an eigenvalue lies between the shifts.
+    pub fn holds(&self, lambda: f64) -> bool {
+        self.from < lambda && lambda < self.to
+    }
 }
 
 /// What was found.
@@ -69,10 +88,26 @@ pub struct EigenWork {
     pub steps: usize,
     /// Thick restarts.
     pub restarts: usize,
+    /// Numeric factorisations beside that of K_II.
+    pub factorisations: usize,
+}
+
+impl std::ops::AddAssign for EigenWork {
+    fn add_assign(&mut self, other: Self) {
+        self.solves += other.solves;
+        self.steps += other.steps;
+        self.restarts += other.restarts;
+        self.factorisations += other.factorisations;
+    }
 }
 
 /// Eigenvalues nearer than this, relatively, belong to one cluster.
 pub const CLUSTER_GAP: f64 = 1e-6;
+
+/// Whether an eigenvalue lies above a band.
+pub(super) fn is_above(lambda: f64, limit: f64) -> bool {
+    lambda > limit * (1.0 + CLUSTER_GAP)
+}
 
 /// Whether an eigenvalue and the next one above belong to one cluster.
 pub(super) fn are_clustered(lower: f64, upper: f64) -> bool {

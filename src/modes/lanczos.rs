@@ -12,7 +12,7 @@
 
 use faer::{Mat, MatRef};
 
-use super::eigenproblem::{CLUSTER_GAP, EigenWork, Eigenpairs, Problem, Wanted, mass_norm};
+use super::eigenproblem::{CLUSTER_GAP, EigenWork, Eigenpairs, Interval, Problem, Wanted, is_above, mass_norm};
 use super::orthogonalisation::{combine_in_place, gram_schmidt};
 use super::random::SplitMix64;
 use super::ritz::Ritz;
@@ -27,30 +27,52 @@ const WIDE_BLOCK: usize = 8;
 /// On small models the factor stays in the cache and a narrow block wastes fewer vectors.
 const NARROW_BLOCK: usize = 4;
 const WIDE_FROM: usize = 50_000;
+/// The share of the basis by which it grows before convergence is looked at again; less than a block for sixty columns.
+const STEPS_BETWEEN_LOOKS: usize = 16;
 
 /// Finds the wanted eigenpairs.
 ///
 /// # Errors
 /// [`Error::LanczosStalled`] when restarts bring no more convergence.
 pub fn lanczos(problem: Problem<'_>, wanted: Wanted, seed: u64) -> Result<Eigenpairs> {
-    let mut basis = Basis::start(problem, wanted, seed);
+    run(problem, Goal::Lowest(wanted), seed)
+}
+
+/// Finds the eigenpairs between two shifts with a shift between them; what it returns may be less than the count says where
+/// the space of the start vectors holds no more.
+///
+/// # Errors
+/// A dense eigenproblem that does not converge.
+pub fn lanczos_between(problem: Problem<'_>, interval: Interval, seed: u64) -> Result<Eigenpairs> {
+    run(problem, Goal::Between(interval), seed)
+}
+
+/// What an iteration looks for.
+#[derive(Clone, Copy)]
+enum Goal {
+    Lowest(Wanted),
+    Between(Interval),
+}
+
+fn run(problem: Problem<'_>, goal: Goal, seed: u64) -> Result<Eigenpairs> {
+    let mut basis = Basis::start(problem, goal, seed);
     loop {
         while basis.has_room() {
             basis.extend();
-            if let Some((ritz, count)) = basis.converged(wanted)? {
-                if !basis.may_lack_copies(&ritz, count) {
-                    return Ok(basis.extract(&ritz, count));
+            if let Some((ritz, taken)) = basis.converged(goal)? {
+                if matches!(goal, Goal::Between(_)) || !basis.may_lack_copies(&ritz, taken.len()) {
+                    return Ok(basis.extract(&ritz, &taken));
                 }
-                basis.start_again_beside(&ritz, count);
+                basis.start_again_beside(&ritz, taken.len());
             }
             if basis.is_exhausted() {
-                return basis.everything(wanted);
+                return basis.everything(goal);
             }
         }
         if basis.work.restarts == MAX_RESTARTS {
-            return Err(Error::LanczosStalled { restarts: MAX_RESTARTS, converged: basis.n_converged()? });
+            return basis.stalled(goal);
         }
-        basis.restart(wanted)?;
+        basis.restart(goal)?;
     }
 }
 
@@ -73,16 +95,18 @@ struct Basis<'a> {
     capacity: usize,
     /// Random start vectors so far.
     n_starts: usize,
+    /// m from which convergence is looked at next.
+    look_at: usize,
     work: EigenWork,
 }
 
 impl<'a> Basis<'a> {
-    fn start(problem: Problem<'a>, wanted: Wanted, seed: u64) -> Self {
+    fn start(problem: Problem<'a>, goal: Goal, seed: u64) -> Self {
         let n = problem.operator.n();
         let block = if n >= WIDE_FROM { WIDE_BLOCK } else { NARROW_BLOCK }.min(n);
-        let expected = match wanted {
-            Wanted::Count(count) => count,
-            Wanted::UpTo(_) => 2 * WIDE_BLOCK,
+        let expected = match goal {
+            Goal::Lowest(Wanted::Count(count)) | Goal::Between(Interval { count, .. }) => count,
+            Goal::Lowest(Wanted::UpTo(_)) => 2 * WIDE_BLOCK,
         };
         let capacity = capacity_for(expected, block, n);
         let mut basis = Self {
@@ -96,6 +120,7 @@ impl<'a> Basis<'a> {
             locked: 0,
             capacity,
             n_starts: 0,
+            look_at: 0,
             work: EigenWork::default(),
         };
         basis.begin(block);
@@ -258,26 +283,33 @@ impl<'a> Basis<'a> {
     fn ritz(&self) -> Result<Ritz> {
         let (ascending, vectors) = dense::symmetric_eigen(self.projected.as_ref())?;
         let m = ascending.len();
-        let s = Mat::from_fn(m, m, |i, j| vectors[(i, m - 1 - j)]);
+        let mut order: Vec<usize> = (0..m).rev().collect();
+        order.sort_by(|a, b| ascending[*b].abs().total_cmp(&ascending[*a].abs()));
+        let s = Mat::from_fn(m, m, |i, j| vectors[(i, order[j])]);
         let coupled = dense::product(self.coupling.as_ref(), s.as_ref());
         let residuals = (0..m).map(|j| dense::norm(dense::column(coupled.as_ref(), j))).collect();
-        Ok(Ritz { theta: ascending.into_iter().rev().collect(), s, residuals })
+        Ok(Ritz { theta: order.iter().map(|j| ascending[*j]).collect(), s, residuals })
     }
 
-    fn n_converged(&self) -> Result<usize> {
-        let ritz = self.ritz()?;
-        Ok((0..ritz.theta.len()).take_while(|j| ritz.is_converged(*j)).count())
-    }
-
-    /// The Ritz pairs and the number of wanted ones, once they and the one beyond have converged.
-    fn converged(&self, wanted: Wanted) -> Result<Option<(Ritz, usize)>> {
-        if let Wanted::Count(count) = wanted
-            && self.size <= count
-        {
+    /// The Ritz pairs and which of them are the answer, once they have converged, and the one beyond too.
+    fn converged(&mut self, goal: Goal) -> Result<Option<(Ritz, Vec<usize>)>> {
+        let at_least = match goal {
+            Goal::Lowest(Wanted::Count(count)) => count + 1,
+            Goal::Lowest(Wanted::UpTo(_)) => 0,
+            Goal::Between(interval) => interval.count,
+        };
+        if self.size < self.look_at.max(at_least) {
             return Ok(None);
         }
+        // Ritz pairs cost m³ and a wide basis is not worth looking at after every block.
+        self.look_at = self.size + self.size / STEPS_BETWEEN_LOOKS;
         let ritz = self.ritz()?;
-        Ok(ritz.count_wanted(wanted, self.problem.operator.shift()).map(|count| (ritz, count)))
+        let sigma = self.problem.operator.shift();
+        let taken = match goal {
+            Goal::Lowest(wanted) => ritz.count_wanted(wanted, sigma).map(|count| (0..count).collect()),
+            Goal::Between(interval) => ritz.inside(interval, sigma),
+        };
+        Ok(taken.map(|taken| (ritz, taken)))
     }
 
     /// Whether a wanted cluster has as many members as start vectors were used: each finds one copy of a multiple
@@ -300,50 +332,76 @@ impl<'a> Basis<'a> {
     }
 
     /// All pairs of an exhausted space, as far as wanted.
-    fn everything(&self, wanted: Wanted) -> Result<Eigenpairs> {
+    fn everything(&self, goal: Goal) -> Result<Eigenpairs> {
         let ritz = self.ritz()?;
         let sigma = self.problem.operator.shift();
         let n_finite = ritz.n_finite();
-        let count = match wanted {
-            Wanted::Count(count) => (0..n_finite)
+        let count = match goal {
+            Goal::Between(interval) => {
+                let inside: Vec<usize> = (0..n_finite).filter(|j| interval.holds(ritz.lambda(*j, sigma))).collect();
+                return Ok(self.extract(&ritz, &inside));
+            }
+            Goal::Lowest(Wanted::Count(count)) => (0..n_finite)
                 .find(|j| *j >= count && (*j == 0 || !ritz.same_cluster(*j - 1, *j, sigma)))
                 .unwrap_or(n_finite),
-            Wanted::UpTo(limit) => (0..n_finite).find(|j| ritz.lambda(*j, sigma) > limit).unwrap_or(n_finite),
+            Goal::Lowest(Wanted::UpTo(limit)) => {
+                (0..n_finite).find(|j| is_above(ritz.lambda(*j, sigma), limit)).unwrap_or(n_finite)
+            }
         };
-        Ok(self.extract(&ritz, count))
+        Ok(self.extract(&ritz, &(0..count).collect::<Vec<_>>()))
+    }
+
+    /// The end of an iteration that makes no more progress: of an interval what has converged, of the lowest pairs nothing.
+    fn stalled(&self, goal: Goal) -> Result<Eigenpairs> {
+        let ritz = self.ritz()?;
+        let converged: Vec<usize> = (0..ritz.theta.len()).filter(|j| ritz.is_converged(*j)).collect();
+        match goal {
+            Goal::Lowest(_) => Err(Error::LanczosStalled {
+                restarts: MAX_RESTARTS,
+                converged: converged.iter().enumerate().take_while(|(at, j)| at == *j).count(),
+            }),
+            Goal::Between(interval) => {
+                let sigma = self.problem.operator.shift();
+                let inside = converged.into_iter().filter(|j| interval.holds(ritz.lambda(*j, sigma)));
+                Ok(self.extract(&ritz, &inside.collect::<Vec<_>>()))
+            }
+        }
     }
 
     /// x = V s + W B s / θ: the step of inverse iteration that the last block gives for nothing.
-    fn extract(&self, ritz: &Ritz, count: usize) -> Eigenpairs {
+    fn extract(&self, ritz: &Ritz, taken: &[usize]) -> Eigenpairs {
         let sigma = self.problem.operator.shift();
-        let s = ritz.s.as_ref().subcols(0, count);
-        let mut vectors = dense::product(self.v(), s);
-        let mut correction = dense::product(self.coupling.as_ref(), s);
-        for j in 0..count {
-            correction.as_mut().col_mut(j).iter_mut().for_each(|value| *value /= ritz.theta[j]);
+        let s = Mat::from_fn(ritz.s.nrows(), taken.len(), |i, j| ritz.s[(i, taken[j])]);
+        let mut vectors = dense::product(self.v(), s.as_ref());
+        let mut correction = dense::product(self.coupling.as_ref(), s.as_ref());
+        for (j, pair) in taken.iter().enumerate() {
+            correction.as_mut().col_mut(j).iter_mut().for_each(|value| *value /= ritz.theta[*pair]);
         }
         let next = self.vectors.as_ref().subcols(self.size, self.n_next());
         dense::add_product(vectors.as_mut(), 1.0, next, correction.as_ref());
         self.problem.deflate(vectors.as_mut());
+        let beyond = taken.len();
         Eigenpairs {
-            values: (0..count).map(|j| ritz.lambda(j, sigma)).collect(),
+            values: taken.iter().map(|j| ritz.lambda(*j, sigma)).collect(),
             vectors,
-            next: (count < ritz.n_finite()).then(|| ritz.lambda(count, sigma)),
+            next: (beyond < ritz.n_finite()).then(|| ritz.lambda(beyond, sigma)),
             work: self.work,
         }
     }
 
     /// Replaces V by its best Ritz vectors, or makes room where a band turns out to hold many modes.
-    fn restart(&mut self, wanted: Wanted) -> Result<()> {
+    fn restart(&mut self, goal: Goal) -> Result<()> {
         let ritz = self.ritz()?;
         let (n, block) = (self.vectors.nrows(), self.n_next());
-        let n_wanted = match wanted {
-            Wanted::Count(count) => count,
-            Wanted::UpTo(limit) => {
-                let sigma = self.problem.operator.shift();
-                (0..ritz.n_finite()).take_while(|j| ritz.lambda(*j, sigma) <= limit).count()
+        let sigma = self.problem.operator.shift();
+        let n_wanted = match goal {
+            Goal::Lowest(Wanted::Count(count)) => count,
+            Goal::Lowest(Wanted::UpTo(limit)) => {
+                (0..ritz.n_finite()).take_while(|j| !is_above(ritz.lambda(*j, sigma), limit)).count()
             }
+            Goal::Between(interval) => ritz.n_within_reach(interval, sigma),
         };
+        self.look_at = 0;
         let capacity = capacity_for(n_wanted, block, n);
         if capacity > self.capacity {
             self.vectors.resize_with(n, capacity + block, |_, _| 0.0);

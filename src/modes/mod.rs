@@ -9,10 +9,13 @@
 
 #[cfg(feature = "arpack")]
 mod arpack;
+mod boundary_problem;
 mod certificate;
 mod cluster;
+mod dense_spectrum;
 mod eigenproblem;
 mod equilibration;
+mod indefinite;
 mod lanczos;
 mod operator;
 mod orthogonalisation;
@@ -20,7 +23,9 @@ mod quality;
 mod random;
 mod retained;
 mod ritz;
+mod search;
 mod shifted;
+mod slices;
 
 use faer::{Mat, MatRef};
 
@@ -30,17 +35,20 @@ use crate::model::Precision;
 use crate::rigid::RigidBodyModes;
 use crate::sparse::SparseMatrix;
 
-pub use certificate::{Certificate, certified};
+pub use boundary_problem::{AtShift, Boundary, BoundaryProblem, ElasticCount};
+pub use certificate::{Certificate, CountedInterval, Mending, certified};
 pub use cluster::REPEATED_WITHIN;
-pub use eigenproblem::{CLUSTER_GAP, EigenWork, Eigenpairs, Problem, Wanted};
+pub use eigenproblem::{CLUSTER_GAP, EigenWork, Eigenpairs, Interval, Problem, Wanted};
 pub use equilibration::Equilibrated;
-pub use lanczos::lanczos;
+pub use lanczos::{lanczos, lanczos_between};
 pub use operator::{Factored, FreeAtZero, ShiftInvert};
 pub use orthogonalisation::gram_schmidt;
 pub use quality::{ModeError, mass_orthogonality};
 pub(crate) use random::SplitMix64;
-pub use retained::{Component, Retained, retained};
+pub use retained::{Component, Retained};
+pub use search::{SLICED_FROM, Search};
 pub use shifted::{Shifted, shift_of_factor, shifted};
+pub use slices::{ModeSource, SLICE};
 
 /// Elastic modes of one boundary condition.
 #[derive(Clone, Debug)]
@@ -55,6 +63,8 @@ pub struct Modes {
     pub searched_to: Option<f64>,
     /// The next eigenvalue above, where there is one.
     pub next: Option<f64>,
+    /// Sturm counts taken during the search, ascending: the ends of its slices.
+    pub counts: Vec<ElasticCount>,
     /// What they cost.
     pub work: EigenWork,
 }
@@ -63,6 +73,107 @@ impl Modes {
     /// Number of modes k.
     pub fn count(&self) -> usize {
         self.lambda.len()
+    }
+
+    /// No modes of n dofs.
+    pub fn none(n: usize) -> Self {
+        Self {
+            lambda: Vec::new(),
+            shapes: Mat::zeros(n, 0),
+            errors: Vec::new(),
+            searched_to: None,
+            next: None,
+            counts: Vec::new(),
+            work: EigenWork::default(),
+        }
+    }
+
+    /// Modes between two shifts.
+    pub fn n_between(&self, from: f64, to: f64) -> usize {
+        self.lambda.iter().filter(|lambda| from < **lambda && **lambda < to).count()
+    }
+
+    /// Whether a shift lies off the modes: by a thousandth of the gap it lies in and by a thousand times what rounding moves
+    /// an eigenvalue by.
+    pub fn is_clear(&self, sigma: f64) -> bool {
+        const ROUNDINGS: f64 = 1e3;
+        const SHARE_OF_GAP: f64 = 1e-3;
+        let below = self.lambda.iter().copied().filter(|lambda| *lambda <= sigma).fold(0.0, f64::max);
+        let above = self.lambda.iter().copied().chain(self.next).filter(|lambda| *lambda > sigma);
+        let above = above.fold(f64::INFINITY, f64::min);
+        let gap = if above.is_finite() { above - below } else { below };
+        let floor = self.errors.iter().map(|error| error.rounding_floor).fold(0.0, f64::max);
+        (sigma - below).min(above - sigma) >= (ROUNDINGS * floor).max(SHARE_OF_GAP * gap)
+    }
+
+    /// The shapes of the modes between two shifts.
+    pub fn shapes_between(&self, from: f64, to: f64) -> Mat<f64> {
+        self.selected(|lambda| from < lambda && lambda < to).shapes
+    }
+
+    /// These modes and others, ascending.
+    pub fn joined(self, more: Self) -> Self {
+        let mut work = self.work;
+        work += more.work;
+        let shapes = slices::beside(self.shapes.as_ref(), more.shapes.as_ref());
+        let lambda = [self.lambda, more.lambda].concat();
+        let errors = [self.errors, more.errors].concat();
+        Self {
+            lambda,
+            shapes,
+            errors,
+            work,
+            ..Self { shapes: Mat::zeros(0, 0), lambda: Vec::new(), errors: Vec::new(), ..self }
+        }
+        .ascending()
+    }
+
+    /// The lowest modes; the first of the others becomes the next eigenvalue above.
+    pub fn truncated(self, count: usize) -> Self {
+        if count >= self.count() {
+            return self;
+        }
+        Self {
+            next: Some(self.lambda[count]),
+            shapes: self.shapes.as_ref().subcols(0, count).to_owned(),
+            lambda: self.lambda[..count].to_vec(),
+            errors: self.errors[..count].to_vec(),
+            ..self
+        }
+    }
+
+    /// All modes but one, as if it had never been found.
+    pub fn without(&self, mode: usize) -> Self {
+        let order: Vec<usize> = (0..self.count()).filter(|j| *j != mode).collect();
+        self.in_order(&order)
+    }
+
+    /// The same modes in ascending order.
+    fn ascending(self) -> Self {
+        if self.lambda.is_sorted() {
+            return self;
+        }
+        let mut order: Vec<usize> = (0..self.count()).collect();
+        order.sort_by(|a, b| self.lambda[*a].total_cmp(&self.lambda[*b]));
+        self.in_order(&order)
+    }
+
+    /// The modes whose eigenvalue satisfies a condition.
+    fn selected(&self, is_wanted: impl Fn(f64) -> bool) -> Self {
+        let order: Vec<usize> = (0..self.count()).filter(|j| is_wanted(self.lambda[*j])).collect();
+        self.in_order(&order)
+    }
+
+    fn in_order(&self, order: &[usize]) -> Self {
+        Self {
+            lambda: order.iter().map(|j| self.lambda[*j]).collect(),
+            errors: order.iter().map(|j| self.errors[*j]).collect(),
+            shapes: Mat::from_fn(self.shapes.nrows(), order.len(), |i, j| self.shapes[(i, order[j])]),
+            searched_to: self.searched_to,
+            next: self.next,
+            counts: self.counts.clone(),
+            work: self.work,
+        }
     }
 
     /// A shift above the highest mode and the band that was searched, and below the next mode, at this fraction of the
@@ -75,15 +186,6 @@ impl Modes {
             None => fraction,
         }
     }
-}
-
-/// The boundary condition modes are computed under.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Boundary {
-    /// Interface free.
-    FreeInterface,
-    /// Interface held.
-    FixedInterface,
 }
 
 /// A symmetric pencil whose modes are wanted, with what is deflated.
@@ -128,6 +230,17 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
         Eigensolver::Lanczos => lanczos(eigenproblem, request.wanted, request.seed)?,
         Eigensolver::Arpack => by_arpack(eigenproblem, request)?,
     };
+    let around = [None, pairs.next];
+    let modes = judged(problem, eigenproblem, pairs, around);
+    let searched_to = match request.wanted {
+        Wanted::Count(_) => None,
+        Wanted::UpTo(limit) => Some(limit),
+    };
+    Ok(Modes { searched_to, ..modes })
+}
+
+/// Modes of unit modal mass with their Rayleigh quotients and what is known of their errors; `around` as for the error bars.
+fn judged(problem: ModalProblem<'_>, eigenproblem: Problem<'_>, pairs: Eigenpairs, around: [Option<f64>; 2]) -> Modes {
     let mut shapes = pairs.vectors;
     quality::normalise(problem.mass, &mut shapes);
     let (mut lambda, mut errors, mut residuals) = quality::rayleigh_quotients(problem, shapes.as_ref());
@@ -137,19 +250,9 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
         (lambda, errors, residuals) = quality::rayleigh_quotients(problem, shapes.as_ref());
         cluster::average(&repeated, &mut lambda);
     }
-    quality::add_residual_bars(eigenproblem, &lambda, &mut errors, residuals, pairs.next);
+    quality::add_residual_bars(eigenproblem, &lambda, &mut errors, residuals, around);
     let work = EigenWork { solves: pairs.work.solves + lambda.len(), ..pairs.work };
-    Ok(Modes {
-        lambda,
-        shapes,
-        errors,
-        searched_to: match request.wanted {
-            Wanted::Count(_) => None,
-            Wanted::UpTo(limit) => Some(limit),
-        },
-        next: pairs.next,
-        work,
-    })
+    Modes { lambda, shapes, errors, searched_to: None, next: pairs.next, counts: Vec::new(), work }
 }
 
 #[cfg(feature = "arpack")]

@@ -87,13 +87,15 @@ pub(super) fn rayleigh_quotients(
 /// Temple 1928), δ added up over the group. What a residual moves along the rigid-body modes, which deflation took out,
 /// counts (‖Qᵀr‖/λ)².
 ///
-/// `next` is the eigenvalue above the highest mode, where there is one.
+/// With σ inside the spectrum rᵀy is no square any more; δ² is then yᵀMy, since y = (λ − σ) (OP x − θx).
+///
+/// `around` are the nearest other eigenvalues below the lowest and above the highest mode, or what they lie beyond.
 pub(super) fn add_residual_bars(
     problem: Problem<'_>,
     lambda: &[f64],
     errors: &mut [ModeError],
     mut residuals: Mat<f64>,
-    next: Option<f64>,
+    around: [Option<f64>; 2],
 ) {
     let sigma = problem.operator.shift();
     let resultants = dense::gram(problem.deflated[0], residuals.as_ref());
@@ -101,10 +103,12 @@ pub(super) fn add_residual_bars(
     let mut y = residuals.clone();
     problem.operator.solve_in_place(y.as_mut());
     problem.deflate(y.as_mut());
+    let is_inside = lambda.iter().any(|lambda| *lambda < sigma);
+    let momenta = if is_inside { product(problem.mass, y.as_ref()) } else { residuals };
     let squares: Vec<f64> = (0..lambda.len())
         .map(|j| {
-            let energy = dense::dot(dense::column(residuals.as_ref(), j), dense::column(y.as_ref(), j));
-            energy.abs() / (lambda[j] - sigma).abs()
+            let energy = dense::dot(dense::column(momenta.as_ref(), j), dense::column(y.as_ref(), j)).abs();
+            if is_inside { energy } else { energy / (lambda[j] - sigma).abs() }
         })
         .collect();
     let mut first = 0;
@@ -114,8 +118,8 @@ pub(super) fn add_residual_bars(
             end += 1;
         }
         let sum: f64 = squares[first..end].iter().sum();
-        let below = first.checked_sub(1).map(|below| lambda[below]);
-        let above = lambda.get(end).copied().or(next);
+        let below = first.checked_sub(1).map(|below| lambda[below]).or(around[0]);
+        let above = lambda.get(end).copied().or(around[1]);
         for j in first..end {
             let gap = relative_gap(lambda[j] - sigma, below.map(|l| l - sigma), above.map(|l| l - sigma));
             let of_theta = sum.sqrt().min(sum / gap);

@@ -2,7 +2,7 @@
 
 use faer::Mat;
 
-use super::eigenproblem::{Wanted, are_clustered};
+use super::eigenproblem::{Interval, Wanted, are_clustered, is_above};
 
 /// Residual ‖OP x − θx‖ over θ at which a pair is taken: the Rayleigh quotient then errs by its square, and the backward
 /// error, which is this times λ over the largest one at most, stays below the limit of measure M-01.
@@ -14,7 +14,7 @@ pub(super) const ROUNDING: f64 = 16.0;
 /// Residuals in the same units that need not fall further; the correction in [`Basis::extract`] takes up the rest.
 pub(super) const RESIDUAL_FLOOR: f64 = 16.0;
 
-/// Ritz pairs in descending θ, that is ascending λ.
+/// Ritz pairs in descending |θ|: those nearest the shift first, which is ascending λ for a shift below the spectrum.
 pub(super) struct Ritz {
     pub(super) theta: Vec<f64>,
     pub(super) s: Mat<f64>,
@@ -28,12 +28,12 @@ impl Ritz {
 
     /// Pairs that are not infinite eigenvalues: θ above the rounding of OP.
     pub(super) fn n_finite(&self) -> usize {
-        let floor = ROUNDING * f64::EPSILON * self.theta.first().copied().unwrap_or(0.0);
-        self.theta.iter().take_while(|theta| **theta > floor).count()
+        let floor = ROUNDING * f64::EPSILON * self.theta.first().copied().unwrap_or(0.0).abs();
+        self.theta.iter().take_while(|theta| theta.abs() > floor).count()
     }
 
     pub(super) fn is_converged(&self, j: usize) -> bool {
-        self.residuals[j] <= (TOLERANCE * self.theta[j]).max(RESIDUAL_FLOOR * f64::EPSILON * self.theta[0])
+        self.residuals[j] <= (TOLERANCE * self.theta[j].abs()).max(RESIDUAL_FLOOR * f64::EPSILON * self.theta[0].abs())
     }
 
     pub(super) fn same_cluster(&self, a: usize, b: usize, sigma: f64) -> bool {
@@ -45,14 +45,33 @@ impl Ritz {
         let n_finite = self.n_finite();
         let mut count = match wanted {
             Wanted::Count(count) => count,
-            Wanted::UpTo(limit) => (0..n_finite).find(|j| self.lambda(*j, sigma) > limit)?,
+            Wanted::UpTo(limit) => (0..n_finite).find(|j| is_above(self.lambda(*j, sigma), limit))?,
         };
         while count > 0 && count < n_finite && self.same_cluster(count - 1, count, sigma) {
             count += 1;
         }
         let settled = count < n_finite
             && (0..count).all(|j| self.is_converged(j))
-            && self.residuals[count] <= NEXT_TOLERANCE * self.theta[count];
+            && self.residuals[count] <= NEXT_TOLERANCE * self.theta[count].abs();
         settled.then_some(count)
+    }
+
+    /// The pairs inside an interval, once they have converged and either all of them are there or a pair further from the
+    /// shift than both ends has converged too: the space then holds nothing more of the interval.
+    pub(super) fn inside(&self, interval: Interval, sigma: f64) -> Option<Vec<usize>> {
+        let n_finite = self.n_finite();
+        let reach = (interval.to - sigma).max(sigma - interval.from);
+        let inside: Vec<usize> = (0..n_finite).filter(|j| interval.holds(self.lambda(*j, sigma))).collect();
+        let is_beyond = |j: &usize| 1.0 / self.theta[*j].abs() > reach;
+        let sees_beyond =
+            || (0..n_finite).find(is_beyond).is_some_and(|j| self.residuals[j] <= NEXT_TOLERANCE * self.theta[j].abs());
+        let settled = inside.iter().all(|j| self.is_converged(*j)) && (inside.len() >= interval.count || sees_beyond());
+        settled.then_some(inside)
+    }
+
+    /// Leading pairs no further from the shift than the ends of an interval.
+    pub(super) fn n_within_reach(&self, interval: Interval, sigma: f64) -> usize {
+        let reach = (interval.to - sigma).max(sigma - interval.from);
+        (0..self.n_finite()).take_while(|j| 1.0 / self.theta[*j].abs() <= reach).count()
     }
 }

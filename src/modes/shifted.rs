@@ -4,13 +4,13 @@
 //! badly. σ lies below the spectrum at the distance of the first elastic eigenvalue, far enough from zero for K − σM to
 //! be well conditioned and near enough to separate eigenvalues.
 
+use super::boundary_problem::median_ratio;
 use super::eigenproblem::Wanted;
 use super::operator::Factored;
 use super::{ModalProblem, ModeError, ModeRequest, Modes, SEED, elastic_modes};
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, Cholesky, Pencil};
 use crate::job::Eigensolver;
-use crate::model::diagonal;
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
 
@@ -40,6 +40,9 @@ const WINDOW: std::ops::RangeInclusive<f64> = 1e-2..=10.0;
 const LOOK_AT: usize = 12;
 /// A mode is zero when its Rayleigh quotient stays below this many error bars of itself.
 const ZERO_WITHIN_BARS: f64 = 10.0;
+/// Share of the highest of the lowest modes below which an eigenvalue is rounding: some fifty ε. A matrix that was projected
+/// itself carries the rounding of terms that have cancelled and that its own entries do not show.
+const PROJECTED: f64 = 1e-14;
 
 /// Factors K − σM of a modal problem with a shift suited to it.
 ///
@@ -59,7 +62,9 @@ pub fn shifted<'a>(
         let request = ModeRequest { wanted: Wanted::Count(count), eigensolver: Eigensolver::Lanczos, seed: SEED };
         let lowest = elastic_modes(problem, &Factored::new(&factor, sigma), request)?;
         let zero_modes = lowest.lambda.iter().zip(&lowest.errors);
-        let n_zero = zero_modes.take_while(|(lambda, error)| is_zero(**lambda, error) || **lambda <= 0.0).count();
+        let rounding = PROJECTED * lowest.lambda.last().copied().unwrap_or(0.0);
+        let n_zero =
+            zero_modes.take_while(|(lambda, error)| is_zero(**lambda, error) || **lambda <= rounding.max(0.0)).count();
         let all_zero = n_zero == lowest.count() && lowest.next.is_some();
         if all_zero && count < problem.mass.rows() {
             count *= 2;
@@ -85,14 +90,6 @@ pub fn shift_of_factor(partition: &Partition, rigid: &RigidBodyModes) -> f64 {
     let precision = partition.precision;
     let problem = ModalProblem { stiffness: &partition.stiffness, mass: &partition.mass, rigid: None, precision };
     -FIRST_SHIFT * median_ratio(problem)
-}
-
-/// The median of K_ii / M_ii over the dofs that have both; one where none has.
-fn median_ratio(problem: ModalProblem<'_>) -> f64 {
-    let (k, m) = (diagonal(problem.stiffness), diagonal(problem.mass));
-    let mut ratios: Vec<f64> = k.iter().zip(&m).filter(|(k, m)| **k > 0.0 && **m > 0.0).map(|(k, m)| k / m).collect();
-    ratios.sort_unstable_by(f64::total_cmp);
-    ratios.get(ratios.len() / 2).copied().unwrap_or(1.0)
 }
 
 /// Whether an eigenvalue is zero within its bar, which is relative and grows without limit as λ goes to zero, or within

@@ -5,10 +5,10 @@ use std::collections::BTreeSet;
 use super::{MatrixFacts, Results, omega, rigid_body, warnings};
 use crate::basis::DynamicCoordinate;
 use crate::job::{Certify, ModeSelection};
-use crate::modes::Boundary;
+use crate::modes::{Boundary, CLUSTER_GAP, CountedInterval};
 use crate::report::{
     Completeness, DroppedCoordinate, Generator, InterfaceReport, MassProperties, MatrixReport, ModeKind, ModeRow,
-    ModelReport, ReductionReport, ReportBody, RigidBodyModes, RigidBodySource, Warning,
+    ModelReport, ReductionReport, ReportBody, RigidBodyModes, RigidBodySource, TrustInterval, Warning,
 };
 use crate::rigid::{ILL_CONDITIONED, RigidSource};
 
@@ -20,7 +20,7 @@ pub(super) fn body(results: &Results<'_>) -> ReportBody {
         checks: results.checks(),
         warnings: warnings(results),
         completeness: completeness(results),
-        trust_intervals: Vec::new(),
+        trust_intervals: trust_intervals(results),
         rigid_body: rigid_body::evidence(results),
         preservation: results.preserved.report.clone(),
     }
@@ -122,10 +122,7 @@ fn modes(results: &Results<'_>) -> Vec<ModeRow> {
     let evidence = &results.evidence;
     let modes = &evidence.retained.modes;
     let unit = evidence.partition.scaling.eigenvalue_unit();
-    let kind = match evidence.retained.boundary {
-        Boundary::FreeInterface => ModeKind::FreeInterface,
-        Boundary::FixedInterface => ModeKind::FixedInterface,
-    };
+    let kind = kind(evidence.retained.boundary);
     let row = |(index, (lambda, error)): (usize, (&f64, &crate::modes::ModeError))| {
         let frequency_hz = omega(*lambda, unit) / std::f64::consts::TAU;
         ModeRow {
@@ -138,6 +135,13 @@ fn modes(results: &Results<'_>) -> Vec<ModeRow> {
         }
     };
     modes.lambda.iter().zip(&modes.errors).enumerate().map(row).collect()
+}
+
+fn kind(boundary: Boundary) -> ModeKind {
+    match boundary {
+        Boundary::FreeInterface => ModeKind::FreeInterface,
+        Boundary::FixedInterface => ModeKind::FixedInterface,
+    }
 }
 
 fn warnings(results: &Results<'_>) -> Vec<Warning> {
@@ -176,16 +180,60 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
                 .to_owned(),
         });
     }
-    let found = evidence.retained.modes.count();
-    if let ModeSelection::Count { count } = results.job.reduction.modes
-        && found < count
-    {
+    warnings.extend(number_of_modes(results));
+    if let Some(certificate) = evidence.certificate.filter(|certificate| certificate.doubt() > 1.0) {
         warnings.push(Warning {
-            code: "W-FEWER-MODES",
-            message: format!("{count} modes were asked for; the model has only {found} of finite frequency"),
+            code: "W-COUNT-LIKELY",
+            message: format!(
+                "the Sturm count is likely, not certain: its pivots grew {:.1} times more than its signs can be trusted with",
+                certificate.doubt()
+            ),
         });
     }
     warnings
+}
+
+/// What is to be said of the number of modes.
+fn number_of_modes(results: &Results<'_>) -> Option<Warning> {
+    let modes = &results.evidence.retained.modes;
+    let found = modes.count();
+    match results.job.reduction.modes {
+        ModeSelection::Count { count } if found < count => Some(Warning {
+            code: "W-FEWER-MODES",
+            message: format!("{count} modes were asked for; the model has only {found} of finite frequency"),
+        }),
+        ModeSelection::UpTo { up_to_hz } => {
+            let limit = modes.searched_to.filter(|limit| *limit > 0.0)?;
+            let is_on_edge = |lambda: &&f64| (**lambda - limit).abs() <= CLUSTER_GAP * limit;
+            let n_on_edge = modes.lambda.iter().rev().take_while(is_on_edge).count();
+            (n_on_edge > 0).then(|| Warning {
+                code: "W-BAND-EDGE",
+                message: format!(
+                    "{n_on_edge} of the modes lie on the end of the band at {up_to_hz} Hz, within {:.0e} of it; they were kept",
+                    0.5 * CLUSTER_GAP
+                ),
+            })
+        }
+        ModeSelection::Count { .. } => None,
+    }
+}
+
+/// The counts as frequencies.
+fn trust_intervals(results: &Results<'_>) -> Vec<TrustInterval> {
+    let unit = results.evidence.partition.scaling.eigenvalue_unit();
+    let hz = |sigma: f64| sigma.signum() * (sigma.abs() * unit).sqrt() / std::f64::consts::TAU;
+    let Some(certificate) = results.evidence.certificate else {
+        return Vec::new();
+    };
+    let interval = |counted: &CountedInterval| TrustInterval {
+        from_hz: hz(counted.from),
+        to_hz: hz(counted.to),
+        kind: kind(certificate.boundary),
+        n_counted: counted.n_counted,
+        n_found: counted.n_found,
+        pivot_growth: counted.growth,
+    };
+    certificate.intervals.iter().map(interval).collect()
 }
 
 fn completeness(results: &Results<'_>) -> Completeness {
@@ -195,6 +243,7 @@ fn completeness(results: &Results<'_>) -> Completeness {
             below_hz: omega(certificate.count.sigma, unit) / std::f64::consts::TAU,
             n_counted: certificate.n_counted,
             n_found: certificate.n_found,
+            doubt: certificate.doubt(),
         },
         (None, Certify::None) => Completeness::NotCertified { reason: "--certify none was asked".to_owned() },
         (None, Certify::Count) => Completeness::NotCertified { reason: "the count could not be taken".to_owned() },

@@ -157,7 +157,7 @@ fn own(verdict: supel_runtime::Verdict) -> Verdict {
     }
 }
 
-fn method(method: Method) -> &'static str {
+pub(super) fn method(method: Method) -> &'static str {
     match method {
         Method::CraigBampton => "Craig-Bampton",
         Method::Herting => "Herting",

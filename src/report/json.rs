@@ -52,7 +52,7 @@ impl Serialize for ReportBody {
 
 /// A check with what follows from its values.
 #[derive(serde::Serialize)]
-struct CheckLine<'a> {
+pub(super) struct CheckLine<'a> {
     id: &'a str,
     name: &'a str,
     equation: &'a str,
@@ -66,7 +66,7 @@ struct CheckLine<'a> {
 }
 
 impl<'a> CheckLine<'a> {
-    fn of(check: &'a Check) -> Self {
+    pub(super) fn of(check: &'a Check) -> Self {
         Self {
             id: check.id,
             name: check.name,
@@ -86,7 +86,7 @@ impl Serialize for Completeness {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
         let (certificate, below_hz, n_counted, n_found) = match self {
             Self::NotCertified { .. } => ("none", None, None, None),
-            Self::SturmCount { below_hz, n_counted, n_found } => {
+            Self::SturmCount { below_hz, n_counted, n_found, .. } => {
                 ("sturm-count", Some(below_hz), Some(n_counted), Some(n_found))
             }
         };

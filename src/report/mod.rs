@@ -13,6 +13,7 @@ mod stages;
 pub(crate) mod summary;
 pub(crate) mod table;
 mod trust;
+mod verification;
 
 use std::path::PathBuf;
 
@@ -31,6 +32,7 @@ pub use rigid_body::{EffectiveMass, Grounding, MassRoute, RigidBodyEvidence};
 pub use stages::{Observer, StageClock, StageTime};
 pub use summary::summary;
 pub use trust::TrustInterval;
+pub use verification::{Against, VerificationReport};
 
 /// Body and facts of one run; [`Report::to_json`] gives the document that `schemas/report.schema.json` describes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -240,24 +242,34 @@ pub enum Completeness {
         n_counted: usize,
         /// Modes found below it, rigid-body modes included.
         n_found: usize,
+        /// Pivot growth over the growth up to which the signs of the pivots are certain.
+        doubt: f64,
     },
 }
 
 impl Completeness {
     /// True where a count proves that no mode is missing.
     pub fn is_certified(&self) -> bool {
-        matches!(self, Self::SturmCount { n_counted, n_found, .. } if n_counted == n_found)
+        matches!(self, Self::SturmCount { n_counted, n_found, doubt, .. } if n_counted == n_found && *doubt <= 1.0)
     }
 
     /// The statement for people.
     pub fn statement(&self) -> String {
         match self {
             Self::NotCertified { reason } => format!("completeness of the modes is not certified: {reason}"),
-            Self::SturmCount { below_hz, n_counted, n_found } if n_counted == n_found => format!(
+            Self::SturmCount { below_hz, n_counted, n_found, doubt } if n_counted == n_found && *doubt > 1.0 => {
+                format!(
+                    "the modes are likely complete: a Sturm count finds {n_counted} below {} Hz and all were found, but its pivots \
+                 grew {} times more than its signs can be trusted with",
+                    table::quantity(*below_hz, 9),
+                    table::quantity(*doubt, 2)
+                )
+            }
+            Self::SturmCount { below_hz, n_counted, n_found, .. } if n_counted == n_found => format!(
                 "the modes are complete: a Sturm count finds {n_counted} below {} Hz and all were found",
                 table::quantity(*below_hz, 9)
             ),
-            Self::SturmCount { below_hz, n_counted, n_found } => format!(
+            Self::SturmCount { below_hz, n_counted, n_found, .. } => format!(
                 "the modes are incomplete: a Sturm count finds {n_counted} below {} Hz, found were {n_found}",
                 table::quantity(*below_hz, 9)
             ),
@@ -304,6 +316,7 @@ impl ReportBody {
     pub fn verdict(&self) -> Verdict {
         let floor = match &self.completeness {
             Completeness::SturmCount { n_counted, n_found, .. } if n_counted != n_found => Verdict::Fail,
+            Completeness::SturmCount { .. } if !self.completeness.is_certified() => Verdict::Warn,
             _ if self.warnings.is_empty() => Verdict::Pass,
             _ => Verdict::Warn,
         };

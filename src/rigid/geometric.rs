@@ -20,6 +20,13 @@ const NO_MASS: f64 = 1e-24;
 /// A motion is free when its energy stays below this many times the noise of the data. The noise bound adds all
 /// roundings with one sign; measured energies of exact rigid motions stay below it, so ten is generous.
 const FREE_BELOW_NOISE: f64 = 10.0;
+/// A force is worth a look when it exceeds this many times the noise of the data, or that of a translation: what a producer
+/// rounds while it assembles K shows in both.
+const NOTICEABLE: f64 = 100.0;
+/// Relative force of a translation above which the body is held: far above what a producer rounds, far below any support.
+const TRANSLATION_HELD: f64 = 1e-9;
+/// Displacement, for a body of unit size, that six digits lose: nodes are not told apart below it.
+const SIX_DIGITS: f64 = 1e-6;
 /// Nodes out of place that a message names.
 const SHOWN_NODES: usize = 3;
 
@@ -161,12 +168,14 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
         return Err(Error::NegativeRigidEnergy { energy: *energy, noise });
     }
     let n_free = energies.iter().filter(|energy| **energy <= FREE_BELOW_NOISE * noise).count();
-    let is_partly_free = n_free < energies.len();
-    let suspect = if is_partly_free { costly_rotation(partition, (sites, dofs), centred.as_ref()) } else { None };
-    let misfit = suspect.map(|Costly { rotation, concentration, at }| {
-        let energy = energies.iter().fold(0.0, |max: f64, energy| max.max(energy.abs()));
-        Misfit { rotation, energy, concentration, at }
-    });
+    // A rotation of too much energy needs no second witness.
+    let noticeable = if n_free < energies.len() { 0.0 } else { NOTICEABLE };
+    let misfit = costly_rotation(partition, (sites, dofs), centred.as_ref(), noticeable).map(
+        |Costly { rotation, concentration, at }| {
+            let energy = energies.iter().fold(0.0, |max: f64, energy| max.max(energy.abs()));
+            Misfit { rotation, energy, concentration, at }
+        },
+    );
     let motions =
         misfit.as_ref().map(|_| if energies.len() == 6 { unit_motions(sites, dofs) } else { orthonormal.clone() });
     let orthonormal = dense::product(orthonormal.as_ref(), directions.as_ref().subcols(0, n_free));
@@ -277,49 +286,51 @@ fn noise(partition: &Partition, q: MatRef<'_, f64>) -> f64 {
     (partition.precision.stiffness + f64::EPSILON) * largest
 }
 
-/// A rotation that is not free.
+/// A rotation that is not free, or not quite.
 struct Costly {
     rotation: &'static str,
     concentration: f64,
     at: String,
 }
 
-/// The rotation that costs most, and where, of a body whose translations cost nothing; `None` where a translation is held.
+/// The rotation that K lets pass worst, and where, of a body whose translations are free; `None` where a translation is
+/// held, and where the rotations make no more than `noticeable` times the force that the data explain.
 ///
-/// Translations do not depend on coordinates. Where they are free and a rotation is not, the coordinates are in doubt.
+/// Translations do not depend on coordinates. Where they are free and a rotation is not, the coordinates are in doubt. An
+/// energy within its noise says little: it is the square of the force.
 fn costly_rotation(
     partition: &Partition,
     (sites, dofs): (&[Site], &[usize]),
     centred: MatRef<'_, f64>,
+    noticeable: f64,
 ) -> Option<Costly> {
     let forces = product(&partition.stiffness, centred);
-    let magnitudes = absolute_energy(&partition.stiffness, centred);
-    let relative = |j: usize| {
-        let energy = dense::dot(dense::column(centred, j), dense::column(forces.as_ref(), j));
-        if magnitudes[j] > 0.0 { energy.abs() / magnitudes[j] } else { 0.0 }
-    };
-    let data = FREE_BELOW_NOISE * (partition.precision.stiffness + f64::EPSILON);
-    if (0..3).any(|j| relative(j) > data) {
+    let residual = |j: usize| largest_residual(&partition.stiffness, centred.subcols(j, 1));
+    let data = partition.cancellation * (partition.precision.stiffness + f64::EPSILON);
+    let of_translations = (0..3).map(residual).fold(0.0, f64::max);
+    let (worst, of_rotation) = (3..6).map(|j| (j, residual(j))).fold((3, 0.0), |a, b| if b.1 > a.1 { b } else { a });
+    if of_translations > TRANSLATION_HELD.max(NOTICEABLE * data)
+        || of_rotation <= noticeable * data.max(of_translations)
+    {
         return None;
     }
-    let (worst, _) = (3..6).map(|j| (j, relative(j))).fold((3, 0.0), |a, b| if b.1 > a.1 { b } else { a });
-    // The forces of all rotations, relative to those of a unit motion of every translation alone.
+    // The forces of all rotations, relative to those of a unit motion of every translation alone: displacements.
     let translation = Mat::from_fn(sites.len(), 1, |dof, _| f64::from(u8::from(!sites[dof].direction.is_rotation())));
     let stiffness = absolute_product(&partition.stiffness, translation.as_ref());
     let mut of_node: BTreeMap<u32, (f64, usize)> = BTreeMap::new();
     for dof in dofs.iter().copied().filter(|dof| !sites[*dof].direction.is_rotation()) {
         let force = (3..6).map(|j| forces[(dof, j)].abs()).fold(0.0, f64::max);
-        let force = if stiffness[(dof, 0)] > 0.0 { force / stiffness[(dof, 0)] } else { 0.0 };
-        let node = of_node.entry(partition.dofs[dof].node).or_insert((force, dof));
-        if force > node.0 {
-            *node = (force, dof);
+        let displacement = if stiffness[(dof, 0)] > 0.0 { force / stiffness[(dof, 0)] } else { 0.0 };
+        let node = of_node.entry(partition.dofs[dof].node).or_insert((displacement, dof));
+        if displacement > node.0 {
+            *node = (displacement, dof);
         }
     }
     let mut nodes: Vec<(f64, usize)> = of_node.into_values().collect();
     nodes.sort_by(|a, b| b.0.total_cmp(&a.0));
     let median = nodes.get(nodes.len() / 2).map_or(0.0, |node| node.0);
     let at: Vec<String> = nodes.iter().take(SHOWN_NODES).map(|(_, dof)| partition.name_of(*dof)).collect();
-    let concentration = nodes.first().map_or(1.0, |node| node.0 / median);
+    let concentration = nodes.first().map_or(1.0, |node| node.0 / median.max(SIX_DIGITS));
     Some(Costly { rotation: ["x", "y", "z"][worst - 3], concentration, at: at.join(", ") })
 }
 

@@ -1,7 +1,7 @@
 //! Coordinates that K does not know: rotations that cost energy although translations do not.
 //!
 //! There are three ways to come by them, and the zero modes of the pencil tell which: the rotation is held, the coordinates
-//! are rounded, or they belong to another model.
+//! (or K) are rounded, or they belong to another model.
 
 use faer::Mat;
 
@@ -16,8 +16,8 @@ use crate::partition::Partition;
 const ROUNDED: f64 = 1e-2;
 
 /// How far the worst node may stand out from the median one. Rounding is of one size everywhere: the largest of a million
-/// normal numbers is 7 times the median one, and digits may be lost unevenly by some 10. A node out of place in an exact
-/// model stands out by 10¹⁰, in one of five digits by 10³.
+/// normal numbers is 7 times the median one, and digits may be lost unevenly by some 10. A node out of place by a hundredth
+/// stands out by 10³ to 10⁴.
 const EVEN: f64 = 100.0;
 
 /// A rotation by the coordinates that K does not let pass.
@@ -28,7 +28,7 @@ pub struct Misfit {
     /// Rayleigh quotient of the worst rigid motion of the coordinates; relative to the first elastic eigenvalue once that
     /// is known.
     pub energy: f64,
-    /// Largest force of a node relative to its stiffness, over that of the median node.
+    /// Largest force of a node relative to its stiffness, over that of the median node or what six digits lose.
     pub concentration: f64,
     /// The dofs where the force is largest, one for each of three nodes.
     pub at: String,
@@ -38,8 +38,8 @@ pub struct Misfit {
 pub(super) fn settled(partition: &Partition, found: Geometric, misfit: Misfit) -> Result<(RigidBodyModes, usize)> {
     let (zero, first_elastic, n_factorisations) = algebraic::zero_modes(partition)?;
     let Geometric { rigid, motions, are_classical, .. } = found;
-    if zero.count() == rigid.count() {
-        // K has no more motions than the coordinates let pass: the rotation is held.
+    if zero.count() <= rigid.count() && rigid.count() < motions.ncols() {
+        // K has no more motions than those of the coordinates that it lets pass: the rotation is held.
         return Ok((rigid, n_factorisations));
     }
     let Misfit { rotation, energy, concentration, at } = misfit;

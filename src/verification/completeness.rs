@@ -2,20 +2,33 @@
 
 use super::Evidence;
 use super::check::{Check, Limits};
+use crate::modes::Mending;
 
-/// M-06, where a count was made.
+/// M-06, where a count was made: judged interval by interval, so that a mode too many in one does not hide one missing in
+/// another.
 pub(super) fn count(evidence: &Evidence<'_>) -> Option<Check> {
     let certificate = evidence.certificate?;
+    let differences = certificate.intervals.iter().map(|interval| interval.n_counted.abs_diff(interval.n_found));
+    let mended = match certificate.mending {
+        Mending::None => "",
+        Mending::Restart => ", after a restart",
+        Mending::Slices => ", after slicing the band",
+    };
     Some(Check {
         id: "M-06",
         name: "no mode is missing",
-        equation: "|eigenvalues counted below σ − modes found|, by the inertia of K − σM",
-        value: certificate.n_counted.abs_diff(certificate.n_found) as f64,
+        equation: "|eigenvalues counted between shifts − modes found|, by the inertia of K − σM at both ends",
+        value: differences.sum::<usize>() as f64,
         limits: Limits::default(),
         fail_above: 0.0,
         worst: Some(format!(
-            "counted {}, found {}, pivot growth {:.1}",
-            certificate.n_counted, certificate.n_found, certificate.count.growth
+            "counted {}, found {}{mended}; {} with the interface held, {} free; pivot growth {:.1}, {:.1e} of what is certain",
+            certificate.n_counted,
+            certificate.n_found,
+            certificate.count.clamped,
+            certificate.count.free,
+            certificate.count.growth,
+            certificate.doubt()
         )),
     })
 }

@@ -133,10 +133,9 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
 
 /// What a rigid-body mode is called: `rotation z` of one free body, else by its number.
 fn rigid_name(evidence: &Evidence<'_>, mode: usize) -> String {
-    if evidence.rigid.is_classical {
-        directions::NAMES[mode].to_owned()
-    } else {
-        format!("rigid-body mode {}", mode + 1)
+    match directions::NAMES.get(mode).filter(|_| evidence.rigid.is_classical) {
+        Some(name) => (*name).to_owned(),
+        None => format!("rigid-body mode {}", mode + 1),
     }
 }
 

@@ -5,6 +5,7 @@
 
 #![allow(dead_code, unused_imports, reason = "each test crate uses its part")]
 
+pub(crate) mod certified;
 mod twin;
 
 use supel::basis::{

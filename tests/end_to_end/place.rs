@@ -82,6 +82,8 @@ impl Place {
     }
 
     pub(crate) fn write(&self, name: &str, content: &[u8]) {
+        // A file written over waits for the disk on some systems; a new one does not.
+        let _ = fs::remove_file(self.path(name));
         fs::write(self.path(name), content).expect("written");
     }
 

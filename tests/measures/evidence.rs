@@ -5,7 +5,7 @@ use supel::factor::{Analysis, Cholesky, Pencil};
 use supel::input::Input;
 use supel::job::{Eigensolver, InterfaceJob, Method, ModeSelection, ReductionJob};
 use supel::model::Model;
-use supel::modes::{Component, SEED, retained};
+use supel::modes::{Component, ModeSource, Retained, SEED, Search};
 use supel::partition::Partition;
 use supel::reduction::Reduction;
 use supel::rigid;
@@ -31,10 +31,18 @@ pub(crate) fn with_evidence<T>(
     let factor = Cholesky::new(&analysis, pencil, 0.0, &|dof| partition.name_of(dof)).expect("definite");
     let constraint = constraint_modes(&partition, &factor, &rigid);
     let internal = (&k_ii, &m_ii);
-    let component =
-        Component { partition: &partition, internal, factor: &factor, rigid: &rigid, constraint: &constraint };
+    let component = Component {
+        partition: &partition,
+        internal,
+        analysis: &analysis,
+        factor: &factor,
+        rigid: &rigid,
+        constraint: &constraint,
+    };
     let job = ReductionJob { method, modes: ModeSelection::Count { count }, eigensolver: Eigensolver::Lanczos };
-    let retained = retained(component, &job, SEED).expect("modes");
+    let search = Search::new(component, &job).expect("counts");
+    let found = search.lowest(SEED).expect("modes");
+    let retained = Retained::new(component, search.problem.boundary, found);
     let basis = Basis::new(&constraint, retained.columns.clone(), &m_ii);
     let reduction = Reduction::new(&partition, &basis, &rigid);
     look(Evidence {

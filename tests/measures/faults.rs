@@ -2,7 +2,7 @@
 
 use supel::basis::Basis;
 use supel::job::{Expectation, Method};
-use supel::modes::{Certificate, Retained};
+use supel::modes::{Boundary, Certificate, CountedInterval, Mending, Retained};
 use supel::reduction::Reduction;
 use supel::rigid::RigidBodyModes;
 use supel::verification::Evidence;
@@ -100,14 +100,24 @@ fn two_modes_mixed() {
 fn a_mode_that_was_not_found() {
     with_model(&model(), &[direct("ends", &[1, 8, 22, 14])], (Method::CraigBampton, 5), |evidence| {
         let count = supel::factor::InertiaCount { sigma: 1.0, ..certificate_count() };
-        let certificate = Certificate { count, n_counted: 6, n_found: 5, n_factorisations: 1 };
+        let interval =
+            CountedInterval { from: 0.0, to: 1.0, n_counted: 6, n_found: 5, growth: 1.0, growth_limit: f64::INFINITY };
+        let certificate = Certificate {
+            count,
+            boundary: Boundary::FixedInterface,
+            n_counted: 6,
+            n_found: 5,
+            intervals: vec![interval],
+            mending: Mending::None,
+            n_factorisations: 1,
+        };
         let broken = checks(&Evidence { certificate: Some(&certificate), ..evidence });
         assert_eq!(complaints(&broken), [("M-06", Verdict::Fail)]);
     });
 }
 
 fn certificate_count() -> supel::factor::InertiaCount {
-    supel::factor::InertiaCount { sigma: 0.0, clamped: 6, free: 12, growth: 1.0, schur_gap: 1.0 }
+    supel::factor::InertiaCount { sigma: 0.0, clamped: 6, free: 12, growth: 1.0, pivot_gap: 1.0, schur_gap: 1.0 }
 }
 
 #[test]

@@ -113,7 +113,7 @@ fn body() -> ReportBody {
             worst: Some("mode 12".to_owned()),
         }],
         warnings: Vec::new(),
-        completeness: Completeness::SturmCount { below_hz: 16_200.25, n_counted: 56, n_found: 56 },
+        completeness: Completeness::SturmCount { below_hz: 16_200.25, n_counted: 56, n_found: 56, doubt: 0.01 },
         trust_intervals: Vec::new(),
         rigid_body: RigidBodyEvidence::default(),
         preservation: Preservation::default(),

@@ -6,6 +6,7 @@ use crate::report::page::{Page, Tone, WIDTH, verdict_word};
 use crate::report::table::{self, Align};
 use crate::report::{
     Completeness, MassProperties, MatrixReport, ModeKind, ModelReport, ReductionReport, ReportBody, RigidBodySource,
+    TrustInterval,
 };
 use crate::verification::check::{ActiveLimit, Check, Verdict};
 
@@ -36,9 +37,11 @@ pub(super) fn write(page: &mut Page, body: &ReportBody) {
         .map(|mode| Mode { number: mode.index, frequency_hz: mode.frequency_hz, error_bar_hz: Some(mode.error_bar_hz) })
         .collect();
     mode_table(page, &modes);
+    super::preserved::write(page, &body.preservation);
     page.heading("Checked");
     checks(page, &body.checks);
     completeness(page, &body.completeness);
+    trust_intervals(page, &body.trust_intervals);
     if !body.warnings.is_empty() {
         page.heading("Warnings");
         for warning in &body.warnings {
@@ -130,7 +133,7 @@ fn reduced(page: &mut Page, reduction: &ReductionReport) {
     }
 }
 
-fn checks(page: &mut Page, checks: &[Check]) {
+pub(crate) fn checks(page: &mut Page, checks: &[Check]) {
     let heads = ["", "check", "value", "limit", "set by", "margin", "verdict"].map(str::to_owned);
     let rows: Vec<[String; 7]> = std::iter::once(heads).chain(checks.iter().map(check_row)).collect();
     let align = [Align::Left, Align::Left, Align::Right, Align::Right, Align::Left, Align::Right, Align::Left];
@@ -198,6 +201,21 @@ fn completeness(page: &mut Page, completeness: &Completeness) {
         let line = page.toned(&line, Tone::Of(tone));
         page.line(&format!("  {line}"));
     }
+}
+
+/// One line for each interval; many slices are cut to the first ones.
+fn trust_intervals(page: &mut Page, intervals: &[TrustInterval]) {
+    let line = |interval: &TrustInterval| {
+        format!(
+            "{} to {} Hz · {} counted, {} found · pivot growth {}",
+            table::quantity(interval.from_hz, 4),
+            table::quantity(interval.to_hz, 6),
+            interval.n_counted,
+            interval.n_found,
+            table::quantity(interval.pivot_growth, 3)
+        )
+    };
+    listing(page, "counts", &intervals.iter().map(line).collect::<Vec<_>>());
 }
 
 fn listing(page: &mut Page, label: &str, lines: &[String]) {

@@ -11,7 +11,8 @@
 //! of them needed serves the others too. It ends when the residual of every sample is small, so a wrong basis costs
 //! iterations and never an error. Damping keeps the Galerkin system regular at any frequency.
 //!
-//! Cost: n_B to 2 n_B solves for each step, 8 n' r_e n_B operations for the residual of a sample; memory 3 n' r_e.
+//! Cost: n_B to 2 n_B solves and 24 n' r_e n_B operations for each step, 2 n' (2 r_e + n_B)² for the residuals of all samples
+//! together; memory 5 n' r_e.
 
 use faer::{Mat, c64};
 
@@ -28,15 +29,18 @@ use crate::sparse::product;
 /// ratio of the peak to the static response.
 const RESIDUAL: f64 = 1e-7;
 /// Steps after which the residual is taken as it is, and stated.
-const MAX_STEPS: usize = 16;
-/// A step that leaves more than this share of the residual has met the limit of arithmetic.
-const STAGNATION: f64 = 0.7;
+const MAX_STEPS: usize = 24;
+/// Steps without progress after which the limit of arithmetic is met. A band with modes that the basis lacks makes none
+/// for a few steps, until they are found.
+const MAX_IDLE: usize = 4;
+/// A residual above this share of the smallest so far is no progress.
+const PROGRESS: f64 = 0.7;
 /// Residual columns, relative to the largest, that are worth a solve of their own.
 const WORTH_A_SOLVE: f64 = 1e-6;
 /// Length a new direction must keep beside those before it.
 const INDEPENDENT: f64 = 1e-8;
 /// Samples looked at in every step; the others wait until these are answered.
-const PROBES: usize = 5;
+const PROBES: usize = 3;
 
 /// The full model on the growing basis.
 pub(super) struct Extended<'a> {
@@ -92,64 +96,104 @@ impl<'a> Extended<'a> {
     /// A projected pencil that is not definite.
     pub(super) fn settle(&mut self, samples_hz: &[f64]) -> Result<Vec<f64>> {
         let n = samples_hz.len();
-        let mut probes: Vec<f64> =
-            (0..PROBES.min(n)).map(|i| samples_hz[i * (n - 1) / (PROBES.min(n) - 1).max(1)]).collect();
-        let mut before = f64::INFINITY;
+        let n_probes = PROBES.min(n);
+        // The last sample is the hardest as a rule and always among them.
+        let mut probes: Vec<f64> = (1..=n_probes).map(|i| samples_hz[i * n / n_probes - 1]).collect();
+        let (mut smallest, mut n_idle) = (f64::INFINITY, 0);
         loop {
             let residuals = probes.iter().map(|hz| self.residual(*hz));
             let worst = residuals.reduce(|a, b| if dense::worse(b.size, a.size) { b } else { a });
             let Some(worst) = worst else { return Ok(Vec::new()) };
             if worst.size <= RESIDUAL {
-                let all: Vec<f64> = samples_hz.iter().map(|hz| self.residual(*hz).size).collect();
+                let all = self.residual_sizes(samples_hz);
                 match (0..n).max_by(|a, b| all[*a].total_cmp(&all[*b])).filter(|at| all[*at] > RESIDUAL) {
-                    Some(at) if self.steps < MAX_STEPS => {
+                    Some(at) if self.steps < MAX_STEPS && !probes.contains(&samples_hz[at]) => {
                         probes.push(samples_hz[at]);
-                        before = f64::INFINITY;
+                        (smallest, n_idle) = (f64::INFINITY, 0);
                         continue;
                     }
                     _ => return Ok(all),
                 }
             }
-            let is_stuck = worst.size.is_nan() || worst.size > STAGNATION * before;
+            n_idle = if worst.size <= PROGRESS * smallest { 0 } else { n_idle + 1 };
+            smallest = worst.size.min(smallest);
+            let is_stuck = worst.size.is_nan() || n_idle == MAX_IDLE;
             if is_stuck || self.steps == MAX_STEPS || !self.grow(&worst)? {
-                return Ok(samples_hz.iter().map(|hz| self.residual(*hz).size).collect());
+                return Ok(self.residual_sizes(samples_hz));
             }
-            before = worst.size;
         }
+    }
+
+    /// The relative residual of every sample.
+    ///
+    /// All residuals are combinations of the columns of D [F KΨ_e MΨ_e] = Q T, so their lengths are those of the same
+    /// combinations of the small T. That loses no digit: the combination is summed before it is squared.
+    fn residual_sizes(&self, samples_hz: &[f64]) -> Vec<f64> {
+        use rayon::prelude::*;
+        let (n_i, n_b) = (self.evidence.partition.n_internal, self.evidence.partition.n_interface());
+        let r = self.basis.ncols();
+        let columns = Mat::from_fn(self.basis.nrows(), n_b + 2 * r, |i, j| {
+            self.scale[i]
+                * match j {
+                    j if j < n_b => f64::from(u8::from(i == n_i + j)),
+                    j if j < n_b + r => self.forces[(i, j - n_b)],
+                    j => self.momenta[(i, j - n_b - r)],
+                }
+        });
+        let qr = columns.qr();
+        let t = qr.thin_R();
+        let size = |hz: &f64| {
+            let [real, imaginary] = self.coefficients(*hz).map(|part| dense::product(t, part.as_ref()));
+            (0..n_b).fold(0.0, |worst, j| {
+                let square = |part: &Mat<f64>| dense::norm(dense::column(part.as_ref(), j)).powi(2);
+                let relative = (square(&real) + square(&imaginary)).sqrt() / self.scale[n_i + j];
+                if dense::worse(relative, worst) { relative } else { worst }
+            })
+        };
+        samples_hz.par_iter().map(size).collect()
+    }
+
+    /// What (1 + iη) R is made of: coefficients of F, KΨ_e and MΨ_e, real and imaginary part.
+    fn coefficients(&self, frequency_hz: f64) -> [Mat<f64>; 2] {
+        let n_b = self.evidence.partition.n_interface();
+        let r = self.basis.ncols();
+        let z = complex_shift(frequency_hz, self.eta, self.evidence.partition.scaling.eigenvalue_unit());
+        let [re, im] = self.spectral.columns(z, n_b);
+        // M Ψ (z C), part by part.
+        let part = |own: &Mat<f64>, unit: f64, (a, b): (f64, f64)| {
+            Mat::from_fn(n_b + 2 * r, n_b, |i, j| match i {
+                i if i < n_b => unit * f64::from(u8::from(i == j)),
+                i if i < n_b + r => -own[(i - n_b, j)],
+                i => a * re[(i - n_b - r, j)] + b * im[(i - n_b - r, j)],
+            })
+        };
+        [part(&re, 1.0, (z.re, -z.im)), part(&im, 0.0, (z.im, z.re))]
     }
 
     /// (1 + iη) R of unit forces at a frequency.
     fn residual(&self, frequency_hz: f64) -> Residual {
         let (n_i, n_b) = (self.evidence.partition.n_internal, self.evidence.partition.n_interface());
-        let z = complex_shift(frequency_hz, self.eta, self.evidence.partition.scaling.eigenvalue_unit());
-        let [re, im] = self.spectral.columns(z, n_b);
-        let combine = |a: f64, b: f64| Mat::from_fn(re.nrows(), n_b, |i, j| a * re[(i, j)] + b * im[(i, j)]);
-        // M Ψ (z C), part by part.
-        let momenta = [combine(z.re, -z.im), combine(z.im, z.re)];
-        let [mut real, mut imaginary] =
-            [(re.as_ref(), &momenta[0]), (im.as_ref(), &momenta[1])].map(|(c, momentum)| {
-                let mut part = Mat::zeros(self.basis.nrows(), n_b);
-                dense::add_product(part.as_mut(), -1.0, self.forces.as_ref(), c);
-                dense::add_product(part.as_mut(), 1.0, self.momenta.as_ref(), momentum.as_ref());
-                part
-            });
+        let r = self.basis.ncols();
+        let parts = self.coefficients(frequency_hz).map(|coefficients| {
+            let mut part = Mat::zeros(self.basis.nrows(), n_b);
+            part.as_mut().subrows_mut(n_i, n_b).copy_from(coefficients.as_ref().subrows(0, n_b));
+            dense::add_product(part.as_mut(), 1.0, self.forces.as_ref(), coefficients.as_ref().subrows(n_b, r));
+            dense::add_product(part.as_mut(), 1.0, self.momenta.as_ref(), coefficients.as_ref().subrows(n_b + r, r));
+            part
+        });
         let mut size = 0.0;
         for j in 0..n_b {
-            real[(n_i + j, j)] += 1.0;
-            let square: f64 = [&mut real, &mut imaginary]
-                .map(|part| {
-                    let scaled: Vec<f64> =
-                        dense::column(part.as_ref(), j).iter().zip(&self.scale).map(|(r, d)| r * d).collect();
-                    dense::dot(&scaled, &scaled)
-                })
-                .iter()
-                .sum();
-            let relative = square.sqrt() / self.scale[n_i + j];
+            let square = |part: &Mat<f64>| {
+                let column = dense::column(part.as_ref(), j).iter().zip(&self.scale);
+                let scaled: Vec<f64> = column.map(|(r, d)| r * d).collect();
+                dense::dot(&scaled, &scaled)
+            };
+            let relative = (square(&parts[0]) + square(&parts[1])).sqrt() / self.scale[n_i + j];
             if dense::worse(relative, size) {
                 size = relative;
             }
         }
-        Residual { parts: [real, imaginary], size }
+        Residual { parts, size }
     }
 
     /// Adds what the factor of K_II answers to a residual; false where nothing new is left.

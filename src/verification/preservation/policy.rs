@@ -9,13 +9,11 @@ use crate::modes::Boundary;
 /// band has lost a digit that the modes kept could give (Herting: 5 % against 0.5 %).
 const CUT_OFF: f64 = 1.5;
 /// Floating-point operations that a comparison nobody asked for may cost: a few seconds of one core.
-const UNASKED_FLOPS: f64 = 1e10;
+const UNASKED_FLOPS: f64 = 2e10;
 /// Right-hand sides an eigensolution takes beside three for each mode found.
 const SOLVES_BESIDE: f64 = 64.0;
 /// Blocks of n_B right-hand sides that the response converges in.
 const RESPONSE_BLOCKS: f64 = 6.0;
-/// Samples of the response.
-const RESPONSE_SAMPLES: f64 = 80.0;
 
 /// What will be compared.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +34,8 @@ impl Plan {
     /// Whatever the scene states is compared at any cost, the defaults only while they are cheap.
     ///
     /// A support costs an eigensolution with the factor that is already there: 3k + 64 solves of 4 nnz(L) operations each.
-    /// The response costs six blocks of n_B such solves, and 8 n r n_B operations for the residual of each sample.
+    /// The response costs six blocks of n_B such solves, 24 n r n_B operations for the residuals in each, and 2 n (2r + n_B)²
+    /// for those of all samples, r being the order of the basis it ends with.
     pub fn new(evidence: &Evidence<'_>, analysis: &Analysis, job: &Job) -> Self {
         let default = SceneJob::default();
         let scene = job.scene.as_ref().unwrap_or(&default);
@@ -86,11 +85,11 @@ impl Cost {
         let n_modes = evidence.retained.modes.count() as f64;
         let solve = 4.0 * analysis.nnz_factor;
         let extended = evidence.reduction.n_reduced() as f64 + RESPONSE_BLOCKS * n_b;
-        let samples = RESPONSE_SAMPLES * 8.0 * n_b * extended * (n + 4.0 * n_b);
+        let residuals = n * (RESPONSE_BLOCKS * 24.0 * extended * n_b + 2.0 * (2.0 * extended + n_b).powi(2));
         Self {
             support: (3.0 * n_modes + SOLVES_BESIDE) * solve,
             n_new_supports: default_supports(evidence).len().saturating_sub(1) as f64,
-            response: RESPONSE_BLOCKS * n_b * solve + samples,
+            response: RESPONSE_BLOCKS * n_b * solve + residuals,
         }
     }
 }

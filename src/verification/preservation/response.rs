@@ -17,6 +17,8 @@ use crate::report::{ResponseComparison, ResponseSample};
 /// A pair that responds this much less than its two driving points do is judged by them: symmetry uncouples such pairs,
 /// and what is left of them is rounding. A thousandth is 60 dB, the dynamic range of a good measurement.
 const UNCOUPLED: f64 = 1e-3;
+/// The antiresonances of the worst pair may show another pair to be worse; its own are then sampled too, this often.
+const PASSES: usize = 3;
 
 /// The answers of the full model, for further reduced models to be compared with.
 pub(super) struct FullResponse {
@@ -53,13 +55,20 @@ pub(super) fn compared(
     let reduction = evidence.reduction;
     let reduced = Spectral::of(reduction.stiffness.as_ref(), reduction.mass.as_ref(), super::shift(evidence))?;
     let mut extended = Extended::new(evidence, factor, eta)?;
-    let first = samples::first(evidence, &reduced, band_hz);
-    extended.settle(&first)?;
-    let (worst, _) = FullResponse::new(&extended, &first, eta).worst(evidence, &reduced);
-    let samples_hz = samples::second(evidence, &extended.spectral, &first, [worst.pair.0, worst.pair.1])?;
-    let residuals = extended.settle(&samples_hz)?;
-    let full = FullResponse::new(&extended, &samples_hz, eta);
-    let (worst, at) = full.worst(evidence, &reduced);
+    let mut samples_hz = samples::first(evidence, &reduced, band_hz);
+    let mut residuals = extended.settle(&samples_hz)?;
+    let mut full = FullResponse::new(&extended, &samples_hz, eta);
+    let (mut worst, mut at) = full.worst(evidence, &reduced);
+    for _ in 0..PASSES {
+        let pair = worst.pair;
+        samples_hz = samples::with_zeros(evidence, &extended.spectral, &samples_hz, [pair.0, pair.1])?;
+        residuals = extended.settle(&samples_hz)?;
+        full = FullResponse::new(&extended, &samples_hz, eta);
+        (worst, at) = full.worst(evidence, &reduced);
+        if worst.pair == pair {
+            break;
+        }
+    }
     let residual = residuals.iter().fold(0.0, |a, b| if dense::worse(*b, a) { *b } else { a });
     let least_known = (0..residuals.len()).fold(0, |a, b| if dense::worse(residuals[b], residuals[a]) { b } else { a });
     let name = |dof: usize| evidence.partition.name_of(evidence.partition.n_internal + dof);

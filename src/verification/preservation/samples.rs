@@ -32,15 +32,15 @@ pub(super) fn first(evidence: &Evidence<'_>, reduced: &Spectral, band_hz: [f64; 
 ///
 /// # Errors
 /// A reduced pencil that is not definite.
-pub(super) fn second(
+pub(super) fn with_zeros(
     evidence: &Evidence<'_>,
     full: &Spectral,
-    first: &[f64],
+    samples: &[f64],
     driving_points: [usize; 2],
 ) -> Result<Vec<f64>> {
-    let (start, high) = (first[0], first[first.len() - 1]);
+    let (start, high) = (samples[0], samples[samples.len() - 1]);
     let within = |all: Vec<f64>| spread(all.into_iter().filter(|hz| (start..=high).contains(hz)).collect());
-    let mut all = first.to_vec();
+    let mut all = samples.to_vec();
     all.extend(within(elastic_hz(evidence, full)));
     for dof in driving_points {
         let (k, m) = (&evidence.reduction.stiffness, &evidence.reduction.mass);

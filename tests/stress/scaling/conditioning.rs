@@ -2,6 +2,7 @@
 
 use faer::Mat;
 use supel::basis::{Basis, DynamicColumns};
+use supel::error::Error;
 use supel::verification::check::Verdict;
 use supel_models::model::Assembler;
 use supel_models::{Material, Model, brick, spectrum};
@@ -48,7 +49,11 @@ fn c_03_penalty_contrast_shows_in_the_bars() {
         let exact = oracle::eigenvalues(&exact, &unit(30), 4, 4.0 * springs[1]);
         for eigensolver in eigensolvers() {
             let case = Case { method: "herting", ..Case::new(&model, &[rows("hub", &[0])]).count(4).by(eigensolver) };
-            let outcome = case.run().expect("a reduction");
+            let outcome = match case.run() {
+                // Above 1/(1024 ε) a pivot is all rounding, and the factor says so.
+                Err(Error::NotDefinite { .. }) if exponent > 12 => continue,
+                outcome => outcome.expect("a reduction"),
+            };
             for ((found, exact), bar) in eigenvalues(&outcome).iter().zip(&exact).zip(bars(&outcome)) {
                 let error = (found / exact - 1.0).abs();
                 assert!(error <= bar, "10^{exponent}, {eigensolver}: error {error:e}, bar {bar:e}");

@@ -1,0 +1,163 @@
+//! The content of a superelement file, in the form the checks work on.
+
+use faer::{Mat, MatRef};
+use supel_runtime::{Coordinate, Matrix, Superelement};
+
+use super::spectrum::eigenpairs;
+use crate::dense;
+use crate::error::Result;
+use crate::job::Job;
+use crate::modes::Boundary;
+use crate::verification::check::Limits;
+
+/// Roundings of one sign may exceed their typical sum by this.
+const NOISE_FACTOR: f64 = 10.0;
+/// What the recorded error bars may excuse at most: a file cannot declare itself beyond judgement.
+const LARGEST_EXCUSE: f64 = 1e-3;
+/// The largest rigid-body energy relative to that of the first elastic mode that practice accepts: a rigid-body frequency
+/// of 10⁻⁴ of the first elastic one.
+const RIGID_ENERGY: f64 = 1e-8;
+
+/// A superelement with its matrices unpacked.
+pub(super) struct Content<'a> {
+    pub(super) superelement: &'a Superelement,
+    /// K̂, r × r.
+    pub(super) k: Mat<f64>,
+    /// M̂, r × r.
+    pub(super) m: Mat<f64>,
+    /// Û, r × n_r.
+    pub(super) u: Mat<f64>,
+    /// M_F, n_r × n_r.
+    pub(super) m_f: Mat<f64>,
+    /// Interface coordinates.
+    pub(super) n_b: usize,
+    /// The boundary its modes were computed under.
+    pub(super) boundary: Boundary,
+    /// ω² of its modes.
+    pub(super) lambda: Vec<f64>,
+    /// The first elastic eigenvalue, the unit that energies are compared with.
+    pub(super) first: f64,
+    /// Rounding of the arithmetic and of the data in an energy, relative to `first`, as the error bars tell.
+    pub(super) noise: f64,
+    /// Powers of two near 1/√(K̂ + λ₁M̂)_ii. Of K̂ alone nothing may be left: an interface that just holds the component
+    /// has none.
+    pub(super) scale: Vec<f64>,
+    /// The job kept in the file, where it is one of this version.
+    pub(super) job: Option<Job>,
+}
+
+impl<'a> Content<'a> {
+    pub(super) fn of(superelement: &'a Superelement) -> Result<Self> {
+        let tensors = superelement.tensors();
+        let (k, m) = (unpacked(&tensors.stiffness), unpacked(&tensors.mass));
+        let n_r = tensors.rigid_body_modes.cols();
+        let lambda: Vec<f64> = tensors.frequencies.iter().map(|omega| omega * omega).collect();
+        let first = match lambda.iter().copied().find(|lambda| *lambda > 0.0) {
+            Some(first) => first,
+            None => first_elastic(k.as_ref(), m.as_ref(), n_r)?,
+        };
+        let scale: Vec<f64> = (0..k.nrows()).map(|i| dense::power_of_two_root(k[(i, i)] + first * m[(i, i)])).collect();
+        Ok(Self {
+            superelement,
+            u: unpacked(&tensors.rigid_body_modes),
+            m_f: unpacked(&tensors.rigid_body_mass),
+            n_b: superelement.n_interface(),
+            boundary: boundary(superelement),
+            noise: noise(superelement, first),
+            job: serde_json::from_value(superelement.metadata().job.clone()).ok(),
+            k,
+            m,
+            lambda,
+            first,
+            scale,
+        })
+    }
+
+    /// r.
+    pub(super) fn n_reduced(&self) -> usize {
+        self.k.nrows()
+    }
+
+    /// n_r.
+    pub(super) fn n_rigid(&self) -> usize {
+        self.u.ncols()
+    }
+
+    /// Limits of an energy that should be nothing, relative to that of the first elastic mode.
+    pub(super) fn energy_limits(&self) -> Limits {
+        let arithmetic = (NOISE_FACTOR * self.noise).min(LARGEST_EXCUSE);
+        Limits { engineering: RIGID_ENERGY, arithmetic, data: 0.0 }
+    }
+
+    /// A difference of numbers that rounding alone may tell apart.
+    pub(super) fn rounding_limits(&self) -> Limits {
+        let arithmetic = (NOISE_FACTOR * self.noise).min(LARGEST_EXCUSE);
+        Limits { engineering: 1e-10, arithmetic, data: 0.0 }
+    }
+
+    /// ‖D v‖.
+    pub(super) fn force_norm(&self, v: &[f64]) -> f64 {
+        dense::norm(&v.iter().zip(&self.scale).map(|(v, d)| v * d).collect::<Vec<f64>>())
+    }
+
+    /// ‖D⁻¹ v‖.
+    pub(super) fn motion_norm(&self, v: &[f64]) -> f64 {
+        dense::norm(&v.iter().zip(&self.scale).map(|(v, d)| v / d).collect::<Vec<f64>>())
+    }
+
+    /// What a coordinate is called.
+    pub(super) fn name_of(&self, coordinate: usize) -> String {
+        let metadata = self.superelement.metadata();
+        match metadata.coordinates[coordinate] {
+            Coordinate::Interface { node, direction } => {
+                let name = &metadata.interface_nodes[node].name;
+                format!("{name} {}", format!("{direction:?}").to_lowercase())
+            }
+            Coordinate::InterfaceRow { row } => format!("row {}", row + 1),
+            Coordinate::RigidBodyMode { index } => format!("rigid-body mode {}", index + 1),
+            Coordinate::InertiaRelief { index } => format!("inertia relief {}", index + 1),
+            Coordinate::ElasticMode { mode, .. } | Coordinate::FixedInterfaceMode { mode, .. } => {
+                format!("mode {}", mode + 1)
+            }
+        }
+    }
+}
+
+/// A matrix of the file by columns.
+pub(super) fn unpacked(matrix: &Matrix) -> Mat<f64> {
+    Mat::from_fn(matrix.rows(), matrix.cols(), |i, j| matrix[(i, j)])
+}
+
+/// The kind of a mode tells where it was computed, whatever the method is called.
+pub(super) fn boundary(superelement: &Superelement) -> Boundary {
+    let metadata = superelement.metadata();
+    let dropped = metadata.dropped.iter().map(|dropped| &dropped.column);
+    let is_fixed = metadata
+        .coordinates
+        .iter()
+        .chain(dropped)
+        .any(|coordinate| matches!(coordinate, Coordinate::FixedInterfaceMode { .. }));
+    if is_fixed { Boundary::FixedInterface } else { Boundary::FreeInterface }
+}
+
+/// The largest error of an eigenvalue that the bars allow, relative to the first: λ f-bar · 2/f summed of the same terms
+/// that the energy of a rigid-body motion is summed of.
+fn noise(superelement: &Superelement, first: f64) -> f64 {
+    let bar = |coordinate: &Coordinate| match *coordinate {
+        Coordinate::ElasticMode { frequency_hz, error_bar_hz: Some(bar), .. }
+        | Coordinate::FixedInterfaceMode { frequency_hz, error_bar_hz: Some(bar), .. } => {
+            let omega = frequency_hz * std::f64::consts::TAU;
+            2.0 * bar * std::f64::consts::TAU * omega / first
+        }
+        _ => 0.0,
+    };
+    superelement.metadata().coordinates.iter().map(bar).fold(0.0, f64::max)
+}
+
+/// Where the file has no modes: the first eigenvalue of the reduced pencil beyond its rigid-body modes.
+fn first_elastic(k: MatRef<'_, f64>, m: MatRef<'_, f64>, n_r: usize) -> Result<f64> {
+    let ratios = (0..k.nrows()).filter(|i| k[(*i, *i)] > 0.0 && m[(*i, *i)] > 0.0).map(|i| k[(i, i)] / m[(i, i)]);
+    let Some(least) = ratios.reduce(f64::min) else { return Ok(1.0) };
+    let pairs = eigenpairs(k, m, least)?;
+    Ok(pairs.values.get(n_r).copied().filter(|value| *value > 0.0).unwrap_or(least))
+}

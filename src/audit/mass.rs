@@ -1,0 +1,131 @@
+//! Mass properties and the loads of gravity: M-16, M-18.
+
+use supel_runtime::{MassProperties, RigidBodyModes, mass_properties};
+
+use super::content::{Content, unpacked};
+use crate::dense;
+use crate::verification::check::{Check, Limits};
+
+/// M-16: ÛᵀM̂Û against the rigid-body mass of the full model.
+pub(super) fn rigid_body_mass(content: &Content<'_>) -> Option<Check> {
+    if content.n_rigid() == 0 {
+        return None;
+    }
+    let u = content.u.as_ref();
+    let reduced = dense::gram(u, dense::product(content.m.as_ref(), u).as_ref());
+    let mut worst = (0.0, None);
+    for j in 0..content.n_rigid() {
+        for i in 0..content.n_rigid() {
+            let size = (content.m_f[(i, i)] * content.m_f[(j, j)]).sqrt();
+            let error = (reduced[(i, j)] - content.m_f[(i, j)]).abs() / size;
+            if dense::worse(error, worst.0) {
+                worst = (error, Some(format!("rigid-body modes {} and {}", i + 1, j + 1)));
+            }
+        }
+    }
+    Some(Check {
+        id: "M-16",
+        name: "mass, centre and inertia are preserved",
+        equation: "max |ÛᵀM̂Û − M_F|_ij / √(M_F,ii M_F,jj)",
+        value: worst.0,
+        limits: Limits { engineering: 1e-10, ..Limits::default() },
+        fail_above: 1e-6,
+        worst: worst.1,
+    })
+}
+
+/// Mass properties by M̂ and Û, where Û is the six unit motions.
+fn properties(content: &Content<'_>) -> Option<MassProperties> {
+    let metadata = content.superelement.metadata();
+    if metadata.model.rigid_body_modes != RigidBodyModes::Geometric || content.n_rigid() != 6 {
+        return None;
+    }
+    let u = content.u.as_ref();
+    let m_f = dense::gram(u, dense::product(content.m.as_ref(), u).as_ref());
+    mass_properties(&supel_runtime::Matrix::from_fn(6, 6, |i, j| m_f[(i, j)]))
+}
+
+/// The radius of gyration: the length that a shift of the centre is compared with.
+fn gyration(properties: &MassProperties) -> f64 {
+    let inertia = properties.inertia;
+    ((inertia[0][0] + inertia[1][1] + inertia[2][2]) / (2.0 * properties.mass)).sqrt()
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    dense::norm(&[a[0] - b[0], a[1] - b[1], a[2] - b[2]])
+}
+
+fn described(properties: &MassProperties) -> String {
+    let [x, y, z] = properties.center_of_mass;
+    format!("mass {:.6e}, centre ({x:.4e}, {y:.4e}, {z:.4e})", properties.mass)
+}
+
+/// M-16: the mass properties that the file states in words.
+pub(super) fn stated(content: &Content<'_>) -> Option<Check> {
+    let stated = content.superelement.metadata().model.mass_properties?;
+    let found = properties(content);
+    let value = found.as_ref().map_or(f64::NAN, |found| {
+        let size = gyration(found);
+        let inertia = (0..9).map(|k| (found.inertia[k / 3][k % 3] - stated.inertia[k / 3][k % 3]).abs());
+        let scale = found.mass * size * size;
+        (found.mass / stated.mass - 1.0)
+            .abs()
+            .max(distance(found.center_of_mass, stated.center_of_mass) / size)
+            .max(inertia.fold(0.0, f64::max) / scale)
+    });
+    Some(Check {
+        id: "M-16",
+        name: "stated mass properties are those of M̂",
+        equation: "max |m/m_stated − 1|, |c − c_stated| / i, |J − J_stated| / (m i²), i radius of gyration",
+        value,
+        // The inertia about the centre is what is left of that about the origin, which may be far away.
+        limits: Limits { engineering: 1e-8, ..Limits::default() },
+        fail_above: 1e-5,
+        worst: found.as_ref().map(described),
+    })
+}
+
+/// M-16: the mass properties that the job kept in the file expects.
+pub(super) fn expected(content: &Content<'_>) -> Option<Check> {
+    let expect = content.job.as_ref()?.model.expect.as_ref()?;
+    let found = properties(content)?;
+    let mass = expect.mass.map_or(0.0, |known| (found.mass / known - 1.0).abs());
+    let shift = expect.cg.map_or(0.0, |known| distance(found.center_of_mass, known) / gyration(&found));
+    Some(Check {
+        id: "M-16",
+        name: "mass and centre are those expected",
+        equation: "max |m/m_expected − 1|, |c − c_expected| / radius of gyration",
+        value: mass.max(shift),
+        limits: Limits { engineering: 1e-4, ..Limits::default() },
+        fail_above: 1e-2,
+        worst: Some(described(&found)),
+    })
+}
+
+/// M-18: gravity accelerates the component as a rigid body, so that its loads are those of the first three unit motions.
+pub(super) fn gravity(content: &Content<'_>) -> Option<Check> {
+    let gravity = unpacked(content.superelement.tensors().gravity.as_ref()?);
+    let is_classical = content.superelement.metadata().model.rigid_body_modes == RigidBodyModes::Geometric;
+    if !is_classical || content.n_rigid() != 6 {
+        return None;
+    }
+    let momenta = dense::product(content.m.as_ref(), content.u.as_ref().subcols(0, 3));
+    let mut worst = (0.0, None);
+    for j in 0..3 {
+        let (stored, rebuilt) = (dense::column(gravity.as_ref(), j), dense::column(momenta.as_ref(), j));
+        let difference: Vec<f64> = stored.iter().zip(rebuilt).map(|(a, b)| a - b).collect();
+        let error = content.force_norm(&difference) / content.force_norm(rebuilt);
+        if dense::worse(error, worst.0) {
+            worst = (error, Some(format!("along {}", ["x", "y", "z"][j])));
+        }
+    }
+    Some(Check {
+        id: "M-18",
+        name: "loads of gravity are those of M̂",
+        equation: "max ‖g − M̂Û_t‖ / ‖M̂Û_t‖ over unit fields",
+        value: worst.0,
+        limits: Limits { engineering: 1e-10, ..Limits::default() },
+        fail_above: 1e-6,
+        worst: worst.1,
+    })
+}

@@ -1,0 +1,87 @@
+//! Checks made from a superelement that was written earlier: from its file alone, or against the full matrices.
+//!
+//! ```text
+//! K̂, M̂   r × r      as they are in the file
+//! Û       r × n_r
+//! ω       n_modes    rad/s
+//! ```
+//! Nothing of the run that made the file is taken over but the error bars it recorded. What the file holds more than
+//! once has to agree: K̂ and M̂ give the frequencies again, M̂ and Û the mass and the loads of gravity, the positions of
+//! the interface nodes the rigid-body modes. The identifiers are those of the report.
+
+mod content;
+mod inertia_relief;
+mod mass;
+mod model;
+mod named_modes;
+mod record;
+mod rigid_motion;
+mod spectrum;
+
+use supel_runtime::Superelement;
+
+use crate::error::Result;
+use crate::verification::check::{Check, Verdict};
+
+use content::Content;
+
+pub use model::against_model;
+pub use record::rewritten;
+
+/// What was found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Audit {
+    /// The measures, in the order of their identifiers.
+    pub checks: Vec<Check>,
+    /// What could not be judged, one sentence each.
+    pub notes: Vec<String>,
+}
+
+impl Audit {
+    /// The worst verdict of the checks.
+    pub fn verdict(&self) -> Verdict {
+        self.checks.iter().map(Check::verdict).fold(Verdict::Pass, Verdict::max)
+    }
+
+    /// This and another one.
+    pub(crate) fn joined(mut self, other: Self) -> Self {
+        self.checks.extend(other.checks);
+        self.notes.extend(other.notes);
+        self.sorted()
+    }
+
+    /// Puts the checks in the order of their identifiers; those of one identifier stay as they were made.
+    fn sorted(mut self) -> Self {
+        self.checks.sort_by_key(|check| check.id);
+        self
+    }
+}
+
+/// Everything that a superelement says of itself, checked against the rest of it.
+///
+/// # Errors
+/// A dense eigenproblem that does not converge.
+pub fn of_file(superelement: &Superelement) -> Result<Audit> {
+    let content = Content::of(superelement)?;
+    let spectrum = spectrum::Spectrum::of(&content)?;
+    let mut audit = Audit::default();
+    audit.checks.push(spectrum::modal_masses(&content));
+    audit.checks.extend(rigid_motion::positions(&content));
+    audit.checks.push(rigid_motion::null_space(&content));
+    audit.checks.push(rigid_motion::energy(&content));
+    audit.checks.push(rigid_motion::zero_modes(&content)?);
+    audit.checks.push(spectrum::block_coupling(&content));
+    audit.checks.push(spectrum::frequencies(&content, &spectrum));
+    audit.checks.extend(named_modes::residual(&content));
+    audit.checks.extend(mass::rigid_body_mass(&content));
+    audit.checks.extend(mass::stated(&content));
+    audit.checks.extend(mass::expected(&content));
+    audit.checks.extend(mass::gravity(&content));
+    audit.checks.extend(inertia_relief::identity(&content));
+    audit.checks.push(spectrum::condition(&content)?);
+    audit.checks.push(spectrum::symmetry(&content));
+    audit.checks.push(spectrum::definiteness(&content, &spectrum));
+    audit.checks.extend(record::checks(&content));
+    audit.notes = record::notes(&content);
+    Ok(audit.sorted())
+}

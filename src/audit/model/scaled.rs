@@ -1,0 +1,74 @@
+//! The content of the file in the scaled units of the partition.
+
+use faer::{Mat, Side};
+use supel_runtime::Superelement;
+
+use crate::audit::content::unpacked;
+use crate::audit::spectrum::{Eigenpairs, eigenpairs};
+use crate::dense;
+use crate::error::Result;
+use crate::partition::Partition;
+
+/// K̂, M̂, Û and λ as the stages of the model see them.
+pub(super) struct Scaled {
+    pub(super) k: Mat<f64>,
+    pub(super) m: Mat<f64>,
+    pub(super) u: Mat<f64>,
+    pub(super) m_f: Mat<f64>,
+    pub(super) gravity: Option<Mat<f64>>,
+    pub(super) n_b: usize,
+    /// λ of the stated frequencies.
+    pub(super) lambda: Vec<f64>,
+    /// The eigenpairs of the free reduced pencil.
+    pub(super) free: Eigenpairs,
+}
+
+impl Scaled {
+    pub(super) fn of(superelement: &Superelement, partition: &Partition) -> Result<Self> {
+        let (tensors, units, n_b) = (superelement.tensors(), partition.scaling, superelement.n_interface());
+        let shape = units.shape_unit();
+        let of = |i: usize| if i < n_b { 1.0 } else { shape };
+        let both =
+            |a: Mat<f64>, unit: f64| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] / (unit * of(i) * of(j)));
+        let k = both(unpacked(&tensors.stiffness), units.stiffness_unit());
+        let m = both(unpacked(&tensors.mass), units.mass_unit());
+        let lambda: Vec<f64> =
+            tensors.frequencies.iter().map(|omega| omega * omega / units.eigenvalue_unit()).collect();
+        let first = lambda.iter().copied().find(|lambda| *lambda > 0.0).unwrap_or(1.0);
+        let gravity = tensors.gravity.as_ref().map(|gravity| {
+            Mat::from_fn(gravity.rows(), gravity.cols(), |i, j| gravity[(i, j)] / (units.mass_unit() * of(i)))
+        });
+        let mut m_f = unpacked(&tensors.rigid_body_mass);
+        m_f *= faer::Scale(1.0 / units.mass_unit());
+        let free = eigenpairs(k.as_ref(), m.as_ref(), first)?;
+        Ok(Self { k, m, u: unpacked(&tensors.rigid_body_modes), m_f, gravity, n_b, lambda, free })
+    }
+
+    /// Loads K̂_BB x of interface motions x that span every motion with energy, n_B × k: x is orthonormal in
+    /// K̂_BB + λM̂_BB, and each load does the work λ on the motion it makes.
+    ///
+    /// A stiff direction counts as much as a soft one: an error in any entry of K̂_BB shows.
+    pub(super) fn interface_loads(&self, lambda: f64) -> Result<Mat<f64>> {
+        /// Share of the energy in that of K̂_BB + λM̂_BB below which a motion is that of a rigid body.
+        const RIGID: f64 = 1e-6;
+        let n = self.n_b;
+        let (k, m) = (self.k.as_ref().submatrix(0, 0, n, n), self.m.as_ref().submatrix(0, 0, n, n));
+        let sum = Mat::from_fn(n, n, |i, j| k[(i, j)] + lambda * m[(i, j)]);
+        let d: Vec<f64> = (0..n).map(|i| dense::power_of_two_root(sum[(i, i)])).collect();
+        let scaled = Mat::from_fn(n, n, |i, j| sum[(i, j)] * d[i] * d[j]);
+        let Ok(factor) = scaled.llt(Side::Lower) else { return Ok(Mat::zeros(n, 0)) };
+        let (l, par) = (factor.L(), faer::Par::Seq);
+        let mut half = Mat::from_fn(n, n, |i, j| k[(i, j)] * d[i] * d[j]);
+        faer::linalg::triangular_solve::solve_lower_triangular_in_place(l, half.as_mut(), par);
+        let mut c = half.transpose().to_owned();
+        faer::linalg::triangular_solve::solve_lower_triangular_in_place(l, c.as_mut(), par);
+        dense::symmetrise(&mut c);
+        let (tau, w) = dense::symmetric_eigen(c.as_ref())?;
+        let kept: Vec<usize> = (0..n).filter(|j| tau[*j] > RIGID).collect();
+        // K̂ x of x = D L⁻ᵀ w is D⁻¹ L w τ.
+        let shares = Mat::from_fn(n, kept.len(), |i, j| w[(i, kept[j])] * (tau[kept[j]] * lambda).sqrt());
+        let triangle = Mat::from_fn(n, n, |i, j| if j <= i { l[(i, j)] } else { 0.0 });
+        let loads = dense::product(triangle.as_ref(), shares.as_ref());
+        Ok(Mat::from_fn(n, kept.len(), |i, j| loads[(i, j)] / d[i]))
+    }
+}

@@ -1,0 +1,100 @@
+//! The modes that the coordinates are named after, as eigenpairs of the reduced pencil: M-14.
+//!
+//! ```text
+//! q   n_η   amplitudes of a named mode: column of the inverse of the mixing
+//! v   r     [v_B; q], v_B free or zero
+//! ```
+//! By equations (34) and (35) (K̂ − ω²M̂) v = 0 for some displacement v_B of the interface. It is not in the file and is
+//! found by least squares; that something is left over tells that mixing, frequency and matrices do not belong together.
+
+use faer::linalg::solvers::{Solve, SolveLstsq};
+use faer::{Mat, MatRef};
+use supel_runtime::Coordinate;
+
+use super::content::{Content, unpacked};
+use crate::dense;
+use crate::modes::Boundary;
+use crate::verification::check::{Check, Limits};
+
+/// The amplitudes of the coordinate's named columns, n_η × n_η: C⁻¹ of stored = named · C.
+pub(super) fn named_amplitudes(content: &Content<'_>) -> Mat<f64> {
+    let n = content.n_reduced() - content.n_b;
+    match &content.superelement.tensors().mixing {
+        Some(mixing) => unpacked(mixing).partial_piv_lu().solve(Mat::<f64>::identity(n, n)),
+        None => Mat::identity(n, n),
+    }
+}
+
+/// M-14: backward error of the named modes.
+pub(super) fn residual(content: &Content<'_>) -> Option<Check> {
+    let amplitudes = named_amplitudes(content);
+    let metadata = content.superelement.metadata();
+    let named = metadata.coordinates[content.n_b..].iter().enumerate();
+    let modes: Vec<(usize, usize)> =
+        named.filter_map(|(slot, coordinate)| coordinate.mode().map(|(mode, _)| (slot, mode))).collect();
+    if modes.is_empty() {
+        return None;
+    }
+    let mut worst = (0.0, None);
+    for (slot, mode) in modes {
+        let q = dense::column(amplitudes.as_ref(), slot);
+        let error = backward_error(content, content.lambda[mode], q);
+        if dense::worse(error, worst.0) {
+            worst = (error, Some(format!("mode {}", mode + 1)));
+        }
+    }
+    let limits = Limits { engineering: 1e-9, ..content.rounding_limits() };
+    Some(Check {
+        id: "M-14",
+        name: "named modes are eigenpairs of the reduced model",
+        equation: "max ‖K̂v − ω²M̂v‖ / ((‖K̂‖ + ω²‖M̂‖) ‖v‖), v of the mixing, in scales of K̂ + λ₁M̂",
+        value: worst.0,
+        limits,
+        fail_above: limits.value().max(1e-6),
+        worst: worst.1,
+    })
+}
+
+fn backward_error(content: &Content<'_>, lambda: f64, q: &[f64]) -> f64 {
+    let (r, b) = (content.n_reduced(), content.n_b);
+    let d = &content.scale;
+    let dynamic = Mat::from_fn(r, r, |i, j| (content.k[(i, j)] - lambda * content.m[(i, j)]) * d[i] * d[j]);
+    let amplitude = Mat::from_fn(r - b, 1, |i, _| q[i] / d[b + i]);
+    // A held interface takes up the reaction: its rows are not part of the eigenproblem.
+    let first = match content.boundary {
+        Boundary::FixedInterface => b,
+        Boundary::FreeInterface => 0,
+    };
+    let rows = dynamic.as_ref().subrows(first, r - first);
+    let mut residual = dense::product(rows.subcols(b, r - b), amplitude.as_ref());
+    let mut motion = dense::norm(dense::column(amplitude.as_ref(), 0)).powi(2);
+    if first == 0 && b > 0 {
+        let interface = rows.subcols(0, b);
+        let mut load = residual.clone();
+        load *= faer::Scale(-1.0);
+        let displacement = least_squares(interface, load.as_ref());
+        dense::add_product(residual.as_mut(), 1.0, interface, displacement.as_ref());
+        motion += dense::norm(dense::column(displacement.as_ref(), 0)).powi(2);
+    }
+    let norm = |a: &Mat<f64>| {
+        let column = |j: usize| (0..r).map(|i| (a[(i, j)] * d[i] * d[j]).abs()).sum::<f64>();
+        (0..r).map(column).fold(0.0, f64::max)
+    };
+    let size = norm(&content.k) + lambda * norm(&content.m);
+    dense::norm(dense::column(residual.as_ref(), 0)) / (size * motion.sqrt())
+}
+
+/// x with the least ‖A x − f‖; A has at least as many rows as columns.
+fn least_squares(a: MatRef<'_, f64>, f: MatRef<'_, f64>) -> Mat<f64> {
+    a.qr().solve_lstsq(f)
+}
+
+/// The inertia-relief coordinates: slot among the modal ones and number of the rigid-body mode.
+pub(super) fn relief(content: &Content<'_>) -> Vec<(usize, usize)> {
+    let coordinates = &content.superelement.metadata().coordinates[content.n_b..];
+    let of = |(slot, coordinate): (usize, &Coordinate)| match *coordinate {
+        Coordinate::InertiaRelief { index } => Some((slot, index)),
+        _ => None,
+    };
+    coordinates.iter().enumerate().filter_map(of).collect()
+}

@@ -1,0 +1,136 @@
+//! Rigid-body motion of the superelement: M-05, M-12.
+
+use faer::{Mat, Side};
+use supel_runtime::{Coordinate, RigidBodyModes};
+
+use super::content::Content;
+use crate::dense;
+use crate::error::Result;
+use crate::input::Direction;
+use crate::partition::Site;
+use crate::verification::check::{Check, Limits};
+
+/// M-05: Û built again from the positions of the interface nodes, where it is the six unit motions.
+pub(super) fn positions(content: &Content<'_>) -> Option<Check> {
+    let metadata = content.superelement.metadata();
+    let is_classical = metadata.model.rigid_body_modes == RigidBodyModes::Geometric && content.n_rigid() == 6;
+    if !is_classical || metadata.interface_nodes.is_empty() {
+        return None;
+    }
+    let positions = &content.superelement.tensors().interface_positions;
+    let mut rebuilt = Mat::<f64>::zeros(content.n_reduced(), 6);
+    for (i, coordinate) in metadata.coordinates.iter().enumerate() {
+        if let Coordinate::Interface { node, direction } = *coordinate {
+            let site = Site { position: positions[node], direction: Direction::ALL[direction as usize] };
+            site.rigid_motion().into_iter().enumerate().for_each(|(j, value)| rebuilt[(i, j)] = value);
+        }
+    }
+    let mut worst = (0.0, None);
+    for j in 0..6 {
+        let (stored, rebuilt) = (dense::column(content.u.as_ref(), j), dense::column(rebuilt.as_ref(), j));
+        let largest = rebuilt.iter().fold(1.0f64, |max, value| max.max(value.abs()));
+        for (i, (a, b)) in stored.iter().zip(rebuilt).enumerate() {
+            if dense::worse((a - b).abs() / largest, worst.0) {
+                worst = ((a - b).abs() / largest, Some(format!("rigid-body mode {}, {}", j + 1, content.name_of(i))));
+            }
+        }
+    }
+    Some(Check {
+        id: "M-05",
+        name: "rigid-body modes fit the interface nodes",
+        equation: "max |Û − unit motions of the positions|, relative to the largest displacement",
+        value: worst.0,
+        // Both are made from the same numbers by one multiplication.
+        limits: Limits { engineering: 1e-12, ..Limits::default() },
+        fail_above: 1e-9,
+        worst: worst.1,
+    })
+}
+
+/// M-12: K̂ Û makes no force.
+pub(super) fn null_space(content: &Content<'_>) -> Check {
+    let forces = dense::product(content.k.as_ref(), content.u.as_ref());
+    let mut worst = (0.0, None);
+    for j in 0..content.n_rigid() {
+        let u = dense::column(content.u.as_ref(), j);
+        let error = content.force_norm(dense::column(forces.as_ref(), j)) / content.motion_norm(u);
+        if dense::worse(error, worst.0) {
+            worst = (error, Some(format!("rigid-body mode {}", j + 1)));
+        }
+    }
+    let limits = content.energy_limits();
+    Check {
+        id: "M-12",
+        name: "rigid-body motion makes no force",
+        equation: "max ‖K̂Û‖ / ‖Û‖, in scales of K̂ + λ₁M̂",
+        value: worst.0,
+        limits,
+        fail_above: limits.value().max(1e-6),
+        worst: worst.1,
+    }
+}
+
+/// M-05: what the stiffest rigid-body motion costs, relative to the first elastic mode.
+pub(super) fn energy(content: &Content<'_>) -> Check {
+    let momenta = dense::product(content.m.as_ref(), content.u.as_ref());
+    let forces = dense::product(content.k.as_ref(), content.u.as_ref());
+    let mut worst = (0.0, None);
+    for j in 0..content.n_rigid() {
+        let u = dense::column(content.u.as_ref(), j);
+        let energy = dense::dot(u, dense::column(forces.as_ref(), j));
+        let inertia = dense::dot(u, dense::column(momenta.as_ref(), j));
+        let ratio = energy.abs() / (content.first * inertia);
+        // A motion without inertia is no motion of a body.
+        let ratio = if inertia > 0.0 { ratio } else { f64::NAN };
+        if dense::worse(ratio, worst.0) {
+            worst = (ratio, Some(format!("rigid-body mode {}", j + 1)));
+        }
+    }
+    let limits = content.energy_limits();
+    Check {
+        id: "M-05",
+        name: "rigid-body motion costs no energy",
+        equation: "max ûᵀK̂û / (λ₁ ûᵀM̂û)",
+        value: worst.0,
+        limits,
+        fail_above: limits.value().max(1e-4),
+        worst: worst.1,
+    }
+}
+
+/// M-12: with the rigid-body modes lifted to the first elastic eigenvalue no motion without energy is left.
+pub(super) fn zero_modes(content: &Content<'_>) -> Result<Check> {
+    let n_r = content.n_rigid();
+    let momenta = dense::product(content.m.as_ref(), content.u.as_ref());
+    let mut lifted = content.k.clone();
+    let mut is_independent = true;
+    if n_r > 0 {
+        let mut gram = dense::gram(content.u.as_ref(), momenta.as_ref());
+        dense::symmetrise(&mut gram);
+        let d: Vec<f64> = (0..n_r).map(|i| dense::power_of_two_root(gram[(i, i)])).collect();
+        let scaled = Mat::from_fn(n_r, n_r, |i, j| gram[(i, j)] * d[i] * d[j]);
+        match scaled.llt(Side::Lower) {
+            Ok(factor) => {
+                let mut half = Mat::from_fn(n_r, content.n_reduced(), |i, j| momenta[(j, i)] * d[i]);
+                let par = faer::Par::Seq;
+                faer::linalg::triangular_solve::solve_lower_triangular_in_place(factor.L(), half.as_mut(), par);
+                dense::add_product(lifted.as_mut(), content.first, half.transpose(), half.as_ref());
+                dense::symmetrise(&mut lifted);
+            }
+            Err(_) => is_independent = false,
+        }
+    }
+    let values = super::spectrum::eigenpairs(lifted.as_ref(), content.m.as_ref(), content.first)?.values;
+    let zero = content.energy_limits().value() * content.first;
+    let n_more = values.iter().filter(|value| **value <= zero).count();
+    let text = format!("{} zero modes, {n_r} rigid-body modes", n_r + n_more);
+    Ok(Check {
+        id: "M-12",
+        name: "no other motion is free",
+        equation: "|zero eigenvalues of (K̂, M̂) − n_r|",
+        value: if is_independent { n_more as f64 } else { f64::NAN },
+        limits: Limits::default(),
+        fail_above: 0.0,
+        worst: Some(if is_independent { text } else { "the rigid-body modes are not independent".to_owned() }),
+    })
+}

@@ -1,0 +1,192 @@
+//! The reduced pencil by itself: frequencies, modal masses, symmetry, definiteness, conditioning.
+
+use faer::{Mat, MatRef, Side};
+
+use super::content::Content;
+use crate::dense;
+use crate::error::Result;
+use crate::modes::Boundary;
+use crate::verification::check::{Check, Limits};
+
+/// Eigenpairs of a dense pencil: as many values as M has rank.
+pub(super) struct Eigenpairs {
+    /// λ ascending; empty where K + αM is not definite.
+    pub(super) values: Vec<f64>,
+    /// M-orthonormal, r × number of values.
+    pub(super) vectors: Mat<f64>,
+}
+
+/// Eigenpairs of K x = λ M x by the definite matrix K + αM: of M x = θ (K + αM) x, λ = 1/θ − α. With α near the first
+/// elastic eigenvalue rounding is relative to the low eigenvalues.
+pub(super) fn eigenpairs(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Result<Eigenpairs> {
+    let n = k.nrows();
+    let shifted = Mat::from_fn(n, n, |i, j| k[(i, j)] + alpha * m[(i, j)]);
+    let d: Vec<f64> = (0..n).map(|i| dense::power_of_two_root(shifted[(i, i)])).collect();
+    let scaled = |a: MatRef<'_, f64>| Mat::from_fn(n, n, |i, j| a[(i, j)] * d[i] * d[j]);
+    let Ok(factor) = scaled(shifted.as_ref()).llt(Side::Lower) else {
+        return Ok(Eigenpairs { values: Vec::new(), vectors: Mat::zeros(n, 0) });
+    };
+    let (l, par) = (factor.L(), faer::Par::Seq);
+    let mut half = scaled(m);
+    faer::linalg::triangular_solve::solve_lower_triangular_in_place(l, half.as_mut(), par);
+    let mut c = half.transpose().to_owned();
+    faer::linalg::triangular_solve::solve_lower_triangular_in_place(l, c.as_mut(), par);
+    dense::symmetrise(&mut c);
+    let (theta, w) = dense::symmetric_eigen(c.as_ref())?;
+    let largest = theta.last().copied().unwrap_or(0.0);
+    let kept: Vec<usize> = (0..n).rev().filter(|j| theta[*j] > f64::EPSILON * largest).collect();
+    let mut vectors = Mat::from_fn(n, kept.len(), |i, j| w[(i, kept[j])] / theta[kept[j]].sqrt());
+    faer::linalg::triangular_solve::solve_upper_triangular_in_place(l.transpose(), vectors.as_mut(), par);
+    for j in 0..vectors.ncols() {
+        dense::column_mut(vectors.as_mut(), j).iter_mut().zip(&d).for_each(|(value, d)| *value *= d);
+    }
+    Ok(Eigenpairs { values: kept.iter().map(|j| 1.0 / theta[*j] - alpha).collect(), vectors })
+}
+
+/// The eigenvalues that the checks need.
+pub(super) struct Spectrum {
+    /// Interface free.
+    pub(super) free: Vec<f64>,
+    /// Under the boundary of the modes, rigid-body modes left out.
+    same_boundary: Vec<f64>,
+}
+
+impl Spectrum {
+    pub(super) fn of(content: &Content<'_>) -> Result<Self> {
+        let (k, m) = (content.k.as_ref(), content.m.as_ref());
+        let free = eigenpairs(k, m, content.first)?.values;
+        let same_boundary = match content.boundary {
+            Boundary::FreeInterface => free.get(content.n_rigid()..).unwrap_or_default().to_vec(),
+            Boundary::FixedInterface => {
+                let (b, n) = (content.n_b, content.n_reduced() - content.n_b);
+                eigenpairs(k.submatrix(b, b, n, n), m.submatrix(b, b, n, n), content.first)?.values
+            }
+        };
+        Ok(Self { free, same_boundary })
+    }
+}
+
+/// M-14: the eigenvalues of K̂ and M̂ are those the file names.
+pub(super) fn frequencies(content: &Content<'_>, spectrum: &Spectrum) -> Check {
+    let mut worst = (0.0, None);
+    for (j, lambda) in content.lambda.iter().enumerate() {
+        let found = spectrum.same_boundary.get(j).copied().unwrap_or(f64::INFINITY);
+        let difference = 0.5 * (found / lambda - 1.0).abs();
+        if dense::worse(difference, worst.0) {
+            worst = (difference, Some(format!("mode {}", j + 1)));
+        }
+    }
+    let limits = Limits { engineering: 1e-9, ..content.rounding_limits() };
+    Check {
+        id: "M-14",
+        name: "reduced matrices have the stated frequencies",
+        equation: "max |f(K̂, M̂) / f_stated − 1| under the boundary of the modes (34)–(35)",
+        value: worst.0,
+        limits,
+        fail_above: limits.value().max(1e-6),
+        worst: worst.1,
+    }
+}
+
+/// M-03: the dynamic modes are mass-normalised, so that their block of M̂ is the identity.
+pub(super) fn modal_masses(content: &Content<'_>) -> Check {
+    let (b, r) = (content.n_b, content.n_reduced());
+    let mut worst = (0.0, None);
+    for j in b..r {
+        for i in b..=j {
+            let error = (content.m[(i, j)] - f64::from(u8::from(i == j))).abs();
+            if dense::worse(error, worst.0) {
+                worst = (error, Some(format!("{} and {}", content.name_of(i), content.name_of(j))));
+            }
+        }
+    }
+    Check {
+        id: "M-03",
+        name: "modal masses are one",
+        equation: "max |M̂_ηη − I|",
+        value: worst.0,
+        limits: Limits { engineering: 1e-10, ..Limits::default() },
+        fail_above: 1e-6,
+        worst: worst.1,
+    }
+}
+
+/// M-13: equation (29).
+pub(super) fn block_coupling(content: &Content<'_>) -> Check {
+    let mut worst = (0.0, None);
+    for j in content.n_b..content.n_reduced() {
+        for i in 0..content.n_b {
+            let error = content.k[(i, j)].abs() * content.scale[i] * content.scale[j];
+            if dense::worse(error, worst.0) {
+                worst = (error, Some(format!("{} and {}", content.name_of(i), content.name_of(j))));
+            }
+        }
+    }
+    let limits = content.rounding_limits();
+    Check {
+        id: "M-13",
+        name: "interface and modes are uncoupled in stiffness",
+        equation: "max |K̂_Bη|_ij, in scales of K̂ + λ₁M̂ (29)",
+        value: worst.0,
+        limits,
+        fail_above: limits.value().max(1e-6),
+        worst: worst.1,
+    }
+}
+
+/// M-23: conditioning of M̂, which every explicit integrator and every initial acceleration divides by.
+pub(super) fn condition(content: &Content<'_>) -> Result<Check> {
+    let d: Vec<f64> = (0..content.n_reduced()).map(|i| dense::power_of_two_root(content.m[(i, i)])).collect();
+    let n = d.len();
+    let scaled = Mat::from_fn(n, n, |i, j| content.m[(i, j)] * d[i] * d[j]);
+    let (values, _) = dense::symmetric_eigen(scaled.as_ref())?;
+    let (least, most) = (values.first().copied().unwrap_or(1.0), values.last().copied().unwrap_or(1.0));
+    // A semidefinite mass is judged by M-25.
+    let value = if least > 0.0 { most / least } else { 1.0 / f64::EPSILON };
+    Ok(Check {
+        id: "M-23",
+        name: "condition of the reduced mass",
+        equation: "λ_max / λ_min of D M̂ D with unit diagonal",
+        value,
+        limits: Limits::NONE,
+        fail_above: f64::INFINITY,
+        worst: None,
+    })
+}
+
+/// M-25, symmetry: clients keep one triangle.
+pub(super) fn symmetry(content: &Content<'_>) -> Check {
+    let asymmetry = |a: &Mat<f64>| dense::symmetrise(&mut a.clone());
+    Check {
+        id: "M-25",
+        name: "reduced matrices are symmetric to the bit",
+        equation: "max |K̂ − K̂ᵀ|/|K̂|, |M̂ − M̂ᵀ|/|M̂|",
+        value: asymmetry(&content.k).max(asymmetry(&content.m)),
+        limits: Limits::default(),
+        fail_above: 0.0,
+        worst: None,
+    }
+}
+
+/// M-25, definiteness.
+pub(super) fn definiteness(content: &Content<'_>, spectrum: &Spectrum) -> Check {
+    let d: Vec<f64> = (0..content.n_reduced()).map(|i| dense::power_of_two_root(content.m[(i, i)])).collect();
+    let scaled = Mat::from_fn(d.len(), d.len(), |i, j| content.m[(i, j)] * d[i] * d[j]);
+    let may_be_singular = content.superelement.metadata().flags.contains(&supel_runtime::Flag::SingularMass);
+    let is_definite = may_be_singular || scaled.llt(Side::Lower).is_ok();
+    let (value, worst) = match spectrum.free.first() {
+        _ if !is_definite => (f64::INFINITY, Some("the reduced mass has no Cholesky factor".to_owned())),
+        None if content.n_reduced() > 0 => (f64::INFINITY, Some("K̂ + λ₁M̂ is not definite".to_owned())),
+        lowest => ((-lowest.copied().unwrap_or(0.0) / content.first).max(0.0), None),
+    };
+    let limits = content.energy_limits();
+    Check {
+        id: "M-25",
+        name: "reduced mass is definite, stiffness not negative",
+        equation: "M̂ = LLᵀ; max(0, −λ_min(K̂, M̂)) / λ₁",
+        value,
+        limits,
+        fail_above: limits.value(),
+        worst,
+    }
+}

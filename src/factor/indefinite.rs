@@ -1,0 +1,128 @@
+//! L B Lᵀ of a symmetric indefinite matrix K − σM.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::perm::PermRef;
+use faer::sparse::linalg::cholesky::supernodal::{
+    SupernodalIntranodeLbltRef, factorize_supernodal_numeric_intranode_lblt,
+    factorize_supernodal_numeric_intranode_lblt_scratch,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Conj, Mat, MatRef, Par, Spec};
+
+use super::cholesky::zeros;
+use super::{Analysis, Pencil, Triangle};
+use crate::dense;
+use crate::error::{Error, Result};
+use crate::model::diagonal;
+
+/// L B Lᵀ of D (K − σM) D with pivots of order one and two inside each supernode.
+///
+/// D holds powers of two that bring the diagonal of |K| + |σ| M near one, which no entry then exceeds by much: pivots are
+/// compared on equal terms whatever the units of translations and rotations, and however far up σ lies.
+pub(super) struct Indefinite<'a> {
+    analysis: &'a Analysis,
+    scale: Vec<f64>,
+    largest: f64,
+    values: Vec<f64>,
+    subdiagonal: Vec<f64>,
+    forward: Vec<usize>,
+    inverse: Vec<usize>,
+}
+
+/// Signs of the pivots of B and what they can be trusted with.
+pub(super) struct Signs {
+    /// Negative eigenvalues of B.
+    pub(super) negative: usize,
+    /// Largest pivot over largest entry of the scaled matrix.
+    pub(super) growth: f64,
+    /// Smallest pivot over largest entry of the scaled matrix.
+    pub(super) smallest: f64,
+}
+
+impl<'a> Indefinite<'a> {
+    pub(super) fn new(analysis: &'a Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<Self> {
+        let (symbolic, n) = (&analysis.symbolic, analysis.n);
+        let diagonals = diagonal(pencil.stiffness).into_iter().zip(diagonal(pencil.mass));
+        let scale: Vec<f64> =
+            diagonals.map(|(k, m)| dense::power_of_two_root(k.abs() + sigma.abs() * m.abs())).collect();
+        let lower = Triangle::shifted_and_scaled(pencil, sigma, &scale);
+        let largest = lower.values.iter().fold(0.0, |max: f64, value| max.max(value.abs()));
+        let pattern = SymbolicSparseColMatRef::new_checked(n, n, &lower.pointers, None, &lower.indices);
+        let mut factor = Self {
+            analysis,
+            scale,
+            largest,
+            values: zeros(symbolic.len_val())?,
+            subdiagonal: vec![0.0; n],
+            forward: vec![0; n],
+            inverse: vec![0; n],
+        };
+        let parameters = Spec::default();
+        let scratch = factorize_supernodal_numeric_intranode_lblt_scratch::<usize, f64>(symbolic, Par::Seq, parameters);
+        let mut memory = MemBuffer::try_new(scratch).map_err(|_| Error::OutOfMemory { what: "the Sturm count" })?;
+        factorize_supernodal_numeric_intranode_lblt(
+            &mut factor.values,
+            &mut factor.subdiagonal,
+            &mut factor.forward,
+            &mut factor.inverse,
+            SparseColMatRef::new(pattern, lower.values.as_slice()),
+            symbolic,
+            Par::Seq,
+            MemStack::new(&mut memory),
+            parameters,
+        );
+        Ok(factor)
+    }
+
+    fn as_ref(&self) -> SupernodalIntranodeLbltRef<'_, usize, f64> {
+        let permutation = PermRef::new_checked(&self.forward, &self.inverse, self.analysis.n);
+        SupernodalIntranodeLbltRef::new(&self.analysis.symbolic, &self.values, &self.subdiagonal, permutation)
+    }
+
+    /// Signs of the pivots of B.
+    pub(super) fn signs(&self) -> Result<Signs> {
+        let factor = self.as_ref();
+        let mut signs = Signs { negative: 0, growth: 0.0, smallest: f64::INFINITY };
+        for s in 0..self.analysis.symbolic.n_supernodes() {
+            let node = factor.supernode(s);
+            let (size, start) = (node.val().ncols(), node.start());
+            let mut j = 0;
+            while j < size {
+                let (d, below) = (node.val()[(j, j)], self.subdiagonal[start + j]);
+                signs.growth = signs.growth.max(d.abs()).max(below.abs());
+                if !d.is_finite() || (d == 0.0 && below == 0.0) {
+                    return Err(Error::SturmPivot { step: start + j });
+                }
+                if below == 0.0 {
+                    signs.negative += usize::from(d < 0.0);
+                    signs.smallest = signs.smallest.min(d.abs());
+                    j += 1;
+                } else {
+                    let next = node.val()[(j + 1, j + 1)];
+                    let determinant = d * next - below * below;
+                    let largest = d.abs().max(next.abs()).max(below.abs());
+                    signs.smallest = signs.smallest.min(determinant.abs() / largest);
+                    // One of each sign unless the determinant is positive; then both have the sign of the trace.
+                    signs.negative += if determinant < 0.0 { 1 } else { 2 * usize::from(d < 0.0) };
+                    j += 2;
+                }
+            }
+        }
+        signs.growth /= self.largest;
+        signs.smallest /= self.largest;
+        Ok(signs)
+    }
+
+    /// (K − σM)_II⁻¹ applied to a block.
+    pub(super) fn solve(&self, block: MatRef<'_, f64>) -> Mat<f64> {
+        let mut x = Mat::from_fn(block.nrows(), block.ncols(), |i, j| {
+            let row = self.forward[i];
+            block[(row, j)] * self.scale[row]
+        });
+        let scratch = self.analysis.symbolic.solve_in_place_scratch::<f64>(x.ncols(), Par::Seq);
+        let mut memory = MemBuffer::new(scratch);
+        let stack = MemStack::new(&mut memory);
+        self.as_ref().solve_in_place_no_numeric_permute_with_conj(Conj::No, x.as_mut(), Par::Seq, stack);
+        Mat::from_fn(x.nrows(), x.ncols(), |i, j| x[(self.inverse[i], j)] * self.scale[i])
+    }
+}

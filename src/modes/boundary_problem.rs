@@ -1,0 +1,329 @@
+//! The eigenproblem of a component under one boundary condition: its matrices, its operators and its counts.
+
+use faer::{Mat, MatMut};
+
+use super::eigenproblem::Interval;
+use super::operator::{Factored, FreeAtZero, ShiftInvert};
+use super::random::SplitMix64;
+use super::{Component, Equilibrated, ModalProblem, SEED, Shifted, shifted};
+use crate::dense;
+use crate::error::{Error, Result};
+use crate::factor::{Analysis, InertiaCount, Pencil, ShiftedFactor};
+use crate::job::Method;
+use crate::model::diagonal;
+use crate::partition::Partition;
+use crate::sparse::product;
+
+/// The boundary condition modes are computed under.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Boundary {
+    /// Interface free.
+    FreeInterface,
+    /// Interface held.
+    FixedInterface,
+}
+
+impl Boundary {
+    /// The boundary whose modes a method keeps.
+    pub fn of(method: Method) -> Self {
+        match method {
+            Method::CraigBampton => Self::FixedInterface,
+            Method::Herting => Self::FreeInterface,
+        }
+    }
+}
+
+/// A component under one boundary condition.
+#[derive(Clone, Copy, Debug)]
+pub struct BoundaryProblem<'a> {
+    /// What the modes are computed from.
+    pub component: Component<'a>,
+    /// The boundary condition.
+    pub boundary: Boundary,
+}
+
+/// The elastic eigenvalues below a shift.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElasticCount {
+    /// The count with both boundaries.
+    pub inertia: InertiaCount,
+    /// Eigenvalues below the shift under the boundary at hand, without the rigid-body modes.
+    pub n_elastic: usize,
+}
+
+/// Relative residual of K x = f up to which the factor of K_II serves the free component. Healthy interfaces give 10⁻¹⁶ to
+/// the precision of the data; at this limit half the digits of a mode would be lost.
+pub(super) const HOLDS_UP: f64 = 1e-8;
+
+impl<'a> BoundaryProblem<'a> {
+    /// K, M and the rigid-body modes of the dofs that are free to move.
+    pub fn modal(&self) -> ModalProblem<'a> {
+        let Component { partition, internal, rigid, .. } = self.component;
+        let precision = partition.precision;
+        match self.boundary {
+            Boundary::FixedInterface => {
+                ModalProblem { stiffness: internal.0, mass: internal.1, rigid: None, precision }
+            }
+            Boundary::FreeInterface => {
+                ModalProblem { stiffness: &partition.stiffness, mass: &partition.mass, rigid: Some(rigid), precision }
+            }
+        }
+    }
+
+    /// Rigid-body modes under this boundary.
+    pub fn n_rigid(&self) -> usize {
+        self.modal().rigid.map_or(0, crate::rigid::RigidBodyModes::count)
+    }
+
+    /// Hands the operator at or below zero to `solve`: by the factor of K_II where that holds up, by a factor of K − σM where
+    /// it does not; and says how many factorisations that took.
+    ///
+    /// # Errors
+    /// A mechanism; those of [`shifted`]; those of `solve`.
+    pub(super) fn with_lowest_operator<T>(
+        &self,
+        solve: impl FnOnce(&dyn ShiftInvert) -> Result<T>,
+    ) -> Result<(T, usize)> {
+        let Component { partition, factor, rigid, constraint, .. } = self.component;
+        if self.boundary == Boundary::FixedInterface {
+            return Ok((solve(&Factored::new(factor, 0.0))?, 0));
+        }
+        let problem = self.modal();
+        if self.component.is_modal() {
+            return by_shift(partition, problem, |shifted| solve(&Factored::new(&shifted.factor, shifted.sigma)));
+        }
+        let psi_s = constraint.modes.as_ref();
+        let operator = FreeAtZero::new(factor, &partition.stiffness, psi_s, constraint.stiffness.as_ref(), rigid)?;
+        if relative_residual(problem, &operator) <= HOLDS_UP {
+            return Ok((solve(&operator)?, 0));
+        }
+        by_shift(partition, problem, |shifted| solve(&Factored::new(&shifted.factor, shifted.sigma)))
+    }
+
+    /// Factors K − σM inside the spectrum.
+    ///
+    /// # Errors
+    /// σ lies on an eigenvalue; no memory for the factor.
+    pub fn factor_at(&self, sigma: f64) -> Result<ShiftedFactor<'a>> {
+        let Component { partition, internal, analysis, .. } = self.component;
+        let factor = ShiftedFactor::new(partition, internal, analysis, sigma)?;
+        let is_off = match self.boundary {
+            Boundary::FixedInterface => factor.count.is_off_clamped(),
+            Boundary::FreeInterface => factor.count.is_off_clamped() && factor.count.is_off_free(),
+        };
+        if is_off { Ok(factor) } else { Err(Error::SturmPivot { step: self.modal().mass.rows() }) }
+    }
+
+    /// Counts the elastic eigenvalues below a shift above zero.
+    ///
+    /// # Errors
+    /// As [`Self::factor_at`].
+    pub fn count_below(&self, sigma: f64) -> Result<ElasticCount> {
+        Ok(self.elastic(self.factor_at(sigma)?.count))
+    }
+
+    /// Without the rigid-body modes: they lie below any shift above zero.
+    fn elastic(&self, inertia: InertiaCount) -> ElasticCount {
+        let n_elastic = match self.boundary {
+            Boundary::FreeInterface => inertia.free.saturating_sub(self.n_rigid()),
+            Boundary::FixedInterface => inertia.clamped,
+        };
+        ElasticCount { inertia, n_elastic }
+    }
+
+    /// Hands an operator with a shift inside an interval to `solve`, off the eigenvalues known so far and as near the middle
+    /// as that allows.
+    ///
+    /// # Errors
+    /// Every shift tried lies on an eigenvalue; those of `solve`.
+    pub(super) fn with_operator_inside<T>(
+        &self,
+        interval: Interval,
+        solve: impl FnOnce(&dyn ShiftInvert) -> Result<T>,
+    ) -> Result<(T, usize)> {
+        const PLACES: [f64; 5] = [0.5, 0.46, 0.54, 0.42, 0.58];
+        let mut last = Err(Error::SturmPivot { step: 0 });
+        for (attempt, place) in PLACES.into_iter().enumerate() {
+            let sigma = interval.from + place * (interval.to - interval.from);
+            last = self.factor_at(sigma);
+            if let Ok(factor) = &last {
+                let operator = AtShift { factor, boundary: self.boundary, n: self.modal().mass.rows() };
+                return Ok((solve(&operator)?, attempt + 1));
+            }
+        }
+        Err(last.err().unwrap_or(Error::SturmPivot { step: 0 }))
+    }
+}
+
+/// (K − σM)⁻¹ with σ inside the spectrum.
+#[allow(missing_debug_implementations)]
+pub struct AtShift<'a> {
+    /// The factor.
+    pub factor: &'a ShiftedFactor<'a>,
+    /// Whether the interface is held.
+    pub boundary: Boundary,
+    /// Order of the eigenproblem.
+    pub n: usize,
+}
+
+impl ShiftInvert for AtShift<'_> {
+    fn n(&self) -> usize {
+        self.n
+    }
+
+    fn shift(&self) -> f64 {
+        self.factor.count.sigma
+    }
+
+    fn solve_in_place(&self, block: MatMut<'_, f64>) {
+        match self.boundary {
+            Boundary::FixedInterface => self.factor.solve_held(block),
+            Boundary::FreeInterface => self.factor.solve_free(block),
+        }
+    }
+}
+
+/// Hands a factor of K − σM on all dofs to `solve`, with the number of factorisations made.
+pub(super) fn by_shift<T>(
+    partition: &Partition,
+    problem: ModalProblem<'_>,
+    solve: impl FnOnce(&Shifted<'_>) -> Result<T>,
+) -> Result<(T, usize)> {
+    let analysis = Analysis::new(Pencil { stiffness: problem.stiffness, mass: problem.mass })?;
+    let shifted = shifted(&analysis, problem, &|dof| partition.name_of(dof))?;
+    Ok((solve(&shifted)?, shifted.n_factorisations))
+}
+
+/// The median of K_ii / M_ii over the dofs that have both: the size of the largest eigenvalue where all dofs are alike, and
+/// not moved by a few rotations of tiny inertia. One where no dof has both.
+pub(super) fn median_ratio(problem: ModalProblem<'_>) -> f64 {
+    let ratios = ratios(problem);
+    ratios.get(ratios.len() / 2).copied().unwrap_or(1.0)
+}
+
+/// K_ii / M_ii over the dofs that have both, ascending.
+pub(super) fn ratios(problem: ModalProblem<'_>) -> Vec<f64> {
+    let (k, m) = (diagonal(problem.stiffness), diagonal(problem.mass));
+    let mut ratios: Vec<f64> = k.iter().zip(&m).filter(|(k, m)| **k > 0.0 && **m > 0.0).map(|(k, m)| k / m).collect();
+    ratios.sort_unstable_by(f64::total_cmp);
+    ratios
+}
+
+/// How well an operator at shift zero solves K x = f for a self-equilibrated load: ‖Kx − f‖ / (‖K‖‖x‖ + ‖f‖), equilibrated.
+pub(super) fn relative_residual(problem: ModalProblem<'_>, operator: &dyn ShiftInvert) -> f64 {
+    let nothing = Mat::zeros(operator.n(), 0);
+    let (q, mass_q) = problem.rigid.map_or((nothing.as_ref(), nothing.as_ref()), |rigid| {
+        (rigid.orthonormal.as_ref(), rigid.mass_orthonormal.as_ref())
+    });
+    let mut probe = Mat::zeros(operator.n(), 1);
+    SplitMix64::new(SEED).fill(probe.as_mut());
+    let mut load = product(problem.mass, probe.as_ref());
+    let resultant = dense::gram(q, load.as_ref());
+    dense::add_product(load.as_mut(), -1.0, mass_q, resultant.as_ref());
+    let mut x = load.clone();
+    operator.solve_in_place(x.as_mut());
+    let motion = dense::gram(mass_q, x.as_ref());
+    dense::add_product(x.as_mut(), -1.0, q, motion.as_ref());
+    let force = product(problem.stiffness, x.as_ref());
+    let norms = Equilibrated::of(problem.stiffness, problem.mass);
+    let load = dense::column(load.as_ref(), 0);
+    let residual: Vec<f64> = dense::column(force.as_ref(), 0).iter().zip(load).map(|(k, f)| k - f).collect();
+    let of = |column: &[f64]| {
+        let scaled: Vec<f64> = column.iter().zip(&norms.scale).map(|(a, d)| a * d).collect();
+        dense::norm(&scaled)
+    };
+    of(&residual) / (norms.stiffness_norm * norms.scaled_norm(dense::column(x.as_ref(), 0)) + of(load))
+}
+
+#[cfg(test)]
+mod tests {
+    use faer::MatMut;
+
+    use super::*;
+    use crate::factor::Cholesky;
+    use crate::input::{Input, MatrixInput};
+    use crate::job::{Coupling, Eigensolver, InterfaceJob, NodeSelection, Origin};
+    use crate::model::Model;
+    use crate::modes::{ModeRequest, Wanted, elastic_modes};
+    use crate::rigid;
+    use crate::sparse::{AssemblyNotes, Declared, Triplets};
+
+    /// A free chain of springs with unit masses, held by its first and last row.
+    fn chain(n: usize) -> Partition {
+        let matrix = |entries: &[(usize, usize, f64)]| {
+            let mut triplets = Triplets::default();
+            entries.iter().for_each(|(row, col, value)| triplets.push(*row as u32, *col as u32, *value));
+            let (matrix, _) = triplets.assemble(n, Declared::General, "chain".as_ref()).expect("sound");
+            let (path, digest) = ("chain".into(), String::new());
+            MatrixInput { matrix, notes: AssemblyNotes::default(), digits: 17, path, digest }
+        };
+        let mut k = Vec::new();
+        for i in 0..n - 1 {
+            k.extend([(i, i, 1.0), (i + 1, i + 1, 1.0), (i, i + 1, -1.0), (i + 1, i, -1.0)]);
+        }
+        let m: Vec<_> = (0..n).map(|i| (i, i, 1.0)).collect();
+        let input = Input { stiffness: matrix(&k), mass: matrix(&m), dofs: None, nodes: None, notes: Vec::new() };
+        let ends = InterfaceJob {
+            name: "ends".into(),
+            nodes: NodeSelection::Rows { rows: vec![0, n - 1] },
+            coupling: Coupling::Direct,
+            origin: Origin::Centroid,
+            dofs: None,
+        };
+        Partition::new(&Model::new(input).expect("sound"), &[ends]).expect("sound")
+    }
+
+    /// An operator whose answers are off by a share.
+    struct Off<'a>(&'a dyn ShiftInvert, f64);
+
+    impl ShiftInvert for Off<'_> {
+        fn n(&self) -> usize {
+            self.0.n()
+        }
+
+        fn shift(&self) -> f64 {
+            self.0.shift()
+        }
+
+        fn solve_in_place(&self, mut block: MatMut<'_, f64>) {
+            self.0.solve_in_place(block.as_mut());
+            block *= faer::Scale(1.0 + self.1);
+        }
+    }
+
+    #[test]
+    fn operator_that_does_not_hold_up_is_noticed_and_the_shift_gives_the_same_modes() {
+        let partition = chain(60);
+        let rigid = rigid::rigid_body_modes(&partition).expect("free").0;
+        let (k, m) = (partition.internal_stiffness(), partition.internal_mass());
+        let pencil = Pencil { stiffness: &k, mass: &m };
+        let analysis = Analysis::new(pencil).expect("memory");
+        let factor = Cholesky::new(&analysis, pencil, 0.0, &|dof| partition.name_of(dof)).expect("definite");
+        let constraint = crate::basis::constraint_modes(&partition, &factor, &rigid);
+        let schur = constraint.stiffness.as_ref();
+        let operator =
+            FreeAtZero::new(&factor, &partition.stiffness, constraint.modes.as_ref(), schur, &rigid).expect("no hinge");
+        let problem = ModalProblem {
+            stiffness: &partition.stiffness,
+            mass: &partition.mass,
+            rigid: Some(&rigid),
+            precision: partition.precision,
+        };
+        // κ of the chain is 60² ≈ 4e3; the residual of a backward stable solve does not grow with it.
+        assert!(relative_residual(problem, &operator) < 1e-14);
+        // The share itself times ‖f‖ / (‖K‖‖x‖), which is above 1/κ.
+        assert!(relative_residual(problem, &Off(&operator, 0.01)) > 1e-2 / 4e3);
+        assert!(relative_residual(problem, &Off(&operator, 0.01)) > HOLDS_UP);
+        let request = ModeRequest { wanted: Wanted::Count(6), eigensolver: Eigensolver::Lanczos, seed: SEED };
+        let at_zero = elastic_modes(problem, &operator, request).expect("converges");
+        let found = by_shift(&partition, problem, |shifted| {
+            elastic_modes(problem, &Factored::new(&shifted.factor, shifted.sigma), request)
+        });
+        let (by_shift, n_factorisations) = found.expect("converges");
+        assert!(n_factorisations >= 1);
+        for ((a, b), error) in at_zero.lambda.iter().zip(&by_shift.lambda).zip(&at_zero.errors) {
+            // Both are Rayleigh quotients with the same bar of rounding.
+            assert!((a / b - 1.0).abs() <= 4.0 * error.relative_bar, "{a} and {b}");
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! What `supel verify` says, as text and as the JSON document that `schemas/verification.schema.json` describes.
+
+use serde::ser::{Serialize, SerializeStruct, Serializer};
+use supel_runtime::Superelement;
+
+use super::inspection::method;
+use super::json::CheckLine;
+use super::page::{Page, Paint, Tone, WIDTH};
+use super::summary::body;
+use super::{Generator, table};
+use crate::audit::Audit;
+use crate::verification::check::Verdict;
+
+/// Version of the document's layout.
+const FORMAT_VERSION: u32 = 1;
+
+/// What the superelement was compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Against {
+    /// Its own file alone.
+    File,
+    /// The full matrices of a job too.
+    Model,
+}
+
+/// The checks of a superelement that was made earlier.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VerificationReport {
+    /// BLAKE3 digest of the file.
+    pub digest: String,
+    /// What it was compared with.
+    pub against: Against,
+    /// What was found.
+    pub audit: Audit,
+}
+
+impl VerificationReport {
+    /// The JSON document on `superelement`; numbers that are not finite become `null`.
+    pub fn to_json(&self, superelement: &Superelement) -> String {
+        // Serialising these types cannot fail: no map has keys that are not strings and no writer is involved.
+        serde_json::to_string_pretty(&Document { report: self, superelement }).unwrap_or_default() + "\n"
+    }
+
+    /// The text about `superelement` for people.
+    pub fn to_text(&self, superelement: &Superelement, paint: Paint) -> String {
+        let mut page = Page::new(paint);
+        let metadata = superelement.metadata();
+        let sizes = format!("{} coordinates", superelement.n_coordinates());
+        let title = page.toned(&format!("superelement · {} · {sizes}", method(metadata.method)), Tone::Heading);
+        page.line(&title);
+        page.entry("made by", &format!("{} {}", metadata.generator.name, metadata.generator.version));
+        page.entry("file", &format!("blake3 {}", self.digest));
+        let against = match self.against {
+            Against::File => "the file alone; give the job with --job to compare with the full matrices",
+            Against::Model => "the file and the full matrices of the job",
+        };
+        page.entry("compared with", against);
+        page.heading("Checked");
+        body::checks(&mut page, &self.audit.checks);
+        if !self.audit.notes.is_empty() {
+            page.heading("Not judged");
+            self.audit.notes.iter().for_each(|note| page.entry("note", note));
+        }
+        page.line("");
+        for line in table::wrap(&self.conclusion(), WIDTH) {
+            let line = page.toned(&line, Tone::Of(self.audit.verdict()));
+            page.line(&line);
+        }
+        page.into_text()
+    }
+
+    fn conclusion(&self) -> String {
+        let checks = &self.audit.checks;
+        let of = |verdict| -> Vec<&str> {
+            checks.iter().filter(|check| check.verdict() == verdict).map(|check| check.id).collect()
+        };
+        let n_judged = checks.iter().filter(|check| check.verdict() != Verdict::Info).count();
+        let judged = table::counted(n_judged, "check", "checks");
+        match self.audit.verdict() {
+            Verdict::Info | Verdict::Pass => format!("✓ verified: {judged} passed"),
+            Verdict::Warn => format!("! verified; past the limit: {}", of(Verdict::Warn).join(", ")),
+            Verdict::Fail => {
+                let failed = of(Verdict::Fail);
+                format!("✗ not verified: {} of {judged} failed: {}", failed.len(), failed.join(", "))
+            }
+        }
+    }
+}
+
+struct Document<'a> {
+    report: &'a VerificationReport,
+    superelement: &'a Superelement,
+}
+
+#[derive(serde::Serialize)]
+struct Subject<'a> {
+    digest: &'a str,
+    generator: &'a supel_runtime::Generator,
+    method: supel_runtime::Method,
+    n_reduced: usize,
+    n_interface: usize,
+    n_rigid: usize,
+    n_modes: usize,
+}
+
+impl Serialize for Document<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        let VerificationReport { digest, against, audit } = self.report;
+        let metadata = self.superelement.metadata();
+        let subject = Subject {
+            digest,
+            generator: &metadata.generator,
+            method: metadata.method,
+            n_reduced: self.superelement.n_coordinates(),
+            n_interface: self.superelement.n_interface(),
+            n_rigid: self.superelement.n_rigid(),
+            n_modes: self.superelement.tensors().frequencies.len(),
+        };
+        let checks: Vec<CheckLine<'_>> = audit.checks.iter().map(CheckLine::of).collect();
+        let mut document = serializer.serialize_struct("VerificationReport", 7)?;
+        document.serialize_field("format_version", &FORMAT_VERSION)?;
+        document.serialize_field("generator", &Generator::default())?;
+        document.serialize_field("verdict", &audit.verdict())?;
+        document.serialize_field("subject", &subject)?;
+        document.serialize_field("against", against)?;
+        document.serialize_field("checks", &checks)?;
+        document.serialize_field("notes", &audit.notes)?;
+        document.end()
+    }
+}

@@ -1,0 +1,97 @@
+//! What happens when modes are lost on the way: another start, slices of the band, an error with both numbers.
+
+use std::cell::Cell;
+
+use supel::error::{Error, ErrorClass};
+use supel::job::{Certify, Eigensolver};
+use supel::modes::{Interval, Mending, ModeSource, Modes, SEED, Search, certified};
+use supel_models::*;
+
+use crate::chain::certified::{count, free, held, judge, with_component};
+use crate::chain::direct;
+
+/// A search that loses one mode as often as it is told to.
+struct Forgetful<'a> {
+    search: &'a Search<'a>,
+    /// The mode that is lost, from zero.
+    loses: usize,
+    /// Searches from the start that lose it.
+    starts: Cell<usize>,
+    /// Searches of a slice that find nothing.
+    slices: Cell<usize>,
+}
+
+impl Forgetful<'_> {
+    fn loses_again(times: &Cell<usize>) -> bool {
+        let left = times.get();
+        times.set(left.saturating_sub(1));
+        left > 0
+    }
+}
+
+impl ModeSource for Forgetful<'_> {
+    fn lowest(&self, seed: u64) -> Result<Modes, Error> {
+        let modes = self.search.lowest(seed)?;
+        Ok(if Self::loses_again(&self.starts) { modes.without(self.loses) } else { modes })
+    }
+
+    fn between(&self, interval: Interval, known: &Modes, seed: u64) -> Result<Modes, Error> {
+        let modes = self.search.between(interval, known, seed)?;
+        Ok(if Self::loses_again(&self.slices) { Modes::none(modes.shapes.nrows()) } else { modes })
+    }
+}
+
+/// Loses a mode so many times from the start and so many times in a slice; the modes and how they were mended.
+fn lose(model: &Model, is_free: bool, loses: usize, times: (usize, usize)) -> Result<(Vec<f64>, Mending), Error> {
+    let (interfaces, job) = if is_free {
+        (vec![direct("ends", &[1, 2, 4, 7])], free(count(12), Eigensolver::Lanczos))
+    } else {
+        (Vec::new(), held(count(12), Eigensolver::Lanczos))
+    };
+    with_component(model, &interfaces, |component| {
+        let search = Search::new(component, &job)?;
+        let source = Forgetful { search: &search, loses, starts: times.0.into(), slices: times.1.into() };
+        let found = source.lowest(SEED)?;
+        let (modes, certificate) = certified(&source, &search.problem, found, search.edge(), Certify::Count)?;
+        let certificate = certificate.expect("a count was asked for");
+        let mending = certificate.mending;
+        let certified = judge(&search, modes, certificate);
+        // A mode found in a slice is made orthogonal to all the others.
+        assert!(certified.orthogonality <= 1e-11, "{:e}", certified.orthogonality);
+        Ok((certified.lambda, mending))
+    })
+}
+
+#[test]
+fn each_rung_of_the_ladder_finds_what_the_one_before_has_lost() {
+    for (model, is_free) in [
+        (brick([5, 2, 2], [5.0, 2.0, 1.5], &Material::UNIT), true),
+        (bar(120), false),
+        (known(&(1..=90).map(f64::from).collect::<Vec<_>>(), fnv1a("ladder")), false),
+    ] {
+        let (reference, mending) = lose(&model, is_free, 0, (0, 0)).expect("all modes");
+        assert_eq!(mending, Mending::None);
+        for loses in [0, 5, 10] {
+            for (times, expected) in [((1, 0), Mending::Restart), ((2, 0), Mending::Slices), ((2, 3), Mending::Slices)]
+            {
+                let (lambda, mending) = lose(&model, is_free, loses, times).expect("all modes");
+                assert_eq!(mending, expected, "mode {loses} lost {times:?} times");
+                for (lambda, reference) in lambda.iter().zip(&reference) {
+                    // Both are Rayleigh quotients of vectors to a residual of 1e-13; κ of these models is below 1e5.
+                    assert!((lambda / reference - 1.0).abs() <= 1e-10, "{lambda} for {reference}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn modes_that_nothing_finds_are_an_error_with_both_numbers() {
+    let model = brick([5, 2, 2], [5.0, 2.0, 1.5], &Material::UNIT);
+    let error = lose(&model, true, 4, (usize::MAX, usize::MAX)).expect_err("a mode is missing");
+    // Six rigid-body modes and twelve elastic ones; the interval given up may end below the last of them.
+    let Error::ModesMissing { found, counted, .. } = error else { panic!("{error}") };
+    assert_eq!(counted, found + 1);
+    assert_eq!(error.class(), ErrorClass::NumericalLimit);
+    assert!(error.to_string().contains("neither another start nor slices"), "{error}");
+}

@@ -1,0 +1,97 @@
+//! Memory and threads that are not there.
+
+use std::process::Command;
+
+use supel::error::Error;
+use supel::factor::{Analysis, Cholesky, Pencil, refuse_beyond_memory};
+use supel::job::Job;
+use supel::outcome::Resources;
+use supel::sparse::SparseMatrix;
+use supel_models::{Ends, spring};
+
+/// A star whose centre is eliminated first, so that its factor is full: n(n + 1)/2 entries from 3n − 2.
+fn star(n: usize) -> SparseMatrix {
+    let (mut pointers, mut columns, mut values) = (vec![0], Vec::new(), Vec::new());
+    for row in 0..n {
+        if row == 0 {
+            columns.extend(0..n as u32);
+            values.extend((0..n).map(|col| if col == 0 { n as f64 } else { -1.0 }));
+        } else {
+            columns.extend([0, row as u32]);
+            values.extend([-1.0, 2.0]);
+        }
+        pointers.push(columns.len());
+    }
+    SparseMatrix::new((n, n), pointers, columns, values)
+}
+
+/// 70,000 dofs whose factor has more entries than 32 bits with a sign can count, 18.3 GiB and more: known to the last one
+/// before a number is computed, and refused by the forecast (catalogue I-26).
+#[test]
+fn i_26_a_factor_beyond_32_bits_is_counted_and_refused() {
+    let n = 70_000;
+    let star = star(n);
+    let analysis = Analysis::new(Pencil { stiffness: &star, mass: &star }).expect("an analysis");
+    let exact = n * (n + 1) / 2;
+    assert!(exact > 1 << 31);
+    assert_eq!(analysis.nnz_factor, exact as f64);
+    assert!(analysis.factor_bytes() >= 8 * exact as u64);
+    let text = r#"
+model     = { stiffness = "K.mtx", mass = "M.mtx" }
+reduction = { method = "craig-bampton", modes = { count = 1 } }
+write     = { superelement = "x.supel" }
+"#;
+    let job = Job::parse(text, "job.toml".as_ref()).expect("a job");
+    let partition = crate::chain::partition(&spring(5, Ends::Fixed), &[]).expect("a chain");
+    let resources = Resources { memory_bytes: Some(16 << 30) };
+    let error = refuse_beyond_memory(&analysis, &partition, &job, resources, None).expect_err("more than 16 GiB");
+    assert!(matches!(error, Error::MemoryForecast { needed, .. } if needed >= 8 * exact as u64), "{error}");
+    assert_eq!(error.code(), "E-MEM");
+}
+
+/// The same factor where the system gives no such memory: an error, not an abort. The limit holds for a process of its own.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_factor_that_cannot_be_allocated() {
+    const LIMITED: &str = "SUPEL_TEST_WITHIN_LIMIT";
+    if std::env::var_os(LIMITED).is_some() {
+        let star = star(70_000);
+        let pencil = Pencil { stiffness: &star, mass: &star };
+        let analysis = Analysis::new(pencil).expect("an analysis");
+        let error = Cholesky::new(&analysis, pencil, 0.0, &|dof| dof.to_string()).err().expect("no memory");
+        assert!(matches!(error, Error::OutOfMemory { .. }), "{error}");
+        assert_eq!(error.code(), "E-OUT-OF-MEMORY");
+        return;
+    }
+    let own = std::env::current_exe().expect("this test");
+    let name = "resources::a_factor_that_cannot_be_allocated";
+    // Kibibytes of address space: a tenth of the factor, a hundred times what the analysis needs.
+    let ended = Command::new("sh")
+        .args(["-c", "ulimit -v 2000000 && exec \"$0\" --exact \"$1\" --test-threads=1"])
+        .arg(own)
+        .arg(name)
+        .env(LIMITED, "yes")
+        .output()
+        .expect("ended");
+    let said = String::from_utf8_lossy(&ended.stdout);
+    assert!(ended.status.success() && said.contains("1 passed"), "{said}{}", String::from_utf8_lossy(&ended.stderr));
+}
+
+/// More threads than the address space has stacks for.
+#[cfg(target_os = "linux")]
+#[test]
+fn threads_that_cannot_be_started() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = folder.path().join("x.supel");
+    let ended = Command::new("sh")
+        .args(["-c", "ulimit -v 1000000 && exec \"$0\" \"$@\""])
+        .arg(assert_cmd::cargo::cargo_bin!("supel"))
+        .args(["reduce", "--stiffness", "K.mtx", "--mass", "M.mtx", "--interface", "end=rows:0", "--method", "herting"])
+        .args(["--modes", "1", "--threads", "60000", "--output"])
+        .arg(&output)
+        .output()
+        .expect("ended");
+    let said = String::from_utf8_lossy(&ended.stderr);
+    assert_eq!(ended.status.code(), Some(6), "{said}");
+    assert!(said.starts_with("supel: error[E-THREADS]: 60000 threads"), "{said}");
+}

@@ -1,0 +1,56 @@
+//! Warnings that the stress catalogue does not reach.
+
+use supel::cli::ExitCode;
+use supel_models::transform::grounded;
+use supel_models::{Ends, Material, brick, spring};
+
+use crate::place::{Ended, Place, steel_brick, supel};
+
+/// Asserts that a run warned so, and only so.
+#[track_caller]
+fn assert_warned(place: &Place, ended: &Ended, code: &str) {
+    assert_eq!(ended.code, ExitCode::Done, "{}{}", ended.out, ended.err);
+    let warnings = place.report("x.report.json")["body"]["warnings"].as_array().expect("warnings").clone();
+    let codes: Vec<&str> = warnings.iter().map(|warning| warning["code"].as_str().expect("a code")).collect();
+    assert_eq!(codes, [code], "{warnings:#?}");
+    assert!(ended.out.contains(code), "{}", ended.out);
+}
+
+/// A mass is expected of a chain whose nodes have no place.
+#[test]
+fn expected_mass_without_coordinates() {
+    let place = Place::with(&spring(5, Ends::Free));
+    let job = r#"
+model     = { stiffness = "K.mtx", mass = "M.mtx", expect = { mass = 5.0 } }
+interface = [{ name = "ends", nodes = { rows = [0, 4] } }]
+reduction = { method = "herting", modes = { count = 1 } }
+write     = { superelement = "x.supel" }
+"#;
+    place.write("job.toml", job.as_bytes());
+    assert_warned(&place, &supel(&["reduce", &place.text("job.toml")]), "W-EXPECT-UNCHECKED");
+}
+
+#[test]
+fn more_modes_than_there_are() {
+    let place = Place::with(&spring(5, Ends::Free));
+    let ended = place.reduce(&place.matrix_flags(), "--interface ends=rows:0,4 --method craig-bampton --modes 9");
+    assert_warned(&place, &ended, "W-FEWER-MODES");
+}
+
+/// Three nodes at a distance of 300 whose third is off the line of the others by one.
+#[test]
+fn interface_that_is_nearly_in_line() {
+    let place = Place::with(&brick([30, 1, 1], [300.0, 1.0, 1.0], &Material::STEEL_MM_T_S));
+    let ended = place.reduce(&place.model_flags(), "--interface pins=1,31,47 --method herting --modes 2");
+    assert_warned(&place, &ended, "W-INTERFACE-ILL");
+}
+
+/// A spring of 10⁻⁵ of the stiffness it hangs on.
+#[test]
+fn component_on_a_soft_spring() {
+    let model = steel_brick();
+    let largest = model.stiffness.iter().fold(0.0f64, |max, entry| max.max(entry.2));
+    let place = Place::with(&grounded(&model, 0, 1e-6 * largest));
+    let ended = place.reduce(&place.model_flags(), "--interface foot=1,11,31,41 --method herting --modes 5");
+    assert_warned(&place, &ended, "W-GROUNDED");
+}

@@ -1,0 +1,82 @@
+//! What is compared: cheap defaults, and whatever the scene states.
+
+use supel::basis::DynamicColumns;
+use supel::factor::{Analysis, Cholesky, Pencil};
+use supel::job::Job;
+use supel::modes::{Boundary, Retained};
+use supel::rigid;
+use supel::verification::Evidence;
+use supel::verification::preservation::Plan;
+
+use crate::chain::{Method, direct, reduce, rigid_group};
+use crate::run::block;
+
+/// The plan for a block with a factor of this many entries.
+fn plan(factor_entries: f64, modes: &str, scene: &str) -> Plan {
+    let interfaces = [rigid_group("XMIN"), direct("tip", &[45])];
+    let chain = reduce(&block(), &interfaces, Method::Herting, 6).expect("reduced");
+    let (k_ii, m_ii) = (chain.partition.internal_stiffness(), chain.partition.internal_mass());
+    let pencil = Pencil { stiffness: &k_ii, mass: &m_ii };
+    let sound = Analysis::new(pencil).expect("memory");
+    let factor = Cholesky::new(&sound, pencil, 0.0, &|dof| chain.partition.name_of(dof)).expect("definite");
+    let mut analysis = Analysis::new(pencil).expect("memory");
+    analysis.nnz_factor = factor_entries;
+    let mut modes_kept = chain.modes.clone();
+    if modes == "count = 0" {
+        modes_kept.lambda.clear();
+    }
+    let none = DynamicColumns { columns: chain.named.columns.clone(), coordinates: Vec::new() };
+    let boundary = Boundary::FreeInterface;
+    let retained = Retained { modes: modes_kept, boundary, columns: none };
+    let evidence = Evidence {
+        partition: &chain.partition,
+        internal: (&k_ii, &m_ii),
+        factor: &factor,
+        rigid: &chain.rigid,
+        rank: rigid::interface_rank(&chain.partition, &chain.rigid).expect("reacted"),
+        constraint: &chain.constraint,
+        retained: &retained,
+        basis: &chain.basis,
+        reduction: &chain.reduction,
+        certificate: None,
+        expect: None,
+    };
+    let text = format!(
+        "[model]\nstiffness = \"K\"\nmass = \"M\"\n[reduction]\nmethod = \"herting\"\nmodes = {{ {modes} }}\n{scene}\n\
+         [write]\nsuperelement = \"x.supel\"\n"
+    );
+    Plan::new(&evidence, &analysis, &Job::parse(&text, "job.toml".as_ref()).expect("a job"))
+}
+
+#[test]
+fn a_small_model_is_compared_whole() {
+    let plan = plan(1e4, "up_to_hz = 3000", "");
+    assert_eq!((plan.supports.len(), plan.response, plan.band_hz), (5, true, Some([0.0, 2000.0])));
+    assert_eq!(plan.eta, 0.02);
+    assert!(plan.not_compared.is_empty());
+}
+
+#[test]
+fn what_is_dear_is_left_out_and_named() {
+    let plan = plan(1e9, "up_to_hz = 3000", "");
+    assert!(plan.supports.is_empty() && !plan.response);
+    assert_eq!(plan.not_compared.len(), 2);
+    assert!(plan.not_compared.iter().all(|note| note.contains("[scene]")), "{:?}", plan.not_compared);
+}
+
+#[test]
+fn what_the_scene_states_is_compared_at_any_cost() {
+    let both = "[scene]\nboundaries = [\"fix:tip\"]\nband_hz = [10, 20]\ndamping = { ratio = 0.005 }";
+    let plan = plan(1e9, "up_to_hz = 3000", both);
+    assert_eq!((plan.supports.len(), plan.response, plan.band_hz, plan.eta), (1, true, Some([10.0, 20.0]), 0.01));
+    assert!(plan.not_compared.is_empty());
+}
+
+#[test]
+fn without_modes_only_the_scene_knows_a_band() {
+    let none = plan(1e4, "count = 0", "");
+    assert!(none.supports.is_empty() && !none.response && none.band_hz.is_none());
+    assert_eq!(none.not_compared.len(), 1);
+    let stated = plan(1e4, "count = 0", "[scene]\nband_hz = [0, 50]");
+    assert_eq!((stated.supports.len(), stated.response), (5, true));
+}

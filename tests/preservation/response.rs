@@ -1,0 +1,137 @@
+//! Frequency response: the iteration against dense elimination, the errors against their definition.
+
+use supel::report::Preservation;
+
+use crate::chain::{Twin, direct, partition, rigid_group};
+use crate::oracle::{Dense, decibel, reduced};
+use crate::run::{Files, block};
+
+const ETA: f64 = 0.03;
+const SCENE: &str = "damping = { ratio = 0.015 }\nboundaries = []";
+
+/// The full model in the order internal, interface, and the numbers of its interface dofs.
+fn full(files: &Files) -> (Dense, Vec<usize>) {
+    let partition = partition(&files.model, &files.interfaces).expect("sound");
+    let twin = Twin::new(&files.model, &files.interfaces, &partition);
+    let dense = Dense::of(&files.model).transformed(&twin.transformation);
+    (dense, (partition.n_internal..partition.n_dofs()).collect())
+}
+
+fn cases() -> Vec<Files> {
+    vec![
+        Files::new(block(), vec![direct("pins", &[1, 5, 15, 45])]),
+        Files::new(block(), vec![rigid_group("XMIN"), direct("tip", &[45])]),
+    ]
+}
+
+/// Relative rounding of both answers: n ε κ with κ = λ_max/λ_1 of the elastic spectrum, times the thousandth to which a
+/// pair may fall below its driving points.
+fn rounding(dense: &Dense) -> f64 {
+    let lambda = dense.modes().lambda;
+    1e3 * lambda.len() as f64 * f64::EPSILON * lambda[lambda.len() - 1] / lambda[6]
+}
+
+fn response(preservation: &Preservation) -> &supel::report::ResponseComparison {
+    preservation.response.as_ref().expect("a response")
+}
+
+#[test]
+fn response_of_the_full_model_is_that_of_dense_elimination() {
+    for files in cases() {
+        for method in ["herting", "craig-bampton"] {
+            let outcome = files.reduce(method, "count = 6", SCENE);
+            let body = &outcome.report.body;
+            let response = response(&body.preservation);
+            let (full, dofs) = full(&files);
+            let reduced = reduced(&outcome.superelement);
+            let leading: Vec<usize> = (0..dofs.len()).collect();
+            // The residual alone would allow its square over η; the bound of M-21 is sharper and is part of the claim.
+            let bound = body.checks.iter().find(|check| check.id == "M-21").expect("M-21").value;
+            let tolerance = rounding(&full) + bound;
+            assert!(tolerance < 1e-3 && response.residual < 1e-6, "{tolerance:e} {:e}", response.residual);
+            assert_eq!(response.damping, ETA);
+            let mut worst = 0.0f64;
+            for sample in &response.samples {
+                let h = full.response(&dofs, sample.frequency_hz, ETA);
+                let expected = decibel(&h, &reduced.response(&leading, sample.frequency_hz, ETA));
+                // A relative error δ of H is 20/ln 10 δ dB, and the error itself is known to its own relative δ.
+                let slack = 8.7 * tolerance * (1.0 + expected);
+                assert!((sample.error_db - expected).abs() <= slack, "{method}: {sample:?}, expected {expected}");
+                worst = worst.max(expected);
+            }
+            assert!((response.worst_db - worst).abs() <= 8.7 * tolerance * (1.0 + worst));
+        }
+    }
+}
+
+/// The magnitudes shown are those of the worst pair, rotations as displacements at the printed length.
+#[test]
+fn magnitudes_are_those_of_the_worst_pair() {
+    for files in cases() {
+        let outcome = files.reduce("craig-bampton", "count = 6", SCENE);
+        let response = response(&outcome.report.body.preservation);
+        let partition = partition(&files.model, &files.interfaces).expect("sound");
+        let (full, dofs) = full(&files);
+        let number = |name: &String| dofs.iter().position(|dof| partition.name_of(*dof) == *name).expect("a dof");
+        let [driven, observed] = [&response.worst_pair[0], &response.worst_pair[1]].map(number);
+        let length = |at: usize| match partition.dofs[dofs[at]].site {
+            Some(site) if site.direction.is_rotation() => response.rotation_length,
+            _ => 1.0,
+        };
+        for sample in &response.samples {
+            let h = full.response(&dofs, sample.frequency_hz, ETA);
+            let unit = length(driven) * length(observed);
+            // Rounding is relative to the driving points: symmetry may leave nothing of the pair.
+            let size = (h[(observed, observed)].norm() * h[(driven, driven)].norm()).sqrt();
+            let error = (sample.full / unit - h[(observed, driven)].norm()).abs() / size;
+            assert!(error <= 1e-3 * rounding(&full), "{sample:?}: {error:e}");
+        }
+    }
+}
+
+/// Band edges, elastic frequencies and antiresonances are among the samples.
+#[test]
+fn samples_hold_edges_resonances_and_antiresonances() {
+    let files = &cases()[0];
+    let outcome = files.reduce("herting", "count = 6", "band_hz = [1000, 4000]\nboundaries = []");
+    let response = response(&outcome.report.body.preservation);
+    let (full, dofs) = full(files);
+    let partition = partition(&files.model, &files.interfaces).expect("sound");
+    let driven = (0..partition.n_dofs()).find(|dof| partition.name_of(*dof) == response.worst_pair[0]).expect("a dof");
+    let held: Vec<usize> = (0..full.k.nrows()).filter(|dof| *dof != driven).collect();
+    let reduced = reduced(&outcome.superelement);
+    let at = driven - dofs[0];
+    let others: Vec<usize> = (0..reduced.k.nrows()).filter(|i| *i != at).collect();
+    // One dof held leaves five rigid-body motions.
+    let zeros = reduced.restricted(&others).modes().elastic_hz(5);
+    let of_full = full.restricted(&held).modes().elastic_hz(5);
+    assert!((zeros[0] / of_full[0] - 1.0).abs() < 0.01, "{} {}", zeros[0], of_full[0]);
+    let expected = full.modes().elastic_hz(6).into_iter().chain(zeros).chain([1000.0, 4000.0]);
+    let mut n_expected = 0;
+    for hz in expected.filter(|hz| (1000.0..=4000.0).contains(hz)) {
+        // The frequencies come from eigenvalues: κ ε n of them, and equal samples are merged at 1e-9.
+        let nearest = response.samples.iter().map(|s| (s.frequency_hz / hz - 1.0).abs()).fold(1.0, f64::min);
+        assert!(nearest < 1e-8, "{hz} Hz is not sampled");
+        n_expected += 1;
+    }
+    assert!(n_expected > 6, "only {n_expected} expected");
+    assert!(response.samples.windows(2).all(|pair| pair[0].frequency_hz < pair[1].frequency_hz));
+    assert!(response.samples.len() <= 120);
+}
+
+/// A band beyond the modes kept needs more iterations and gives the same answer.
+#[test]
+fn band_beyond_the_modes_converges_too() {
+    let files = &cases()[0];
+    let outcome = files.reduce("craig-bampton", "count = 1", "band_hz = [100, 12000]\nboundaries = []");
+    let response = response(&outcome.report.body.preservation);
+    let (full, dofs) = full(files);
+    let leading: Vec<usize> = (0..dofs.len()).collect();
+    let reduced = reduced(&outcome.superelement);
+    assert!(response.residual < 1e-6, "{:e}", response.residual);
+    let sample = response.samples.last().expect("samples");
+    let h = full.response(&dofs, 12000.0, 0.02);
+    let expected = decibel(&h, &reduced.response(&leading, 12000.0, 0.02));
+    assert!((sample.error_db - expected).abs() <= 8.7 * rounding(&full) * (1.0 + expected), "{sample:?} {expected}");
+    assert!(response.worst_db > 1.0, "one mode cannot serve ten");
+}

@@ -1,0 +1,135 @@
+//! Paths and files that are none: I-21 and I-23.
+
+use std::path::Path;
+
+use super::place::{Place, supel};
+use super::{assert_done, assert_refused, chain, reduce_chain};
+
+fn job(stiffness: &str) -> String {
+    super::chain_job_with(stiffness, "count = 1")
+}
+
+#[track_caller]
+fn stiffness_path_refused(place: &Place, path: &str, code: &str, parts: &[&str]) {
+    place.write("job.toml", job(path).as_bytes());
+    assert_refused(place, &supel(&["reduce", &place.text("job.toml")]), code, parts);
+}
+
+/// Damping and gyroscopic matrices are not built: a job that names one is refused, not half obeyed.
+#[test]
+fn i_21_matrices_that_are_not_used() {
+    let place = chain();
+    for key in ["damping", "gyroscopic"] {
+        stiffness_path_refused(
+            &place,
+            &format!("\"K.mtx\", {key} = \"C.mtx\""),
+            "E-JOB-KEY",
+            &[&format!("model.{key}")],
+        );
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn i_23_what_is_no_file() {
+    let place = chain();
+    std::fs::create_dir(place.path("folder")).expect("a folder");
+    let made = std::process::Command::new("mkfifo").arg(place.path("pipe")).status().expect("mkfifo");
+    assert!(made.success());
+    for path in ["folder", "pipe", "/dev/zero", "/dev/stdin", ".", ".."] {
+        stiffness_path_refused(&place, &format!("{path:?}"), "E-NOT-A-FILE", &["give the path of a file on disk"]);
+    }
+    for (path, part) in [
+        ("\"none.mtx\"", "none.mtx: cannot be read"),
+        ("\"a\\u0000b.mtx\"", "cannot be read"),
+        (&format!("\"{}\"", "a".repeat(5000)), "cannot be read"),
+        (&format!("\"{}K.mtx\"", "d/".repeat(5000)), "cannot be read"),
+    ] {
+        stiffness_path_refused(&place, path, "E-READ", &[part]);
+    }
+    stiffness_path_refused(&place, "\"\"", "E-JOB-EMPTY", &["model.stiffness"]);
+}
+
+/// The same for tables, maps and the job itself: none is waited for.
+#[cfg(unix)]
+#[test]
+fn i_23_tables_and_jobs_that_are_no_files() {
+    let place = chain();
+    let made = std::process::Command::new("mkfifo").arg(place.path("pipe")).status().expect("mkfifo");
+    assert!(made.success());
+    for path in [place.text("pipe"), "/dev/zero".to_owned(), place.text(".")] {
+        for flag in ["--dofs", "--nodes", "--mass"] {
+            let mut flags = place.matrix_flags();
+            flags.extend([flag.to_owned(), path.clone()]);
+            if flag == "--mass" {
+                flags.drain(2..4);
+            }
+            assert_refused(&place, &place.reduce(&flags, super::CHAIN), "E-NOT-A-FILE", &["regular file"]);
+        }
+        assert_refused(&place, &supel(&["reduce", &path]), "E-NOT-A-FILE", &["regular file"]);
+        let inspected = supel(&["inspect", &path]);
+        assert!(inspected.err.starts_with("supel: error[E-SUPERELEMENT]: "), "{}", inspected.err);
+    }
+}
+
+/// Paths lead where they say, by `..`, absolute or through a link: a job may name any file its user may read. What another
+/// file names is held in its folder (see the XDMF references).
+#[cfg(unix)]
+#[test]
+fn i_23_paths_out_of_the_folder() {
+    let (place, other) = (chain(), chain());
+    std::os::unix::fs::symlink(other.path("K.mtx"), place.path("link.mtx")).expect("a link");
+    let name = |path: &Path| path.file_name().expect("a name").to_string_lossy().into_owned();
+    let folder = other.path("");
+    for path in ["link.mtx".to_owned(), other.text("K.mtx"), format!("../{}/K.mtx", name(&folder))] {
+        place.write("job.toml", job(&format!("{path:?}")).as_bytes());
+        assert_done(&place, &supel(&["reduce", &place.text("job.toml")]), &[]);
+    }
+}
+
+#[cfg(feature = "hdf5")]
+#[test]
+fn i_23_a_mesh_that_names_other_files() {
+    let place = Place::with_brick();
+    for reference in ["../nodes.h5:/x", "/etc/passwd:/x", "sub/../../nodes.h5:/x"] {
+        let text = format!(
+            "<Xdmf Version=\"3.0\"><Domain><Grid><Geometry GeometryType=\"XYZ\">\
+             <DataItem Format=\"HDF\" Dimensions=\"45 3\" NumberType=\"Float\" Precision=\"8\">{reference}</DataItem>\
+             </Geometry></Grid></Domain></Xdmf>"
+        );
+        place.write("nodes.xdmf", text.as_bytes());
+        let mut flags = place.matrix_flags();
+        flags.extend(["--nodes".into(), place.text("nodes.xdmf")]);
+        let ended = place.reduce(&flags, "--interface foot=1,11,31,41 --method herting --modes 5");
+        assert_refused(&place, &ended, "E-XDMF-REFERENCE", &[reference, "in the folder of the XDMF file"]);
+    }
+}
+
+/// The output side: folders, devices and names that say nothing.
+#[test]
+fn i_23_outputs_that_cannot_be() {
+    let place = chain();
+    std::fs::create_dir(place.path("folder.supel")).expect("a folder");
+    for (output, code) in [
+        (place.text("missing/x.supel"), "E-WRITE"),
+        (format!("{}/{}.supel", place.text(""), "a".repeat(300)), "E-WRITE"),
+        (place.text("x.txt"), "E-OUTPUT-NAME"),
+        (place.text(".supel"), "E-OUTPUT-NAME"),
+    ] {
+        let mut flags = place.matrix_flags();
+        flags.extend(super::CHAIN.split(' ').map(str::to_owned));
+        let flags: Vec<&str> = flags.iter().map(String::as_str).collect();
+        let ended = supel(&[["reduce", "--output", &output].as_slice(), &flags].concat());
+        assert_refused(&place, &ended, code, &[]);
+    }
+    assert_done(&place, &reduce_chain(&place), &[]);
+}
+
+#[test]
+fn i_23_a_folder_in_the_place_of_the_output() {
+    let place = chain();
+    std::fs::create_dir(place.path("x.supel")).expect("a folder");
+    let ended = reduce_chain(&place).expect(supel::cli::ExitCode::Io);
+    assert!(ended.err.contains("x.supel: is not a regular file"), "{}", ended.err);
+    assert!(place.path("x.supel").is_dir());
+}

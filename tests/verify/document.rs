@@ -1,0 +1,65 @@
+//! What `supel verify` prints.
+
+use serde_json::Value;
+use supel::cli::ExitCode;
+
+use crate::place::{Place, supel};
+
+fn violations(document: &Value) -> Vec<String> {
+    let schema: Value =
+        serde_json::from_str(include_str!("../../schemas/verification.schema.json")).expect("schema is JSON");
+    let validator = jsonschema::validator_for(&schema).expect("schema is a schema");
+    validator.iter_errors(document).map(|error| format!("{}: {error}", error.instance_path())).collect()
+}
+
+fn reduced() -> Place {
+    let place = Place::with_brick();
+    place.reduce(&place.model_flags(), "--interface foot=1,11,31,41 --method herting --modes 5").expect(ExitCode::Done);
+    let job = supel(&["inspect", &place.text("x.supel"), "--job"]).expect(ExitCode::Done).out;
+    place.write("kept.json", job.as_bytes());
+    place
+}
+
+#[test]
+fn json_follows_its_schema_and_is_the_same_for_any_thread_count() {
+    let place = reduced();
+    let (file, job) = (place.text("x.supel"), place.text("kept.json"));
+    for args in [vec!["verify", &file, "--json"], vec!["verify", &file, "--json", "--job", &job]] {
+        let by = |threads: &str| supel(&[args.as_slice(), &["--threads", threads]].concat()).expect(ExitCode::Done).out;
+        let one = by("1");
+        let document: Value = serde_json::from_str(&one).expect("JSON");
+        assert_eq!(violations(&document), Vec::<String>::new());
+        assert_eq!(document["verdict"], "pass");
+        assert_eq!(document["subject"]["n_modes"], 5);
+        for threads in ["2", "3", "8"] {
+            assert_eq!(by(threads), one, "{threads} threads");
+        }
+        let mut more = document.clone();
+        more["surplus"] = 1.into();
+        assert_ne!(violations(&more), Vec::<String>::new());
+        let mut less = document;
+        less["subject"].as_object_mut().expect("object").remove("digest");
+        assert_ne!(violations(&less), Vec::<String>::new());
+    }
+}
+
+#[test]
+fn text_fits_the_page_and_says_what_was_compared() {
+    let place = reduced();
+    let alone = supel(&["verify", &place.text("x.supel")]).expect(ExitCode::Done);
+    assert!(alone.out.contains("the file alone; give the job with --job"), "{}", alone.out);
+    assert!(alone.out.lines().all(|line| line.chars().count() <= 100), "{}", alone.out);
+    assert!(alone.out.trim_end().lines().last().is_some_and(|line| line.starts_with("✓ verified: ")), "{}", alone.out);
+    let quiet = supel(&["verify", &place.text("x.supel"), "--quiet"]).expect(ExitCode::Done);
+    assert_eq!((quiet.out.as_str(), quiet.err.as_str()), ("", ""));
+}
+
+#[test]
+fn a_file_or_a_job_that_is_not_there_is_an_error() {
+    let place = reduced();
+    supel(&["verify", &place.text("missing.supel")]).expect(ExitCode::Io);
+    supel(&["verify", &place.text("x.supel"), "--job", &place.text("missing.toml")]).expect(ExitCode::Io);
+    supel(&["verify", &place.text("x.supel"), "--json", "--quiet"]).expect(ExitCode::Usage);
+    place.write("wrong.toml", b"[model]\n");
+    supel(&["verify", &place.text("x.supel"), "--job", &place.text("wrong.toml")]).expect(ExitCode::Usage);
+}

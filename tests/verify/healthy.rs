@@ -1,0 +1,78 @@
+//! Files as the program writes them pass every check, with warnings counted as failures.
+
+use supel::cli::ExitCode;
+use supel_models::{Ends, spring};
+
+use crate::place::{Place, supel};
+
+/// Verifies x.supel by itself and against the job kept in it, with warnings as failures.
+#[track_caller]
+pub(crate) fn passes(place: &Place, what: &str) {
+    let alone = supel(&["verify", &place.text("x.supel"), "--strict"]);
+    assert_eq!(alone.code, ExitCode::Done, "{what}, alone:\n{}{}", alone.out, alone.err);
+    let job = supel(&["inspect", &place.text("x.supel"), "--job"]).expect(ExitCode::Done).out;
+    place.write("kept.json", job.as_bytes());
+    let compared = supel(&["verify", &place.text("x.supel"), "--job", &place.text("kept.json"), "--strict"]);
+    assert_eq!(compared.code, ExitCode::Done, "{what}, with the job:\n{}{}", compared.out, compared.err);
+    if std::env::var_os("SUPEL_SHOW").is_some() {
+        println!("{what}\n{}", compared.out);
+    }
+}
+
+#[test]
+fn solid_by_both_methods_and_all_couplings() {
+    let place = Place::with_brick();
+    for method in ["herting", "craig-bampton"] {
+        for interface in [
+            "--interface foot=1,11,31,41",
+            "--interface foot=1,11,31,41 --rigid-interface head=5,15,35",
+            "--rigid-interface foot=1,11,31 --rigid-interface head=5,15,35",
+            // It just holds the component: of its stiffness nothing is left.
+            "--interface foot=1,11,31",
+        ] {
+            let rest = format!("{interface} --method {method} --modes 5");
+            place.reduce(&place.model_flags(), &rest).expect(ExitCode::Done);
+            passes(&place, &rest);
+        }
+    }
+}
+
+#[test]
+fn rows_without_coordinates() {
+    let place = Place::with(&spring(12, Ends::Free));
+    for method in ["herting", "craig-bampton"] {
+        for rows in ["0,11", "0", "0,1,2,3,7"] {
+            let rest = format!("--interface ends=rows:{rows} --method {method} --modes 4");
+            place.reduce(&place.matrix_flags(), &rest).expect(ExitCode::Done);
+            passes(&place, &rest);
+        }
+    }
+}
+
+#[test]
+fn held_component() {
+    let place = Place::with(&spring(12, Ends::Fixed));
+    for method in ["herting", "craig-bampton"] {
+        let rest = format!("--interface ends=rows:0,11 --method {method} --modes 4");
+        place.reduce(&place.matrix_flags(), &rest).expect(ExitCode::Done);
+        passes(&place, &rest);
+    }
+}
+
+/// Guyan's reduction: no mode at all.
+#[test]
+fn without_modes() {
+    let place = Place::with_brick();
+    place
+        .reduce(&place.model_flags(), "--interface foot=1,11,31,41 --method craig-bampton --modes 0")
+        .expect(ExitCode::Done);
+    passes(&place, "no modes");
+}
+
+#[cfg(feature = "hdf5")]
+#[test]
+fn the_bundled_example() {
+    let place = Place::with_example();
+    supel(&["reduce", &place.text("job.toml"), "--output", &place.text("x.supel")]).expect(ExitCode::Done);
+    passes(&place, "the bracket");
+}

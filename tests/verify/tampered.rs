@@ -1,0 +1,255 @@
+//! Each tensor altered by a part in a thousand or less and the file sealed again: its digest is right, its content not.
+
+use serde_json::Value;
+use supel::cli::ExitCode;
+use supel_runtime::{Matrix, Metadata, Superelement, Tensors};
+
+use crate::place::{Place, supel};
+
+type Alteration<'a> = &'a dyn Fn(&mut Tensors, &mut Metadata);
+
+/// The failed checks of an altered file, as `id name`.
+#[track_caller]
+fn failures(place: &Place, alter: Alteration<'_>) -> Vec<String> {
+    let original = place.superelement("x.supel");
+    let (mut tensors, mut metadata) = (original.tensors().clone(), original.metadata().clone());
+    alter(&mut tensors, &mut metadata);
+    let altered = Superelement::new(tensors, metadata).expect("a superelement still");
+    assert!(altered != original, "nothing was altered");
+    altered.write(&place.path("altered.supel")).expect("written");
+    let ended = supel(&["verify", &place.text("altered.supel"), "--json"]);
+    assert_eq!(ended.code, ExitCode::CheckFailed, "{}{}", ended.out, ended.err);
+    let document: Value = serde_json::from_str(&ended.out).expect("JSON");
+    let checks = document["checks"].as_array().expect("checks");
+    let failed = checks.iter().filter(|check| check["verdict"] == "fail");
+    let text = |value: &Value| value.as_str().expect("text").to_owned();
+    failed.map(|check| format!("{} {}", text(&check["id"]), text(&check["name"]))).collect()
+}
+
+/// Asserts that an alteration fails the check that is there for it.
+#[track_caller]
+fn fails(place: &Place, expected: &str, alter: Alteration<'_>) {
+    let failures = failures(place, alter);
+    assert!(failures.iter().any(|failure| failure == expected), "expected {expected}, failed {failures:#?}");
+}
+
+/// The matrix with entries (i, j) and (j, i) multiplied by a factor, or set to a share of the diagonal where they are zero.
+fn changed(matrix: &Matrix, (i, j): (usize, usize), factor: f64) -> Matrix {
+    Matrix::from_fn(matrix.rows(), matrix.cols(), |row, col| {
+        let value = matrix[(row, col)];
+        if (row, col) != (i, j) && (row, col) != (j, i) {
+            value
+        } else if value == 0.0 {
+            (factor - 1.0) * (matrix[(i, i)] * matrix[(j, j)]).sqrt()
+        } else {
+            value * factor
+        }
+    })
+}
+
+/// The same for a matrix that is not symmetric.
+fn changed_at(matrix: &Matrix, (i, j): (usize, usize), by: f64) -> Matrix {
+    Matrix::from_fn(matrix.rows(), matrix.cols(), |row, col| {
+        matrix[(row, col)] + if (row, col) == (i, j) { by } else { 0.0 }
+    })
+}
+
+const PER_MILLE: f64 = 1.001;
+
+/// Two interface nodes of six dofs; 12 interface coordinates, modal ones behind them.
+fn reduced(method: &str) -> Place {
+    let place = Place::with_brick();
+    let interfaces = "--rigid-interface foot=1,11,31 --rigid-interface head=5,15,35";
+    place.reduce(&place.model_flags(), &format!("{interfaces} --method {method} --modes 5")).expect(ExitCode::Done);
+    place
+}
+
+#[test]
+fn stiffness() {
+    for method in ["herting", "craig-bampton"] {
+        let place = reduced(method);
+        for at in [(0, 0), (2, 9), (4, 4), (7, 10)] {
+            fails(&place, "M-12 rigid-body motion makes no force", &|tensors, _| {
+                tensors.stiffness = changed(&tensors.stiffness, at, PER_MILLE);
+            });
+        }
+        fails(&place, "M-13 interface and modes are uncoupled in stiffness", &|tensors, _| {
+            tensors.stiffness = changed(&tensors.stiffness, (3, 12), PER_MILLE);
+        });
+        for at in [(12, 12), (16, 16)] {
+            fails(&place, "M-14 reduced matrices have the stated frequencies", &|tensors, _| {
+                tensors.stiffness = changed(&tensors.stiffness, at, PER_MILLE);
+            });
+        }
+        fails(&place, "M-25 reduced mass is definite, stiffness not negative", &|tensors, _| {
+            let negative = |i, j| if i == j { -tensors.stiffness[(i, j)] } else { tensors.stiffness[(i, j)] };
+            tensors.stiffness = Matrix::from_fn(tensors.stiffness.rows(), tensors.stiffness.cols(), negative);
+        });
+    }
+}
+
+#[test]
+fn mass() {
+    for method in ["herting", "craig-bampton"] {
+        let place = reduced(method);
+        let r = place.superelement("x.supel").n_coordinates();
+        for at in [(0, 0), (4, 4), (2, 9), (5, 11)] {
+            fails(&place, "M-16 mass, centre and inertia are preserved", &|tensors, _| {
+                tensors.mass = changed(&tensors.mass, at, PER_MILLE);
+            });
+        }
+        // A translation of the interface and a mode: only gravity sees both. Largest entry of that column.
+        let mass = place.superelement("x.supel").tensors().mass.clone();
+        let row = (0..3).max_by(|a, b| mass[(*a, 12)].abs().total_cmp(&mass[(*b, 12)].abs())).expect("a row");
+        fails(&place, "M-18 loads of gravity are those of M̂", &|tensors, _| {
+            tensors.mass = changed(&tensors.mass, (row, 12), PER_MILLE);
+        });
+        fails(&place, "M-03 modal masses are one", &|tensors, _| {
+            tensors.mass = changed(&tensors.mass, (r - 1, r - 1), PER_MILLE);
+        });
+        fails(&place, "M-25 reduced mass is definite, stiffness not negative", &|tensors, _| {
+            tensors.mass = changed(&tensors.mass, (0, 0), -1.0);
+        });
+    }
+}
+
+#[test]
+fn rigid_body_modes() {
+    let place = reduced("herting");
+    for at in [(0, 0), (3, 3), (8, 4)] {
+        fails(&place, "M-05 rigid-body modes fit the interface nodes", &|tensors, _| {
+            tensors.rigid_body_modes = changed_at(&tensors.rigid_body_modes, at, 1e-6);
+        });
+    }
+    fails(&place, "M-12 rigid-body motion makes no force", &|tensors, _| {
+        tensors.rigid_body_modes = changed_at(&tensors.rigid_body_modes, (0, 0), 1e-3);
+    });
+}
+
+/// Without a rigid-body mode the file claims a motion to be elastic that costs no energy.
+#[test]
+fn a_rigid_body_mode_left_out() {
+    let place = reduced("herting");
+    fails(&place, "M-12 no other motion is free", &|tensors, metadata| {
+        let fewer = |matrix: &Matrix, rows, cols| Matrix::from_fn(rows, cols, |i, j| matrix[(i, j)]);
+        let r = tensors.rigid_body_modes.rows();
+        tensors.rigid_body_modes = fewer(&tensors.rigid_body_modes, r, 5);
+        tensors.rigid_body_mass = fewer(&tensors.rigid_body_mass, 5, 5);
+        metadata.model.rigid_body_modes = supel_runtime::RigidBodyModes::Algebraic;
+        metadata.model.mass_properties = None;
+    });
+}
+
+#[test]
+fn rigid_body_mass() {
+    let place = reduced("craig-bampton");
+    for at in [(0, 0), (5, 5), (1, 5)] {
+        fails(&place, "M-16 mass, centre and inertia are preserved", &|tensors, _| {
+            tensors.rigid_body_mass = changed(&tensors.rigid_body_mass, at, 1.0001);
+        });
+    }
+}
+
+#[test]
+fn positions() {
+    let place = reduced("herting");
+    fails(&place, "M-05 rigid-body modes fit the interface nodes", &|tensors, metadata| {
+        tensors.interface_positions[1][2] += 1e-6;
+        metadata.interface_nodes[1].position = tensors.interface_positions[1];
+    });
+}
+
+#[test]
+fn frames() {
+    let place = reduced("herting");
+    fails(&place, "M-26 file is what its job asks for", &|tensors, _| {
+        tensors.interface_frames[0] = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+    });
+}
+
+#[test]
+fn frequencies() {
+    for method in ["herting", "craig-bampton"] {
+        let place = reduced(method);
+        fails(&place, "M-14 reduced matrices have the stated frequencies", &|tensors, metadata| {
+            tensors.frequencies[2] *= 1.00001;
+            for coordinate in &mut metadata.coordinates {
+                use supel_runtime::Coordinate::{ElasticMode, FixedInterfaceMode};
+                if let ElasticMode { mode: 2, frequency_hz, .. } | FixedInterfaceMode { mode: 2, frequency_hz, .. } =
+                    coordinate
+                {
+                    *frequency_hz = tensors.frequencies[2] / std::f64::consts::TAU;
+                }
+            }
+        });
+    }
+}
+
+#[test]
+fn gravity() {
+    let place = reduced("herting");
+    let r = place.superelement("x.supel").n_coordinates();
+    for at in [(0, 0), (7, 1), (r - 1, 2)] {
+        let size = place.superelement("x.supel").tensors().gravity.as_ref().expect("gravity")[(2, 2)];
+        fails(&place, "M-18 loads of gravity are those of M̂", &|tensors, _| {
+            tensors.gravity = tensors.gravity.as_ref().map(|gravity| changed_at(gravity, at, 1e-4 * size));
+        });
+    }
+}
+
+#[test]
+fn mixing() {
+    let place = reduced("herting");
+    let n = place.superelement("x.supel").n_modal();
+    let changed = |at: (usize, usize)| {
+        move |tensors: &mut Tensors, _: &mut Metadata| {
+            let mixing = tensors.mixing.as_ref().expect("mixing");
+            let by = 1e-3 * mixing[(at.1, at.1)];
+            tensors.mixing = Some(changed_at(mixing, at, by));
+        }
+    };
+    fails(&place, "M-18 inertia-relief modes answer unit accelerations", &changed((1, 1)));
+    fails(&place, "M-14 named modes are eigenpairs of the reduced model", &changed((n - 2, n - 1)));
+}
+
+#[test]
+fn what_the_file_says_of_itself() {
+    let place = reduced("herting");
+    fails(&place, "M-16 stated mass properties are those of M̂", &|_, metadata| {
+        metadata.model.mass_properties.as_mut().expect("known").mass *= PER_MILLE;
+    });
+    fails(&place, "M-16 mass and centre are those expected", &|_, metadata| {
+        metadata.job["model"]["expect"] = serde_json::json!({ "mass": 1.0 });
+    });
+    fails(&place, "M-26 no check failed when it was made", &|_, metadata| {
+        metadata.verification.verdict = supel_runtime::Verdict::Fail;
+    });
+    fails(&place, "M-26 file is what its job asks for", &|_, metadata| {
+        metadata.method = supel_runtime::Method::CraigBampton;
+    });
+}
+
+/// Error bars cannot excuse what is wrong.
+#[test]
+fn error_bars_without_end_excuse_nothing() {
+    let place = reduced("herting");
+    fails(&place, "M-12 rigid-body motion makes no force", &|tensors, metadata| {
+        tensors.stiffness = changed(&tensors.stiffness, (0, 0), 1.1);
+        for coordinate in &mut metadata.coordinates {
+            if let supel_runtime::Coordinate::ElasticMode { error_bar_hz, .. } = coordinate {
+                *error_bar_hz = Some(1e9);
+            }
+        }
+    });
+}
+
+/// Bytes that no reader looks at are refused by the format; a damaged file never gets as far as the checks.
+#[test]
+fn a_file_not_sealed_again_is_an_input_error() {
+    let place = reduced("herting");
+    let mut bytes = place.bytes("x.supel");
+    let last = bytes.len() - 1;
+    bytes[last] ^= 1;
+    place.write("altered.supel", &bytes);
+    supel(&["verify", &place.text("altered.supel")]).expect(ExitCode::InputData);
+}
