@@ -4,12 +4,14 @@
 #   ./setup.sh        install what is missing, build the release program
 #   ./setup.sh run    the same, then reduce the bundled example
 #   ./setup.sh test   install what is missing, build and run all tests; the bundled example is among them
+#   ./setup.sh browser   install Chromium, in which the tests open the report page; without it they skip that
 set -euo pipefail
 cd "$(dirname "$0")"
 
 # HDF5 and ARPACK-NG are linked; pkg-config finds them; build-essential compiles the vendored METIS.
 readonly packages=(build-essential pkg-config libhdf5-dev libarpack2-dev)
 readonly python_packages=(python3 python3-venv)
+readonly browser_packages=(chromium)
 readonly python_modules=(numpy safetensors blake3)
 readonly rust_minor=88
 
@@ -73,6 +75,19 @@ prepare_python() {
     export SUPEL_PYTHON=$python
 }
 
+# A browser of another name or origin will do: the tests look for these, too.
+has_browser() {
+    local browser
+    for browser in ${SUPEL_BROWSER:+"$SUPEL_BROWSER"} chromium chromium-browser google-chrome; do
+        "$browser" --version >/dev/null 2>&1 && return
+    done
+    return 1
+}
+
+install_browser() {
+    has_browser || install_packages "${browser_packages[@]}"
+}
+
 build_release() {
     say "building supel"
     cargo build --release --locked
@@ -91,7 +106,11 @@ run_tests() {
 
 main() {
     local goal=${1:-build}
-    case $goal in build|run|test) ;; *) fail "unknown goal '$goal': expected run or test" ;; esac
+    case $goal in
+        build|run|test) ;;
+        browser) install_browser; return ;;
+        *) fail "unknown goal '$goal': expected run, test or browser" ;;
+    esac
     install_packages "${packages[@]}"
     install_rust
     case $goal in

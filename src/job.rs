@@ -86,7 +86,8 @@ impl Job {
     fn paths_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
         let model = &mut self.model;
         let inputs = [Some(&mut model.stiffness), Some(&mut model.mass), model.dofs.as_mut(), model.nodes.as_mut()];
-        let outputs = [Some(&mut self.write.superelement), self.write.report.as_mut()];
+        let write = &mut self.write;
+        let outputs = [Some(&mut write.superelement), write.report.as_mut(), write.html.as_mut(), write.junit.as_mut()];
         inputs.into_iter().chain(outputs).flatten()
     }
 }
@@ -230,6 +231,8 @@ pub enum Certify {
     /// By a Sturm count above the highest mode.
     #[default]
     Count,
+    /// By a count that is proved against rounding, with an interval around every eigenvalue that is proved to hold it.
+    Full,
 }
 
 /// How the run is done.
@@ -253,6 +256,12 @@ pub struct WriteJob {
     /// The report; beside the superelement as `name.report.json` where absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub report: Option<PathBuf>,
+    /// The report as a page for people, where it is wanted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub html: Option<PathBuf>,
+    /// The checks as JUnit XML, where they are wanted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub junit: Option<PathBuf>,
 }
 
 impl WriteJob {

@@ -59,7 +59,7 @@ use audit::Audit;
 use basis::Basis;
 use error::Result;
 use factor::{Analysis, Cholesky, Pencil};
-use job::Job;
+use job::{Certify, Job};
 use model::Model;
 use modes::{Component, ModeSource, Retained};
 use outcome::{Outcome, Resources};
@@ -108,14 +108,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
 
     observer.stage("modes");
     let internal = (&k_ii, &m_ii);
-    let component = Component {
-        partition: &partition,
-        internal,
-        analysis: &analysis,
-        factor: &factor,
-        rigid: &rigid,
-        constraint: &constraint,
-    };
+    let component = Component::new(&partition, internal, &analysis, &factor, &rigid, &constraint);
     let search = modes::Search::new(component, &job.reduction)?;
     factor::refuse_beyond_memory(&analysis, &partition, job, resources, search.n_expected())?;
     let found = search.lowest(modes::SEED)?;
@@ -123,6 +116,11 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     observer.stage("certificate");
     let (found, certificate) = modes::certified(&search, &search.problem, found, search.edge(), job.run.certify)?;
     let retained = Retained::new(component, search.problem.boundary, found);
+
+    observer.stage("enclosures");
+    let enclosures = (job.run.certify == Certify::Full)
+        .then(|| verification::enclosures(&partition, internal, &rigid, &retained.modes, retained.boundary))
+        .transpose()?;
 
     observer.stage("basis");
     let basis = Basis::new(&constraint, retained.columns.clone(), &m_ii);
@@ -142,6 +140,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         basis: &basis,
         reduction: &reduction,
         certificate: certificate.as_ref(),
+        enclosures: enclosures.as_ref(),
         expect: job.model.expect.as_ref(),
     };
     let findings = verification::verify(&evidence)?;
@@ -154,7 +153,8 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
             + n_extra
             + usize::from(search.edge().is_some())
             + retained.modes.work.factorisations
-            + certificate.as_ref().map_or(0, |certificate| certificate.n_factorisations),
+            + certificate.as_ref().map_or(0, |certificate| certificate.n_factorisations)
+            + enclosures.as_ref().map_or(0, |enclosures| enclosures.n_factorisations),
         n_solves: retained.modes.work.solves + partition.n_interface() + rigid.count(),
         n_restarts: retained.modes.work.restarts,
         factor_flops: analysis.flops,

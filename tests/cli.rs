@@ -349,10 +349,13 @@ fn help_is_an_answer() {
     assert_eq!(supel(&["reduce", "--help"]).code, ExitCode::Done);
     assert!(supel(&["--version"]).out.starts_with("supel "));
     // As a program without a terminal: with one, the text would be broken at its width.
-    let mut program = std::process::Command::new(assert_cmd::cargo::cargo_bin!("supel"));
-    let ended = program.args(["reduce", "--help"]).stdin(std::process::Stdio::null()).env_remove("COLUMNS").output();
-    let help = String::from_utf8(ended.expect("ended").stdout).expect("UTF-8");
-    insta::assert_snapshot!("help_reduce", help);
+    let help_of = |command: &str| {
+        let mut program = std::process::Command::new(assert_cmd::cargo::cargo_bin!("supel"));
+        let ended = program.args([command, "--help"]).stdin(std::process::Stdio::null()).env_remove("COLUMNS").output();
+        String::from_utf8(ended.expect("ended").stdout).expect("UTF-8")
+    };
+    insta::assert_snapshot!("help_reduce", help_of("reduce"));
+    insta::assert_snapshot!("help_verify", help_of("verify"));
 }
 
 #[test]

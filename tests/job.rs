@@ -48,6 +48,8 @@ memory_gib = 4
 [write]
 superelement = "out/bracket.supel"
 report       = "out/bracket.json"
+html         = "out/bracket.html"
+junit        = "out/bracket.xml"
 "#;
 
 fn small() -> Value {
@@ -131,6 +133,8 @@ fn paths_are_relative_to_the_folder_of_the_job() {
     assert_eq!(job.model.mass, folder.path().join("model.h5:/M"));
     assert_eq!(job.write.superelement, folder.path().join("out/bracket.supel"));
     assert_eq!(job.write.report_path(), folder.path().join("out/bracket.json"));
+    assert_eq!(job.write.html, Some(folder.path().join("out/bracket.html")));
+    assert_eq!(job.write.junit, Some(folder.path().join("out/bracket.xml")));
     let small = read(&small()).expect("a job").resolve(folder.path()).expect("resolved");
     assert_eq!(small.write.report_path(), folder.path().join("x.report.json"));
 }
@@ -316,7 +320,9 @@ fn names_of_outputs_say_what_they_are() {
         "`write.superelement` is x.h5 – expected a name that ends in .supel"
     );
     assert!(matches!(read(&with("/write/superelement", "out/.supel".into())), Err(Error::OutputName { .. })));
-    assert!(matches!(read(&with("/write/report", "x.txt".into())), Err(Error::OutputName { .. })));
+    for (key, name) in [("/write/report", "x.txt"), ("/write/html", "x.htm"), ("/write/junit", ".xml")] {
+        assert!(matches!(read(&with(key, name.into())), Err(Error::OutputName { .. })), "{key}");
+    }
 }
 
 /// The small job with one thing changed, some changes allowed and some not.
@@ -367,6 +373,10 @@ fn changed_jobs() -> Vec<Value> {
         with("/run", json!({ "certify": "count", "memory_gib": 0.5 })),
         with("/write/superelement", "x.json".into()),
         with("/write/report", "x.json".into()),
+        with("/write/html", "x.html".into()),
+        with("/write/html", ".html".into()),
+        with("/write/junit", "x.xml".into()),
+        with("/write/junit", "x.json".into()),
         with("/model/expect", json!({ "mass": 0 })),
         with("/model/expect", json!({ "cg": [1, 2, 3] })),
         with("/model/units", 3.into()),

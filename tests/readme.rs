@@ -94,10 +94,17 @@ fn every_command_of_the_readme_runs() {
         }
         n_run += usize::from(mark.ends_with(" run") || mark.ends_with(" peers"));
     }
-    assert_eq!(n_run, 7, "blocks that are run");
+    assert_eq!(n_run, 8, "blocks that are run");
     let again = Job::read(&folder.path().join("again.json")).expect("the job kept in the file is a job");
     assert_eq!(again.write.superelement.file_name(), Some("small.supel".as_ref()));
-    for name in ["examples/bracket/bracket.supel", "examples/bracket/bracket.report.json", "bracket-cb.supel"] {
+    let named = [
+        "examples/bracket/bracket.supel",
+        "examples/bracket/bracket.report.json",
+        "bracket-cb.supel",
+        "bracket.html",
+        "checks.xml",
+    ];
+    for name in named {
         assert!(folder.path().join(name).exists(), "{name} was not written");
     }
 }
@@ -108,6 +115,9 @@ fn files_that_the_readme_names_exist() {
         "schemas/job.schema.json",
         "schemas/report.schema.json",
         "schemas/superelement.schema.json",
+        "docs/what-the-report-proves.md",
+        "docs/images/report.png",
+        "schemas/verification.schema.json",
         "LICENSE-MIT",
         "LICENSE-APACHE",
         "setup.sh",

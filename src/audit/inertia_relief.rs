@@ -38,7 +38,7 @@ pub(super) fn identity(content: &Content<'_>) -> Option<Check> {
     let limits = content.rounding_limits();
     Some(Check {
         id: "M-18",
-        name: "inertia-relief modes answer unit accelerations",
+        name: "inertia relief answers unit accelerations",
         equation: "max ‖K̂_ηη q − M̂_ηB Û_B‖ / ‖|K̂_ηη||q|‖ (37)",
         value: worst.0,
         limits,

@@ -46,7 +46,7 @@ pub(super) fn residual(content: &Content<'_>) -> Option<Check> {
     let limits = Limits { engineering: 1e-9, ..content.rounding_limits() };
     Some(Check {
         id: "M-14",
-        name: "named modes are eigenpairs of the reduced model",
+        name: "named modes are eigenpairs of K̂ and M̂",
         equation: "max ‖K̂v − ω²M̂v‖ / ((‖K̂‖ + ω²‖M̂‖) ‖v‖), v of the mixing, in scales of K̂ + λ₁M̂",
         value: worst.0,
         limits,

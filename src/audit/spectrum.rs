@@ -125,7 +125,7 @@ pub(super) fn block_coupling(content: &Content<'_>) -> Check {
     let limits = content.rounding_limits();
     Check {
         id: "M-13",
-        name: "interface and modes are uncoupled in stiffness",
+        name: "interface and modes uncoupled in stiffness",
         equation: "max |K̂_Bη|_ij, in scales of K̂ + λ₁M̂ (29)",
         value: worst.0,
         limits,
@@ -182,7 +182,7 @@ pub(super) fn definiteness(content: &Content<'_>, spectrum: &Spectrum) -> Check 
     let limits = content.energy_limits();
     Check {
         id: "M-25",
-        name: "reduced mass is definite, stiffness not negative",
+        name: "reduced mass and stiffness are not negative",
         equation: "M̂ = LLᵀ; max(0, −λ_min(K̂, M̂)) / λ₁",
         value,
         limits,

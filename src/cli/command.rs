@@ -154,6 +154,8 @@ fn override_job(mut job: Job, model: ModelFlags, reduction: &ReductionFlags, out
     replace(&mut job.reduction.eigensolver, reduction.eigensolver.map(Into::into));
     replace(&mut job.write.superelement, output.output);
     job.write.report = output.report.or(job.write.report);
+    job.write.html = output.html.or(job.write.html);
+    job.write.junit = output.junit.or(job.write.junit);
     Ok(job)
 }
 
@@ -190,7 +192,12 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
         },
         scene: None,
         run: RunJob::default(),
-        write: WriteJob { superelement: superelement.clone(), report: output.report },
+        write: WriteJob {
+            superelement: superelement.clone(),
+            report: output.report,
+            html: output.html,
+            junit: output.junit,
+        },
     })
 }
 

@@ -107,6 +107,12 @@ pub(super) struct OutputFlags {
     /// Report file, NAME.json [default: beside the superelement, NAME.report.json]
     #[arg(long, value_name = "FILE")]
     pub(super) report: Option<PathBuf>,
+    /// Write the report as a page for people too, NAME.html
+    #[arg(long, value_name = "FILE")]
+    pub(super) html: Option<PathBuf>,
+    /// Write the checks as JUnit XML too, NAME.xml
+    #[arg(long, value_name = "FILE")]
+    pub(super) junit: Option<PathBuf>,
     /// Print the report as JSON instead of the summary
     #[arg(long, conflicts_with = "quiet")]
     pub(super) json: bool,
@@ -195,6 +201,7 @@ pub(super) enum Eigensolver {
 pub(super) enum Certify {
     None,
     Count,
+    Full,
 }
 
 impl From<Triangle> for input::Triangle {
@@ -229,6 +236,7 @@ impl From<Certify> for job::Certify {
         match certify {
             Certify::None => Self::None,
             Certify::Count => Self::Count,
+            Certify::Full => Self::Full,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! `supel reduce`: from a job to its files.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use supel_runtime::{StagedFile, Superelement, abandoned_parts};
 
@@ -11,7 +11,7 @@ use super::progress::StageLine;
 use super::{Pipeline, memory, process, rehearsal};
 use crate::error::{Error, Result};
 use crate::outcome::{Outcome, Resources};
-use crate::report::{Observer, Report, StageClock, summary};
+use crate::report::{JunitWarnings, Observer, Report, StageClock, html, junit, summary};
 use crate::verification::check::{Check, Limits, Verdict};
 
 pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
@@ -29,13 +29,12 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     let Outcome { superelement, mut report } = threads.install(|| pipeline(&command.job, resources, &mut clock))?;
     clock.stage("write");
     report.run.n_threads = n_threads;
-    let code = write_superelement(command, &superelement, &mut report)?;
+    let (code, superelement) = stage_superelement(command, &superelement, &mut report)?;
     report.run.stages = clock.finish();
     drop(stage_line);
     report.run.peak_memory_bytes = process::peak_memory_bytes();
-    let report_path = command.job.write.report_path();
-    report.run.report = Some(report_path.clone());
-    report.write(&report_path)?;
+    report.run.report = Some(command.job.write.report_path());
+    write_all(command, &report, superelement)?;
     match command.answer {
         Answer::Text => terminal.answer(&summary(&report, terminal.paint)),
         Answer::Json => terminal.answer(&report.to_json()),
@@ -45,8 +44,12 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     Ok(code)
 }
 
-/// Writes the superelement under a temporary name, reads it back, and gives it its name if it may have it.
-fn write_superelement(command: &ReduceCommand, superelement: &Superelement, report: &mut Report) -> Result<ExitCode> {
+/// Writes the superelement under a temporary name and reads it back; hands it on if it may have its name.
+fn stage_superelement(
+    command: &ReduceCommand,
+    superelement: &Superelement,
+    report: &mut Report,
+) -> Result<(ExitCode, Option<StagedFile>)> {
     let path = command.job.write.superelement.as_path();
     let failed = |error| Error::from_file(path, error);
     let sealed = superelement.to_bytes().map_err(failed)?;
@@ -56,12 +59,33 @@ fn write_superelement(command: &ReduceCommand, superelement: &Superelement, repo
         (Verdict::Info | Verdict::Pass, _) | (Verdict::Warn, Strictness::Normal) => true,
         (Verdict::Warn, Strictness::Strict) | (Verdict::Fail, _) => false,
     };
-    if is_verified || command.unverified == Unverified::Written {
-        staged.commit().map_err(failed)?;
+    let is_kept = is_verified || command.unverified == Unverified::Written;
+    if is_kept {
         report.run.superelement = Some(path.to_owned());
         report.run.file_bytes = Some(sealed.bytes.len() as u64);
+        report.run.file_digest = Some(sealed.digest);
     }
-    Ok(if is_verified { ExitCode::Done } else { ExitCode::CheckFailed })
+    Ok((if is_verified { ExitCode::Done } else { ExitCode::CheckFailed }, is_kept.then_some(staged)))
+}
+
+/// Writes everything under temporary names before anything gets its own: a report that cannot be written leaves no
+/// superelement without one. The superelement comes last, because others wait for it.
+fn write_all(command: &ReduceCommand, report: &Report, superelement: Option<StagedFile>) -> Result<()> {
+    let write = &command.job.write;
+    let warnings = match command.strictness {
+        Strictness::Normal => JunitWarnings::Pass,
+        Strictness::Strict => JunitWarnings::Fail,
+    };
+    let mut files = vec![(write.report_path(), report.to_json())];
+    files.extend(write.html.clone().map(|path| (path, html(report))));
+    files.extend(write.junit.clone().map(|path| (path, junit(report, warnings))));
+    let stage = |(path, text): (PathBuf, String)| match StagedFile::write(&path, text.as_bytes()) {
+        Ok(staged) => Ok((path, staged)),
+        Err(source) => Err(Error::from_file(&path, source)),
+    };
+    let mut staged: Vec<(PathBuf, StagedFile)> = files.into_iter().map(stage).collect::<Result<_>>()?;
+    staged.extend(superelement.map(|file| (write.superelement.clone(), file)));
+    staged.into_iter().try_for_each(|(path, file)| file.commit().map_err(|source| Error::from_file(&path, source)))
 }
 
 /// M-26: the written file, read back, is the superelement in memory to the last bit.

@@ -1,5 +1,7 @@
 //! The Cholesky factor of a definite matrix.
 
+mod backward_error;
+
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::cholesky::supernodal::{
     SupernodalLltRef, factorize_supernodal_numeric_llt, factorize_supernodal_numeric_llt_scratch,
@@ -50,8 +52,8 @@ impl<'a> Cholesky<'a> {
             MemStack::new(&mut memory),
             parameters,
         )
-        .or_else(|faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }| {
-            Err(not_definite(analysis, pencil, name(index)))
+        .map_err(|faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }| {
+            not_definite(analysis, pencil, name(index))
         })?;
         let mut factor = Self { analysis, values, smallest_pivot_ratio: 1.0 };
         let (ratio, step) = factor.smallest_pivot(&lower);

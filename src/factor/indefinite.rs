@@ -1,5 +1,7 @@
 //! L B Lᵀ of a symmetric indefinite matrix K − σM.
 
+mod whole;
+
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::PermRef;
 use faer::sparse::linalg::cholesky::supernodal::{
@@ -14,6 +16,8 @@ use super::{Analysis, Pencil, Triangle};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::model::diagonal;
+
+pub use whole::{WholeCount, whole_count};
 
 /// L B Lᵀ of D (K − σM) D with pivots of order one and two inside each supernode.
 ///
@@ -43,10 +47,12 @@ impl<'a> Indefinite<'a> {
     pub(super) fn new(analysis: &'a Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<Self> {
         let (symbolic, n) = (&analysis.symbolic, analysis.n);
         let diagonals = diagonal(pencil.stiffness).into_iter().zip(diagonal(pencil.mass));
-        let scale: Vec<f64> =
-            diagonals.map(|(k, m)| dense::power_of_two_root(k.abs() + sigma.abs() * m.abs())).collect();
+        let terms: Vec<f64> = diagonals.map(|(k, m)| k.abs() + sigma.abs() * m.abs()).collect();
+        let scale: Vec<f64> = terms.iter().map(|terms| dense::power_of_two_root(*terms)).collect();
         let lower = Triangle::shifted_and_scaled(pencil, sigma, &scale);
-        let largest = lower.values.iter().fold(0.0, |max: f64, value| max.max(value.abs()));
+        // On an eigenvalue all of K − σM may cancel: what is left is measured by the terms it is left of.
+        let largest_term = terms.iter().zip(&scale).fold(0.0, |max: f64, (terms, d)| max.max(terms * d * d));
+        let largest = lower.values.iter().fold(largest_term, |max: f64, value| max.max(value.abs()));
         let pattern = SymbolicSparseColMatRef::new_checked(n, n, &lower.pointers, None, &lower.indices);
         let mut factor = Self {
             analysis,

@@ -58,15 +58,6 @@ pub fn count_below(partition: &Partition, analysis: &Analysis, sigma: f64) -> Re
     Ok(shifted.count)
 }
 
-/// The number of negative eigenvalues of a whole K − σM, and the pivot growth.
-///
-/// # Errors
-/// Those of [`count_below`].
-pub fn negative_pivots(analysis: &Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<(usize, f64)> {
-    let signs = Indefinite::new(analysis, pencil, sigma)?.signs()?;
-    Ok((signs.negative, signs.growth))
-}
-
 /// Eigenvalues of K_II below zero by more than rounding of its entries, however σ and M are.
 ///
 /// K_II + τ diag(K_II) is counted: a negative eigenvalue that a relative change τ of the diagonal makes vanish is one that

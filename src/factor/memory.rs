@@ -43,6 +43,8 @@ pub fn refuse_beyond_memory(
     let factors = match job.run.certify {
         Certify::None => analysis.factor_bytes(),
         Certify::Count => 2 * analysis.factor_bytes(),
+        // Beside the factor of K_II, those of K − σM and of the proof that it is definite.
+        Certify::Full => 3 * analysis.factor_bytes(),
     };
     let vectors = DOUBLE * n * (2 * partition.n_interface() as u64 + 5 * n_modes + 64);
     let needed = matrices.saturating_add(factors).saturating_add(vectors);

@@ -16,6 +16,7 @@ mod indefinite;
 mod inertia;
 mod memory;
 mod pattern;
+mod rounding;
 mod solve;
 
 use dyn_stack::MemBuffer;
@@ -33,8 +34,10 @@ use crate::error::{Error, Result};
 use crate::sparse::SparseMatrix;
 
 pub use cholesky::Cholesky;
-pub use inertia::{InertiaCount, ShiftedFactor, count_below, count_negative, negative_pivots};
+pub use indefinite::{WholeCount, whole_count};
+pub use inertia::{InertiaCount, ShiftedFactor, count_below, count_negative};
 pub use memory::refuse_beyond_memory;
+pub use rounding::forming_error;
 pub use solve::SolveOperator;
 
 use pattern::{Part, Triangle};

@@ -26,7 +26,7 @@ const KEYS: &[(&str, &[&str])] = &[
     ("scene", &["band_hz", "boundaries", "damping"]),
     ("scene.damping", &["ratio"]),
     ("run", &["certify", "memory_gib"]),
-    ("write", &["superelement", "report"]),
+    ("write", &["superelement", "report", "html", "junit"]),
 ];
 
 /// Above this Jaro-Winkler similarity a known key is offered for an unknown one; below it the offer would be noise.

@@ -23,8 +23,14 @@ pub(super) fn validate(job: &Job) -> Result<()> {
     if let Some(memory) = job.run.memory_gib {
         positive("run.memory_gib", memory)?;
     }
-    output("write.superelement", &job.write.superelement, ".supel")?;
-    job.write.report.as_deref().map_or(Ok(()), |path| output("write.report", path, ".json"))
+    let write = &job.write;
+    output("write.superelement", &write.superelement, ".supel")?;
+    let others = [
+        ("write.report", write.report.as_deref(), ".json"),
+        ("write.html", write.html.as_deref(), ".html"),
+        ("write.junit", write.junit.as_deref(), ".xml"),
+    ];
+    others.into_iter().try_for_each(|(key, path, ending)| path.map_or(Ok(()), |path| output(key, path, ending)))
 }
 
 fn model(job: &Job) -> Result<()> {

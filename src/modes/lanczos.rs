@@ -12,16 +12,17 @@
 
 use faer::{Mat, MatRef};
 
+use super::answer::Goal;
 use super::eigenproblem::{CLUSTER_GAP, EigenWork, Eigenpairs, Interval, Problem, Wanted, is_above, mass_norm};
 use super::orthogonalisation::{combine_in_place, gram_schmidt};
 use super::random::SplitMix64;
 use super::ritz::Ritz;
 use crate::dense;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::sparse::product;
 
 /// Restarts after which an iteration that has not converged never will.
-const MAX_RESTARTS: usize = 60;
+pub(super) const MAX_RESTARTS: usize = 60;
 /// Right-hand sides per block on large models: a block of eight costs a fifth per vector of eight single solves.
 const WIDE_BLOCK: usize = 8;
 /// On small models the factor stays in the cache and a narrow block wastes fewer vectors.
@@ -33,7 +34,7 @@ const STEPS_BETWEEN_LOOKS: usize = 16;
 /// Finds the wanted eigenpairs.
 ///
 /// # Errors
-/// [`Error::LanczosStalled`] when restarts bring no more convergence.
+/// [`crate::error::Error::LanczosStalled`] when restarts bring no more convergence.
 pub fn lanczos(problem: Problem<'_>, wanted: Wanted, seed: u64) -> Result<Eigenpairs> {
     run(problem, Goal::Lowest(wanted), seed)
 }
@@ -45,13 +46,6 @@ pub fn lanczos(problem: Problem<'_>, wanted: Wanted, seed: u64) -> Result<Eigenp
 /// A dense eigenproblem that does not converge.
 pub fn lanczos_between(problem: Problem<'_>, interval: Interval, seed: u64) -> Result<Eigenpairs> {
     run(problem, Goal::Between(interval), seed)
-}
-
-/// What an iteration looks for.
-#[derive(Clone, Copy)]
-enum Goal {
-    Lowest(Wanted),
-    Between(Interval),
 }
 
 fn run(problem: Problem<'_>, goal: Goal, seed: u64) -> Result<Eigenpairs> {
@@ -76,19 +70,19 @@ fn run(problem: Problem<'_>, goal: Goal, seed: u64) -> Result<Eigenpairs> {
     }
 }
 
-struct Basis<'a> {
-    problem: Problem<'a>,
+pub(super) struct Basis<'a> {
+    pub(super) problem: Problem<'a>,
     random: SplitMix64,
     /// V followed by W.
-    vectors: Mat<f64>,
+    pub(super) vectors: Mat<f64>,
     /// M W, kept for the next application of OP.
     mass_next: Mat<f64>,
     /// T.
     projected: Mat<f64>,
     /// B, b × m.
-    coupling: Mat<f64>,
+    pub(super) coupling: Mat<f64>,
     /// m: columns of V.
-    size: usize,
+    pub(super) size: usize,
     /// Leading columns of V that are locked: their coupling is zero.
     locked: usize,
     /// Largest m.
@@ -97,7 +91,7 @@ struct Basis<'a> {
     n_starts: usize,
     /// m from which convergence is looked at next.
     look_at: usize,
-    work: EigenWork,
+    pub(super) work: EigenWork,
 }
 
 impl<'a> Basis<'a> {
@@ -139,7 +133,7 @@ impl<'a> Basis<'a> {
         self.n_starts += block;
     }
 
-    fn n_next(&self) -> usize {
+    pub(super) fn n_next(&self) -> usize {
         self.mass_next.ncols()
     }
 
@@ -151,7 +145,7 @@ impl<'a> Basis<'a> {
         self.n_next() == 0
     }
 
-    fn v(&self) -> MatRef<'_, f64> {
+    pub(super) fn v(&self) -> MatRef<'_, f64> {
         self.vectors.as_ref().subcols(0, self.size)
     }
 
@@ -280,7 +274,7 @@ impl<'a> Basis<'a> {
         Some(vector)
     }
 
-    fn ritz(&self) -> Result<Ritz> {
+    pub(super) fn ritz(&self) -> Result<Ritz> {
         let (ascending, vectors) = dense::symmetric_eigen(self.projected.as_ref())?;
         let m = ascending.len();
         let mut order: Vec<usize> = (0..m).rev().collect();
@@ -329,64 +323,6 @@ impl<'a> Basis<'a> {
         self.projected = Mat::from_fn(count, count, |i, j| if i == j { ritz.theta[i] } else { 0.0 });
         self.begin(block);
         self.coupling = Mat::zeros(self.n_next(), count);
-    }
-
-    /// All pairs of an exhausted space, as far as wanted.
-    fn everything(&self, goal: Goal) -> Result<Eigenpairs> {
-        let ritz = self.ritz()?;
-        let sigma = self.problem.operator.shift();
-        let n_finite = ritz.n_finite();
-        let count = match goal {
-            Goal::Between(interval) => {
-                let inside: Vec<usize> = (0..n_finite).filter(|j| interval.holds(ritz.lambda(*j, sigma))).collect();
-                return Ok(self.extract(&ritz, &inside));
-            }
-            Goal::Lowest(Wanted::Count(count)) => (0..n_finite)
-                .find(|j| *j >= count && (*j == 0 || !ritz.same_cluster(*j - 1, *j, sigma)))
-                .unwrap_or(n_finite),
-            Goal::Lowest(Wanted::UpTo(limit)) => {
-                (0..n_finite).find(|j| is_above(ritz.lambda(*j, sigma), limit)).unwrap_or(n_finite)
-            }
-        };
-        Ok(self.extract(&ritz, &(0..count).collect::<Vec<_>>()))
-    }
-
-    /// The end of an iteration that makes no more progress: of an interval what has converged, of the lowest pairs nothing.
-    fn stalled(&self, goal: Goal) -> Result<Eigenpairs> {
-        let ritz = self.ritz()?;
-        let converged: Vec<usize> = (0..ritz.theta.len()).filter(|j| ritz.is_converged(*j)).collect();
-        match goal {
-            Goal::Lowest(_) => Err(Error::LanczosStalled {
-                restarts: MAX_RESTARTS,
-                converged: converged.iter().enumerate().take_while(|(at, j)| at == *j).count(),
-            }),
-            Goal::Between(interval) => {
-                let sigma = self.problem.operator.shift();
-                let inside = converged.into_iter().filter(|j| interval.holds(ritz.lambda(*j, sigma)));
-                Ok(self.extract(&ritz, &inside.collect::<Vec<_>>()))
-            }
-        }
-    }
-
-    /// x = V s + W B s / θ: the step of inverse iteration that the last block gives for nothing.
-    fn extract(&self, ritz: &Ritz, taken: &[usize]) -> Eigenpairs {
-        let sigma = self.problem.operator.shift();
-        let s = Mat::from_fn(ritz.s.nrows(), taken.len(), |i, j| ritz.s[(i, taken[j])]);
-        let mut vectors = dense::product(self.v(), s.as_ref());
-        let mut correction = dense::product(self.coupling.as_ref(), s.as_ref());
-        for (j, pair) in taken.iter().enumerate() {
-            correction.as_mut().col_mut(j).iter_mut().for_each(|value| *value /= ritz.theta[*pair]);
-        }
-        let next = self.vectors.as_ref().subcols(self.size, self.n_next());
-        dense::add_product(vectors.as_mut(), 1.0, next, correction.as_ref());
-        self.problem.deflate(vectors.as_mut());
-        let beyond = taken.len();
-        Eigenpairs {
-            values: taken.iter().map(|j| ritz.lambda(*j, sigma)).collect(),
-            vectors,
-            next: (beyond < ritz.n_finite()).then(|| ritz.lambda(beyond, sigma)),
-            work: self.work,
-        }
     }
 
     /// Replaces V by its best Ritz vectors, or makes room where a band turns out to hold many modes.

@@ -7,6 +7,7 @@
 //! Both come from the factor of K_II at shift zero. Eigenvalues are recomputed as Rayleigh quotients, whose error is the
 //! square of the vector's; each carries the bar that rounding and the digits of the data put on it.
 
+mod answer;
 #[cfg(feature = "arpack")]
 mod arpack;
 mod boundary_problem;

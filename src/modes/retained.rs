@@ -26,6 +26,20 @@ pub struct Component<'a> {
     pub constraint: &'a ConstraintModes,
 }
 
+impl<'a> Component<'a> {
+    /// All of it by reference.
+    pub fn new(
+        partition: &'a Partition,
+        internal: (&'a SparseMatrix, &'a SparseMatrix),
+        analysis: &'a Analysis,
+        factor: &'a Cholesky<'a>,
+        rigid: &'a RigidBodyModes,
+        constraint: &'a ConstraintModes,
+    ) -> Self {
+        Self { partition, internal, analysis, factor, rigid, constraint }
+    }
+}
+
 /// The modes a method retains, and the columns of Ψ_D that they make.
 #[derive(Clone, Debug)]
 pub struct Retained {

@@ -131,10 +131,19 @@ fn modes(results: &Results<'_>) -> Vec<ModeRow> {
             error_bar_hz: 0.5 * error.relative_bar * frequency_hz,
             backward_error: error.backward,
             kind,
-            enclosure_hz: None,
+            enclosure_hz: enclosure(results, index),
         }
     };
     modes.lambda.iter().zip(&modes.errors).enumerate().map(row).collect()
+}
+
+/// The proven interval of a mode as frequencies, rounded outwards.
+fn enclosure(results: &Results<'_>, index: usize) -> Option<[f64; 2]> {
+    const OUTWARD: f64 = 4.0 * f64::EPSILON;
+    let unit = results.evidence.partition.scaling.eigenvalue_unit();
+    let [low, high] = results.evidence.enclosures?.intervals.get(index).copied()??;
+    let hertz = |lambda: f64| omega(lambda, unit) / std::f64::consts::TAU;
+    Some([hertz(low) * (1.0 - OUTWARD), hertz(high) * (1.0 + OUTWARD)])
 }
 
 fn kind(boundary: Boundary) -> ModeKind {
@@ -246,6 +255,8 @@ fn completeness(results: &Results<'_>) -> Completeness {
             doubt: certificate.doubt(),
         },
         (None, Certify::None) => Completeness::NotCertified { reason: "--certify none was asked".to_owned() },
-        (None, Certify::Count) => Completeness::NotCertified { reason: "the count could not be taken".to_owned() },
+        (None, Certify::Count | Certify::Full) => {
+            Completeness::NotCertified { reason: "the count could not be taken".to_owned() }
+        }
     }
 }

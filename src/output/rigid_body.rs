@@ -5,6 +5,7 @@ use supel_runtime::Matrix;
 
 use super::{Results, omega};
 use crate::report::{EffectiveMass, Grounding, MassProperties, MassRoute, RigidBodyEvidence, Warning};
+use crate::verification::Restraint;
 
 /// What verification found of it.
 pub(super) fn evidence(results: &Results<'_>) -> RigidBodyEvidence {
@@ -69,7 +70,10 @@ fn effective_mass(results: &Results<'_>) -> Vec<EffectiveMass> {
 /// A warning where a spring, a support left in K or wrong coordinates hold what should be free.
 pub(super) fn grounded(results: &Results<'_>) -> Option<Warning> {
     let grounding = &results.findings.rigid_body.grounding;
-    let worst = grounding.iter().filter(|g| g.is_grounded).max_by(|a, b| a.energy_ratio.total_cmp(&b.energy_ratio))?;
+    let worst = grounding
+        .iter()
+        .filter(|g| g.restraint == Restraint::Grounded)
+        .max_by(|a, b| a.energy_ratio.total_cmp(&b.energy_ratio))?;
     let at = worst.worst.as_ref().map(|dof| format!("; the largest force is at {dof}")).unwrap_or_default();
     Some(Warning {
         code: "W-GROUNDED",

@@ -3,8 +3,11 @@
 //! The body depends on the job and its files alone: it is byte for byte the same for any number of threads, on any day
 //! and in any folder. Times, memory, threads and paths are facts of the run and live beside it.
 
+mod explanation;
+mod html;
 mod inspection;
 mod json;
+mod junit;
 pub(crate) mod mode_table;
 pub(crate) mod page;
 mod preservation;
@@ -14,6 +17,7 @@ pub(crate) mod summary;
 pub(crate) mod table;
 mod trust;
 mod verification;
+mod words;
 
 use std::path::PathBuf;
 
@@ -22,7 +26,10 @@ use serde::Serialize;
 use crate::job::{Coupling, Eigensolver, Method};
 use crate::verification::check::{Check, Verdict};
 
+pub use explanation::{EXPLANATIONS, Explanation, Proof, explanation};
+pub use html::html;
 pub use inspection::inspection;
+pub use junit::{JunitWarnings, junit};
 pub use page::Paint;
 pub use preservation::{
     BoundaryComparison, FrequencyPair, HighestFrequency, InterfaceStatics, Preservation, PreservedMode,
@@ -286,6 +293,8 @@ pub struct RunFacts {
     pub peak_memory_bytes: Option<u64>,
     /// Size of the superelement file; absent where none was written.
     pub file_bytes: Option<u64>,
+    /// BLAKE3 of the superelement file, as the file itself carries it; absent where none was written.
+    pub file_digest: Option<String>,
     /// Working threads.
     pub n_threads: usize,
     /// What was done, counted.

@@ -91,15 +91,22 @@ fn spread(evidence: &Evidence<'_>) -> f64 {
 /// What the eigensolver and the data leave of a residual, relative to the terms it is summed from.
 fn residual_limits(evidence: &Evidence<'_>) -> Limits {
     let precision = evidence.partition.precision;
-    let data = 10.0 * precision.stiffness.max(precision.mass);
-    Limits {
-        engineering: 0.0,
-        // The eigensolver takes a pair at a residual of 16 ε of the largest θ = 1/λ, which is this share of its own.
-        arithmetic: 16.0 * f64::EPSILON * spread(evidence),
-        // On a free component a load is balanced by the interface first and the rigid-body motion taken out afterwards.
-        // That motion is up to 1/ratio times the elastic one, and K lets it pass only to the precision of its data; ten
-        // stands for the sum over the rigid-body modes. An interface that holds too badly is not used for this.
-        data: (data / evidence.rank.singular_ratio).min(data.max(SOLVE_HOLDS_UP)),
+    let digits = precision.stiffness.max(precision.mass);
+    // The eigensolver takes a pair at a residual of 16 ε of the largest θ = 1/λ, which is this share of its own.
+    let solver = 16.0 * f64::EPSILON * spread(evidence);
+    // On a free component a load is balanced by the interface first and the rigid-body motion taken out afterwards.
+    // That motion is up to 1/ratio times the elastic one, and K lets it pass only to the precision of its data; ten
+    // stands for the sum over the rigid-body modes. An interface that holds too badly is not used for this.
+    let motion = match evidence.retained.boundary {
+        Boundary::FreeInterface => {
+            (10.0 * digits / evidence.rank.singular_ratio).min(SOLVE_HOLDS_UP.max(10.0 * digits))
+        }
+        Boundary::FixedInterface => 0.0,
+    };
+    if digits > f64::EPSILON {
+        Limits { engineering: 0.0, arithmetic: solver, data: motion }
+    } else {
+        Limits { engineering: 0.0, arithmetic: solver.max(motion), data: 0.0 }
     }
 }
 
@@ -174,7 +181,7 @@ pub(super) fn stiffness_orthogonality(evidence: &Evidence<'_>, pairs: &Pairs) ->
     // x_iᵀMx_j, a few ε, times √(λ_j / λ_i).
     let arithmetic = 10.0 * f64::EPSILON * cancellation.max(spread(evidence).sqrt());
     // Rigid-body motion that K does not quite let pass is strain energy of the modes, and relative to it that much larger.
-    let data = if evidence.rigid.count() > 0 { residual_limits(evidence).data * cancellation } else { 0.0 };
+    let data = residual_limits(evidence).data * cancellation;
     let limits = Limits { engineering: 1e-10, arithmetic, data };
     // A thousandth is what measured modes are accepted with. What the digits explain beyond it is a warning beside M-09,
     // up to a hundredth.

@@ -21,10 +21,19 @@ pub struct Grounding {
     pub force_ratio: f64,
     /// Node and direction of the largest force.
     pub worst: Option<String>,
-    /// Whether K lets the motion pass within its noise, so that it counts as a rigid-body motion.
-    pub is_free: bool,
-    /// Whether a spring holds what should be free.
-    pub is_grounded: bool,
+    /// What the ratio says.
+    pub restraint: Restraint,
+}
+
+/// Whether a motion is free.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Restraint {
+    /// K lets it pass.
+    Free,
+    /// A weak spring holds what should be free.
+    Grounded,
+    /// It is held in earnest.
+    Held,
 }
 
 /// Energy ratio above which a free motion is not free: a rigid-body frequency of a thousandth of the first elastic one.
@@ -62,16 +71,21 @@ pub(super) fn groundings(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Vec<Gr
                     (largest, at) = (d * force[row].abs(), Some(row));
                 }
             }
-            let is_free = all_free || energy_ratio <= noise;
             let least = if all_free { noise.max(GROUNDED_ABOVE) } else { noise };
+            let restraint = if energy_ratio <= least {
+                Restraint::Free
+            } else if all_free || energy_ratio < HELD_ABOVE {
+                Restraint::Grounded
+            } else {
+                Restraint::Held
+            };
             Grounding {
                 direction: directions.names[j].clone(),
                 energy_ratio,
                 noise,
                 force_ratio: if of_terms > 0.0 { largest / of_terms } else { 0.0 },
                 worst: at.map(|row| partition.name_of(row)),
-                is_free,
-                is_grounded: energy_ratio > least && (all_free || energy_ratio < HELD_ABOVE),
+                restraint,
             }
         })
         .collect()

@@ -8,6 +8,7 @@ mod completeness;
 mod conditioning;
 mod directions;
 mod eigenpairs;
+mod enclosure;
 mod grounding;
 mod loads;
 mod mass;
@@ -32,7 +33,8 @@ use crate::sparse::SparseMatrix;
 
 use check::Check;
 
-pub use grounding::Grounding;
+pub use enclosure::{CountProof, Enclosures, enclosures};
+pub use grounding::{Grounding, Restraint};
 pub use loads::EffectiveMasses;
 pub use preservation::{Compared, preservation};
 pub use rigid_body::MassRoutes;
@@ -60,6 +62,8 @@ pub struct Evidence<'a> {
     pub reduction: &'a Reduction,
     /// The Sturm count, where one was asked for.
     pub certificate: Option<&'a Certificate>,
+    /// The intervals that are proved to hold the modes, where they were asked for.
+    pub enclosures: Option<&'a Enclosures>,
     /// What the user expects of the mass properties.
     pub expect: Option<&'a Expectation>,
 }
@@ -110,6 +114,7 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
         rigid_motion::residual(evidence, &rigid_body.grounding),
     ];
     checks.extend(completeness::count(evidence));
+    checks.extend(enclosure::checks(evidence));
     checks.push(eigenpairs::data_precision(evidence));
     checks.push(solves::static_solves(evidence));
     if evidence.partition.n_interface() > 0 {

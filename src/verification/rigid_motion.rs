@@ -3,7 +3,7 @@
 use faer::MatRef;
 
 use super::check::{Check, Limits};
-use super::grounding::Grounding;
+use super::grounding::{Grounding, Restraint};
 use super::residual::Worst;
 use super::spectrum::{Spectrum, zero_level};
 use super::{Evidence, coordinate_name, reduced_norms, rigid_name};
@@ -72,8 +72,10 @@ fn remoteness(evidence: &Evidence<'_>) -> f64 {
 
 /// The direction that is worst, with the dof that its force is largest at.
 fn strained(grounding: &[Grounding], measure: impl Fn(&Grounding) -> f64) -> Option<String> {
-    let worst =
-        grounding.iter().filter(|direction| direction.is_free).max_by(|a, b| measure(a).total_cmp(&measure(b)))?;
+    let worst = grounding
+        .iter()
+        .filter(|direction| direction.restraint != Restraint::Held)
+        .max_by(|a, b| measure(a).total_cmp(&measure(b)))?;
     Some(match &worst.worst {
         Some(dof) => format!("{}, {dof}", worst.direction),
         None => worst.direction.clone(),

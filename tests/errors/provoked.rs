@@ -7,8 +7,8 @@ use std::path::Path;
 
 use supel::error::Error;
 
-/// Errors that no test provokes: it would take an eigensolver that loses modes again and again.
-const UNPROVOKED: [&str; 1] = ["E-MODES-MISSING"];
+/// Warnings that no test provokes: no model is known whose pivots grow that far.
+const UNPROVOKED: [&str; 1] = ["W-COUNT-LIKELY"];
 
 /// A test function with its lines.
 struct TestFunction {
@@ -60,14 +60,14 @@ fn every_error_is_provoked() {
             None => unprovoked.push(*code),
         }
     }
-    assert!(unprovoked.iter().all(|code| UNPROVOKED.contains(code)), "no test expects these errors: {unprovoked:?}");
+    assert!(unprovoked.is_empty(), "no test expects these errors: {unprovoked:?}");
 }
 
 #[test]
 fn every_warning_is_provoked() {
     let tests = tests_below("tests");
     let mut provoked = BTreeMap::new();
-    for code in crate::documented::warnings() {
+    for code in crate::documented::warnings().into_iter().filter(|code| !UNPROVOKED.contains(&code.as_str())) {
         let test = tests.iter().find(|test| mentions(&test.body, &code));
         let test = test.unwrap_or_else(|| panic!("no test expects {code}"));
         eprintln!("{code:26} {}: {}", test.file, test.name);

@@ -37,6 +37,21 @@ write     = { superelement = "x.supel" }
     assert!(error.to_string().contains("node 4"), "{error}");
 }
 
+#[test]
+fn a_boundary_of_an_interface_that_is_none() {
+    let text = r#"
+model     = { stiffness = "K.mtx", mass = "M.mtx" }
+interface = [{ name = "hub", nodes = [4] }]
+reduction = { method = "herting", modes = { count = 1 } }
+scene     = { boundaries = ["fix:hob"] }
+write     = { superelement = "x.supel" }
+"#;
+    let job = Job::parse(text, "job.toml".as_ref()).expect("a job");
+    let error = job.validate().expect_err("no such interface");
+    assert_eq!(error.code(), "E-SCENE-INTERFACE");
+    assert!(error.to_string().contains("hob") && error.to_string().contains("hub"), "{error}");
+}
+
 /// The child that reads HDF5 first, given no model.
 #[test]
 fn a_child_without_a_model() {

@@ -36,7 +36,8 @@ fn limits_follow_the_digits_of_the_data() {
                 let bar = checks.iter().find(|check| check.id == "M-09").expect("a bar");
                 bars.push(bar.value);
                 for (id, verdict) in complaints(&checks) {
-                    let is_true = id == "M-09" && bar.value > 1e-4;
+                    // Where frequencies are not known to a tenth of a per mille, those of the reduced model are not either.
+                    let is_true = ["M-04", "M-09", "M-14"].contains(&id) && bar.value > 1e-4;
                     assert!(is_true && verdict == Verdict::Warn, "{digits} digits: {id}\n{}", lines.join("\n"));
                 }
                 let by_data = checks.iter().filter(|check| check.limits.active() == ActiveLimit::Data).count();

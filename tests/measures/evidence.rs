@@ -31,18 +31,10 @@ pub(crate) fn with_evidence<T>(
     let factor = Cholesky::new(&analysis, pencil, 0.0, &|dof| partition.name_of(dof)).expect("definite");
     let constraint = constraint_modes(&partition, &factor, &rigid);
     let internal = (&k_ii, &m_ii);
-    let component = Component {
-        partition: &partition,
-        internal,
-        analysis: &analysis,
-        factor: &factor,
-        rigid: &rigid,
-        constraint: &constraint,
-    };
+    let component = Component::new(&partition, internal, &analysis, &factor, &rigid, &constraint);
     let job = ReductionJob { method, modes: ModeSelection::Count { count }, eigensolver: Eigensolver::Lanczos };
-    let search = Search::new(component, &job).expect("counts");
-    let found = search.lowest(SEED).expect("modes");
-    let retained = Retained::new(component, search.problem.boundary, found);
+    let search = Search::new(component, &job).expect("a stable component");
+    let retained = Retained::new(component, search.problem.boundary, search.lowest(SEED).expect("modes"));
     let basis = Basis::new(&constraint, retained.columns.clone(), &m_ii);
     let reduction = Reduction::new(&partition, &basis, &rigid);
     look(Evidence {
@@ -56,6 +48,7 @@ pub(crate) fn with_evidence<T>(
         basis: &basis,
         reduction: &reduction,
         certificate: None,
+        enclosures: None,
         expect: None,
     })
 }

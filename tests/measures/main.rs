@@ -11,6 +11,7 @@ mod chain;
 mod digits;
 mod error_bars;
 mod evidence;
+mod facts;
 mod faults;
 mod grounded;
 mod healthy;

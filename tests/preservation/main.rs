@@ -3,6 +3,9 @@
 mod boundaries;
 #[path = "../chain/mod.rs"]
 mod chain;
+#[allow(dead_code, reason = "each test crate uses its part")]
+#[path = "../measures/evidence.rs"]
+mod evidence;
 mod faults;
 mod oracle;
 mod policy;

@@ -1,51 +1,33 @@
 //! What is compared: cheap defaults, and whatever the scene states.
 
-use supel::basis::DynamicColumns;
-use supel::factor::{Analysis, Cholesky, Pencil};
-use supel::job::Job;
-use supel::modes::{Boundary, Retained};
-use supel::rigid;
+use supel::factor::{Analysis, Pencil};
+use supel::job::{Job, Method};
+use supel::modes::Retained;
 use supel::verification::Evidence;
 use supel::verification::preservation::Plan;
 
-use crate::chain::{Method, direct, reduce, rigid_group};
+use crate::chain::{direct, rigid_group};
+use crate::evidence::with_model;
 use crate::run::block;
 
 /// The plan for a block with a factor of this many entries.
 fn plan(factor_entries: f64, modes: &str, scene: &str) -> Plan {
-    let interfaces = [rigid_group("XMIN"), direct("tip", &[45])];
-    let chain = reduce(&block(), &interfaces, Method::Herting, 6).expect("reduced");
-    let (k_ii, m_ii) = (chain.partition.internal_stiffness(), chain.partition.internal_mass());
-    let pencil = Pencil { stiffness: &k_ii, mass: &m_ii };
-    let sound = Analysis::new(pencil).expect("memory");
-    let factor = Cholesky::new(&sound, pencil, 0.0, &|dof| chain.partition.name_of(dof)).expect("definite");
-    let mut analysis = Analysis::new(pencil).expect("memory");
-    analysis.nnz_factor = factor_entries;
-    let mut modes_kept = chain.modes.clone();
-    if modes == "count = 0" {
-        modes_kept.lambda.clear();
-    }
-    let none = DynamicColumns { columns: chain.named.columns.clone(), coordinates: Vec::new() };
-    let boundary = Boundary::FreeInterface;
-    let retained = Retained { modes: modes_kept, boundary, columns: none };
-    let evidence = Evidence {
-        partition: &chain.partition,
-        internal: (&k_ii, &m_ii),
-        factor: &factor,
-        rigid: &chain.rigid,
-        rank: rigid::interface_rank(&chain.partition, &chain.rigid).expect("reacted"),
-        constraint: &chain.constraint,
-        retained: &retained,
-        basis: &chain.basis,
-        reduction: &chain.reduction,
-        certificate: None,
-        expect: None,
-    };
     let text = format!(
         "[model]\nstiffness = \"K\"\nmass = \"M\"\n[reduction]\nmethod = \"herting\"\nmodes = {{ {modes} }}\n{scene}\n\
          [write]\nsuperelement = \"x.supel\"\n"
     );
-    Plan::new(&evidence, &analysis, &Job::parse(&text, "job.toml".as_ref()).expect("a job"))
+    let job = Job::parse(&text, "job.toml".as_ref()).expect("a job");
+    let interfaces = [rigid_group("XMIN"), direct("tip", &[45])];
+    with_model(&block(), &interfaces, (Method::Herting, 6), |evidence| {
+        let (stiffness, mass) = evidence.internal;
+        let mut analysis = Analysis::new(Pencil { stiffness, mass }).expect("memory");
+        analysis.nnz_factor = factor_entries;
+        let mut retained: Retained = evidence.retained.clone();
+        if modes == "count = 0" {
+            retained.modes.lambda.clear();
+        }
+        Plan::new(&Evidence { retained: &retained, ..evidence }, &analysis, &job)
+    })
 }
 
 #[test]

@@ -1,14 +1,16 @@
 //! One full report and the superelement it belongs to, made by hand: a massless spring between two unit masses.
 
+mod evidence;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use supel::error::Result;
 use supel::job::{Coupling, Eigensolver, Job, Method};
 use supel::outcome::{Outcome, Resources};
 use supel::report::{
-    Completeness, DroppedCoordinate, EffectiveMass, Generator, Grounding, InterfaceReport, MassProperties, MassRoute,
-    MatrixReport, ModeKind, ModeRow, ModelReport, Observer, Preservation, ReductionReport, Report, ReportBody,
-    RigidBodyEvidence, RigidBodyModes, RigidBodySource, RunFacts, StageTime, Warning, WorkCounters,
+    Completeness, DroppedCoordinate, Generator, InterfaceReport, MassProperties, MatrixReport, ModeKind, ModeRow,
+    ModelReport, Observer, ReductionReport, Report, ReportBody, RigidBodyModes, RigidBodySource, RunFacts, StageTime,
+    Warning, WorkCounters,
 };
 use supel::verification::check::{Check, Limits};
 use supel_runtime::{
@@ -46,19 +48,6 @@ pub(crate) fn full_report() -> Report {
         fail_above: f64::INFINITY,
         worst: Some("rotation z".to_owned()),
     });
-    report
-        .body
-        .rigid_body
-        .mass_routes
-        .push(MassRoute { route: "geometry", properties: report.body.model.mass_properties.clone() });
-    report.body.rigid_body.frequencies_hz.push(2.3e-6);
-    report.body.rigid_body.grounding.push(Grounding {
-        direction: "rotation z".to_owned(),
-        energy_ratio: 4.2e-14,
-        force_ratio: 3.1e-17,
-        worst: Some("node 12 ux".to_owned()),
-    });
-    report.body.rigid_body.effective_mass.push(EffectiveMass { mode: 1, share: vec![0.83], cumulated: vec![0.83] });
     report.body.warnings.push(Warning {
         code: "W-INTERFACE-ILL",
         message: "the interface holds the rotation about the axis through nodes 12 and 19 only weakly: singular value \
@@ -69,6 +58,10 @@ pub(crate) fn full_report() -> Report {
         coordinate: "mode 7".to_owned(),
         reason: "spanned by the constraint modes to 2.3e-11".to_owned(),
     });
+    for mode in &mut report.body.reduction.modes {
+        let (frequency, bar) = (mode.frequency_hz, 3.0 * mode.error_bar_hz);
+        mode.enclosure_hz = Some([frequency - bar, frequency + bar]);
+    }
     report
 }
 
@@ -80,7 +73,7 @@ pub(crate) fn passing_report() -> Report {
 fn body() -> ReportBody {
     let row = |index: usize| ModeRow {
         index,
-        frequency_hz: 100.0 * (index as f64).powf(1.3),
+        frequency_hz: evidence::frequency(index),
         error_bar_hz: 1.7e-10 * (index as f64),
         backward_error: 3.1e-16,
         kind: ModeKind::FreeInterface,
@@ -114,9 +107,9 @@ fn body() -> ReportBody {
         }],
         warnings: Vec::new(),
         completeness: Completeness::SturmCount { below_hz: 16_200.25, n_counted: 56, n_found: 56, doubt: 0.01 },
-        trust_intervals: Vec::new(),
-        rigid_body: RigidBodyEvidence::default(),
-        preservation: Preservation::default(),
+        trust_intervals: evidence::trust_intervals(),
+        rigid_body: evidence::rigid_body(&model().mass_properties),
+        preservation: evidence::preservation(),
     }
 }
 
@@ -148,6 +141,7 @@ fn run_facts() -> RunFacts {
         stages: vec![stage("read", 1.31), stage("factor", 4.2), stage("modes", 6.9), stage("write", 0.004)],
         peak_memory_bytes: Some(1_932_735_283),
         file_bytes: Some(81_920),
+        file_digest: Some("c".repeat(64)),
         n_threads: 2,
         work: WorkCounters {
             n_factorisations: 2,

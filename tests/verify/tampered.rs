@@ -73,15 +73,22 @@ fn stiffness() {
                 tensors.stiffness = changed(&tensors.stiffness, at, PER_MILLE);
             });
         }
-        fails(&place, "M-13 interface and modes are uncoupled in stiffness", &|tensors, _| {
+        fails(&place, "M-13 interface and modes uncoupled in stiffness", &|tensors, _| {
             tensors.stiffness = changed(&tensors.stiffness, (3, 12), PER_MILLE);
         });
-        for at in [(12, 12), (16, 16)] {
-            fails(&place, "M-14 reduced matrices have the stated frequencies", &|tensors, _| {
-                tensors.stiffness = changed(&tensors.stiffness, at, PER_MILLE);
-            });
-        }
-        fails(&place, "M-25 reduced mass is definite, stiffness not negative", &|tensors, _| {
+        // The first modal coordinate of Herting's is an inertia-relief mode, which no low frequency feels.
+        let first = match method {
+            "herting" => "M-18 inertia relief answers unit accelerations",
+            _ => "M-14 reduced matrices have the stated frequencies",
+        };
+        fails(&place, first, &|tensors, _| {
+            tensors.stiffness = changed(&tensors.stiffness, (12, 12), PER_MILLE);
+        });
+        let last = place.superelement("x.supel").n_coordinates() - 1;
+        fails(&place, "M-14 reduced matrices have the stated frequencies", &|tensors, _| {
+            tensors.stiffness = changed(&tensors.stiffness, (last, last), PER_MILLE);
+        });
+        fails(&place, "M-25 reduced mass and stiffness are not negative", &|tensors, _| {
             let negative = |i, j| if i == j { -tensors.stiffness[(i, j)] } else { tensors.stiffness[(i, j)] };
             tensors.stiffness = Matrix::from_fn(tensors.stiffness.rows(), tensors.stiffness.cols(), negative);
         });
@@ -107,7 +114,7 @@ fn mass() {
         fails(&place, "M-03 modal masses are one", &|tensors, _| {
             tensors.mass = changed(&tensors.mass, (r - 1, r - 1), PER_MILLE);
         });
-        fails(&place, "M-25 reduced mass is definite, stiffness not negative", &|tensors, _| {
+        fails(&place, "M-25 reduced mass and stiffness are not negative", &|tensors, _| {
             tensors.mass = changed(&tensors.mass, (0, 0), -1.0);
         });
     }
@@ -208,8 +215,8 @@ fn mixing() {
             tensors.mixing = Some(changed_at(mixing, at, by));
         }
     };
-    fails(&place, "M-18 inertia-relief modes answer unit accelerations", &changed((1, 1)));
-    fails(&place, "M-14 named modes are eigenpairs of the reduced model", &changed((n - 2, n - 1)));
+    fails(&place, "M-18 inertia relief answers unit accelerations", &changed((1, 1)));
+    fails(&place, "M-14 named modes are eigenpairs of K̂ and M̂", &changed((n - 2, n - 1)));
 }
 
 #[test]

@@ -2,8 +2,9 @@
 
 use supel_runtime::{Coordinate, Superelement};
 
+use crate::input::Direction;
 use crate::output::InputFacts;
-use crate::partition::{DofOrigin, Partition};
+use crate::partition::{DofOrigin, InterfaceNode, Partition, ReducedDof};
 use crate::verification::check::{Check, Limits};
 
 /// M-26: digests of the inputs. Other files may hold the same matrices, which the other checks tell.
@@ -26,7 +27,8 @@ pub(super) fn digests(superelement: &Superelement, facts: &InputFacts) -> Check 
 /// M-26: interface coordinates, one by one.
 pub(super) fn interface(superelement: &Superelement, partition: &Partition) -> Check {
     let stored = stored(superelement);
-    let asked = asked(partition, !superelement.metadata().interface_nodes.is_empty());
+    let has_nodes = !superelement.metadata().interface_nodes.is_empty();
+    let asked = if has_nodes { nodes_asked(partition) } else { rows_asked(partition) };
     let first = stored.iter().zip(&asked).find(|(a, b)| a != b);
     let n_different = stored.iter().zip(&asked).filter(|(a, b)| a != b).count() + stored.len().abs_diff(asked.len());
     let worst = match first {
@@ -61,27 +63,23 @@ fn stored(superelement: &Superelement) -> Vec<String> {
     metadata.coordinates.iter().filter_map(of).collect()
 }
 
-/// The same of the job; `with_nodes` where the file names nodes.
-fn asked(partition: &Partition, with_nodes: bool) -> Vec<String> {
-    let rows = || {
-        partition.dofs[partition.n_internal..].iter().map(|dof| match dof.origin {
-            DofOrigin::Row(row) => format!("row {}", row + 1),
-            DofOrigin::RigidNode(node, _) => format!("row {}", node + 1),
-        })
+/// The same of the job, for a file that names no nodes.
+fn rows_asked(partition: &Partition) -> Vec<String> {
+    let of = |dof: &ReducedDof| match dof.origin {
+        DofOrigin::Row(row) => format!("row {}", row + 1),
+        DofOrigin::RigidNode(node, _) => format!("row {}", node + 1),
     };
-    if !with_nodes {
-        return rows().collect();
-    }
-    let of_node = |node: &crate::partition::InterfaceNode| {
+    partition.dofs[partition.n_internal..].iter().map(of).collect()
+}
+
+/// The same of the job, for a file that names nodes.
+fn nodes_asked(partition: &Partition) -> Vec<String> {
+    let of = |node: &InterfaceNode| -> Vec<String> {
         let position = node.position.unwrap_or_default();
-        let node = node.clone();
-        let directions = node.directions.clone();
-        directions
-            .into_iter()
-            .map(move |direction| described(&node.name, node.label, &direction.to_string(), position))
-            .collect::<Vec<_>>()
+        let name = |direction: &Direction| described(&node.name, node.label, &direction.to_string(), position);
+        node.directions.iter().map(name).collect()
     };
-    partition.interface.iter().flat_map(of_node).collect()
+    partition.interface.iter().flat_map(of).collect()
 }
 
 fn described(name: &str, label: Option<i64>, direction: &str, position: [f64; 3]) -> String {

@@ -69,7 +69,7 @@ pub(super) fn rigid_body_modes(scaled: &Scaled, full: &Full<'_>) -> Vec<Check> {
     vec![
         Check {
             id: "M-05",
-            name: "rigid-body modes are zero modes of the full model",
+            name: "rigid-body modes are free in the full model",
             equation: "max ‖Û_B − Q_B A‖ / ‖Û_B‖, Q by inverse iteration",
             value,
             limits,
@@ -201,7 +201,7 @@ pub(super) fn mass(scaled: &Scaled, full: &Full<'_>, answers: &Answers) -> Check
     let limits = Limits { engineering: 1e-9, arithmetic: rounding_of_motion(full), data: 0.0 };
     Check {
         id: "M-16",
-        name: "inertia of interface motions is that of the full model",
+        name: "inertia of motions is that of the full model",
         equation: "max |ZᵀMZ − Z_BᵀM̂_BB Z_B|, Z zero modes and static answers",
         value: worst.0,
         limits,

@@ -1,14 +1,13 @@
 //! What was read, computed and checked.
 
-use crate::job::{Coupling, Eigensolver, Method};
 use crate::report::mode_table::{Mode, mode_table};
 use crate::report::page::{Page, Tone, WIDTH, verdict_word};
 use crate::report::table::{self, Align};
 use crate::report::{
-    Completeness, MassProperties, MatrixReport, ModeKind, ModelReport, ReductionReport, ReportBody, RigidBodySource,
-    TrustInterval,
+    Completeness, MassProperties, MatrixReport, ModelReport, ReductionReport, ReportBody, RigidBodyEvidence, RigidBodySource,
+    TrustInterval, words,
 };
-use crate::verification::check::{ActiveLimit, Check, Verdict};
+use crate::verification::check::{Check, Verdict};
 
 /// Longer lists of notes and left-out coordinates are cut; the JSON document has them all.
 const LINES_SHOWN: usize = 8;
@@ -23,7 +22,7 @@ pub(super) fn write(page: &mut Page, body: &ReportBody) {
         "{} {} · {} · {sizes} degrees of freedom",
         body.generator.name,
         body.generator.version,
-        method(reduction.method)
+        words::method(reduction.method)
     );
     let title = page.toned(&title, Tone::Heading);
     page.line(&title);
@@ -31,6 +30,7 @@ pub(super) fn write(page: &mut Page, body: &ReportBody) {
     model(page, &body.model);
     page.heading("Reduced");
     reduced(page, reduction);
+    rigid_body(page, &body.rigid_body);
     let modes: Vec<Mode> = reduction
         .modes
         .iter()
@@ -101,10 +101,7 @@ fn rounded(value: f64, size: f64) -> String {
 
 fn reduced(page: &mut Page, reduction: &ReductionReport) {
     for interface in &reduction.interfaces {
-        let coupling = match interface.coupling {
-            Coupling::Direct => "direct",
-            Coupling::Rigid => "rigid",
-        };
+        let coupling = words::coupling(interface.coupling);
         let nodes = table::counted(interface.n_nodes, "node", "nodes");
         let dofs = table::counted(interface.n_dofs, "dof", "dofs");
         page.entry("interface", &format!("{} · {coupling} · {nodes} · {dofs}", interface.name));
@@ -118,18 +115,28 @@ fn reduced(page: &mut Page, reduction: &ReductionReport) {
     let dropped: Vec<String> =
         reduction.dropped.iter().map(|dropped| format!("{}: {}", dropped.coordinate, dropped.reason)).collect();
     listing(page, "left out", &dropped);
-    let solver = match reduction.eigensolver {
-        Eigensolver::Lanczos => "block Lanczos",
-        Eigensolver::Arpack => "ARPACK",
-    };
+    let solver = words::eigensolver(reduction.eigensolver);
     let worst = reduction.modes.iter().map(|mode| mode.backward_error).fold(0.0, f64::max);
     if let Some(mode) = reduction.modes.first() {
-        let kind = match mode.kind {
-            ModeKind::FreeInterface => "free-interface",
-            ModeKind::FixedInterface => "fixed-interface",
-        };
+        let kind = words::mode_kind(mode.kind);
         let worst = table::scientific(worst, 2);
         page.entry("modes", &format!("{kind} · {solver} · backward error at most {worst}"));
+    }
+}
+
+fn rigid_body(page: &mut Page, found: &RigidBodyEvidence) {
+    let highest = found.frequencies_hz.iter().copied().fold(f64::NAN, f64::max);
+    let mut parts = Vec::new();
+    if !highest.is_nan() {
+        parts.push(format!("at most {} Hz", table::quantity(highest, 2)));
+    }
+    let worst = found.grounding.iter().max_by(|a, b| a.energy_ratio.total_cmp(&b.energy_ratio));
+    if let Some(worst) = worst.filter(|_| !parts.is_empty()) {
+        let ratio = table::scientific(worst.energy_ratio, 2);
+        parts.push(format!("worst {}, {ratio} of the first elastic energy", worst.direction));
+    }
+    if !parts.is_empty() {
+        page.entry("rigid body", &parts.join(" · "));
     }
 }
 
@@ -155,17 +162,7 @@ pub(crate) fn checks(page: &mut Page, checks: &[Check]) {
 }
 
 fn check_row(check: &Check) -> [String; 7] {
-    let [limit, active, margin] = match check.limits.active() {
-        _ if !check.is_judged() => ["–", "–", "–"].map(str::to_owned),
-        active => {
-            let active = match active {
-                ActiveLimit::Engineering => "engineering",
-                ActiveLimit::Arithmetic => "arithmetic",
-                ActiveLimit::Data => "data",
-            };
-            [table::scientific(check.limits.value(), 1), active.to_owned(), margin(check.margin())]
-        }
-    };
+    let [limit, active, margin] = words::limit(check);
     [
         check.id.to_owned(),
         table::shorten(check.name, NAME),
@@ -175,19 +172,6 @@ fn check_row(check: &Check) -> [String; 7] {
         margin,
         verdict_word(check.verdict()).to_owned(),
     ]
-}
-
-/// Margins are looked at, not calculated with: two digits, and no more than a million.
-fn margin(margin: f64) -> String {
-    if margin.is_nan() {
-        "–".to_owned()
-    } else if margin >= 1e6 {
-        "> 1e6".to_owned()
-    } else if margin >= 10.0 {
-        table::count(margin as u64)
-    } else {
-        table::quantity(margin, 2)
-    }
 }
 
 fn completeness(page: &mut Page, completeness: &Completeness) {
@@ -224,12 +208,5 @@ fn listing(page: &mut Page, label: &str, lines: &[String]) {
     }
     if lines.len() > LINES_SHOWN {
         page.entry("", &format!("… and {} more in the report", lines.len() - LINES_SHOWN));
-    }
-}
-
-fn method(method: Method) -> &'static str {
-    match method {
-        Method::CraigBampton => "Craig-Bampton",
-        Method::Herting => "Herting",
     }
 }

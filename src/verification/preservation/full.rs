@@ -16,8 +16,9 @@ use crate::modes::{Factored, FreeAtZero, ModalProblem, ModeRequest, Modes, SEED,
 use crate::rigid::{RigidBodyModes, RigidEnergy};
 use crate::sparse::{SparseMatrix, product};
 
-/// Backward error up to which a pair counts as one of the full model: its Rayleigh quotient then errs by the square.
-const HOLDS_UP: f64 = 1e-8;
+/// Backward error up to which a pair found with the factor of K_II is taken. Sound supports give 10⁻¹⁶ to 10⁻¹⁴; where the
+/// lowest λ is 10⁻⁹ of ‖K‖, as in slender models, its Rayleigh quotient then errs by (10⁻¹²/10⁻⁹)² = 10⁻⁶ at most.
+const HOLDS_UP: f64 = 1e-12;
 /// Singular values of the rigid-body motions at the held dofs, relative to the largest, below which a motion passes. The
 /// interface rank uses the same figure.
 const PASSES: f64 = 1e-10;

@@ -138,7 +138,9 @@ impl Compared {
             self.checks.extend(response::checks(response));
             self.report.response = Some(response.report.clone());
         }
-        self.checks.extend(boundaries::monotonicity(references, &self.report.boundaries));
+        let monotonicity = boundaries::monotonicity(evidence, references);
+        let monotonicity = self.kept("monotonicity of the frequencies", monotonicity)?.flatten();
+        self.checks.extend(monotonicity);
         let full = response.as_ref().map(|response| &response.full);
         let sizes = sizes::size_errors(evidence, references, full, band_hz);
         self.report.size_errors = self.kept("errors of smaller bases", sizes)?.unwrap_or_default();

@@ -2,14 +2,13 @@
 
 use super::super::Evidence;
 use crate::factor::Analysis;
-use crate::job::{Job, ModeSelection, SceneJob, Support};
-use crate::modes::Boundary;
+use crate::job::{Certify, Job, ModeSelection, SceneJob, Support};
 
 /// Modes are kept up to this multiple of the band that a reduction serves: with less, the response at the end of the
 /// band has lost a digit that the modes kept could give (Herting: 5 % against 0.5 %).
 const CUT_OFF: f64 = 1.5;
 /// Floating-point operations that a comparison nobody asked for may cost: a few seconds of one core.
-const UNASKED_FLOPS: f64 = 2e10;
+const UNASKED_FLOPS: f64 = 1e10;
 /// Right-hand sides an eigensolution takes beside three for each mode found.
 const SOLVES_BESIDE: f64 = 64.0;
 /// Blocks of n_B right-hand sides that the response converges in.
@@ -56,13 +55,15 @@ impl Plan {
             (plan.supports, plan.response) = (Vec::new(), false);
         }
         let cost = Cost::of(evidence, analysis);
-        let dear = "it would cost more than reducing does; state it in [scene] or ask for --certify full";
-        if scene.boundaries.is_none() && !plan.supports.is_empty() && cost.support * cost.n_new_supports > UNASKED_FLOPS
-        {
+        let dear = "it would take long on a model of this size; state it in [scene] to have it";
+        // Whoever asks for more than a count asks for the whole comparison.
+        let is_full = !matches!(job.run.certify, Certify::None | Certify::Count);
+        let is_asked = is_full || scene.boundaries.is_some();
+        if !is_asked && !plan.supports.is_empty() && cost.support * cost.n_new_supports > UNASKED_FLOPS {
             plan.not_compared.push(format!("frequencies under other boundaries: {dear}"));
             plan.supports.clear();
         }
-        let is_asked = scene.band_hz.is_some() || scene.damping.is_some();
+        let is_asked = is_full || scene.band_hz.is_some() || scene.damping.is_some();
         if plan.response && !is_asked && cost.response > UNASKED_FLOPS {
             plan.not_compared.push(format!("frequency response: {dear}"));
             plan.response = false;
@@ -113,12 +114,4 @@ fn default_supports(evidence: &Evidence<'_>) -> Vec<Support> {
     let fixed = names.iter().map(|name| Support::Fixed { interface: (*name).to_owned() });
     let loaded = names.iter().map(|name| Support::Loaded { interface: (*name).to_owned(), mass: None });
     std::iter::once(Support::Free).chain(fixed).chain(loaded).collect()
-}
-
-/// Whether the retained modes are those of a component of which this much is held.
-pub(super) fn is_own_boundary(evidence: &Evidence<'_>, held: &[bool], is_loaded: bool) -> bool {
-    match evidence.retained.boundary {
-        Boundary::FreeInterface => !is_loaded && held.iter().all(|held| !held),
-        Boundary::FixedInterface => held.iter().all(|held| *held),
-    }
 }

@@ -129,25 +129,25 @@ fn i_20_a_frame_that_was_not_declared() {
     coordinates_refused(&place, "--interface foot=1,11,31,41 --method herting --modes 5 --threads 1", &[]);
 }
 
-/// Frames at some nodes only: no translation of the coordinates is free, and still six motions are.
+/// Frames at some nodes only: no translation of the coordinates is free, and still motions without energy are. Coordinates
+/// cannot tell them from supports with a mechanism; what they never are is a component without a word.
 #[test]
 fn i_20_frames_at_some_nodes() {
     let mut block = steel_brick();
-    let of = |entries: &[supel_models::model::Entry]| turned(block.n, entries, |row| row / 3 % 5 == 4);
+    let of = |entries: &[supel_models::model::Entry]| turned(entries, |row| row / 3 % 5 == 4);
     (block.stiffness, block.mass) = (of(&block.stiffness), of(&block.mass));
-    let place = Place::with(&block);
     for method in ["herting", "craig-bampton"] {
+        let place = Place::with(&block);
         let rest = format!("--interface foot=1,11,31,41 --method {method} --modes 5 --threads 1");
-        coordinates_refused(&place, &rest, &[]);
+        let ended = place.reduce(&place.model_flags(), &rest);
+        let is_named = ended.err.starts_with("supel: error[E-MECHANISM]") || ended.out.contains("W-MECHANISM");
+        let is_refused = ended.code == supel::cli::ExitCode::CheckFailed && !place.path("x.supel").exists();
+        assert!(is_named || is_refused, "{method}: {:?} {}{}", ended.code, ended.out, ended.err);
     }
 }
 
 /// RᵀAR with a turn of 90° about z at the nodes of some rows: ux takes the place of uy, uy that of −ux.
-fn turned(
-    n: usize,
-    entries: &[supel_models::model::Entry],
-    is_turned: impl Fn(u32) -> bool,
-) -> Vec<supel_models::model::Entry> {
+fn turned(entries: &[supel_models::model::Entry], is_turned: impl Fn(u32) -> bool) -> Vec<supel_models::model::Entry> {
     let image = |row: u32| match (is_turned(row), row % 3) {
         (true, 0) => (row + 1, -1.0),
         (true, 1) => (row - 1, 1.0),
@@ -157,7 +157,6 @@ fn turned(
         .iter()
         .map(|&(row, col, value)| {
             let ((row, of_row), (col, of_col)) = (image(row), image(col));
-            assert!((row as usize) < n && (col as usize) < n);
             (row, col, value * of_row * of_col)
         })
         .collect();

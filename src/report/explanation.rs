@@ -1,0 +1,240 @@
+//! What each check means, in the words of a structural engineer: one table for the page, the documentation and tests.
+
+/// How firm the answer of a check is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Proof {
+    /// A count, an enclosure or a comparison of bits that leaves room for rounding only.
+    Certified,
+    /// Computed directly from the full and the reduced matrices.
+    Measured,
+    /// A first-order bound, or a sample that stands for the whole.
+    Estimated,
+    /// Shown for judgement.
+    Shown,
+}
+
+impl Proof {
+    /// The word for people.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Certified => "certified",
+            Self::Measured => "measured",
+            Self::Estimated => "estimated",
+            Self::Shown => "shown",
+        }
+    }
+
+    /// What the word means.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Certified => "a count, an enclosure or a comparison of bits that leaves room for rounding only",
+            Self::Measured => "computed directly from the full and the reduced matrices",
+            Self::Estimated => "a first-order bound, or a sample that stands for the whole",
+            Self::Shown => "a number for your judgement, because no limit can be right for every use",
+        }
+    }
+}
+
+/// A check in words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Explanation {
+    /// Identifier of the check, `M-05`.
+    pub id: &'static str,
+    /// How firm its answer is.
+    pub proof: Proof,
+    /// What is measured and why it matters.
+    pub meaning: &'static str,
+    /// What to look at where it is past its limit.
+    pub remedy: &'static str,
+}
+
+/// The explanation of the check `id`.
+pub fn explanation(id: &str) -> Option<&'static Explanation> {
+    EXPLANATIONS.iter().find(|explanation| explanation.id == id)
+}
+
+const fn line(id: &'static str, proof: Proof, meaning: &'static str, remedy: &'static str) -> Explanation {
+    Explanation { id, proof, meaning, remedy }
+}
+
+/// Every check, in the order of the identifiers.
+pub const EXPLANATIONS: [Explanation; 26] = [
+    line(
+        "M-01",
+        Proof::Measured,
+        "Each mode and its frequency are put back into the full equation K x = λ M x; the value is the force that is left \
+         over, relative to the matrices. It says how far the mode is from being an exact mode of the supplied matrices.",
+        "The iteration has not converged on this mode: compare with --eigensolver arpack and look at the mode named.",
+    ),
+    line(
+        "M-02",
+        Proof::Measured,
+        "The same left-over force, taken at every degree of freedom by itself and relative to the forces that cancel there: \
+         no soft corner of the model hides behind a stiff one.",
+        "Look at the degree of freedom named: it is often held by very soft or very stiff elements.",
+    ),
+    line(
+        "M-03",
+        Proof::Measured,
+        "Modal masses are one and modes do not couple through the mass. If they did, one vibration would be counted twice.",
+        "Two modes named together describe the same motion: ask for a few modes more, so that their group is whole.",
+    ),
+    line(
+        "M-04",
+        Proof::Measured,
+        "Modes do not couple through the stiffness, so that modal stiffness is the square of the frequency and nothing else.",
+        "As for M-03.",
+    ),
+    line(
+        "M-05",
+        Proof::Measured,
+        "The component is moved and turned as a rigid body. It must store no energy and show no force: otherwise something \
+         ties it to the ground, or the coordinates do not belong to the stiffness.",
+        "Look at the node named: a spring to ground, a support left in, a multi-point constraint that does not let \
+         rotations pass, or coordinates of another mesh. Too few digits in a text file look the same.",
+    ),
+    line(
+        "M-06",
+        Proof::Certified,
+        "How many frequencies lie in the interval is counted from the signs of a factorisation, without computing a single \
+         mode, and compared with the modes found. Equal counts prove that none was missed.",
+        "A mode was missed and the run is not to be used. Please report it; another --eigensolver may help.",
+    ),
+    line(
+        "M-07",
+        Proof::Certified,
+        "Each frequency is enclosed between two bounds, relative to its size; an exact frequency of the full matrices lies \
+         between them.",
+        "The model asks more than double precision gives, which is usual for very thin or slender parts; see M-23.",
+    ),
+    line(
+        "M-08",
+        Proof::Estimated,
+        "Angle between each computed shape and the exact one, from the left-over force and the distance to the next \
+         frequency. Near neighbours make shapes uncertain although their frequencies are not.",
+        "Judge the group of neighbouring modes together: the plane they span is certain, the shapes in it are not.",
+    ),
+    line(
+        "M-09",
+        Proof::Estimated,
+        "How far the digits of the input file let each frequency move. Thin and slender parts cancel large element \
+         stiffnesses, so that a text file of few digits changes their frequencies although nothing in it looks wrong.",
+        "Export the matrices with more digits, or in a binary format.",
+    ),
+    line(
+        "M-10",
+        Proof::Estimated,
+        "The static solutions under unit displacements of the interface are put back into the full stiffness, on all of \
+         them or on random combinations of them.",
+        "The stiffness of the interior is nearly singular: look for a mechanism or for a huge ratio of stiffnesses.",
+    ),
+    line(
+        "M-11",
+        Proof::Measured,
+        "Moving the interface as a rigid body carries the whole component along as a rigid body: the constraint modes add \
+         up to rigid-body motion (24).",
+        "The interface hardly holds the component against one rigid-body motion: add an interface node away from it.",
+    ),
+    line(
+        "M-12",
+        Proof::Measured,
+        "The reduced stiffness gives no force under rigid-body motion and has no other motion without force: in the \
+         simulation the component neither sticks to the ground nor falls apart.",
+        "Too many zero modes mean a mechanism in the model, too few mean grounding; see M-05.",
+    ),
+    line(
+        "M-13",
+        Proof::Measured,
+        "Interface coordinates and modal amplitudes do not couple in the reduced stiffness, as (29) demands; what is left of \
+         that coupling is rounding.",
+        "The static solutions are poor; see M-10.",
+    ),
+    line(
+        "M-14",
+        Proof::Measured,
+        "Each retained mode is put into the reduced equation, with the boundary it was computed for: the reduced model has \
+         the same frequency and the same shape (34), (35).",
+        "The superelement does not reproduce its own modes and is not to be used; see M-11 and M-13 for the cause.",
+    ),
+    line(
+        "M-15",
+        Proof::Measured,
+        "Shapes of the full and of the reduced model are compared by the modal assurance criterion with the mass as weight: \
+         1 is the same shape. Repeated frequencies are compared as a group.",
+        "Shapes mix where modes are missing: keep more modes.",
+    ),
+    line(
+        "M-16",
+        Proof::Measured,
+        "Mass, centre of mass and inertia of the reduced model are those of the full one; where the job names the expected \
+         ones, they are compared as well.",
+        "Reduced against full: see M-11. Against the job: units, a missing part, density, or coordinates in other units.",
+    ),
+    line(
+        "M-17",
+        Proof::Measured,
+        "Each interface is displaced while the others are held, in the full and in the reduced model. The reduced static \
+         stiffness must be that of the full model, whatever the number of modes.",
+        "The static solutions are poor; see M-10.",
+    ),
+    line(
+        "M-18",
+        Proof::Measured,
+        "Deflection under unit accelerations, in both models. Inertia-relief modes make it exact; without them it depends on \
+         how many modes are kept.",
+        "Use --method herting, or keep more modes.",
+    ),
+    line(
+        "M-19",
+        Proof::Shown,
+        "Share of the mass that the retained modes set in motion along each rigid-body direction. What is missing is moved \
+         by modes above the cut-off.",
+        "Keep modes to a higher frequency where the component is shaken in that direction.",
+    ),
+    line(
+        "M-20",
+        Proof::Measured,
+        "Frequency response between interface degrees of freedom, the full model solved anew at each sample and compared \
+         with the reduced one: what the simulation will feel, at worst.",
+        "Keep more modes; the size–error curve says how many would give which error.",
+    ),
+    line(
+        "M-21",
+        Proof::Estimated,
+        "Bound of the response error from the modes that were left out, between the samples of M-20.",
+        "Keep more modes.",
+    ),
+    line(
+        "M-22",
+        Proof::Measured,
+        "Angle between the spaces that Rubin's and Herting's methods span. Both must describe the same motions.",
+        "The interface is badly conditioned; see M-23.",
+    ),
+    line(
+        "M-23",
+        Proof::Estimated,
+        "How much the arithmetic amplifies rounding: by the interface that holds the rigid-body motions, by the stiffness of \
+         the interior, by the reduced matrices.",
+        "Spread the interface nodes, and avoid stiffness ratios that no real part has.",
+    ),
+    line(
+        "M-24",
+        Proof::Measured,
+        "A reduced model is the full one with constraints added, so that no reduced frequency can lie below the full one of \
+         the same number.",
+        "This cannot happen but by a defect or by a missed mode. Do not use the result; please report it.",
+    ),
+    line(
+        "M-25",
+        Proof::Certified,
+        "The reduced matrices are symmetric to the last bit, every motion has positive mass, and none has negative \
+         stiffness: time integration will not gain energy from them.",
+        "A column depends on the others, or the full matrices are not definite; see the notes of the model.",
+    ),
+    line(
+        "M-26",
+        Proof::Certified,
+        "The written file was read back: its digest is right and it holds what was computed, to the last bit.",
+        "The disk or the file system changed the file: write it elsewhere.",
+    ),
+];

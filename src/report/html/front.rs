@@ -1,0 +1,256 @@
+//! The page that is signed: the verdict, what it is about, where it holds, and room for names.
+
+use super::markup::{Markup, class_of, escaped};
+use super::plot::power_of_ten;
+use crate::report::table::{counted, quantity, scientific};
+use crate::report::words;
+use crate::report::{
+    Completeness, MatrixReport, ModelReport, Preservation, ReductionReport, ReportBody, RunFacts, table,
+};
+use crate::verification::check::{Check, Verdict};
+
+/// What a signature under this page means.
+const SCOPE: &str =
+    "Proves that the reduction reproduces the supplied K and M. Does not validate the finite element model.";
+
+/// What stands in its place where a check failed.
+const NOT_PROVED: &str = "Does not prove that the reduction reproduces the supplied K and M: see what failed. Does not \
+                          validate the finite element model.";
+
+/// What the run says of itself at the head of the page: the file that is signed for.
+pub(super) fn of_run(page: &mut Markup, run: &RunFacts) {
+    page.raw("<header id=\"of-run\">\n");
+    let file = run.superelement.as_ref().and_then(|path| path.file_name()).map(|name| name.to_string_lossy());
+    match file {
+        Some(name) => page.classed("p", "file", &format!("Superelement {name}")),
+        None => page.classed("p", "file", "No superelement was written"),
+    }
+    if let Some(digest) = &run.file_digest {
+        page.classed("p", "digest", &format!("BLAKE3 {digest}"));
+    }
+    page.raw("</header>\n");
+}
+
+pub(super) fn front(page: &mut Markup, body: &ReportBody) {
+    page.raw("<section id=\"verdict\" aria-labelledby=\"verdict-heading\">\n");
+    let generator = format!("Reduction report by {} {}", body.generator.name, body.generator.version);
+    page.classed("p", "kind", &generator);
+    let verdict = body.verdict();
+    let (sign, word) = match verdict {
+        Verdict::Info | Verdict::Pass => ("✓", "Verified"),
+        Verdict::Warn => ("!", "Verified, with warnings"),
+        Verdict::Fail => ("✗", "Not verified"),
+    };
+    page.raw(&format!("<div class=\"box {}\">\n", class_of(verdict)));
+    page.raw(&format!("<h1 id=\"verdict-heading\"><span aria-hidden=\"true\">{sign}</span> {word}</h1>\n"));
+    page.paragraph(&counts(body));
+    page.raw("</div>\n");
+    page.classed("p", "scope", if verdict == Verdict::Fail { NOT_PROVED } else { SCOPE });
+    page.facts(&[
+        ("Model", model(&body.model)),
+        ("Units", vec![units(&body.model)]),
+        ("Stiffness K", vec![matrix(&body.model.stiffness)]),
+        ("Mass M", vec![matrix(&body.model.mass)]),
+        ("Method", vec![method(&body.reduction)]),
+        ("Interfaces", interfaces(&body.reduction)),
+        ("Reduced to", vec![coordinates(&body.reduction)]),
+        ("Modes kept", vec![modes(&body.reduction)]),
+        ("Completeness", vec![sentence(&body.completeness.statement())]),
+        ("Valid for", validity(&body.preservation)),
+        ("Not compared", body.preservation.not_compared.clone()),
+        ("Done to the data", repairs(body)),
+        ("Warnings", body.warnings.iter().map(|warning| format!("{}: {}", warning.code, warning.message)).collect()),
+    ]);
+    page.digests(&[
+        ("BLAKE3 of K", vec![body.model.stiffness.digest.clone()]),
+        ("BLAKE3 of M", vec![body.model.mass.digest.clone()]),
+    ]);
+    signatures(page);
+    page.raw("</section>\n");
+}
+
+fn counts(body: &ReportBody) -> String {
+    let of = |verdict| -> Vec<&str> {
+        let ids = body.checks.iter().filter(|check| check.verdict() == verdict).map(|check: &Check| check.id);
+        let mut ids: Vec<&str> = ids.collect();
+        ids.dedup();
+        ids
+    };
+    let n_passed = body.checks.iter().filter(|check| check.verdict() == Verdict::Pass).count();
+    let n_judged = body.checks.iter().filter(|check| check.is_judged()).count();
+    let mut parts = vec![format!("{n_passed} of {} passed", counted(n_judged, "check", "checks"))];
+    let (failed, warned) = (of(Verdict::Fail), of(Verdict::Warn));
+    if !failed.is_empty() {
+        parts.push(format!("failed: {}", failed.join(", ")));
+    }
+    if !warned.is_empty() {
+        parts.push(format!("past the limit: {}", warned.join(", ")));
+    }
+    let n_shown = body.checks.iter().filter(|check| check.verdict() == Verdict::Info).count();
+    if n_shown > 0 {
+        parts.push(format!("{n_shown} shown without a limit"));
+    }
+    match &body.completeness {
+        Completeness::NotCertified { .. } => parts.push("completeness not certified".to_owned()),
+        completeness if completeness.is_certified() => {}
+        Completeness::SturmCount { n_counted, n_found, .. } if n_counted == n_found => {
+            parts.push("completeness likely, not certified".to_owned());
+        }
+        Completeness::SturmCount { .. } => parts.push("modes are missing".to_owned()),
+    }
+    if !body.warnings.is_empty() {
+        parts.push(counted(body.warnings.len(), "warning", "warnings"));
+    }
+    parts.join("; ") + "."
+}
+
+fn model(model: &ModelReport) -> Vec<String> {
+    let mut parts = vec![counted(model.n_dofs, "degree of freedom", "degrees of freedom")];
+    parts.extend(model.n_nodes.map(|n_nodes| counted(n_nodes, "node", "nodes")));
+    parts.push(counted(model.n_bodies, "body", "bodies"));
+    parts.push(match model.rigid_body_modes.count {
+        0 => "restrained".to_owned(),
+        count => counted(count, "rigid-body motion", "rigid-body motions"),
+    });
+    vec![parts.join(", ")]
+}
+
+fn units(model: &ModelReport) -> String {
+    match &model.units {
+        Some(units) => format!("{units}, as named by the job; no number was converted"),
+        None => "not named; all numbers are in the units of the matrices, frequencies in Hz if time is in seconds"
+            .to_owned(),
+    }
+}
+
+fn matrix(matrix: &MatrixReport) -> String {
+    let nonzeros = counted(matrix.n_nonzeros, "nonzero", "nonzeros");
+    format!("{nonzeros}, {} significant digits", matrix.digits)
+}
+
+fn method(reduction: &ReductionReport) -> String {
+    format!("{}; modes by {}", words::method(reduction.method), words::eigensolver(reduction.eigensolver))
+}
+
+fn interfaces(reduction: &ReductionReport) -> Vec<String> {
+    let line = |interface: &crate::report::InterfaceReport| {
+        let (nodes, dofs) =
+            (counted(interface.n_nodes, "node", "nodes"), counted(interface.n_dofs, "coordinate", "coordinates"));
+        format!("{}: {} coupling, {nodes}, {dofs}", interface.name, words::coupling(interface.coupling))
+    };
+    reduction.interfaces.iter().map(line).collect()
+}
+
+fn coordinates(reduction: &ReductionReport) -> String {
+    let mut parts = vec![format!("{} of the interface", table::count(reduction.n_interface as u64))];
+    if reduction.n_inertia_relief > 0 {
+        parts.push(format!("{} inertia relief", table::count(reduction.n_inertia_relief as u64)));
+    }
+    parts.push(counted(reduction.n_modes, "elastic mode", "elastic modes"));
+    format!("{}: {}", counted(reduction.n_reduced, "coordinate", "coordinates"), parts.join(", "))
+}
+
+fn modes(reduction: &ReductionReport) -> String {
+    match (reduction.modes.first(), reduction.modes.last()) {
+        (Some(first), Some(last)) => format!(
+            "{} {}, {} Hz to {} Hz",
+            table::count(reduction.modes.len() as u64),
+            format_args!(
+                "{} {}",
+                words::mode_kind(first.kind),
+                if reduction.modes.len() == 1 { "mode" } else { "modes" }
+            ),
+            quantity(first.frequency_hz, 6),
+            quantity(last.frequency_hz, 6)
+        ),
+        _ => "none".to_owned(),
+    }
+}
+
+/// The band and the boundaries for which the reduced model was compared with the full one.
+fn validity(preservation: &Preservation) -> Vec<String> {
+    let mut lines: Vec<String> = preservation
+        .boundaries
+        .iter()
+        .map(|comparison| {
+            let worst = percent(comparison.worst_in_band);
+            let in_band = comparison.frequencies.iter().filter(|pair| pair.in_band);
+            match in_band.map(|pair| pair.full_hz).reduce(f64::max) {
+                Some(highest) => format!(
+                    "{}, {}: frequencies within {worst}, up to {} Hz",
+                    comparison.boundary,
+                    comparison.description,
+                    quantity(highest, 5)
+                ),
+                None => format!("{}, {}: no frequency in the band", comparison.boundary, comparison.description),
+            }
+        })
+        .collect();
+    if let Some(response) = &preservation.response
+        && let (Some(first), Some(last)) = (response.samples.first(), response.samples.last())
+    {
+        lines.push(format!(
+            "response, {}: within {} dB, {} Hz to {} Hz",
+            response.boundary,
+            quantity(response.worst_db, 2),
+            quantity(first.frequency_hz, 4),
+            quantity(last.frequency_hz, 5)
+        ));
+    }
+    if lines.is_empty() {
+        lines.push("the boundary of its own modes; no other boundary was compared in this report".to_owned());
+    }
+    lines
+}
+
+/// A relative difference as engineers say it: percent where it can be seen, a power of ten where it cannot.
+pub(super) fn percent(difference: f64) -> String {
+    if difference >= 1e-5 { format!("{}\u{a0}%", quantity(difference * 100.0, 2)) } else { in_words(difference, 2) }
+}
+
+/// A number within a sentence: `2.7 × 10⁻⁶`, which no line breaks.
+pub(super) fn in_words(value: f64, digits: usize) -> String {
+    let text = scientific(value, digits);
+    match text.split_once('e') {
+        Some((mantissa, exponent)) => match exponent.parse() {
+            Ok(exponent) => format!("{mantissa}\u{a0}×\u{a0}{}", power_of_ten(exponent)),
+            Err(_) => text,
+        },
+        None => text,
+    }
+}
+
+fn repairs(body: &ReportBody) -> Vec<String> {
+    let mut lines = body.model.notes.clone();
+    let dropped = body.reduction.dropped.iter();
+    lines.extend(dropped.map(|dropped| format!("left out {}: {}", dropped.coordinate, dropped.reason)));
+    if body.model.rigid_body_modes.count > 0 {
+        lines.push(
+            "constraint modes corrected, so that rigid-body motion of the interface carries the component exactly \
+             (always done; M-11 measures the result)"
+                .to_owned(),
+        );
+    }
+    if lines.is_empty() {
+        lines.push("nothing".to_owned());
+    }
+    lines
+}
+
+fn signatures(page: &mut Markup) {
+    page.raw("<div class=\"sign\">\n<table>\n<caption>Signatures</caption>\n<thead>\n<tr><td></td>");
+    for head in ["Name", "Role", "Date", "Signature"] {
+        page.raw(&format!("<th scope=\"col\">{head}</th>"));
+    }
+    page.raw("</tr>\n</thead>\n<tbody>\n");
+    for row in ["Prepared", "Checked", "Approved"] {
+        page.raw(&format!("<tr><th scope=\"row\">{}</th><td></td><td></td><td></td><td></td></tr>\n", escaped(row)));
+    }
+    page.raw("</tbody>\n</table>\n</div>\n");
+}
+
+/// A statement with a capital letter and a full stop.
+pub(super) fn sentence(statement: &str) -> String {
+    let mut letters = statement.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().collect::<String>() + letters.as_str()) + "."
+}

@@ -1,0 +1,126 @@
+//! The checks as JUnit XML, which continuous integration shows beside its other tests.
+
+use std::fmt::Write;
+
+use super::html::escaped;
+use super::table::scientific;
+use super::{Completeness, Report, Warning, words};
+use crate::verification::check::{Check, Verdict};
+
+/// What a value past its limit, a warning and a missing certificate are to the test suite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JunitWarnings {
+    /// Passed, with the warning as output: the superelement was written.
+    Pass,
+    /// Failed, as with `--strict`.
+    Fail,
+}
+
+/// How one test ended.
+enum Outcome {
+    Passed,
+    /// Passed, with something to say.
+    Told(String),
+    Failed {
+        kind: &'static str,
+        message: String,
+        details: String,
+    },
+    Skipped(String),
+}
+
+/// One suite for the run; a test for each check, one for completeness, one for each warning.
+pub fn junit(report: &Report, warnings: JunitWarnings) -> String {
+    let body = &report.body;
+    let mut cases: Vec<(String, Outcome)> =
+        body.checks.iter().map(|check| (format!("{} {}", check.id, check.name), of_check(check, warnings))).collect();
+    cases.push(("completeness of the modes".to_owned(), of_completeness(&body.completeness, warnings)));
+    cases.extend(body.warnings.iter().map(|warning| (warning.code.to_owned(), of_warning(warning, warnings))));
+    let n_failed = cases.iter().filter(|(_, outcome)| matches!(outcome, Outcome::Failed { .. })).count();
+    let n_skipped = cases.iter().filter(|(_, outcome)| matches!(outcome, Outcome::Skipped(_))).count();
+    let seconds: f64 = report.run.stages.iter().map(|stage| stage.seconds).sum();
+    let counts = format!(
+        "tests=\"{}\" failures=\"{n_failed}\" errors=\"0\" skipped=\"{n_skipped}\" time=\"{seconds:.3}\"",
+        cases.len()
+    );
+    let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    let _ = writeln!(xml, "<testsuites name=\"supel\" {counts}>\n  <testsuite name=\"{}\" {counts}>", suite(report));
+    let mut seen: Vec<String> = Vec::new();
+    for (name, outcome) in cases {
+        // Servers take tests of one name for one test.
+        let n_before = seen.iter().filter(|earlier| **earlier == name).count();
+        let numbered = if n_before > 0 { format!("{name} ({})", n_before + 1) } else { name.clone() };
+        seen.push(name);
+        write_case(&mut xml, &numbered, &outcome);
+    }
+    xml.push_str("  </testsuite>\n</testsuites>\n");
+    xml
+}
+
+/// The suite is named after the method and the sizes; the file is named by whoever collects it.
+fn suite(report: &Report) -> String {
+    let reduction = &report.body.reduction;
+    let sizes = format!("{} to {} degrees of freedom", report.body.model.n_dofs, reduction.n_reduced);
+    escaped(&format!("{} reduction, {sizes}", words::method(reduction.method)))
+}
+
+fn of_check(check: &Check, warnings: JunitWarnings) -> Outcome {
+    let (value, limit) = (scientific(check.value, 3), scientific(check.limits.value(), 3));
+    let message = format!("{}: value {value}, limit {limit}", check.id);
+    let worst = check.worst.as_ref().map(|worst| format!("\nworst: {worst}")).unwrap_or_default();
+    let limits = if check.is_judged() {
+        let source = words::active_limit(check.limits.active());
+        format!("limit {limit}, set by {source}; fails above {}", scientific(check.fail_above, 3))
+    } else {
+        "no limit: shown, not judged".to_owned()
+    };
+    let details = format!("{}\n{} = {value}\n{limits}{worst}", check.name, check.equation);
+    match (check.verdict(), warnings) {
+        (Verdict::Info, _) => Outcome::Told(details),
+        (Verdict::Pass, _) => Outcome::Passed,
+        (Verdict::Warn, JunitWarnings::Pass) => Outcome::Told(format!("past the limit\n{details}")),
+        (Verdict::Warn, JunitWarnings::Fail) => Outcome::Failed { kind: "warn", message, details },
+        (Verdict::Fail, _) => Outcome::Failed { kind: "fail", message, details },
+    }
+}
+
+fn of_completeness(completeness: &Completeness, warnings: JunitWarnings) -> Outcome {
+    let message = completeness.statement();
+    match completeness {
+        Completeness::NotCertified { .. } => Outcome::Skipped(message),
+        Completeness::SturmCount { .. } if completeness.is_certified() => Outcome::Told(message),
+        Completeness::SturmCount { n_counted, n_found, .. } if n_counted == n_found => of_told(message, warnings),
+        Completeness::SturmCount { .. } => Outcome::Failed { kind: "fail", details: message.clone(), message },
+    }
+}
+
+fn of_warning(warning: &Warning, warnings: JunitWarnings) -> Outcome {
+    of_told(warning.message.clone(), warnings)
+}
+
+fn of_told(message: String, warnings: JunitWarnings) -> Outcome {
+    match warnings {
+        JunitWarnings::Pass => Outcome::Told(message),
+        JunitWarnings::Fail => Outcome::Failed { kind: "warn", details: message.clone(), message },
+    }
+}
+
+fn write_case(xml: &mut String, name: &str, outcome: &Outcome) {
+    let name = escaped(name);
+    let open = format!("    <testcase classname=\"supel\" name=\"{name}\" time=\"0\"");
+    let _ = match outcome {
+        Outcome::Passed => writeln!(xml, "{open}/>"),
+        Outcome::Told(words) => {
+            writeln!(xml, "{open}>\n      <system-out>{}</system-out>\n    </testcase>", escaped(words))
+        }
+        Outcome::Failed { kind, message, details } => writeln!(
+            xml,
+            "{open}>\n      <failure type=\"{kind}\" message=\"{}\">{}</failure>\n    </testcase>",
+            escaped(message),
+            escaped(details)
+        ),
+        Outcome::Skipped(message) => {
+            writeln!(xml, "{open}>\n      <skipped message=\"{}\"/>\n    </testcase>", escaped(message))
+        }
+    };
+}

@@ -1,0 +1,63 @@
+//! The words and figures that the summary and the page have in common.
+
+use super::{ModeKind, table};
+use crate::job::{Coupling, Eigensolver, Method};
+use crate::verification::check::{ActiveLimit, Check};
+
+pub(super) fn method(method: Method) -> &'static str {
+    match method {
+        Method::CraigBampton => "Craig-Bampton",
+        Method::Herting => "Herting",
+    }
+}
+
+pub(super) fn eigensolver(eigensolver: Eigensolver) -> &'static str {
+    match eigensolver {
+        Eigensolver::Lanczos => "block Lanczos",
+        Eigensolver::Arpack => "ARPACK",
+    }
+}
+
+pub(super) fn coupling(coupling: Coupling) -> &'static str {
+    match coupling {
+        Coupling::Direct => "direct",
+        Coupling::Rigid => "rigid",
+    }
+}
+
+pub(super) fn mode_kind(kind: ModeKind) -> &'static str {
+    match kind {
+        ModeKind::FreeInterface => "free-interface",
+        ModeKind::FixedInterface => "fixed-interface",
+    }
+}
+
+/// Limit, its source and the margin; dashes where a check has none.
+pub(super) fn limit(check: &Check) -> [String; 3] {
+    if !check.is_judged() {
+        return ["–", "–", "–"].map(str::to_owned);
+    }
+    let limit = table::scientific(check.limits.value(), 1);
+    [limit, active_limit(check.limits.active()).to_owned(), margin(check.margin())]
+}
+
+pub(super) fn active_limit(limit: ActiveLimit) -> &'static str {
+    match limit {
+        ActiveLimit::Engineering => "engineering",
+        ActiveLimit::Arithmetic => "arithmetic",
+        ActiveLimit::Data => "data",
+    }
+}
+
+/// Margins are looked at, not calculated with: two digits, and no more than a million.
+fn margin(margin: f64) -> String {
+    if margin.is_nan() {
+        "–".to_owned()
+    } else if margin >= 1e6 {
+        "> 1e6".to_owned()
+    } else if margin >= 10.0 {
+        table::count(margin as u64)
+    } else {
+        table::quantity(margin, 2)
+    }
+}

@@ -1,0 +1,212 @@
+//! Intervals that are proved to hold the eigenvalues: M-07, M-08.
+//!
+//! ```text
+//! K_s = K − σM      n × n   σ < 0, proved positive definite
+//! x, λ̃              n, 1    a computed mode and its Rayleigh quotient; μ̃ = λ̃ − σ
+//! r = Kx − λ̃Mx      n       to twice the working precision
+//! ρ = ‖r‖_{K_s⁻¹} / ‖x‖_{K_s}
+//! ```
+//! T = K_s⁻¹M is self-adjoint in the inner product of K_s with eigenvalues 1/μ, also where M is singular, and
+//! ‖Tx − x/μ̃‖_{K_s} = ρ‖x‖_{K_s}/μ̃: some eigenvalue has |μ̃/μ − 1| ≤ ρ. Groups of modes whose intervals overlap hold as
+//! many eigenvalues as they have modes (Kahan 1967; Cao, Xie and Li 1996). Where a count proves that there are no others, each
+//! group holds exactly its own, the distances to the neighbours are known, and the interval of a single mode shrinks
+//! to μ̃ρ²/gap (Kato 1949, Temple 1928). Everything is an upper bound that includes the rounding of its own computation.
+
+mod bracket;
+mod exact;
+mod metric;
+mod pair;
+
+use super::Evidence;
+use super::check::{Check, Limits};
+use crate::dense;
+use crate::error::Result;
+use crate::factor::{Analysis, Pencil, whole_count};
+use crate::modes::{Boundary, ModeError, Modes};
+use crate::partition::Partition;
+use crate::rigid::RigidBodyModes;
+use crate::sparse::SparseMatrix;
+
+use bracket::Group;
+use metric::Metric;
+
+/// What was proved of the retained modes, in scaled units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Enclosures {
+    /// For each mode an interval that holds an eigenvalue; none where K − σM could not be proved definite.
+    pub intervals: Vec<Option<[f64; 2]>>,
+    /// For each mode a bound of the sine of its angle to the eigenvectors of its group; none without a proved count.
+    pub angles: Vec<Option<f64>>,
+    /// What the count is worth.
+    pub count: CountProof,
+    /// Factorisations it took.
+    pub n_factorisations: usize,
+}
+
+/// What a count of eigenvalues is worth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CountProof {
+    /// How far the factors may be from the matrix, relative to the distance of the shift to the highest mode: below one
+    /// the count is proved.
+    pub uncertainty: f64,
+    /// Eigenvalues counted below the shift.
+    pub counted: usize,
+    /// Eigenvalues that the intervals below it hold.
+    pub enclosed: usize,
+}
+
+impl CountProof {
+    /// True where the intervals hold every eigenvalue below the shift, beyond rounding.
+    pub fn is_proved(&self) -> bool {
+        self.uncertainty < 1.0 && self.counted == self.enclosed
+    }
+}
+
+/// Encloses modes that were computed under a boundary; `internal` is K_II and M_II.
+///
+/// # Errors
+/// No memory for a factor; σ of the count lies on an eigenvalue.
+pub fn enclosures(
+    partition: &Partition,
+    internal: (&SparseMatrix, &SparseMatrix),
+    rigid: &RigidBodyModes,
+    modes: &Modes,
+    boundary: Boundary,
+) -> Result<Enclosures> {
+    let (pencil, zero_modes) = match boundary {
+        Boundary::FreeInterface => {
+            let pencil = Pencil { stiffness: &partition.stiffness, mass: &partition.mass };
+            (pencil, Some(rigid))
+        }
+        Boundary::FixedInterface => (Pencil { stiffness: internal.0, mass: internal.1 }, None),
+    };
+    let analysis = Analysis::new(pencil)?;
+    let (metric, n_metric) = Metric::new(&analysis, pencil, modes.lambda.first().copied())?;
+    let Some(metric) = metric else {
+        let count = CountProof { uncertainty: f64::INFINITY, counted: 0, enclosed: 0 };
+        let nothing = vec![None; modes.count()];
+        let angles = vec![None; modes.count()];
+        return Ok(Enclosures { intervals: nothing, angles, count, n_factorisations: n_metric });
+    };
+    let pairs = pair::pairs(&metric, zero_modes, modes);
+    let groups = bracket::groups(&pairs);
+    let n_zero = zero_modes.map_or(0, RigidBodyModes::count);
+    let (count, ceiling) = proof(&analysis, &metric, &groups, modes.shift_above(0.5))?;
+    let mut intervals = vec![None; modes.count()];
+    let mut angles = vec![None; modes.count()];
+    for (index, group) in groups.iter().enumerate() {
+        let neighbours = count.is_proved().then(|| bracket::neighbours(&groups, index, ceiling, metric.sigma));
+        for member in group.members.clone().filter(|member| *member >= n_zero) {
+            intervals[member - n_zero] = Some(group.interval_of(&pairs, member, neighbours));
+            angles[member - n_zero] = neighbours.map(|neighbours| group.angle(neighbours));
+        }
+    }
+    Ok(Enclosures { intervals, angles, count, n_factorisations: n_metric + 1 })
+}
+
+/// The count above the highest mode, what it is worth, and the eigenvalue up to which there are no others.
+///
+/// In the metric of K_s the eigenvalues of K − σ'M are ν = (λ − σ')/(λ − σ), and a factorisation that is off by E moves
+/// them by at most ω = ‖E‖/floor. Every λ with ν < −ω is counted, and no λ with ν > ω.
+fn proof(analysis: &Analysis, metric: &Metric<'_>, groups: &[Group], shift: f64) -> Result<(CountProof, f64)> {
+    let count = whole_count(analysis, metric.pencil, shift)?;
+    let omega = count.backward_error / metric.floor_in(&count.scale);
+    let top = groups.last().map_or(metric.sigma, |group| group.interval[1]);
+    let distance = (shift - top) / (top - metric.sigma);
+    let enclosed = groups.iter().map(|group| group.members.len()).sum();
+    // A number that is none proves nothing.
+    let uncertainty = if omega.is_nan() || distance <= 0.0 { f64::INFINITY } else { omega / distance };
+    let ceiling = (shift + omega * metric.sigma) / (1.0 + omega);
+    Ok((CountProof { uncertainty, counted: count.below, enclosed }, ceiling))
+}
+
+/// M-07 and M-08, and what the count is worth: M-06.
+pub(super) fn checks(evidence: &Evidence<'_>) -> Vec<Check> {
+    let Some(enclosures) = evidence.enclosures else { return Vec::new() };
+    let mut checks = vec![counted(enclosures)];
+    if let Some(intervals) = enclosures.intervals.iter().copied().collect::<Option<Vec<[f64; 2]>>>() {
+        checks.push(widths(evidence, &intervals));
+        checks.push(bars(evidence, &intervals));
+    }
+    checks.extend(enclosures.angles.iter().copied().collect::<Option<Vec<f64>>>().map(angles));
+    checks
+}
+
+/// M-06, rounding included.
+fn counted(enclosures: &Enclosures) -> Check {
+    /// Shown where nothing could be proved.
+    const UNPROVED: f64 = 1e9;
+    let count = enclosures.count;
+    let word = if count.is_proved() { "proven" } else { "likely" };
+    let said = match count.enclosed {
+        0 => format!("count {word}: K − σM could not be proved definite, nothing is enclosed"),
+        enclosed => format!("count {word}: {} counted, {enclosed} enclosed", count.counted),
+    };
+    Check {
+        id: "M-06",
+        name: "count is proven, not only likely",
+        equation: "‖K − σM − LBLᵀ‖ relative to the distance of σ to the highest mode, in the metric of K + |σ|M",
+        value: if count.counted == count.enclosed { count.uncertainty.min(UNPROVED) } else { f64::INFINITY },
+        limits: Limits { engineering: 1.0, ..Limits::default() },
+        fail_above: UNPROVED,
+        worst: Some(said),
+    }
+}
+
+fn worst(values: impl Iterator<Item = f64>) -> (f64, Option<String>) {
+    let mut worst = (0.0, None);
+    for (mode, value) in values.enumerate() {
+        if dense::worse(value, worst.0) {
+            worst = (value, Some(format!("mode {}", mode + 1)));
+        }
+    }
+    worst
+}
+
+/// M-07: half-widths.
+fn widths(evidence: &Evidence<'_>, intervals: &[[f64; 2]]) -> Check {
+    let lambda = &evidence.retained.modes.lambda;
+    let (value, worst) = worst(intervals.iter().zip(lambda).map(|([low, high], lambda)| 0.5 * (high - low) / lambda));
+    Check {
+        id: "M-07",
+        name: "eigenvalues are enclosed",
+        equation: "max half-width of the proven interval / λ",
+        value,
+        limits: Limits { engineering: 1e-6, ..Limits::default() },
+        fail_above: 1e-3,
+        worst,
+    }
+}
+
+/// M-07: the printed eigenvalue is within its bar of the proven interval.
+fn bars(evidence: &Evidence<'_>, intervals: &[[f64; 2]]) -> Check {
+    let modes = &evidence.retained.modes;
+    let excess = |(([low, high], lambda), error): ((&[f64; 2], &f64), &ModeError)| {
+        let distance = (low - lambda).max(lambda - high).max(0.0);
+        if distance > 0.0 { distance / (error.relative_bar * lambda) } else { 0.0 }
+    };
+    let (value, worst) = worst(intervals.iter().zip(&modes.lambda).zip(&modes.errors).map(excess));
+    Check {
+        id: "M-07",
+        name: "error bars reach the proven intervals",
+        equation: "max distance of λ to its interval / its error bar",
+        value,
+        limits: Limits { engineering: 1.0, ..Limits::default() },
+        fail_above: 10.0,
+        worst,
+    }
+}
+
+/// M-08.
+fn angles(angles: Vec<f64>) -> Check {
+    let (value, worst) = worst(angles.into_iter());
+    Check {
+        id: "M-08",
+        name: "modes lie close to eigenvectors",
+        equation: "max sin ∠(x, eigenvectors of its group) ≤ ρ/gap, in the energy of K_s",
+        value,
+        limits: Limits { engineering: 1e-6, ..Limits::default() },
+        fail_above: 1e-2,
+        worst,
+    }
+}

@@ -1,0 +1,261 @@
+//! `--certify full`: proven intervals hold the exact eigenvalues, and are as narrow as the theory says.
+
+#[allow(dead_code, reason = "each test crate uses its part")]
+#[path = "end_to_end/place.rs"]
+mod place;
+
+mod chain;
+
+use serde_json::Value;
+use supel::cli::ExitCode;
+use supel::modes::{Boundary, Modes};
+use supel::verification::{Enclosures, enclosures};
+use supel_models::{
+    Ends, Material, Model, bar, bar_spectrum, brick, known, ring, ring_spectrum, spring, spring_spectrum,
+};
+
+use crate::place::Place;
+
+/// What a run proved.
+struct Proved {
+    /// λ of each mode as printed, and its interval.
+    intervals: Vec<(f64, [f64; 2])>,
+    /// The error bar of each mode relative to λ.
+    bars: Vec<f64>,
+    checks: Value,
+}
+
+impl Proved {
+    fn check(&self, name: &str) -> &Value {
+        let checks = self.checks.as_array().expect("checks");
+        checks.iter().find(|check| check["name"] == name).unwrap_or_else(|| panic!("no check {name}: {checks:#?}"))
+    }
+
+    /// The largest half-width relative to λ.
+    fn width(&self) -> f64 {
+        self.check("eigenvalues are enclosed")["value"].as_f64().expect("a number")
+    }
+
+    fn is_count_proved(&self) -> bool {
+        self.check("count is proven, not only likely")["worst"].as_str().is_some_and(|text| text.contains("proven"))
+    }
+}
+
+fn prove(model: &Model, flags: &[String], place: &Place, rest: &str) -> Proved {
+    assert!(model.n > 0);
+    let ended = place.reduce(flags, &format!("{rest} --certify full")).expect(ExitCode::Done);
+    if std::env::var_os("SUPEL_SHOW").is_some() {
+        println!("{rest}\n{}", ended.out);
+    }
+    let report = place.report("x.report.json");
+    let modes = report["body"]["reduction"]["modes"].as_array().expect("modes").clone();
+    let lambda = |value: &Value| (value.as_f64().expect("a number") * std::f64::consts::TAU).powi(2);
+    let of = |mode: &Value| {
+        let interval = &mode["enclosure_hz"];
+        (lambda(&mode["frequency_hz"]), [lambda(&interval[0]), lambda(&interval[1])])
+    };
+    let bar = |mode: &Value| {
+        2.0 * mode["error_bar_hz"].as_f64().expect("a bar") / mode["frequency_hz"].as_f64().expect("a frequency")
+    };
+    Proved {
+        intervals: modes.iter().map(of).collect(),
+        bars: modes.iter().map(bar).collect(),
+        checks: report["body"]["checks"].clone(),
+    }
+}
+
+/// From rows, without coordinates.
+fn prove_rows(model: &Model, rest: &str) -> Proved {
+    let place = Place::with(model);
+    prove(model, &place.matrix_flags(), &place, rest)
+}
+
+/// Roundings between an eigenvalue and the frequency that a report prints, and of the closed formula: squares, roots and
+/// products with 2π, each of half an ε, on both sides.
+const CONVERSION: f64 = 16.0 * f64::EPSILON;
+
+/// Asserts that each interval holds its exact eigenvalue, where the matrix itself moves it by `rounding` at most.
+#[track_caller]
+fn assert_holds(proved: &Proved, exact: &[f64], rounding: f64) {
+    assert!(proved.intervals.len() <= exact.len());
+    for ((_, [low, high]), exact) in proved.intervals.iter().zip(exact) {
+        let slack = CONVERSION * exact + rounding;
+        assert!(*low <= exact + slack && exact - slack <= *high, "{exact} not in [{low}, {high}]");
+    }
+    assert!(proved.is_count_proved(), "{:#}", proved.check("count is proven, not only likely"));
+    assert!(proved.check("error bars reach the proven intervals")["verdict"] == "pass");
+}
+
+const INTERFACE: &str = "--interface ends=rows:0,1";
+
+#[test]
+fn bars_held_by_both_methods() {
+    for n in [60, 600] {
+        let model = bar(n);
+        let exact = bar_spectrum(n);
+        let free = prove_rows(&model, &format!("{INTERFACE} --method herting --modes 8"));
+        // K is a rounded number times integers; the entries 4h/6 and h/6 of M are rounded apart, which moves λ by as much
+        // times the condition of M, which is 3.
+        assert_holds(&free, &exact, 4.0 * f64::EPSILON * exact[7]);
+        println!("bar {n}: half-width {:e}", free.width());
+        // κ = 12 n²/π² = 4e5 for 600; residuals alone would give 1e-12 and wider, their squares are rounding.
+        assert!(free.width() <= 1e-14, "{:e}", free.width());
+    }
+}
+
+#[test]
+fn springs_free_and_clamped() {
+    let model = spring(200, Ends::Free);
+    let free = prove_rows(&model, "--interface ends=rows:0,199 --method herting --modes 6");
+    assert_holds(&free, &spring_spectrum(200, Ends::Free)[1..], 0.0);
+    let clamped = prove_rows(&model, "--interface ends=rows:0,199 --method craig-bampton --modes 6");
+    assert_holds(&clamped, &spring_spectrum(198, Ends::Fixed), 0.0);
+    for proved in [free, clamped] {
+        println!("spring: half-width {:e}", proved.width());
+        assert!(proved.width() <= 1e-14, "{:e}", proved.width());
+    }
+}
+
+/// Every eigenvalue but the first is double: a pair has the interval that its residuals give.
+#[test]
+fn rings_of_double_eigenvalues() {
+    // A power of two makes 2 + s exact.
+    let (n, s) = (240, 1.0 / 128.0);
+    let proved = prove_rows(&ring(n, s), "--interface ends=rows:0,80,160 --method herting --modes 7");
+    let exact = ring_spectrum(n, s);
+    assert_eq!(proved.intervals.len(), 7);
+    assert_holds(&proved, &exact, 0.0);
+    println!("ring: half-width {:e}", proved.width());
+    assert!(proved.width() <= 1e-10, "{:e}", proved.width());
+}
+
+/// Clusters of any narrowness: gaps from 10⁻² to 10⁻¹⁴ and multiplicity three.
+#[test]
+fn known_clusters() {
+    let mut lambda: Vec<f64> = (0..80).map(|i| 1.0 + f64::from(i)).collect();
+    for (start, gap) in [(2, 1e-2), (4, 1e-6), (6, 1e-10), (8, 1e-14)] {
+        lambda[start + 1] = lambda[start] * (1.0 + gap);
+    }
+    (lambda[11], lambda[12]) = (lambda[10], lambda[10]);
+    let model = known(&lambda, 7);
+    let proved = prove_rows(&model, "--interface ends=rows:0,1,2 --method herting --modes 14");
+    let mut exact = lambda.clone();
+    exact.sort_by(f64::total_cmp);
+    // The entries of K are sums of a dozen products of eigenvalues with multiples of 1/64: each is rounded by half an ε of
+    // at most four times the largest, and ‖C⁻¹‖² ≤ 16 turns that of a row of eleven into one of an eigenvalue.
+    let rounding = 16.0 * 11.0 * 2.0 * f64::EPSILON * lambda[79];
+    assert_holds(&proved, &exact, rounding);
+    println!("known: half-width {:e}", proved.width());
+}
+
+fn solid(model: &Model, interface: &str) -> Proved {
+    let place = Place::with(model);
+    prove(model, &place.model_flags(), &place, &format!("{interface} --method herting --modes 6"))
+}
+
+/// Intervals of the same eigenvalues from different factors and vectors have to overlap, and lie within the error bars.
+#[track_caller]
+fn assert_agree(a: &Proved, b: &Proved) {
+    assert_eq!(a.intervals.len(), b.intervals.len());
+    for (((first, [low, high]), (_, [other_low, other_high])), bar) in a.intervals.iter().zip(&b.intervals).zip(&a.bars)
+    {
+        let slack = CONVERSION * first;
+        assert!(
+            low - slack <= *other_high && *other_low <= high + slack,
+            "[{low}, {high}] [{other_low}, {other_high}]"
+        );
+        assert!((low - first).max(first - high) <= bar * first + slack, "{first} ± {bar:e} and [{low}, {high}]");
+    }
+}
+
+/// κ = 1.4e10: the printed eigenvalue is right to about ε κ, the interval to far less.
+#[test]
+fn slender_bar() {
+    let model = brick([100, 1, 1], [100.0, 0.1, 0.1], &Material::STEEL_SI);
+    let last = 4 * 101;
+    let ends = format!("--interface ends=1,102,{},{}", last - 101, last);
+    let (a, b) = (solid(&model, &ends), solid(&model, "--interface middle=50,51,152,253"));
+    assert_agree(&a, &b);
+    println!("slender: half-widths {:e} {:e}", a.width(), b.width());
+    assert!(a.is_count_proved() && b.is_count_proved());
+}
+
+/// κ = 2e11: a plate of a thousandth.
+#[test]
+fn thin_plate() {
+    let model = brick([14, 14, 1], [1.0, 1.0, 1e-3], &Material::STEEL_SI);
+    let (a, b) = (solid(&model, "--interface corners=1,15,211,225"), solid(&model, "--interface middle=30,38,150,201"));
+    assert_agree(&a, &b);
+    println!("plate: half-widths {:e} {:e}", a.width(), b.width());
+}
+
+/// The modes of a free spring chain, altered before they are enclosed.
+fn enclosed(alter: impl FnOnce(&mut Modes)) -> Enclosures {
+    let chain = chain::reduce(&spring(80, Ends::Free), &[chain::rows("ends", &[0, 79])], chain::Method::Herting, 6);
+    let mut chain = chain.expect("a sound model");
+    alter(&mut chain.modes);
+    let (k, m) = (chain.partition.internal_stiffness(), chain.partition.internal_mass());
+    enclosures(&chain.partition, (&k, &m), &chain.rigid, &chain.modes, Boundary::FreeInterface).expect("a metric")
+}
+
+/// λ of a chain of springs in the scaled units of the partition, which divide K by two and M by one.
+fn scaled_spectrum() -> Vec<f64> {
+    spring_spectrum(80, Ends::Free)[1..7].iter().map(|lambda| lambda / 2.0).collect()
+}
+
+#[test]
+fn a_mode_left_out_leaves_the_count_unproved() {
+    assert!(enclosed(|_| {}).count.is_proved());
+    let lacking = enclosed(|modes| {
+        modes.lambda.remove(2);
+        modes.errors.remove(2);
+        let shapes = modes.shapes.clone();
+        modes.shapes = faer::Mat::from_fn(80, 5, |i, j| shapes[(i, if j < 2 { j } else { j + 1 })]);
+    });
+    assert!(!lacking.count.is_proved(), "{:?}", lacking.count);
+    assert_eq!(lacking.count.counted, lacking.count.enclosed + 1);
+    assert!(lacking.angles.iter().all(Option::is_none));
+}
+
+/// A disturbed vector has a wider interval, which still holds its eigenvalue; the angle says how far it lies off.
+#[test]
+fn a_disturbed_mode_is_seen_and_still_enclosed() {
+    let disturbed = enclosed(|modes| {
+        let other = modes.shapes.clone();
+        for i in 0..80 {
+            modes.shapes[(i, 3)] += 1e-4 * other[(i, 4)];
+        }
+    });
+    let (exact, [low, high]) = (scaled_spectrum()[3], disturbed.intervals[3].expect("enclosed"));
+    assert!(low <= exact && exact <= high, "{exact} not in [{low}, {high}]");
+    // The Rayleigh quotient is off by the square of the disturbance times the distance of the eigenvalues.
+    assert!(high - low > 1e-9 * exact, "[{low}, {high}]");
+    let angle = disturbed.angles[3].expect("a proved count");
+    assert!((1e-5..1e-2).contains(&angle), "{angle}");
+    assert!(disturbed.angles[1].expect("a proved count") < 1e-9);
+}
+
+/// Two modes that are one: as a group of two they would need two eigenvalues, and nothing is claimed of them.
+#[test]
+fn a_mode_given_twice_proves_nothing() {
+    let twice = enclosed(|modes| {
+        modes.lambda[3] = modes.lambda[2];
+        let shapes = modes.shapes.clone();
+        for i in 0..80 {
+            modes.shapes[(i, 3)] = shapes[(i, 2)];
+        }
+    });
+    assert!(!twice.count.is_proved(), "{:?}", twice.count);
+}
+
+/// Without the word nothing is enclosed and nothing is said of it.
+#[test]
+fn only_where_asked() {
+    let model = spring(30, Ends::Free);
+    let place = Place::with(&model);
+    place.reduce(&place.matrix_flags(), "--interface ends=rows:0,29 --method herting --modes 3").expect(ExitCode::Done);
+    let report = place.report("x.report.json");
+    assert!(report["body"]["reduction"]["modes"][0]["enclosure_hz"].is_null());
+    let checks = report["body"]["checks"].as_array().expect("checks");
+    assert!(checks.iter().all(|check| check["id"] != "M-07" && check["id"] != "M-08"));
+}

@@ -1,0 +1,95 @@
+//! Facts of floating-point arithmetic that the method is built on: each test fails where its measure is taken out.
+
+use faer::Mat;
+use supel::basis::Basis;
+use supel::job::Method;
+use supel::reduction::Reduction;
+use supel::verification::check::{ActiveLimit, Verdict};
+use supel_models::{Ends, Material, bar, bar_spectrum, brick, spring, spring_spectrum};
+
+use crate::chain::{direct, rows};
+use crate::evidence::{checks, with_model};
+
+/// Eigenvalues are Rayleigh quotients of deflated vectors: their error is that of the terms of the quotient added in
+/// random order, ε c / √n, where the eigensolver's own 1/θ + σ is off by ε κ.
+#[test]
+fn eigenvalues_are_rayleigh_quotients() {
+    let n = 20_000;
+    for (name, model, exact) in [
+        ("bar", bar(n), bar_spectrum(n)),
+        ("free chain", spring(n, Ends::Free), spring_spectrum(n, Ends::Free)[1..].to_vec()),
+    ] {
+        with_model(&model, &[rows("ends", &[0, n - 1])], (Method::Herting, 6), |evidence| {
+            let unit = evidence.partition.scaling.eigenvalue_unit();
+            let modes = &evidence.retained.modes;
+            for ((lambda, error), exact) in modes.lambda.iter().zip(&modes.errors).zip(&exact) {
+                let off = (lambda * unit / exact - 1.0).abs();
+                let bound = f64::EPSILON * error.cancellation / (n as f64).sqrt();
+                assert!(off <= bound, "{name}: off {off:.1e}, bound {bound:.1e}");
+            }
+        });
+    }
+}
+
+/// K̂ = ΨᵀKΨ is of second order in the error of Ψ_S; K_BB + K_BI Ψ_S would be of first order.
+#[test]
+fn reduced_stiffness_forgives_the_constraint_modes_in_second_order() {
+    let model = brick([6, 2, 2], [6.0, 1.1, 0.9], &Material::UNIT);
+    with_model(&model, &[direct("ends", &[1, 8, 22, 14])], (Method::CraigBampton, 3), |evidence| {
+        let share = 1e-5;
+        let off = Basis {
+            constraint_modes: Mat::from_fn(
+                evidence.basis.constraint_modes.nrows(),
+                evidence.basis.constraint_modes.ncols(),
+                |i, j| evidence.basis.constraint_modes[(i, j)] + share * ((7 * i + 13 * j) as f64).sin(),
+            ),
+            ..evidence.basis.clone()
+        };
+        let n_b = evidence.partition.n_interface();
+        let block = |reduction: &Reduction| reduction.stiffness.submatrix(0, 0, n_b, n_b).to_owned();
+        let exact = block(evidence.reduction);
+        let found = block(&Reduction::new(evidence.partition, &off, evidence.rigid));
+        let error = (&found - &exact).norm_max();
+        // K_II of scaled entries of order one and at most 81 a row: Δᵀ K_II Δ ≤ n_I · 81 · share².
+        let bound = evidence.partition.n_internal as f64 * 81.0 * share * share;
+        assert!(error <= bound, "{error:e}, bound {bound:e}");
+        // The bound tells first from second order.
+        assert!(bound < 0.5 * share, "{bound:e}");
+        assert!(error > 0.0, "the disturbance is not seen at all");
+    });
+}
+
+/// A slender component passes by a limit of the arithmetic, which says so; the engineering figure alone would warn.
+#[test]
+fn limits_are_what_arithmetic_can_give() {
+    let slender = brick([60, 1, 1], [60.0, 0.1, 0.1], &Material::UNIT);
+    with_model(&slender, &[direct("ends", &[1, 62, 123, 61])], (Method::Herting, 4), |evidence| {
+        let checks = checks(&evidence);
+        let by_arithmetic: Vec<_> = checks
+            .iter()
+            .filter(|check| check.value > check.limits.engineering && check.verdict() == Verdict::Pass)
+            .collect();
+        assert!(!by_arithmetic.is_empty());
+        for check in by_arithmetic {
+            assert_eq!(check.limits.active(), ActiveLimit::Arithmetic, "{check:?}");
+        }
+    });
+}
+
+/// K̂ of a free component is singular: its spectrum, its zero modes and its elastic condition are found all the same.
+#[test]
+fn reduced_stiffness_of_a_free_component_is_never_factored_as_if_it_were_definite() {
+    let model = brick([6, 2, 2], [6.0, 1.1, 0.9], &Material::UNIT);
+    with_model(&model, &[direct("ends", &[1, 8, 22, 14])], (Method::Herting, 3), |evidence| {
+        let n_b = evidence.partition.n_interface();
+        let block = evidence.reduction.stiffness.submatrix(0, 0, n_b, n_b).to_owned();
+        let values = block.self_adjoint_eigenvalues(faer::Side::Lower).expect("finite");
+        let n_zero = values.iter().filter(|value| value.abs() <= 1e-12 * values[n_b - 1]).count();
+        assert_eq!(n_zero, 6, "{values:?}");
+        let checks = checks(&evidence);
+        let of = |id: &'static str| checks.iter().filter(move |check| check.id == id);
+        assert!(of("M-12").chain(of("M-14")).all(|check| check.verdict() == Verdict::Pass), "{checks:?}");
+        let condition = of("M-23").find(|check| check.name.contains("elastic stiffness")).expect("a line");
+        assert!(condition.value < 1e6, "{condition:?}");
+    });
+}

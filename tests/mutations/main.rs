@@ -1,0 +1,56 @@
+//! The table of faults fits the sources: every place is there exactly once, every test exists.
+//!
+//! `tests/mutations/run.sh` puts the faults in and demands that the tests fail. That takes a build for each; this keeps the
+//! table from going stale in between.
+
+use std::path::Path;
+
+#[derive(serde::Deserialize)]
+struct Table {
+    mutation: Vec<Mutation>,
+}
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Mutation {
+    name: String,
+    fact: String,
+    file: String,
+    before: String,
+    after: String,
+    test: [String; 2],
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The sources of a test target.
+fn sources(target: &str) -> String {
+    let folder = root().join("tests").join(target);
+    let entries = std::fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let files =
+        entries.map(|entry| entry.expect("an entry").path()).filter(|path| path.extension() == Some("rs".as_ref()));
+    // A module may be named instead of a test.
+    files
+        .map(|path| {
+            let module = path.file_stem().expect("a name").to_string_lossy().into_owned();
+            format!("fn {module}(\n{}", std::fs::read_to_string(&path).expect("a source"))
+        })
+        .collect()
+}
+
+#[test]
+fn the_table_fits_the_sources() {
+    let table: Table = toml::from_str(include_str!("table.toml")).expect("a table");
+    let mut names = std::collections::BTreeSet::new();
+    for mutation in &table.mutation {
+        let Mutation { name, fact, file, before, after, test: [target, test] } = mutation;
+        assert!(names.insert(name), "{name} stands twice");
+        assert!(!fact.is_empty() && before != after, "{name} changes nothing");
+        let text = std::fs::read_to_string(root().join(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
+        assert_eq!(text.matches(before.as_str()).count(), 1, "{name}: {before:?} in {file}");
+        assert!(sources(target).contains(&format!("fn {test}(")), "{name}: no test {test} in {target}");
+    }
+    assert!(names.len() >= 18, "faults were taken out of the table");
+}

@@ -1,0 +1,92 @@
+"""Puts each fault of table.toml into a copy of the sources, runs the test named for it and demands that it fails.
+
+    tests/mutations/run.sh [NAME ...]
+
+The sources stay as they are: faults go into target/mutations. Every named test first has to pass there without a fault.
+Exit code: 0 where every fault was noticed, 1 where one was not.
+"""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import time
+import tomllib
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+COPY = ROOT / "target" / "mutations"
+
+
+def copy_sources():
+    """A copy of all files of the repository, without those it ignores; unchanged ones keep their times."""
+    listed = subprocess.run(
+        ["git", "ls-files", "--cached", "--others", "--exclude-standard"], cwd=ROOT, check=True, capture_output=True, text=True
+    )
+    for name in listed.stdout.splitlines():
+        source, target = ROOT / name, COPY / name
+        if not source.is_file():
+            continue
+        target.parent.mkdir(parents=True, exist_ok=True)
+        if not target.exists() or target.read_bytes() != source.read_bytes():
+            shutil.copyfile(source, target)
+
+
+def run(tests):
+    """Whether `cargo test` passes for a target and a filter, and what it printed."""
+    target, test = tests
+    command = ["cargo", "test", "--test", target, "--", test]
+    # The dependencies are those of the repository itself and need no second build.
+    environment = dict(os.environ, CARGO_TARGET_DIR=str(ROOT / "target"), RUST_BACKTRACE="0")
+    ended = subprocess.run(command, cwd=COPY, env=environment, capture_output=True, text=True)
+    return ended.returncode == 0, ended.stdout + ended.stderr
+
+
+def outcome(mutation):
+    """What came of one fault, in words, and whether it was noticed."""
+    path = COPY / mutation["file"]
+    sound = path.read_text()
+    if sound.count(mutation["before"]) != 1:
+        return "cannot be put in: the place is not there exactly once", False
+    path.write_text(sound.replace(mutation["before"], mutation["after"]))
+    try:
+        passed, text = run(mutation["test"])
+    finally:
+        path.write_text(sound)
+    if passed:
+        return "NOT NOTICED", False
+    failed = re.search(r"test result: FAILED", text)
+    if failed is None:
+        message = next((line for line in text.splitlines() if line.startswith("error")), "no test ran")
+        return f"does not compile: {message}", False
+    return "noticed", True
+
+
+def main():
+    table = tomllib.loads((ROOT / "tests" / "mutations" / "table.toml").read_text())["mutation"]
+    wanted = sys.argv[1:]
+    chosen = [mutation for mutation in table if not wanted or mutation["name"] in wanted]
+    unknown = set(wanted) - {mutation["name"] for mutation in table}
+    if unknown:
+        sys.exit(f"no such fault: {', '.join(sorted(unknown))}")
+    copy_sources()
+    for tests in sorted({tuple(mutation["test"]) for mutation in chosen}):
+        passed, text = run(tests)
+        if not passed or " 0 passed" in text.rsplit("test result:", 1)[-1]:
+            sys.exit(f"{' '.join(tests)} does not pass without a fault:\n{text[-3000:]}")
+    print("| fact | fault | test that has to notice | outcome | s |\n|---|---|---|---|---|", flush=True)
+    n_unnoticed = 0
+    for mutation in chosen:
+        begin = time.monotonic()
+        words, noticed = outcome(mutation)
+        n_unnoticed += not noticed
+        seconds = time.monotonic() - begin
+        test = "::".join(mutation["test"])
+        print(f"| {mutation['fact']} | {mutation['name']} | `{test}` | {words} | {seconds:.0f} |", flush=True)
+    print(f"\n{len(chosen) - n_unnoticed} of {len(chosen)} faults were noticed")
+    sys.exit(1 if n_unnoticed else 0)
+
+
+if __name__ == "__main__":
+    main()
