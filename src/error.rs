@@ -911,6 +911,26 @@ pub enum Error {
         "the mass matrix is zero – found no entry other than zero – expected a mass – give the mass matrix of the model"
     )]
     NoMass,
+    /// A mass matrix that gives some motion a negative kinetic energy.
+    #[error(
+        "the mass matrix is indefinite – {place} – found a kinetic energy of {energy:.1e} relative to its diagonal – expected none below zero – check point masses, offsets and the coupling terms of the mass"
+    )]
+    IndefiniteMass {
+        /// The entry or the dof where it is worst, in words.
+        place: String,
+        /// The relative energy, negative.
+        energy: f64,
+    },
+    /// A matrix whose numbers, or whose frequencies, leave the range of double precision.
+    #[error(
+        "{what} leaves the range of double precision – found 2^{exponent} – expected between 2^-960 and 2^1000 – write the matrices in other units"
+    )]
+    UnitRange {
+        /// What is too large or too small.
+        what: &'static str,
+        /// Its size as a power of two.
+        exponent: i32,
+    },
     /// Rows without stiffness and mass.
     #[error(
         "{n_rows} rows have neither stiffness nor mass – the first is row {row}{dof} – expected none – leave unused and constrained dofs out of both matrices, or drop these rows with --drop-empty"
@@ -989,6 +1009,14 @@ pub enum Error {
         /// Its modal mass over the largest.
         relative_mass: f64,
     },
+    /// A motion, no rigid-body motion, with neither energy nor mass.
+    #[error(
+        "a motion has neither stiffness nor mass – it is largest at {dof} – expected one of them for every motion – give the dof stiffness or mass, or leave it out of both matrices"
+    )]
+    MasslessMechanism {
+        /// The dof it moves most.
+        dof: String,
+    },
     /// A small dense eigenproblem did not converge.
     #[error(
         "a dense eigenproblem of order {n} did not converge – its matrix holds values that are not finite – check the magnitudes of the input"
@@ -998,13 +1026,15 @@ pub enum Error {
         n: usize,
     },
     // ---- partition -------------------------------------------------------------------------------------------------
-    /// No internal dof is left.
+    /// An interface too large for dense matrices.
     #[error(
-        "no internal degree of freedom is left – found {n_interface} interface dofs – expected at least one internal – take fewer interface nodes"
+        "the interface has {n_interface} dofs – expected at most {limit}, because the reduced matrices are dense – take fewer interface nodes or couple their patches rigidly"
     )]
-    NothingToReduce {
-        /// Dofs of the partition, all interface.
+    InterfaceTooLarge {
+        /// Dofs of the interface.
         n_interface: usize,
+        /// The most there may be.
+        limit: usize,
     },
     /// Nodes asked for where the model has none.
     #[error(
@@ -1095,6 +1125,18 @@ pub enum Error {
         rank: usize,
         /// Motions asked for.
         expected: usize,
+    },
+    /// A body without interface that nothing holds.
+    #[error(
+        "{n_floating} of the {n_bodies} bodies of the model float free of every interface – the first holds {dof} – expected an interface node on each, or a support – add an interface node there, connect the body or leave it out"
+    )]
+    FloatingBody {
+        /// How many.
+        n_floating: usize,
+        /// Bodies there are.
+        n_bodies: usize,
+        /// A dof of the first.
+        dof: String,
     },
     /// The interface leaves a rigid-body motion free.
     #[error(

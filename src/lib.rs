@@ -99,10 +99,12 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let pencil = Pencil { stiffness: &k_ii, mass: &m_ii };
     let analysis = Analysis::new(pencil)?;
     factor::refuse_beyond_memory(&analysis, &partition, job, resources, None)?;
-    let factor = Cholesky::new(&analysis, pencil, 0.0, &|dof| partition.name_of(dof))?;
+    let sigma = modes::shift_of_factor(&partition, &rigid);
+    let factor = Cholesky::new(&analysis, pencil, sigma, &|dof| partition.name_of(dof))?;
 
     observer.stage("constraint modes");
     let constraint = basis::constraint_modes(&partition, &factor, &rigid);
+    let (rigid, loose) = rigid::with_mechanisms(&partition, &constraint, rigid)?;
 
     observer.stage("modes");
     let internal = (&k_ii, &m_ii);
@@ -162,6 +164,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         job,
         input: &facts,
         model: &model,
+        loose: &loose,
         evidence,
         findings: &findings,
         preserved: &preserved,

@@ -3,7 +3,8 @@
 //! ```text
 //! r = n_B + n_η
 //! K̂, M̂   r × r      interface coordinates first
-//! Û       r × n_r    the rigid-body modes in reduced coordinates: [U_B; 0], because Ψ_S U_B = U_I
+//! Û       r × n_r    the rigid-body modes in reduced coordinates: [U_B; 0], because Ψ_S U_B = U_I; without an interface
+//!                    the amplitudes of the rigid-body modes
 //! M_F     n_r × n_r  UᵀMU of the full model
 //! ```
 //! K̂ is formed as ΨᵀKΨ, whose error is of second order in that of Ψ; its blocks between interface and dynamic
@@ -62,10 +63,18 @@ impl Reduction {
             mass_asymmetry: dense::symmetrise(&mut mass),
             ..Projection::default()
         };
-        (measured.block_coupling, measured.block_coupling_at) = uncouple(&mut stiffness, partition);
+        (measured.block_coupling, measured.block_coupling_at) = match n_b {
+            0 => clear_rigid_body(&mut stiffness, rigid.count()),
+            _ => uncouple(&mut stiffness, partition),
+        };
         let r = basis.n_reduced();
         let u_b = rigid.modes.as_ref().subrows(partition.n_internal, n_b);
-        let rigid_body_modes = Mat::from_fn(r, rigid.count(), |i, j| if i < n_b { u_b[(i, j)] } else { 0.0 });
+        let mut rigid_body_modes = Mat::from_fn(r, rigid.count(), |i, j| if i < n_b { u_b[(i, j)] } else { 0.0 });
+        if n_b == 0 {
+            // The rigid-body modes are among the columns of Ψ_D, which is M-orthonormal: η = Ψ_DᵀMU.
+            let momenta = product(&partition.mass, rigid.modes.as_ref());
+            rigid_body_modes = transpose_apply(basis, momenta.as_ref());
+        }
         let gravity = rigid.is_classical.then(|| {
             let momenta = product(&partition.mass, rigid.modes.as_ref().subcols(0, 3));
             transpose_apply(basis, momenta.as_ref())
@@ -125,6 +134,23 @@ pub(crate) fn transpose_apply(basis: &Basis, forces: MatRef<'_, f64>) -> Mat<f64
     top += interface;
     reduced.as_mut().subrows_mut(n_b, basis.n_dynamic()).copy_from(dense::gram(basis.dynamic_modes.as_ref(), internal));
     reduced
+}
+
+/// Without an interface the first n_r coordinates are rigid-body modes: K U = 0 (2). Sets their rows of K̂ to zero and says how
+/// large they were, relative to the largest diagonal entry.
+fn clear_rigid_body(stiffness: &mut Mat<f64>, n_rigid: usize) -> (f64, (usize, usize)) {
+    let size = (0..stiffness.nrows()).fold(0.0f64, |max, i| max.max(stiffness[(i, i)]));
+    let mut worst = (0.0, (0, 0));
+    for j in 0..n_rigid {
+        for i in 0..stiffness.nrows() {
+            if size > 0.0 && dense::worse(stiffness[(i, j)].abs() / size, worst.0) {
+                worst = (stiffness[(i, j)].abs() / size, (i, j));
+            }
+            stiffness[(i, j)] = 0.0;
+            stiffness[(j, i)] = 0.0;
+        }
+    }
+    worst
 }
 
 /// Sets K̂_Bη to zero and says how large it was, relative to the diagonal: for an interface dof that of K_BB, of whose

@@ -123,6 +123,11 @@ pub enum Coordinate {
         /// Row of the model's matrices, from 0.
         row: u64,
     },
+    /// Amplitude of a rigid-body mode, in a component without interface.
+    RigidBodyMode {
+        /// Number of the rigid-body mode, from 0.
+        index: usize,
+    },
     /// Amplitude of an inertia-relief mode.
     InertiaRelief {
         /// Number of the rigid-body mode whose inertia loads it answers, from 0.

@@ -114,6 +114,7 @@ impl<'a> Content<'a> {
                 format!("{name} {}", format!("{direction:?}").to_lowercase())
             }
             Coordinate::InterfaceRow { row } => format!("row {}", row + 1),
+            Coordinate::RigidBodyMode { index } => format!("rigid-body mode {}", index + 1),
             Coordinate::InertiaRelief { index } => format!("inertia relief {}", index + 1),
             Coordinate::ElasticMode { mode, .. } | Coordinate::FixedInterfaceMode { mode, .. } => {
                 format!("mode {}", mode + 1)

@@ -6,7 +6,7 @@ use faer::{Mat, MatRef};
 use crate::dense;
 use crate::factor::SolveOperator;
 use crate::partition::Partition;
-use crate::rigid::{RigidBodyModes, absolute_energy};
+use crate::rigid::{RigidBodyModes, absolute_energy, unit_motions};
 use crate::sparse::product;
 
 /// Ψ_S with what it took to make it exact.
@@ -39,12 +39,17 @@ pub fn constraint_modes(partition: &Partition, factor: &dyn SolveOperator, rigid
     let u_i = rigid.orthonormal.as_ref().subrows(0, n_i);
     let u_b = rigid.orthonormal.as_ref().subrows(n_i, n_b);
     let mut raw_rigid_error = 0.0;
-    if rigid.count() > 0 {
+    // Without an interface there is nothing to be carried.
+    let is_carried = rigid.count() > 0 && n_b > 0;
+    if is_carried {
         raw_rigid_error = rigid_error(modes.as_ref(), u_i, u_b).0;
+        // Any basis of the motions serves; those of unit length U_B⁺ can tell apart whatever the mass they move.
+        let unit = unit_motions(partition, rigid).unwrap_or_else(|_| rigid.orthonormal.clone());
+        let (u_i, u_b) = unit.as_ref().split_at_row(n_i);
         let defect = defect(modes.as_ref(), u_i, u_b);
         dense::add_product(modes.as_mut(), 1.0, defect.as_ref(), left_inverse(partition, u_b).as_ref());
     }
-    let rigid_error = rigid_error(modes.as_ref(), u_i, u_b);
+    let rigid_error = if is_carried { rigid_error(modes.as_ref(), u_i, u_b) } else { (0.0, 0) };
     let (stiffness, cancellation) = condensed_stiffness(partition, modes.as_ref());
     ConstraintModes { modes, stiffness, cancellation, raw_rigid_error, rigid_error }
 }

@@ -35,6 +35,16 @@ pub fn fixed_interface_columns(modes: &Modes) -> DynamicColumns {
     }
 }
 
+/// Without an interface: the rigid-body modes and the elastic modes themselves, V = \[U X\] of (22).
+pub fn modal_columns(rigid: &RigidBodyModes, modes: &Modes) -> DynamicColumns {
+    let (n, n_r) = (modes.shapes.nrows(), rigid.count());
+    let mut columns = Mat::zeros(n, n_r + modes.count());
+    columns.as_mut().subcols_mut(0, n_r).copy_from(&rigid.modes);
+    columns.as_mut().subcols_mut(n_r, modes.count()).copy_from(&modes.shapes);
+    let zero = (0..n_r).map(DynamicCoordinate::RigidBody);
+    DynamicColumns { columns, coordinates: zero.chain((0..modes.count()).map(DynamicCoordinate::FreeFree)).collect() }
+}
+
 /// Herting: inertia-relief modes K_II⁻¹ (MU)_I (37) and mode-accelerated free-free modes X_I − Ψ_S X_B (23).
 ///
 /// Equation (23) asks for K_II⁻¹ (M_II X_I + M_IB X_B); for an eigenvector that is ω⁻² (X_I − Ψ_S X_B), without a solve.

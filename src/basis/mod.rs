@@ -14,7 +14,7 @@ use faer::Mat;
 use crate::modes::Modes;
 
 pub use constraint::{ConstraintModes, constraint_modes};
-pub use dynamic::{DynamicColumns, fixed_interface_columns, mode_acceleration_columns};
+pub use dynamic::{DynamicColumns, fixed_interface_columns, modal_columns, mode_acceleration_columns};
 
 /// The modal reduction matrix in its blocks.
 #[derive(Clone, Debug)]
@@ -36,6 +36,8 @@ pub struct Basis {
 /// What a dynamic coordinate stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DynamicCoordinate {
+    /// Rigid-body mode k itself, in a model without interface.
+    RigidBody(usize),
     /// Inertia-relief mode of rigid-body motion k.
     InertiaRelief(usize),
     /// Mode-accelerated free-free mode k.

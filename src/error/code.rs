@@ -132,6 +132,8 @@ codes! {
     Unsymmetric => "E-UNSYMMETRIC", InputData;
     Swapped => "E-SWAPPED", InputData;
     NoMass => "E-NO-MASS", InputData;
+    IndefiniteMass => "E-INDEF-MASS", ModelPhysics;
+    UnitRange => "E-RANGE", InputData;
     EmptyRows => "E-EMPTY-ROWS", InputData;
     MultiplierRow => "E-LAGRANGE", InputData;
     NegativeStiffness => "E-NEG-DIAG", ModelPhysics;
@@ -140,7 +142,8 @@ codes! {
     NegativeRigidEnergy => "E-NEG-RIGID", ModelPhysics;
     MasslessRigidMotion => "E-RIGID-MASS", ModelPhysics;
     DenseEigen => "E-DENSE-EIGEN", NumericalLimit;
-    NothingToReduce => "E-NO-INTERNAL", InputData;
+    MasslessMechanism => "E-MASSLESS-MECHANISM", ModelPhysics;
+    InterfaceTooLarge => "E-INTERFACE-SIZE", InputData;
     SelectionNeedsNodes => "E-NO-NODES", InputData;
     RigidNeedsCoordinates => "E-NO-COORDINATES", InputData;
     UnknownGroup => "E-GROUP", InputData;
@@ -150,6 +153,7 @@ codes! {
     InterfaceRow => "E-INTERFACE-ROW", InputData;
     DofTwice => "E-DOF-TWICE", InputData;
     PatchRank => "E-PATCH-RANK", InputData;
+    FloatingBody => "E-FLOATING-BODY", ModelPhysics;
     InterfaceRank => "E-INTERFACE-RANK", ModelPhysics;
     NotDefinite => "E-NOT-DEFINITE", ModelPhysics;
     IndefiniteStiffness => "E-NEGATIVE-STIFFNESS", ModelPhysics;

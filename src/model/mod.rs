@@ -5,13 +5,16 @@
 //! the same model in other units give the same bits in between.
 
 mod bodies;
+mod definite;
+mod scaling;
 mod symmetry;
 
 use crate::error::{Error, Result};
-use crate::input::{Dof, DofMap, Input, MatrixInput, Nodes};
+use crate::input::{Direction, Dof, DofMap, Input, MatrixInput, Nodes};
 use crate::sparse::SparseMatrix;
 
 pub use bodies::{Bodies, node_of_row};
+pub use scaling::Scaling;
 pub use symmetry::make_symmetric;
 
 /// A checked and scaled model.
@@ -33,39 +36,6 @@ pub struct Model {
     pub bodies: Bodies,
     /// What was found and mended, in the order it was found.
     pub findings: Vec<Finding>,
-}
-
-/// Exponents of the powers of two taken out of K and M.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Scaling {
-    /// K = 2^stiffness · K_scaled.
-    pub stiffness: i32,
-    /// M = 2^mass · M_scaled.
-    pub mass: i32,
-}
-
-impl Scaling {
-    /// Factor from a scaled stiffness to the user's.
-    pub fn stiffness_unit(&self) -> f64 {
-        2f64.powi(self.stiffness)
-    }
-
-    /// Factor from a scaled mass to the user's.
-    pub fn mass_unit(&self) -> f64 {
-        2f64.powi(self.mass)
-    }
-
-    /// Factor from a scaled mass-normalised shape to the user's: one over the root of the mass unit, exact for an even
-    /// exponent.
-    pub fn shape_unit(&self) -> f64 {
-        let root = 2f64.powi(-self.mass.div_euclid(2));
-        if self.mass.rem_euclid(2) == 0 { root } else { root * std::f64::consts::FRAC_1_SQRT_2 }
-    }
-
-    /// Factor from a scaled eigenvalue to the user's (rad/s)².
-    pub fn eigenvalue_unit(&self) -> f64 {
-        2f64.powi(self.stiffness - self.mass)
-    }
 }
 
 /// Relative precision of the data: half a unit of the last decimal digit, or ε/2 for binary data.
@@ -102,6 +72,36 @@ pub enum Finding {
         /// How many.
         n_rows: usize,
     },
+    /// An interface node that lacks a direction which most nodes have.
+    ConstrainedInterface {
+        /// The interface.
+        interface: String,
+        /// The node.
+        node: i64,
+        /// The directions it lacks.
+        lacks: Vec<Direction>,
+    },
+    /// Interface dofs with mass and no stiffness.
+    HangingInterface {
+        /// What the first is called.
+        dof: String,
+        /// How many.
+        n_dofs: usize,
+    },
+}
+
+impl Finding {
+    /// The code of the warning that a finding is, or nothing where it is a remark.
+    pub fn warning(&self) -> Option<&'static str> {
+        match self {
+            Self::Symmetrised { asymmetry, .. } => (*asymmetry > ASYMMETRY_WARN).then_some("W-UNSYMMETRIC"),
+            Self::MasslessRows { .. } => None,
+            Self::FreeParticles { .. } => Some("W-FREE-PARTICLE"),
+            Self::NegativeMassByRounding { .. } => Some("W-NEGATIVE-MASS"),
+            Self::ConstrainedInterface { .. } => Some("W-CONSTRAINED-INTERFACE"),
+            Self::HangingInterface { .. } => Some("W-HANGING"),
+        }
+    }
 }
 
 impl std::fmt::Display for Finding {
@@ -116,7 +116,19 @@ impl std::fmt::Display for Finding {
             Self::MasslessRows { n_rows } => write!(f, "{n_rows} rows have no mass: their frequencies are infinite"),
             Self::FreeParticles { n_rows } => write!(f, "{n_rows} rows have mass and no stiffness: free particles"),
             Self::NegativeMassByRounding { n_rows } => {
-                write!(f, "{n_rows} diagonal entries of the mass are negative by rounding")
+                write!(f, "{n_rows} diagonal entries of the mass are negative by rounding and were set to zero")
+            }
+            Self::ConstrainedInterface { interface, node, lacks } => {
+                let lacks: Vec<String> = lacks.iter().map(ToString::to_string).collect();
+                write!(
+                    f,
+                    "node {node} of interface {interface:?} has no {}, as other nodes have: it is held there, and the \
+                     interface does without",
+                    lacks.join(", ")
+                )
+            }
+            Self::HangingInterface { dof, n_dofs } => {
+                write!(f, "{n_dofs} interface dofs have mass and no stiffness, the first is {dof}: they move freely")
             }
         }
     }
@@ -131,7 +143,8 @@ impl Model {
     /// Checks and scales what was read.
     ///
     /// # Errors
-    /// Unsymmetric matrices, empty rows, negative or zero diagonals, no mass, swapped K and M.
+    /// Unsymmetric matrices, empty rows, negative or zero diagonals, no mass or an indefinite one, swapped K and M, numbers
+    /// near the ends of the range of double precision.
     ///
     /// # Panics
     /// If K and M differ in size, which reading has ruled out.
@@ -146,7 +159,9 @@ impl Model {
         symmetrise("mass", &mut mass, &mut findings)?;
         check_not_swapped(&stiffness, &mass, dofs.as_deref())?;
         check_diagonals(&stiffness, &mass, dofs.as_deref(), &mut findings)?;
-        let scaling = Scaling { stiffness: scale_to_unit(&mut stiffness), mass: scale_to_unit(&mut mass) };
+        clear_negative_rounding(&mut mass);
+        let scaling = Scaling::take_out(&mut stiffness, &mut mass)?;
+        definite::refuse_indefinite(&mass, precision.mass, dofs.as_deref())?;
         let bodies = Bodies::of(&stiffness, &node_of_row(stiffness.rows(), dofs.as_deref()));
         Ok(Self { stiffness, mass, scaling, precision, dofs, nodes: input.nodes, bodies, findings })
     }
@@ -258,6 +273,15 @@ fn check_diagonals(
     Ok(())
 }
 
+/// Sets diagonal entries of M that are negative, which by now is rounding only, to zero.
+fn clear_negative_rounding(mass: &mut SparseMatrix) {
+    for row in 0..mass.rows() {
+        if let Some(value) = mass.get_mut(row, row).filter(|value| **value < 0.0) {
+            *value = 0.0;
+        }
+    }
+}
+
 /// What a row is called in messages: its node and direction, or nothing where unknown.
 fn name_of(dofs: Option<&[Dof]>, row: usize) -> String {
     dofs.map_or_else(String::new, |dofs| format!(" ({})", dofs[row]))
@@ -274,30 +298,4 @@ pub fn diagonal(matrix: &SparseMatrix) -> Vec<f64> {
         .enumerate()
         .map(|(row, view)| view.indices().binary_search(&(row as u32)).map_or(0.0, |at| view.data()[at]))
         .collect()
-}
-
-/// Divides by the power of two that brings the largest diagonal entry into [1, 2); returns its exponent.
-fn scale_to_unit(matrix: &mut SparseMatrix) -> i32 {
-    let largest = diagonal(matrix).iter().fold(0.0f64, |max, value| max.max(value.abs()));
-    if largest == 0.0 {
-        return 0;
-    }
-    let exponent = binary_exponent(largest);
-    // Two factors, because 2^-exponent itself can leave the range of a double.
-    let (half, rest) = (2f64.powi(-(exponent / 2)), 2f64.powi(-(exponent - exponent / 2)));
-    for value in matrix.data_mut() {
-        *value = *value * half * rest;
-    }
-    exponent
-}
-
-/// ⌊log₂ x⌋ of a positive number, from its bits: a logarithm rounds up just below a power of two.
-fn binary_exponent(x: f64) -> i32 {
-    const MANTISSA_BITS: u32 = 52;
-    const BIAS: i32 = 1023;
-    // Below the normal numbers the exponent sits in the leading zeros of the mantissa; a factor lifts it out of there.
-    if x < f64::MIN_POSITIVE {
-        return binary_exponent(x * 2f64.powi(64)) - 64;
-    }
-    (x.to_bits() >> MANTISSA_BITS) as i32 - BIAS
 }

@@ -89,6 +89,9 @@ impl<'a> BoundaryProblem<'a> {
             return Ok((solve(&Factored::new(factor, 0.0))?, 0));
         }
         let problem = self.modal();
+        if self.component.is_modal() {
+            return by_shift(partition, problem, |shifted| solve(&Factored::new(&shifted.factor, shifted.sigma)));
+        }
         let psi_s = constraint.modes.as_ref();
         let operator = FreeAtZero::new(factor, &partition.stiffness, psi_s, constraint.stiffness.as_ref(), rigid)?;
         if relative_residual(problem, &operator) <= HOLDS_UP {

@@ -12,6 +12,7 @@ mod answer;
 mod arpack;
 mod boundary_problem;
 mod certificate;
+mod cluster;
 mod dense_spectrum;
 mod eigenproblem;
 mod equilibration;
@@ -37,6 +38,7 @@ use crate::sparse::SparseMatrix;
 
 pub use boundary_problem::{AtShift, Boundary, BoundaryProblem, ElasticCount};
 pub use certificate::{Certificate, CountedInterval, Mending, certified};
+pub use cluster::REPEATED_WITHIN;
 pub use eigenproblem::{CLUSTER_GAP, EigenWork, Eigenpairs, Interval, Problem, Wanted};
 pub use equilibration::Equilibrated;
 pub use lanczos::{lanczos, lanczos_between};
@@ -46,7 +48,7 @@ pub use quality::{ModeError, mass_orthogonality};
 pub(crate) use random::SplitMix64;
 pub use retained::{Component, Retained};
 pub use search::{SLICED_FROM, Search};
-pub use shifted::{Shifted, shifted};
+pub use shifted::{Shifted, shift_of_factor, shifted};
 pub use slices::{ModeSource, SLICE};
 
 /// Elastic modes of one boundary condition.
@@ -242,7 +244,13 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
 fn judged(problem: ModalProblem<'_>, eigenproblem: Problem<'_>, pairs: Eigenpairs, around: [Option<f64>; 2]) -> Modes {
     let mut shapes = pairs.vectors;
     quality::normalise(problem.mass, &mut shapes);
-    let (lambda, mut errors, residuals) = quality::rayleigh_quotients(problem, shapes.as_ref());
+    let (mut lambda, mut errors, mut residuals) = quality::rayleigh_quotients(problem, shapes.as_ref());
+    let repeated = cluster::repeated(&lambda, &errors);
+    if !repeated.is_empty() {
+        cluster::canonicalise(problem.mass, &repeated, &mut shapes);
+        (lambda, errors, residuals) = quality::rayleigh_quotients(problem, shapes.as_ref());
+        cluster::average(&repeated, &mut lambda);
+    }
     quality::add_residual_bars(eigenproblem, &lambda, &mut errors, residuals, around);
     let work = EigenWork { solves: pairs.work.solves + lambda.len(), ..pairs.work };
     Modes { lambda, shapes, errors, searched_to: None, next: pairs.next, counts: Vec::new(), work }

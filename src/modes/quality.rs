@@ -27,15 +27,21 @@ pub struct ModeError {
     pub rounding_floor: f64,
 }
 
+/// Components of a mode nearer than this, relatively, are of one size: far above the error of a mode, far below what differs
+/// by design.
+const ALIKE: f64 = 1e-6;
+
 /// Scales every column to xᵀMx = 1, largest component positive.
 pub(super) fn normalise(mass: &SparseMatrix, shapes: &mut Mat<f64>) {
     let images = product(mass, shapes.as_ref());
     for j in 0..shapes.ncols() {
         let column = dense::column(shapes.as_ref(), j);
         let length = dense::dot(column, dense::column(images.as_ref(), j)).max(0.0).sqrt();
-        // The first of the largest components decides the sign, so that it does not flip from run to run.
-        let largest = column.iter().fold(0.0f64, |max, value| if value.abs() > max.abs() { *value } else { max });
-        let factor = largest.signum() / length;
+        // The first of the largest components decides the sign, so that it does not flip from run to run; in symmetric
+        // structures many are the largest but for rounding.
+        let largest = column.iter().fold(0.0f64, |max, value| max.max(value.abs()));
+        let decisive = column.iter().find(|value| value.abs() >= (1.0 - ALIKE) * largest).copied().unwrap_or(1.0);
+        let factor = decisive.signum() / length;
         dense::column_mut(shapes.as_mut(), j).iter_mut().for_each(|value| *value *= factor);
     }
 }

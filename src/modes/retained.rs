@@ -1,7 +1,9 @@
 //! The modes a method retains: the one place where the reduction method is told apart.
 
 use super::{Boundary, Modes};
-use crate::basis::{ConstraintModes, DynamicColumns, fixed_interface_columns, mode_acceleration_columns};
+use crate::basis::{
+    ConstraintModes, DynamicColumns, fixed_interface_columns, modal_columns, mode_acceleration_columns,
+};
 use crate::factor::{Analysis, Cholesky};
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
@@ -49,6 +51,13 @@ pub struct Retained {
     pub columns: DynamicColumns,
 }
 
+impl Component<'_> {
+    /// True where nothing holds the component and nothing is to be condensed: its own modes are the model.
+    pub fn is_modal(&self) -> bool {
+        self.partition.n_interface() == 0 && self.rigid.count() > 0
+    }
+}
+
 impl Retained {
     /// The columns of Ψ_D that modes under a boundary make: Craig and Bampton keep the fixed-interface modes as they are,
     /// Herting's method accelerates the free-free ones.
@@ -56,6 +65,7 @@ impl Retained {
         let Component { partition, factor, rigid, constraint, .. } = component;
         let columns = match boundary {
             Boundary::FixedInterface => fixed_interface_columns(&modes),
+            Boundary::FreeInterface if component.is_modal() => modal_columns(rigid, &modes),
             Boundary::FreeInterface => mode_acceleration_columns(partition, factor, constraint, rigid, &modes),
         };
         Self { modes, boundary, columns }

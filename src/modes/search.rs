@@ -36,7 +36,8 @@ impl<'a> Search<'a> {
     /// The stiffness has negative eigenvalues; no memory for the count.
     pub fn new(component: Component<'a>, job: &ReductionJob) -> Result<Self> {
         indefinite::refuse(component)?;
-        let problem = BoundaryProblem { component, boundary: Boundary::of(job.method) };
+        let boundary = if component.is_modal() { Boundary::FreeInterface } else { Boundary::of(job.method) };
+        let problem = BoundaryProblem { component, boundary };
         let wanted = wanted(job.modes, component.partition);
         let edge = match wanted {
             Wanted::UpTo(limit) if limit > 0.0 => edge_of(&problem, limit)?,

@@ -11,6 +11,8 @@ use super::{ModalProblem, ModeError, ModeRequest, Modes, SEED, elastic_modes};
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, Cholesky, Pencil};
 use crate::job::Eigensolver;
+use crate::partition::Partition;
+use crate::rigid::RigidBodyModes;
 
 /// A factor of K − σM and the lowest modes found on the way.
 #[derive(Debug)]
@@ -78,6 +80,16 @@ pub fn shifted<'a>(
         }
         round += 1;
     }
+}
+
+/// The shift at which K_II is factored: zero where it is definite, below zero where no interface holds a free component.
+pub fn shift_of_factor(partition: &Partition, rigid: &RigidBodyModes) -> f64 {
+    if partition.n_interface() > 0 || rigid.count() == 0 {
+        return 0.0;
+    }
+    let precision = partition.precision;
+    let problem = ModalProblem { stiffness: &partition.stiffness, mass: &partition.mass, rigid: None, precision };
+    -FIRST_SHIFT * median_ratio(problem)
 }
 
 /// Whether an eigenvalue is zero within its bar, which is relative and grows without limit as λ goes to zero, or within

@@ -6,6 +6,7 @@
 mod report;
 mod rigid_body;
 mod superelement;
+mod warnings;
 
 use supel_runtime::Superelement;
 
@@ -14,6 +15,7 @@ use crate::input::{Input, InputNote};
 use crate::job::Job;
 use crate::model::Model;
 use crate::report::{Report, Warning, WorkCounters};
+use crate::rigid::LooseMotions;
 use crate::verification::check::Check;
 use crate::verification::{Compared, Evidence, Findings};
 
@@ -68,6 +70,8 @@ pub struct Results<'a> {
     pub input: &'a InputFacts,
     /// The checked model.
     pub model: &'a Model,
+    /// Mechanisms and what comes near them.
+    pub loose: &'a LooseMotions,
     /// The results of the stages.
     pub evidence: Evidence<'a>,
     /// What verification found.

@@ -2,10 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::{MatrixFacts, Results, omega, rigid_body};
+use super::{MatrixFacts, Results, omega, rigid_body, warnings};
 use crate::basis::DynamicCoordinate;
 use crate::job::{Certify, ModeSelection};
-use crate::model::{ASYMMETRY_WARN, Finding};
 use crate::modes::{Boundary, CLUSTER_GAP, CountedInterval};
 use crate::report::{
     Completeness, DroppedCoordinate, Generator, InterfaceReport, MassProperties, MatrixReport, ModeKind, ModeRow,
@@ -69,19 +68,22 @@ fn reduction(results: &Results<'_>) -> ReductionReport {
     let basis = evidence.basis;
     let is_relief = |c: &&DynamicCoordinate| matches!(c, DynamicCoordinate::InertiaRelief(_));
     let n_inertia_relief = basis.coordinates.iter().filter(is_relief).count();
+    let is_rigid = |c: &&DynamicCoordinate| matches!(c, DynamicCoordinate::RigidBody(_));
+    let n_rigid_body = basis.coordinates.iter().filter(is_rigid).count();
     ReductionReport {
         method: results.job.reduction.method,
         eigensolver: results.job.reduction.eigensolver,
         interfaces: interfaces(results),
         n_interface: evidence.partition.n_interface(),
         n_inertia_relief,
-        n_modes: basis.n_dynamic() - n_inertia_relief,
+        n_modes: basis.n_dynamic() - n_inertia_relief - n_rigid_body,
         n_reduced: basis.n_reduced(),
         dropped: basis
             .dropped
             .iter()
             .map(|column| DroppedCoordinate {
                 coordinate: match column.coordinate {
+                    DynamicCoordinate::RigidBody(index) => format!("rigid-body mode {}", index + 1),
                     DynamicCoordinate::InertiaRelief(index) => format!("inertia relief {}", index + 1),
                     DynamicCoordinate::FreeFree(mode) | DynamicCoordinate::FixedInterface(mode) => {
                         format!("mode {}", mode + 1)
@@ -165,15 +167,8 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
         });
     }
     warnings.extend(rigid_body::grounded(results));
-    for finding in &results.model.findings {
-        if let Finding::Symmetrised { asymmetry, .. } = finding
-            && *asymmetry > ASYMMETRY_WARN
-        {
-            warnings.push(Warning { code: "W-UNSYMMETRIC", message: finding.to_string() });
-        }
-        if let Finding::FreeParticles { .. } = finding {
-            warnings.push(Warning { code: "W-FREE-PARTICLE", message: finding.to_string() });
-        }
+    for finding in results.model.findings.iter().chain(&evidence.partition.findings) {
+        warnings.extend(finding.warning().map(|code| Warning { code, message: finding.to_string() }));
     }
     if let Some(misfit) = &evidence.rigid.misfit {
         warnings.push(Warning {
@@ -185,6 +180,8 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
             ),
         });
     }
+    warnings.extend(warnings::of_motions(results));
+    warnings.extend(warnings::data_precision(results));
     if results.job.model.expect.is_some() && !evidence.rigid.is_classical {
         warnings.push(Warning {
             code: "W-EXPECT-UNCHECKED",

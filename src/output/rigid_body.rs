@@ -45,7 +45,9 @@ fn mass_routes(results: &Results<'_>) -> Vec<MassRoute> {
 /// Mass, centre and inertia from M_F of the six unit motions, 6 × 6 in scaled units; nothing where it is not that.
 pub(super) fn mass_properties(results: &Results<'_>, m_f: MatRef<'_, f64>) -> MassProperties {
     let unit = results.evidence.partition.scaling.mass_unit();
-    let m_f = Matrix::from_fn(m_f.nrows(), m_f.ncols(), |i, j| m_f[(i, j)] * unit);
+    // The motions of mechanisms come after the six of the body.
+    let n = m_f.nrows().min(6);
+    let m_f = Matrix::from_fn(n, n, |i, j| m_f[(i, j)] * unit);
     supel_runtime::mass_properties(&m_f).map_or_else(MassProperties::default, |known| MassProperties {
         mass: Some(known.mass),
         cg: Some(known.center_of_mass),

@@ -18,8 +18,21 @@ use crate::verification::check::{Check, Verdict};
 /// Puts the units back and names every coordinate.
 pub(super) fn superelement(results: &Results<'_>, verdict: Verdict) -> Result<Superelement> {
     let tensors = tensors(results);
+    refuse_out_of_range(&tensors)?;
     let metadata = metadata(results, &tensors, verdict);
     Superelement::new(tensors, metadata).map_err(|error| Error::from_file(&results.job.write.superelement, error))
+}
+
+/// What is finite in scaled units may leave the range of a double in the user's.
+fn refuse_out_of_range(tensors: &Tensors) -> Result<()> {
+    let mixing = tensors.mixing.iter().map(|mixing| ("the inertia-relief modes in the units of the matrices", mixing));
+    let matrices = [("the reduced stiffness", &tensors.stiffness), ("the reduced mass", &tensors.mass)];
+    for (what, matrix) in matrices.into_iter().chain(mixing) {
+        if matrix.as_slice().contains(&f64::INFINITY) || matrix.as_slice().contains(&f64::NEG_INFINITY) {
+            return Err(Error::UnitRange { what, exponent: f64::MAX_EXP });
+        }
+    }
+    Ok(())
 }
 
 fn tensors(results: &Results<'_>) -> Tensors {
@@ -72,6 +85,7 @@ fn mixing(results: &Results<'_>) -> Option<Mat<f64>> {
     // A named shape is mass-normalised in the user's units like the stored ones; an inertia-relief mode K_II⁻¹(MU)_I
     // carries the unit of M over that of K.
     let named_unit = |coordinate: DynamicCoordinate| match coordinate {
+        DynamicCoordinate::RigidBody(_) => 1.0,
         DynamicCoordinate::InertiaRelief(_) => 1.0 / scaling.eigenvalue_unit(),
         DynamicCoordinate::FreeFree(_) | DynamicCoordinate::FixedInterface(_) => scaling.shape_unit(),
     };
@@ -109,7 +123,8 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
             column.remaining
         ),
     });
-    let classical = evidence.rigid.is_classical.then(|| file::mass_properties(&tensors.rigid_body_mass)).flatten();
+    let of_the_body = || Matrix::from_fn(6, 6, |i, j| tensors.rigid_body_mass[(i, j)]);
+    let classical = evidence.rigid.is_classical.then(|| file::mass_properties(&of_the_body())).flatten();
     let [stiffness, mass] = &results.input.matrices;
     Metadata {
         generator: file::Generator { name: env!("CARGO_PKG_NAME").into(), version: env!("CARGO_PKG_VERSION").into() },
@@ -127,7 +142,9 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
         model: file::ModelSummary {
             n_dofs: results.model.n_dofs() as u64,
             rigid_body_modes: match evidence.rigid.source {
-                RigidSource::Geometric if evidence.rigid.is_classical => file::RigidBodyModes::Geometric,
+                RigidSource::Geometric if evidence.rigid.is_classical && evidence.rigid.n_mechanisms == 0 => {
+                    file::RigidBodyModes::Geometric
+                }
                 _ => file::RigidBodyModes::Algebraic,
             },
             mass_properties: classical,
@@ -163,6 +180,7 @@ fn dynamic_coordinate(results: &Results<'_>, tensors: &Tensors, coordinate: Dyna
     let frequency = |mode: usize| tensors.frequencies[mode] / std::f64::consts::TAU;
     let bar = |mode: usize| Some(0.5 * errors[mode].relative_bar * frequency(mode)).filter(|bar: &f64| bar.is_finite());
     match coordinate {
+        DynamicCoordinate::RigidBody(index) => Coordinate::RigidBodyMode { index },
         DynamicCoordinate::InertiaRelief(index) => Coordinate::InertiaRelief { index },
         DynamicCoordinate::FreeFree(mode) => {
             Coordinate::ElasticMode { mode, frequency_hz: frequency(mode), error_bar_hz: bar(mode) }

@@ -10,6 +10,7 @@
 //! The internal dofs are put into a fill-reducing order once, here, so that no later stage permutes a vector.
 
 mod congruence;
+mod held;
 mod interface;
 mod metis;
 mod ordering;
@@ -20,11 +21,14 @@ use faer::Mat;
 
 use crate::error::{Error, Result};
 use crate::job::InterfaceJob;
-use crate::model::{Model, Precision, Scaling};
+use crate::model::{Finding, Model, Precision, Scaling};
 use crate::sparse::SparseMatrix;
 
 pub use interface::InterfaceNode;
 pub use transformation::{DofOrigin, ReducedDof, Site, Transformation, TransformationRow};
+
+/// Most interface dofs: the two reduced matrices alone take 6.4 GB then, and decomposing them days.
+pub const LARGEST_INTERFACE: usize = 20_000;
 
 /// The matrices in the order internal, interface, with what is known of each degree of freedom.
 #[derive(Debug)]
@@ -45,6 +49,8 @@ pub struct Partition {
     pub scaling: Scaling,
     /// Relative precision of the data.
     pub precision: Precision,
+    /// What was found of the interface that is no error.
+    pub findings: Vec<Finding>,
     /// How much rigid patches enlarge rounding of the data of K; one without patches.
     pub cancellation: f64,
 }
@@ -60,21 +66,26 @@ impl Partition {
         let order = ordering::elimination_order(model, &transformation);
         let transformation = transformation.permuted(&order);
         let n_internal = transformation.n_internal();
-        if n_internal == 0 {
-            return Err(Error::NothingToReduce { n_interface: transformation.dofs.len() });
+        let n_interface = transformation.dofs.len() - n_internal;
+        if n_interface > LARGEST_INTERFACE {
+            return Err(Error::InterfaceTooLarge { n_interface, limit: LARGEST_INTERFACE });
         }
         let (stiffness, mass) = rayon::join(
             || congruence::congruence(&model.stiffness, &transformation),
             || congruence::congruence(&model.mass, &transformation),
         );
         let cancellation = congruence::cancellation(&model.stiffness, &stiffness, &transformation);
+        let mut findings = held::constrained_nodes(model, &resolved);
+        let interface = resolved.into_nodes();
+        findings.extend(hanging_dofs(&stiffness, &transformation, &interface));
         Ok(Self {
             cancellation,
+            findings,
             stiffness,
             mass,
             n_internal,
             dofs: transformation.dofs.clone(),
-            interface: resolved.into_nodes(),
+            interface,
             transformation,
             scaling: model.scaling,
             precision: model.precision,
@@ -131,6 +142,15 @@ impl Partition {
         }
         block
     }
+}
+
+/// Interface dofs that no stiffness reaches; the model has seen to it that they have mass.
+fn hanging_dofs(stiffness: &SparseMatrix, partition: &Transformation, interface: &[InterfaceNode]) -> Option<Finding> {
+    let is_bare =
+        |dof: &usize| stiffness.outer_view(*dof).is_none_or(|row| row.data().iter().all(|value| *value == 0.0));
+    let hanging: Vec<usize> = (partition.n_internal()..partition.dofs.len()).filter(is_bare).collect();
+    let first = *hanging.first()?;
+    Some(Finding::HangingInterface { dof: partition.dofs[first].name(interface), n_dofs: hanging.len() })
 }
 
 /// The leading n × n block of a matrix whose rows are sorted.

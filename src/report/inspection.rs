@@ -122,6 +122,7 @@ fn column(column: &Coordinate) -> String {
     match column {
         Coordinate::Interface { node, .. } => format!("interface node {node}"),
         Coordinate::InterfaceRow { row } => format!("row {row}"),
+        Coordinate::RigidBodyMode { index } => format!("rigid-body mode {}", index + 1),
         Coordinate::InertiaRelief { index } => format!("inertia relief {}", index + 1),
         Coordinate::ElasticMode { mode, .. } | Coordinate::FixedInterfaceMode { mode, .. } => {
             format!("mode {}", mode + 1)

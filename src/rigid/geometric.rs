@@ -14,8 +14,9 @@ use crate::sparse::product;
 /// Singular values of a body's six unit motions, relative to the largest, below which the motion moves no dof (rotation
 /// of a straight row of translations about its own axis): a thousand times rounding, far below any real thickness.
 const NO_DISPLACEMENT: f64 = 1e-11;
-/// Modal masses relative to the largest below which a rigid motion has no inertia.
-const NO_MASS: f64 = 1e-12;
+/// Modal masses relative to the largest below which a rigid motion has no inertia: the square of the rounding that the
+/// direction of the motion carries, with a factor of ten thousand. A real one may be small beside a seismic mass.
+const NO_MASS: f64 = 1e-24;
 /// A motion is free when its energy stays below this many times the noise of the data. The noise bound adds all
 /// roundings with one sign; measured energies of exact rigid motions stay below it, so ten is generous.
 const FREE_BELOW_NOISE: f64 = 10.0;
@@ -50,6 +51,7 @@ pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<
         let dofs: Vec<usize> = (0..sites.len()).filter(|dof| bodies.of_row[*dof] == body).collect();
         found.push(of_body(partition, sites, &dofs)?);
     }
+    refuse_floating_bodies(partition, &found)?;
     let is_classical = matches!(found.as_slice(), [body] if body.is_classical);
     let energy = found.iter().fold(RigidEnergy::default(), |worst, body| RigidEnergy {
         largest_quotient: worst.largest_quotient.max(body.energy.largest_quotient),
@@ -57,14 +59,25 @@ pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<
         noise: worst.noise.max(body.energy.noise),
     });
     let n = sites.len();
-    let join = |part: fn(&Body) -> MatRef<'_, f64>| concatenate(n, found.iter().map(part));
-    let orthonormal = join(|body| body.orthonormal.as_ref());
-    let motions = join(|body| body.motions.as_ref().map_or(body.modes.as_ref(), Mat::as_ref));
+    let massive = found.iter().map(|body| body.orthonormal.as_ref());
+    let massless = || found.iter().map(|body| body.massless.as_ref());
+    let orthonormal = concatenate(n, massive.chain(massless()));
+    let modes = match found.as_slice() {
+        [body] if body.is_classical => unit_motions(sites, &body.dofs),
+        _ => orthonormal.clone(),
+    };
+    let motions = match found.iter().any(|body| body.motions.is_some()) {
+        true => concatenate(n, found.iter().map(|body| body.motions.as_ref().unwrap_or(&body.orthonormal).as_ref())),
+        false => modes.clone(),
+    };
     let are_classical = found.len() == 1 && motions.ncols() == 6;
     let rigid = RigidBodyModes {
-        modes: join(|body| body.modes.as_ref()),
+        modes,
         mass_orthonormal: product(&partition.mass, orthonormal.as_ref()),
         orthonormal,
+        n_massless: massless().map(|motions| motions.ncols()).sum(),
+        n_mechanisms: 0,
+        n_grey: 0,
         source: RigidSource::Geometric,
         is_classical,
         energy,
@@ -73,6 +86,23 @@ pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<
     let misfits = found.into_iter().filter_map(|body| body.misfit);
     let misfit = misfits.max_by(|a, b| a.energy.total_cmp(&b.energy));
     Ok(Geometric { rigid, motions, are_classical, misfit })
+}
+
+/// A body that can move and that no interface holds makes K_II singular, and nothing could drive it (catalogue S-04).
+fn refuse_floating_bodies(partition: &Partition, bodies: &[Body]) -> Result<()> {
+    if partition.n_interface() == 0 {
+        return Ok(());
+    }
+    let floats = |body: &&Body| body.count() > 0 && body.dofs.iter().all(|dof| *dof < partition.n_internal);
+    let floating: Vec<&Body> = bodies.iter().filter(floats).collect();
+    match floating.first() {
+        Some(first) => Err(Error::FloatingBody {
+            n_floating: floating.len(),
+            n_bodies: bodies.len(),
+            dof: partition.name_of(first.dofs[0]),
+        }),
+        None => Ok(()),
+    }
 }
 
 /// Numbers of nodes without gaps.
@@ -95,13 +125,24 @@ fn concatenate<'a>(n: usize, parts: impl Iterator<Item = MatRef<'a, f64>>) -> Ma
 }
 
 struct Body {
-    modes: Mat<f64>,
+    /// Its dofs, ascending.
+    dofs: Vec<usize>,
+    /// Its free motions with mass, M-orthonormal.
     orthonormal: Mat<f64>,
+    /// Its free motions without mass.
+    massless: Mat<f64>,
+    /// Whether all six motions are free.
     is_classical: bool,
     energy: RigidEnergy,
     /// All motions by the coordinates, where K lets only some of them pass and should let all.
     motions: Option<Mat<f64>>,
     misfit: Option<Misfit>,
+}
+
+impl Body {
+    fn count(&self) -> usize {
+        self.orthonormal.ncols() + self.massless.ncols()
+    }
 }
 
 fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body> {
@@ -118,7 +159,9 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
         }
     }
     let moving = moving_directions(centred.as_ref())?;
-    let orthonormal = mass_orthonormal(partition, dense::product(centred.as_ref(), moving.as_ref()).as_ref())?;
+    let (orthonormal, massless) =
+        mass_orthonormal(partition, dense::product(centred.as_ref(), moving.as_ref()).as_ref())?;
+    let massless = without_energy(partition, massless)?;
     let (energies, directions) = energies(partition, orthonormal.as_ref())?;
     let noise = noise(partition, orthonormal.as_ref());
     if let Some(energy) = energies.first().filter(|energy| **energy < -FREE_BELOW_NOISE * noise) {
@@ -136,14 +179,24 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
     let motions =
         misfit.as_ref().map(|_| if energies.len() == 6 { unit_motions(sites, dofs) } else { orthonormal.clone() });
     let orthonormal = dense::product(orthonormal.as_ref(), directions.as_ref().subcols(0, n_free));
-    let is_classical = n_free == 6;
-    let modes = if is_classical { unit_motions(sites, dofs) } else { orthonormal.clone() };
     let energy = RigidEnergy {
         largest_quotient: energies[..n_free].iter().fold(0.0, |max: f64, energy| max.max(energy.abs())),
         largest_residual: largest_residual(&partition.stiffness, orthonormal.as_ref()),
         noise,
     };
-    Ok(Body { modes, orthonormal, is_classical, energy, motions, misfit })
+    let is_classical = n_free + massless.ncols() == 6;
+    Ok(Body { dofs: dofs.to_vec(), orthonormal, massless, is_classical, energy, motions, misfit })
+}
+
+/// Those of the motions without mass that cost no energy either; one that is held is no rigid-body mode.
+fn without_energy(partition: &Partition, massless: Mat<f64>) -> Result<Mat<f64>> {
+    if massless.ncols() == 0 {
+        return Ok(massless);
+    }
+    let (energies, directions) = energies(partition, massless.as_ref())?;
+    let noise = noise(partition, massless.as_ref());
+    let n_free = energies.iter().filter(|energy| **energy <= FREE_BELOW_NOISE * noise).count();
+    Ok(dense::product(massless.as_ref(), directions.as_ref().subcols(0, n_free)))
 }
 
 struct Frame {
@@ -187,24 +240,38 @@ fn padded(matrix: MatRef<'_, f64>) -> Mat<f64> {
     Mat::from_fn(6, matrix.ncols(), |i, j| if i < matrix.nrows() { matrix[(i, j)] } else { 0.0 })
 }
 
-/// The same space with QᵀMQ = I.
-fn mass_orthonormal(partition: &Partition, motions: MatRef<'_, f64>) -> Result<Mat<f64>> {
-    let mut q = motions.to_owned();
-    // The second pass removes what rounding of the first left: a body far from round has unlike modal masses.
-    for _ in 0..2 {
-        let mut modal_mass = dense::gram(q.as_ref(), product(&partition.mass, q.as_ref()).as_ref());
+/// The same space as Q with QᵀMQ = I and the motions without mass.
+fn mass_orthonormal(partition: &Partition, motions: MatRef<'_, f64>) -> Result<(Mat<f64>, Mat<f64>)> {
+    let modal_mass = |q: MatRef<'_, f64>| {
+        let mut modal_mass = dense::gram(q, product(&partition.mass, q).as_ref());
         dense::symmetrise(&mut modal_mass);
-        let (masses, directions) = dense::symmetric_eigen(modal_mass.as_ref())?;
-        let largest = masses.last().copied().unwrap_or(0.0);
-        if let Some(mass) = masses.iter().find(|mass| mass.is_nan() || **mass <= NO_MASS * largest) {
-            // A body all without mass has nothing to be relative to.
-            let relative_mass = if largest > 0.0 { mass / largest } else { 0.0 };
-            return Err(Error::MasslessRigidMotion { relative_mass });
+        modal_mass
+    };
+    let (_, directions) = dense::symmetric_eigen(modal_mass(motions).as_ref())?;
+    let mut q = dense::product(motions, directions.as_ref());
+    // The masses of the directions themselves: eigenvalues carry the rounding of the largest of them.
+    let own = modal_mass(q.as_ref());
+    let masses: Vec<f64> = (0..q.ncols()).map(|j| own[(j, j)]).collect();
+    let largest = masses.iter().fold(0.0f64, |max, mass| max.max(*mass));
+    if largest.is_nan() || largest <= 0.0 {
+        return Err(Error::MasslessRigidMotion { relative_mass: 0.0 });
+    }
+    let (massive, massless): (Vec<usize>, Vec<usize>) = (0..q.ncols()).partition(|j| masses[*j] > NO_MASS * largest);
+    let of = |kept: &[usize], factor: &dyn Fn(usize) -> f64| {
+        Mat::from_fn(q.nrows(), kept.len(), |i, j| q[(i, kept[j])] * factor(kept[j]))
+    };
+    let massless = of(&massless, &|_| 1.0);
+    q = of(&massive, &|j| 1.0 / masses[j].sqrt());
+    // Two more passes remove what rounding of the first left: a body far from round has unlike modal masses.
+    for _ in 0..2 {
+        let (masses, directions) = dense::symmetric_eigen(modal_mass(q.as_ref()).as_ref())?;
+        if let Some(mass) = masses.iter().find(|mass| mass.is_nan() || **mass <= 0.0) {
+            return Err(Error::MasslessRigidMotion { relative_mass: *mass });
         }
         let scaled = Mat::from_fn(masses.len(), masses.len(), |i, j| directions[(i, j)] / masses[j].sqrt());
         q = dense::product(q.as_ref(), scaled.as_ref());
     }
-    Ok(q)
+    Ok((q, massless))
 }
 
 /// Energies qᵀKq in ascending order of size and the combinations that have them.

@@ -10,6 +10,7 @@
 
 mod algebraic;
 mod geometric;
+mod mechanism;
 mod misfit;
 mod rank;
 
@@ -21,7 +22,9 @@ use crate::partition::Partition;
 use crate::sparse::{SparseMatrix, product};
 
 pub use algebraic::from_matrices;
+pub use mechanism::{Loose, LooseMotions, with_mechanisms};
 pub use misfit::Misfit;
+pub(crate) use rank::unit_motions;
 pub use rank::{ILL_CONDITIONED, InterfaceRank, interface_rank};
 
 /// Where rigid-body modes come from.
@@ -36,15 +39,21 @@ pub enum RigidSource {
 /// The rigid-body modes of a partition.
 #[derive(Clone, Debug)]
 pub struct RigidBodyModes {
-    /// U, n' × n_r.
+    /// U, n' × n_r; the motions of mechanisms come last.
     pub modes: Mat<f64>,
-    /// Q, n' × n_r, spanning the same space, M-orthonormal.
+    /// Q, n' × n_r, spanning the same space: motions with mass first, M-orthonormal, then those without.
     pub orthonormal: Mat<f64>,
     /// M Q, n' × n_r.
     pub mass_orthonormal: Mat<f64>,
+    /// How many motions, the last of Q, have neither energy nor mass: M lets them pass too, so that deflation ignores them.
+    pub n_massless: usize,
+    /// How many motions, the last of U, are those of mechanisms and not of rigid bodies.
+    pub n_mechanisms: usize,
+    /// How many further motions are so soft that the data hardly tell them from motions without energy; they count as elastic.
+    pub n_grey: usize,
     /// Where they come from.
     pub source: RigidSource,
-    /// True where U is the six unit motions of one free body, so that UᵀMU holds its mass properties.
+    /// True where the first six columns of U are the unit motions of one free body, so that UᵀMU holds its mass properties.
     pub is_classical: bool,
     /// Energies of the modes against the noise of the data.
     pub energy: RigidEnergy,
@@ -70,12 +79,25 @@ impl RigidBodyModes {
         self.modes.ncols()
     }
 
+    /// The motions of Q that have mass, n' × (n_r − n_massless), M-orthonormal.
+    pub fn massive(&self) -> MatRef<'_, f64> {
+        self.orthonormal.as_ref().subcols(0, self.count() - self.n_massless)
+    }
+
+    /// The motions of Q without mass, n' × n_massless.
+    pub fn massless(&self) -> MatRef<'_, f64> {
+        self.orthonormal.as_ref().subcols(self.count() - self.n_massless, self.n_massless)
+    }
+
     /// The modes of a component that is held: none.
     pub fn none(n_dofs: usize) -> Self {
         Self {
             modes: Mat::zeros(n_dofs, 0),
             orthonormal: Mat::zeros(n_dofs, 0),
             mass_orthonormal: Mat::zeros(n_dofs, 0),
+            n_massless: 0,
+            n_mechanisms: 0,
+            n_grey: 0,
             source: RigidSource::Geometric,
             is_classical: false,
             energy: RigidEnergy::default(),
@@ -93,6 +115,8 @@ impl RigidBodyModes {
 
 /// The rigid-body modes, and the factorisations they took: from coordinates that fit none.
 ///
+/// Without an interface there is no S in which mechanisms would show, so that a free component is counted by its matrices too.
+///
 /// # Errors
 /// [`Error::CoordinatesDoNotFit`](crate::error::Error::CoordinatesDoNotFit) and those of [`from_coordinates`] and
 /// [`from_matrices`].
@@ -101,10 +125,17 @@ pub fn rigid_body_modes(partition: &Partition) -> Result<(RigidBodyModes, usize)
         return from_matrices(partition);
     };
     let found = geometric::rigid_body_modes(partition, &sites)?;
-    match found.misfit.clone() {
-        Some(misfit) => misfit::settled(partition, found, misfit),
-        None => Ok((found.rigid, 0)),
+    if let Some(misfit) = found.misfit.clone() {
+        return misfit::settled(partition, found, misfit);
     }
+    let rigid = found.rigid;
+    if partition.n_interface() > 0 || rigid.count() == 0 {
+        return Ok((rigid, 0));
+    }
+    let (every, n_factorisations) = from_matrices(partition)?;
+    let n_mechanisms = every.count().saturating_sub(rigid.count());
+    let rigid = if n_mechanisms > 0 { RigidBodyModes { n_mechanisms, ..every } } else { rigid };
+    Ok((rigid, n_factorisations))
 }
 
 /// The rigid-body modes from the coordinates, or `None` where the model has none that K lets pass.

@@ -18,7 +18,8 @@ pub const ILL_CONDITIONED: f64 = 1e-2;
 /// How well the interface reacts the rigid-body motions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InterfaceRank {
-    /// Smallest over largest singular value of U_B, rotations scaled to the size of the component; one without rigid modes.
+    /// Smallest over largest singular value of U_B, rotations scaled to the size of the component; one without rigid modes
+    /// or without interface.
     pub singular_ratio: f64,
 }
 
@@ -28,10 +29,11 @@ pub struct InterfaceRank {
 /// A rigid-body motion leaves the interface at rest; the message names it.
 pub fn interface_rank(partition: &Partition, rigid: &RigidBodyModes) -> Result<InterfaceRank> {
     let (n_i, n_b, n_r) = (partition.n_internal, partition.n_interface(), rigid.count());
-    if n_r == 0 {
+    // Without an interface nothing has to be reacted: the modes are those of the free component.
+    if n_r == 0 || n_b == 0 {
         return Ok(InterfaceRank { singular_ratio: 1.0 });
     }
-    let size = partition.sites().map_or(1.0, |sites| size_of(&sites));
+    let size = size_of_component(partition);
     let row_scale = |i: usize| match partition.dofs[n_i + i].site {
         Some(site) if site.direction.is_rotation() => size,
         Some(_) => 1.0,
@@ -41,24 +43,45 @@ pub fn interface_rank(partition: &Partition, rigid: &RigidBodyModes) -> Result<I
             1.0 / dense::power_of_two_root(stiffness)
         }
     };
-    let u_b =
-        Mat::from_fn(
-            n_b.max(n_r),
-            n_r,
-            |i, j| {
-                if i < n_b { rigid.orthonormal[(n_i + i, j)] * row_scale(i) } else { 0.0 }
-            },
-        );
+    // Motions of unit length, not of unit mass: a seismic mass would make its own motions small.
+    let unit = unit_motions(partition, rigid)?;
+    let u_b = Mat::from_fn(n_b.max(n_r), n_r, |i, j| if i < n_b { unit[(n_i + i, j)] * row_scale(i) } else { 0.0 });
     let (singular, v) = dense::right_singular(u_b.as_ref())?;
     let largest = singular.first().copied().unwrap_or(0.0);
     let rank = singular.iter().filter(|value| **value > RANK_TOLERANCE * largest).count();
     if largest == 0.0 || rank < n_r {
-        let free = rigid.orthonormal.as_ref() * v.as_ref().subcols(n_r - 1, 1);
+        let free = unit.as_ref() * v.as_ref().subcols(n_r - 1, 1);
         let motion =
             partition.sites().map_or_else(String::new, |sites| describe(&sites, dense::column(free.as_ref(), 0)));
         return Err(Error::InterfaceRank { rank, n_rigid: n_r, motion });
     }
     Ok(InterfaceRank { singular_ratio: singular[n_r - 1] / largest })
+}
+
+fn size_of_component(partition: &Partition) -> f64 {
+    partition.sites().map_or(1.0, |sites| size_of(&sites))
+}
+
+/// The rigid-body modes as motions that are orthogonal and of unit length over all dofs, rotations times the size of the component.
+pub(crate) fn unit_motions(partition: &Partition, rigid: &RigidBodyModes) -> Result<Mat<f64>> {
+    let size = size_of_component(partition);
+    let scale = |i: usize| match partition.dofs[i].site {
+        Some(site) if site.direction.is_rotation() => size,
+        _ => 1.0,
+    };
+    let mut unit = rigid.orthonormal.clone();
+    // The second pass removes what rounding of the first left of lengths that differ by many orders.
+    for _ in 0..2 {
+        let scaled = Mat::from_fn(unit.nrows(), unit.ncols(), |i, j| unit[(i, j)] * scale(i));
+        let lengths: Vec<f64> = (0..scaled.ncols()).map(|j| dense::norm(dense::column(scaled.as_ref(), j))).collect();
+        let even = Mat::from_fn(scaled.nrows(), scaled.ncols(), |i, j| scaled[(i, j)] / lengths[j]);
+        let (squares, directions) = dense::symmetric_eigen(dense::gram(even.as_ref(), even.as_ref()).as_ref())?;
+        let turn = Mat::from_fn(lengths.len(), lengths.len(), |i, j| {
+            directions[(i, j)] / (lengths[i] * squares[j].max(f64::EPSILON).sqrt())
+        });
+        unit = dense::product(unit.as_ref(), turn.as_ref());
+    }
+    Ok(unit)
 }
 
 fn size_of(sites: &[Site]) -> f64 {
@@ -89,7 +112,11 @@ fn describe(sites: &[Site], motion: &[f64]) -> String {
     // The point of the axis nearest the origin: (θ × t) / θ².
     let cross = [r[1] * t[2] - r[2] * t[1], r[2] * t[0] - r[0] * t[2], r[0] * t[1] - r[1] * t[0]];
     let point = cross.map(|value| value / (turning * turning));
-    let show = |values: [f64; 3]| format!("({:.4}, {:.4}, {:.4})", values[0] + 0.0, values[1] + 0.0, values[2] + 0.0);
+    let show = |values: [f64; 3]| {
+        // What rounds to zero has no sign.
+        let [x, y, z] = values.map(|value| (value * 1e4).round() / 1e4 + 0.0);
+        format!("({x:.4}, {y:.4}, {z:.4})")
+    };
     format!("; free: rotation about the axis through {} along {}", show(point), show(axis))
 }
 

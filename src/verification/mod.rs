@@ -117,7 +117,9 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     checks.extend(enclosure::checks(evidence));
     checks.push(eigenpairs::data_precision(evidence));
     checks.push(solves::static_solves(evidence));
-    checks.push(rigid_motion::carried_by_interface(evidence));
+    if evidence.partition.n_interface() > 0 {
+        checks.push(rigid_motion::carried_by_interface(evidence));
+    }
     checks.push(rigid_motion::null_space(evidence));
     checks.push(rigid_motion::zero_modes(evidence, &spectrum));
     checks.push(reduced::block_coupling(evidence, &terms));
@@ -136,20 +138,21 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
 
 /// What a rigid-body mode is called: `rotation z` of one free body, else by its number.
 fn rigid_name(evidence: &Evidence<'_>, mode: usize) -> String {
-    if evidence.rigid.is_classical {
-        directions::NAMES[mode].to_owned()
-    } else {
-        format!("rigid-body mode {}", mode + 1)
+    match directions::NAMES.get(mode).filter(|_| evidence.rigid.is_classical) {
+        Some(name) => (*name).to_owned(),
+        None => format!("rigid-body mode {}", mode + 1),
     }
 }
 
 /// What a reduced coordinate is called: `node 12 uz`, `mode 3`, `inertia relief 2`.
 fn coordinate_name(evidence: &Evidence<'_>, coordinate: usize) -> String {
     let n_b = evidence.partition.n_interface();
-    match coordinate.checked_sub(n_b).map(|slot| evidence.basis.coordinates[slot]) {
+    match coordinate.checked_sub(n_b).map(|slot| evidence.basis.coordinates.get(slot).copied()) {
+        Some(None) => format!("coordinate {}", coordinate + 1),
         None => evidence.partition.name_of(evidence.partition.n_internal + coordinate),
-        Some(DynamicCoordinate::InertiaRelief(index)) => format!("inertia relief {}", index + 1),
-        Some(DynamicCoordinate::FreeFree(mode) | DynamicCoordinate::FixedInterface(mode)) => {
+        Some(Some(DynamicCoordinate::RigidBody(index))) => format!("rigid-body mode {}", index + 1),
+        Some(Some(DynamicCoordinate::InertiaRelief(index))) => format!("inertia relief {}", index + 1),
+        Some(Some(DynamicCoordinate::FreeFree(mode) | DynamicCoordinate::FixedInterface(mode))) => {
             format!("mode {}", mode + 1)
         }
     }

@@ -5,7 +5,7 @@ use super::conditioning::independence;
 use super::spectrum::{Spectrum, zero_level};
 use super::{Evidence, coordinate_name, data_noise, reduced_norms};
 use crate::dense;
-use crate::modes::Boundary;
+use crate::modes::{Boundary, Modes, REPEATED_WITHIN};
 use crate::rigid::absolute_energy;
 
 /// How large the terms are that the reduced stiffness is summed from: rounding of an entry is ε times these.
@@ -103,7 +103,8 @@ pub(super) fn pair_residual(evidence: &Evidence<'_>) -> Check {
     let zero = zero_level(evidence);
     // A mode that is nearly spanned by the columns before it is put together from what little it adds to them.
     let dependence = reduction.n_reduced() as f64 * f64::EPSILON / independence(evidence).0;
-    let limits = Limits { engineering: 1e-12, arithmetic: zero.arithmetic.max(dependence), data: zero.data };
+    let arithmetic = zero.arithmetic.max(dependence).max(repeated_rounding(modes));
+    let limits = Limits { engineering: 1e-12, arithmetic, data: zero.data };
     Check {
         id: "M-14",
         name: "modes are eigenpairs of the reduced model",
@@ -113,6 +114,13 @@ pub(super) fn pair_residual(evidence: &Evidence<'_>) -> Check {
         fail_above: limits.value().max(1e-9),
         worst: worst.1,
     }
+}
+
+/// What the basis of a repeated eigenvalue leaves of it: its copies are told apart by the rounding of the full model only,
+/// and the reduced one has that rounding in its entries.
+fn repeated_rounding(modes: &Modes) -> f64 {
+    let copies = (1..modes.count()).filter(|j| modes.lambda[*j] == modes.lambda[j - 1]);
+    copies.map(|j| REPEATED_WITHIN * f64::EPSILON * modes.errors[j].cancellation).fold(0.0, f64::max)
 }
 
 /// Relative difference of a frequency that reduced models are accepted with.

@@ -18,6 +18,8 @@ pub(super) struct Spectrum {
     pub(super) same_boundary: Vec<f64>,
     /// Zero modes of K̂.
     pub(super) n_zero: usize,
+    /// Those that have mass, and with it a place in the spectrum.
+    n_zero_of_pencil: usize,
     /// The smallest eigenvalue of K̂ in the scales of its coordinates.
     pub(super) lowest_stiffness: f64,
     /// The coordinate that takes the largest part in it.
@@ -36,12 +38,13 @@ impl Spectrum {
         let (scaled_stiffness, vectors) = dense::symmetric_eigen(scaled_by(k, &coordinate_scales(evidence)).as_ref())?;
         let (masses, mass_vectors) = dense::symmetric_eigen(equilibrated(m, m).as_ref())?;
         let n_r = evidence.rigid.count();
+        let (k_held, n_pencil) = (with_massless_lifted(evidence), n_r - evidence.rigid.n_massless);
         let lifted = lifted_eigenvalues(evidence)?;
         let zero = zero_level(evidence).value();
         let n_zero = n_r + lifted.iter().filter(|value| **value <= zero).count();
-        let (free, zero_shapes) = lowest_eigenpairs(k, m, lambda, n_r)?;
+        let (free, zero_shapes) = lowest_eigenpairs(k_held.as_ref(), m, lambda, n_pencil)?;
         let same_boundary = match evidence.retained.boundary {
-            Boundary::FreeInterface => free.get(n_r..).unwrap_or_default().to_vec(),
+            Boundary::FreeInterface => free.get(n_pencil..).unwrap_or_default().to_vec(),
             Boundary::FixedInterface => {
                 let n = k.nrows() - n_b;
                 lowest_eigenpairs(k.submatrix(n_b, n_b, n, n), m.submatrix(n_b, n_b, n, n), lambda, 0)?.0
@@ -53,6 +56,7 @@ impl Spectrum {
             lowest_elastic: lifted.first().copied().unwrap_or(1.0),
             same_boundary,
             n_zero,
+            n_zero_of_pencil: n_zero - evidence.rigid.n_massless,
             lowest_stiffness: scaled_stiffness.first().copied().unwrap_or(0.0),
             softest: largest_component(vectors.as_ref()),
             lowest_mass: (masses.first().copied().unwrap_or(0.0), largest_component(mass_vectors.as_ref())),
@@ -73,7 +77,7 @@ impl Spectrum {
     /// The first eigenvalue of the free reduced model that is no zero mode: infinite where all are, not a number where the
     /// reduced pencil is too far from definite to have a spectrum.
     pub(super) fn first_elastic(&self) -> f64 {
-        self.eigenvalue(self.n_zero)
+        self.eigenvalue(self.n_zero_of_pencil)
     }
 }
 
@@ -104,6 +108,31 @@ fn lifted_eigenvalues(evidence: &Evidence<'_>) -> Result<Vec<f64>> {
         dense::symmetrise(&mut lifted);
     }
     Ok(dense::symmetric_eigen(lifted.as_ref())?.0)
+}
+
+/// K̂ with a unit stiffness against the rigid-body motions without mass, in the scales of its coordinates: the pencil would be
+/// singular with them, and M̂ sends them to infinity.
+fn with_massless_lifted(evidence: &Evidence<'_>) -> Mat<f64> {
+    let mut k = evidence.reduction.stiffness.clone();
+    let massless = evidence.rigid.massless();
+    let (n_i, n_b) = (evidence.partition.n_internal, evidence.partition.n_interface());
+    if massless.ncols() == 0 || n_b == 0 {
+        return k;
+    }
+    let scales = coordinate_scales(evidence);
+    let scaled =
+        Mat::from_fn(
+            k.nrows(),
+            massless.ncols(),
+            |i, j| {
+                if i < n_b { massless[(n_i + i, j)] / scales[i] } else { 0.0 }
+            },
+        );
+    let z = scaled.qr().compute_thin_Q();
+    let z = Mat::from_fn(z.nrows(), z.ncols(), |i, j| z[(i, j)] / scales[i]);
+    dense::add_product(k.as_mut(), 1.0, z.as_ref(), z.transpose());
+    dense::symmetrise(&mut k);
+    k
 }
 
 /// The row of the largest entry of the first column.

@@ -32,11 +32,13 @@ fn labels_of(partition: &Partition) -> Vec<Option<i64>> {
     partition.interface.iter().map(|node| node.label).collect()
 }
 
+/// Refused before any dense matrix of that size is made.
 #[test]
-fn nothing_is_left_to_reduce() {
-    let error = refused(&beam(), &[direct("all", &beam().labels)]);
-    assert!(matches!(error, Error::NothingToReduce { n_interface: 36 }), "{error}");
-    assert_says(&error, ErrorClass::InputData, &["36 interface dofs", "take fewer interface nodes"]);
+fn interface_too_large_for_dense_matrices() {
+    let rows_of = |n: usize| rows("all", &(0..n).collect::<Vec<_>>());
+    let error = refused(&spring(20_002, Ends::Free), &[rows_of(20_001)]);
+    assert!(matches!(error, Error::InterfaceTooLarge { n_interface: 20_001, limit: 20_000 }), "{error}");
+    assert_says(&error, ErrorClass::InputData, &["20001 dofs", "at most 20000", "couple their patches rigidly"]);
 }
 
 #[test]

@@ -5,6 +5,10 @@
 
 #[path = "../chain/mod.rs"]
 mod chain;
+#[allow(dead_code, reason = "every table uses its part")]
+mod oracle;
+#[allow(dead_code, reason = "every table uses its part")]
+mod program;
 
 mod input;
 mod mass;

@@ -1,1 +1,184 @@
-//! Mass matrices: lines MS-01 to MS-08.
+//! Mass matrices: lines MS-01 to MS-07. MS-08 (added masses) waits for its feature.
+
+use supel::error::Error;
+use supel_models::model::Entry;
+use supel_models::transform::{join, scaled, supported};
+use supel_models::{Ends, Inertia, Material, Model, Section, brick, frame, spring};
+
+use crate::chain::{Method, Twin, direct, reduce, rows};
+use crate::program::{Case, METHODS, bars, eigensolvers, eigenvalues, message_of, n_rigid, warnings, worst_ratio};
+
+/// A bent frame of lumped masses: its rotations have none.
+fn lumped_frame() -> Model {
+    let nodes = [[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [2.0, 2.0, 0.5], [1.0, 2.5, 0.8]];
+    let edges = [[0, 1], [1, 2], [2, 3], [3, 4], [4, 5]];
+    frame(&nodes, &edges, &Section::round(0.1), &Material::UNIT, Inertia::LumpedTranslations)
+}
+
+/// The modes of the finite spectrum, and no others, by both eigensolvers.
+#[test]
+fn ms_01_lumped_frame_has_its_finite_modes_only() {
+    let model = lumped_frame();
+    let pins = [direct("ends", &[1, 6])];
+    for method in METHODS {
+        let twin = Twin::new(&model, &pins, &crate::chain::partition(&model, &pins).expect("a partition"));
+        let (exact, n_zero) =
+            if method == "herting" { (twin.free_spectrum(), 6) } else { (twin.clamped_spectrum(), 0) };
+        let unit = crate::chain::partition(&model, &pins).expect("a partition").scaling.eigenvalue_unit();
+        let exact: Vec<f64> = exact[n_zero..].iter().map(|lambda| lambda * unit).collect();
+        assert_eq!(exact.len(), if n_zero > 0 { 18 - 6 } else { 12 }, "half the rows have mass");
+        for eigensolver in eigensolvers() {
+            for count in [3, 40] {
+                let outcome = Case::new(&model, &pins).method(method).by(eigensolver).count(count).accepted();
+                let found = eigenvalues(&outcome);
+                let expected = &exact[..count.min(exact.len()).max(found.len())];
+                // The twin errs by ε of its largest eigenvalue, near the top by the most.
+                assert!(worst_ratio(&found, expected) <= 1e-9, "{method}, {eigensolver}: {found:?} for {expected:?}");
+                assert_eq!(warnings(&outcome).contains(&"W-FEWER-MODES"), count > exact.len());
+            }
+        }
+    }
+}
+
+/// Mass at the interface alone: nothing inside moves by itself.
+#[test]
+fn ms_02_massless_interior_has_no_modes_of_its_own() {
+    let mut chain = spring(20, Ends::Free);
+    chain.mass.retain(|entry| entry.0 == 0 || entry.0 == 19);
+    let clamped = Case::new(&chain, &[rows("ends", &[0, 19])]).method("craig-bampton").accepted();
+    assert_eq!((eigenvalues(&clamped).len(), warnings(&clamped)), (0, vec!["W-FEWER-MODES"]));
+    let free = Case::new(&chain, &[rows("ends", &[0, 19])]).accepted();
+    // Two unit masses on nineteen unit springs in series: λ = 2 · 1/19.
+    assert!(worst_ratio(&eigenvalues(&free), &[2.0 / 19.0]) <= 1e-13);
+    assert_eq!(warnings(&free), ["W-FEWER-MODES"]);
+    // What follows the interface statically adds nothing and is left out by name.
+    assert_eq!((free.report.body.reduction.dropped.len(), free.report.body.reduction.n_reduced), (2, 2));
+}
+
+#[test]
+fn ms_03_massless_mechanisms_are_refused() {
+    // A row with neither stiffness nor mass.
+    let mut empty = spring(6, Ends::Fixed);
+    empty.n = 7;
+    empty.dofs.push((7, 0));
+    empty.labels.push(7);
+    empty.nodes.push([7.0, 0.0, 0.0]);
+    let error = Case::new(&empty, &[rows("end", &[0])]).refused(&["1 rows", "node 7 ux"]);
+    assert!(matches!(error, Error::EmptyRows { .. }), "{error}");
+    // A free body without mass.
+    let ghost = scaled(&brick([1, 1, 1], [1.0; 3], &Material::UNIT), 1.0, 0.0);
+    let pair = join(&brick([1, 1, 1], [1.0; 3], &Material::UNIT), &ghost, &[]);
+    for method in METHODS {
+        let error =
+            Case::new(&pair, &[direct("pins", &[1, 2, 7, 9, 10, 15])]).method(method).refused(&["moves no mass"]);
+        assert!(matches!(error, Error::MasslessRigidMotion { .. }), "{error}");
+    }
+    // Two interface dofs that move together without stiffness and without mass: K v = 0 and M v = 0, rows not empty.
+    let mut slack = spring(6, Ends::Fixed);
+    for (i, j, value) in [(0, 0, 1.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 1.0)] {
+        slack.stiffness.push((6 + i, 6 + j, value));
+    }
+    slack.n = 8;
+    for label in [7, 8] {
+        slack.dofs.push((label, 0));
+        slack.labels.push(label);
+        slack.nodes.push([f64::from(label as i32), 0.0, 0.0]);
+    }
+    let anonymous = Model { dofs: Vec::new(), ..slack };
+    for method in METHODS {
+        let case = Case::new(&anonymous, &[rows("ends", &[0, 6, 7])]).method(method);
+        let error = case.run().err().expect("a pencil that is singular at every shift");
+        assert!(matches!(error, Error::MasslessMechanism { .. } | Error::NotDefinite { .. }), "{error}");
+        let message = error.to_string();
+        assert!(message.contains("row 7") || message.contains("row 8"), "{message}");
+    }
+}
+
+#[test]
+fn ms_04_negative_and_indefinite_masses_are_refused() {
+    let chain = spring(12, Ends::Fixed);
+    let with = |changes: &[Entry]| {
+        let mut model = chain.clone();
+        for (i, j, value) in changes {
+            model.mass.retain(|entry| (entry.0, entry.1) != (*i, *j));
+            model.mass.push((*i, *j, *value));
+        }
+        model
+    };
+    let end = [rows("end", &[0])];
+    for method in METHODS {
+        let error =
+            Case::new(&with(&[(5, 5, -1e-3)]), &end).method(method).refused(&["row 6 (node 6 ux)", "-1.000e-3"]);
+        assert!(matches!(error, Error::NegativeMass { row: 6, .. }), "{error}");
+        // A coupling larger than both masses: a pair shows it.
+        let pair = with(&[(3, 4, 1.5), (4, 3, 1.5)]);
+        let error =
+            Case::new(&pair, &end).method(method).refused(&["indefinite", "row 5 (node 5 ux), column 4 (node 4 ux)"]);
+        assert!(matches!(error, Error::IndefiniteMass { energy, .. } if (energy + 0.5).abs() < 1e-12), "{error}");
+        // Three masses of one with couplings of 0.8 between neighbours: only the three together show it, λ = 1 − 0.8 √2.
+        let three = with(&[(3, 4, -0.8), (4, 3, -0.8), (4, 5, -0.8), (5, 4, -0.8)]);
+        let error = Case::new(&three, &end).method(method).refused(&["indefinite", "row 5 (node 5 ux)"]);
+        let expected = 1.0 - 0.8 * 2f64.sqrt();
+        assert!(matches!(error, Error::IndefiniteMass { energy, .. } if (energy - expected).abs() < 1e-6), "{error}");
+    }
+    // Consistent masses are definite and pass.
+    Case::new(&brick([3, 2, 2], [3.0, 2.1, 1.9], &Material::UNIT), &[direct("pins", &[1, 12, 28])]).clean();
+}
+
+#[test]
+fn ms_05_mass_negative_by_rounding_is_set_to_zero() {
+    let mut chain = spring(12, Ends::Fixed);
+    let at = |model: &mut Model, value: f64| {
+        model.mass.retain(|entry| entry.0 != 5);
+        model.mass.push((5, 5, value));
+        model.mass.sort_by_key(|entry| (entry.0, entry.1));
+    };
+    at(&mut chain, -1e-18);
+    let mut zero = chain.clone();
+    at(&mut zero, 0.0);
+    for method in METHODS {
+        let outcome = Case::new(&chain, &[rows("end", &[0])]).method(method).warned(&["W-NEGATIVE-MASS"]);
+        let reference = Case::new(&zero, &[rows("end", &[0])]).method(method).clean();
+        assert_eq!(eigenvalues(&outcome), eigenvalues(&reference), "{method}");
+        assert!(message_of(&outcome, "W-NEGATIVE-MASS").contains("1 diagonal entries"));
+    }
+}
+
+#[test]
+fn ms_06_no_mass_is_refused() {
+    for method in METHODS {
+        let error = Case::new(&scaled(&spring(6, Ends::Fixed), 1.0, 0.0), &[rows("end", &[0])])
+            .method(method)
+            .refused(&["the mass matrix is zero", "give the mass matrix"]);
+        assert!(matches!(error, Error::NoMass), "{error}");
+    }
+}
+
+/// The large-mass method: a mass of 10¹² at the base, which is an interface node. The modes of the free component become
+/// those of the component held there.
+#[test]
+fn ms_07_seismic_mass_at_the_base() {
+    let block = brick([3, 2, 2], [3.0, 2.1, 1.9], &Material::UNIT);
+    let mut seismic = block.clone();
+    for entry in seismic.mass.iter_mut().filter(|entry| entry.0 == entry.1 && entry.0 < 3) {
+        entry.2 += 1e12;
+    }
+    // Node 1 held in its three translations; the rotations about it stay free.
+    let pinned = supported(&block, |(label, _)| label == 1);
+    let held = Case::new(&pinned, &[direct("pins", &[12, 28, 36])]).accepted();
+    let expected = eigenvalues(&held);
+    for eigensolver in eigensolvers() {
+        let outcome = Case::new(&seismic, &[direct("pins", &[1, 12, 28])]).by(eigensolver).accepted_but_for("M-24");
+        assert_eq!(n_rigid(&outcome), 6);
+        let found = eigenvalues(&outcome);
+        // A base of 10¹² moves by the mass ratio, 10⁻¹², and the bars of both.
+        for ((found, expected), bar) in found.iter().zip(&expected).zip(bars(&outcome)) {
+            assert!((found / expected - 1.0).abs() <= 1e-10 + 2.0 * bar, "{eigensolver}: {found} for {expected}");
+        }
+    }
+    let clamped = Case::new(&seismic, &[direct("pins", &[1, 12, 28])]).method("craig-bampton").accepted_but_for("M-24");
+    let light = Case::new(&block, &[direct("pins", &[1, 12, 28])]).method("craig-bampton").accepted();
+    // Modes of the interior do not know the mass of the interface.
+    assert!(worst_ratio(&eigenvalues(&clamped), &eigenvalues(&light)) <= 1e-13);
+    let _ = reduce(&seismic, &[direct("pins", &[1, 12, 28])], Method::Herting, 2).expect("a chain");
+}

@@ -125,7 +125,7 @@ fn passing_motions(
     kept: &[usize],
     mass: &SparseMatrix,
 ) -> Result<RigidBodyModes> {
-    let (q, n_i) = (evidence.rigid.orthonormal.as_ref(), evidence.partition.n_internal);
+    let (q, n_i) = (evidence.rigid.massive(), evidence.partition.n_internal);
     let stiffness = diagonal(&evidence.partition.stiffness);
     let held: Vec<usize> = (0..boundary.held.len()).filter(|dof| boundary.held[*dof]).map(|dof| n_i + dof).collect();
     let passing = passing(q, &held, &stiffness)?;
@@ -143,6 +143,9 @@ fn passing_motions(
         mass_orthonormal: product(mass, motions.as_ref()),
         modes: motions.clone(),
         orthonormal: motions,
+        n_massless: 0,
+        n_mechanisms: 0,
+        n_grey: 0,
         source: evidence.rigid.source,
         is_classical: false,
         energy: RigidEnergy::default(),

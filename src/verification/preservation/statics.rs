@@ -16,6 +16,7 @@ use crate::factor::SolveOperator;
 use crate::input::Direction;
 use crate::partition::Site;
 use crate::report::InterfaceStatics;
+use crate::rigid::absolute_energy;
 use crate::sparse::product;
 
 /// Dofs up to which an interface without coordinates is shown dof by dof.
@@ -108,6 +109,9 @@ fn compared(
     }
 }
 
+/// Share of its terms that an energy keeps at least where it is one.
+const CANCELLED: f64 = 1e-10;
+
 /// XᵀKX with the interior at rest, and its diagonal while the interior was still held.
 ///
 /// X comes from solves of its own and one step of refinement with the residual of the full K; neither the constraint
@@ -128,6 +132,7 @@ fn full_stiffness(
     }
     let forces = product(&partition.stiffness, x.as_ref());
     let held = dense::gram(x.as_ref(), forces.as_ref());
+    let moved = x.clone();
     for _ in 0..2 {
         let mut unbalanced = product(&partition.stiffness, x.as_ref()).as_ref().subrows(0, n_i).to_owned();
         factor.solve_in_place(unbalanced.as_mut());
@@ -136,7 +141,10 @@ fn full_stiffness(
     }
     let mut stiffness = dense::gram(x.as_ref(), product(&partition.stiffness, x.as_ref()).as_ref());
     dense::symmetrise(&mut stiffness);
-    (stiffness, (0..held.ncols()).map(|j| held[(j, j)]).collect())
+    // An interface that is the whole component moves without energy: its terms are the size then, and not what they leave.
+    let terms = absolute_energy(&partition.stiffness, moved.as_ref());
+    let size = |j: usize| if held[(j, j)] > CANCELLED * terms[j] { held[(j, j)] } else { terms[j] };
+    (stiffness, (0..held.ncols()).map(size).collect())
 }
 
 /// Rᵀ(K̂_hh − K̂_hη K̂_ηη⁻¹ K̂_ηh)R.

@@ -1,0 +1,116 @@
+//! Whether a mass matrix can belong to a structure: no motion may have a negative kinetic energy.
+//!
+//! ```text
+//! D M D        n × n    D = diag(1/√M_ii): every dof of unit mass
+//! ```
+//! Pairs first, exactly: |M_ij| > √(M_ii M_jj) makes a 2 × 2 minor negative. What only several dofs together show, some
+//! steps of Lanczos show: they need products alone, and a Ritz value is the energy of an actual motion, so that a negative
+//! one is proof. An isolated negative eigenvalue, the mark of a wrong entry, is what Lanczos finds first.
+
+use faer::Mat;
+
+use super::{diagonal, name_of};
+use crate::dense;
+use crate::error::{Error, Result};
+use crate::input::Dof;
+use crate::modes::SplitMix64;
+use crate::sparse::{SparseMatrix, product};
+
+/// Steps of Lanczos: an eigenvalue a tenth of the spectrum's width outside of it converges by e⁻¹⁵ in them.
+const STEPS: usize = 30;
+/// Relative energies above minus this are rounding of whoever made the matrix, in binary data.
+const ROUNDING: f64 = 1e-9;
+/// Units of the last digit of the data that the energy of a motion may be off by: the entries of a row, with one sign.
+const DIGITS: f64 = 100.0;
+
+/// Refuses a mass matrix that is indefinite beyond the precision of its data.
+pub(super) fn refuse_indefinite(mass: &SparseMatrix, precision: f64, dofs: Option<&[Dof]>) -> Result<()> {
+    let least = -ROUNDING.max(DIGITS * precision);
+    let diagonal = diagonal(mass);
+    let largest = diagonal.iter().fold(0.0f64, |max, value| max.max(*value));
+    let negligible = diagonal.len() as f64 * f64::EPSILON * largest;
+    let mut is_diagonal = true;
+    for (row, view) in mass.outer_iterator().enumerate() {
+        for (col, value) in view.iter().filter(|(col, value)| *col < row && **value != 0.0) {
+            is_diagonal = false;
+            let limit = (diagonal[row] * diagonal[col]).sqrt();
+            let energy = if limit > 0.0 { 1.0 - value.abs() / limit } else { f64::NEG_INFINITY };
+            if energy < least && value.abs() > negligible {
+                let place =
+                    format!("worst at row {}{}, column {}{}", row + 1, name_of(dofs, row), col + 1, name_of(dofs, col));
+                return Err(Error::IndefiniteMass { place, energy });
+            }
+        }
+    }
+    if is_diagonal {
+        return Ok(());
+    }
+    let scale: Vec<f64> = diagonal.iter().map(|m| if *m > 0.0 { 1.0 / m.sqrt() } else { 0.0 }).collect();
+    let lanczos = Lanczos { mass, scale: &scale };
+    let tridiagonal = lanczos.run(&mut |_, _| {});
+    let (values, vectors) = dense::symmetric_eigen(tridiagonal.as_ref())?;
+    let (Some(energy), Some(most)) = (values.first().copied(), values.last()) else {
+        return Ok(());
+    };
+    if energy >= least * most {
+        return Ok(());
+    }
+    // Only now is the motion itself of interest: the same steps again, summed with the weights of the Ritz vector.
+    let mut motion = vec![0.0; scale.len()];
+    lanczos.run(&mut |step, unit| dense::add_scaled(&mut motion, vectors[(step, 0)], unit));
+    let row = (0..motion.len()).max_by(|a, b| motion[*a].abs().total_cmp(&motion[*b].abs())).unwrap_or(0);
+    let place = format!("in a motion that is largest at row {}{}", row + 1, name_of(dofs, row));
+    Err(Error::IndefiniteMass { place, energy })
+}
+
+struct Lanczos<'a> {
+    mass: &'a SparseMatrix,
+    scale: &'a [f64],
+}
+
+impl Lanczos<'_> {
+    /// The tridiagonal matrix of the steps, from a fixed random start; every unit vector is shown on its way.
+    fn run(&self, see: &mut dyn FnMut(usize, &[f64])) -> Mat<f64> {
+        let n = self.scale.len();
+        let mut unit = Mat::zeros(n, 1);
+        SplitMix64::new(crate::modes::SEED).fill(unit.as_mut());
+        for (value, scale) in dense::column_mut(unit.as_mut(), 0).iter_mut().zip(self.scale) {
+            *value *= f64::from(u8::from(*scale > 0.0));
+        }
+        let (mut diagonal, mut beside) = (Vec::new(), Vec::<f64>::new());
+        let mut before = vec![0.0; n];
+        let mut length = dense::norm(dense::column(unit.as_ref(), 0));
+        for step in 0..STEPS.min(n) {
+            dense::column_mut(unit.as_mut(), 0).iter_mut().for_each(|value| *value /= length);
+            see(step, dense::column(unit.as_ref(), 0));
+            let mut next = self.apply(&unit);
+            let along = dense::dot(dense::column(unit.as_ref(), 0), &next);
+            dense::add_scaled(&mut next, -along, dense::column(unit.as_ref(), 0));
+            if let Some(beta) = beside.last() {
+                dense::add_scaled(&mut next, -*beta, &before);
+            }
+            diagonal.push(along);
+            length = dense::norm(&next);
+            // Nothing but rounding is left: the space is exhausted.
+            if length.is_nan() || length <= 1e-10 * along.abs() {
+                break;
+            }
+            beside.push(length);
+            before.copy_from_slice(dense::column(unit.as_ref(), 0));
+            dense::column_mut(unit.as_mut(), 0).copy_from_slice(&next);
+        }
+        let m = diagonal.len();
+        Mat::from_fn(m, m, |i, j| match i.abs_diff(j) {
+            0 => diagonal[i],
+            1 => beside[i.min(j)],
+            _ => 0.0,
+        })
+    }
+
+    /// D M D x.
+    fn apply(&self, x: &Mat<f64>) -> Vec<f64> {
+        let scaled = Mat::from_fn(x.nrows(), 1, |i, _| self.scale[i] * x[(i, 0)]);
+        let image = product(self.mass, scaled.as_ref());
+        dense::column(image.as_ref(), 0).iter().zip(self.scale).map(|(value, scale)| value * scale).collect()
+    }
+}

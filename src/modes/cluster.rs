@@ -1,0 +1,114 @@
+//! One basis for a repeated eigenvalue, whatever the eigensolver happened to find.
+//!
+//! Any rotation of the modes of a repeated eigenvalue is as good: a last bit of K, another start vector or another machine
+//! turns them by arbitrary angles. Of all rotations X Q one is taken that depends on the subspace alone: at the dof with
+//! the largest share of the modal mass only the first mode moves, at the next such dof only the first two, and so on.
+
+use std::ops::Range;
+
+use faer::{Mat, MatMut};
+
+use super::ModeError;
+use crate::dense;
+use crate::model::diagonal;
+use crate::sparse::SparseMatrix;
+
+/// Eigenvalues nearer than this many roundings ε c of them are one: c adds all roundings with one sign, and neither of the
+/// two is off by more.
+pub const REPEATED_WITHIN: f64 = 4.0;
+/// Shares of the modal mass nearer than this, relatively, are alike, as in symmetric structures; the first dof is then
+/// taken. Far above the error of a subspace, far below what differs by design.
+const ALIKE: f64 = 1e-6;
+
+/// The modes of each repeated eigenvalue: runs of eigenvalues that the rounding of their quotients cannot tell apart.
+pub(super) fn repeated(lambda: &[f64], errors: &[ModeError]) -> Vec<Range<usize>> {
+    let is_tied = |j: usize| {
+        let rounding = |j: usize| f64::EPSILON * errors[j].cancellation * lambda[j].abs();
+        (lambda[j] - lambda[j - 1]).abs() <= REPEATED_WITHIN * rounding(j).max(rounding(j - 1))
+    };
+    let mut runs = Vec::new();
+    let mut start = 0;
+    for end in 1..=lambda.len() {
+        if end == lambda.len() || !is_tied(end) {
+            if end - start > 1 {
+                runs.push(start..end);
+            }
+            start = end;
+        }
+    }
+    runs
+}
+
+/// Turns the modes of every repeated eigenvalue into the basis that the subspace defines.
+pub(super) fn canonicalise(mass: &SparseMatrix, runs: &[Range<usize>], shapes: &mut Mat<f64>) {
+    let weights = if runs.is_empty() { Vec::new() } else { diagonal(mass) };
+    for run in runs {
+        turn(&weights, shapes.as_mut().subcols_mut(run.start, run.len()));
+    }
+}
+
+/// Gives every mode of a repeated eigenvalue the mean of the quotients, which does not depend on the basis.
+pub(super) fn average(runs: &[Range<usize>], lambda: &mut [f64]) {
+    for run in runs {
+        let of_run = &mut lambda[run.clone()];
+        let mean = of_run.iter().sum::<f64>() / of_run.len() as f64;
+        of_run.fill(mean);
+    }
+}
+
+/// X ← X Q with the rows of the pivots lower triangular and positive on their diagonal.
+fn turn(weights: &[f64], mut x: MatMut<'_, f64>) {
+    for first in 0..x.ncols() {
+        let width = x.ncols() - first;
+        let mut rest = x.as_mut().subcols_mut(first, width);
+        let row = pivot(weights, &rest);
+        // The reflection that takes the pivot's row r to (|r|, 0, …, 0), written as I − v vᵀ / (vᵀv / 2).
+        let mut v: Vec<f64> = (0..rest.ncols()).map(|j| rest[(row, j)]).collect();
+        let length = dense::norm(&v);
+        let sign = if v[0] > 0.0 { 1.0 } else { -1.0 };
+        v[0] += sign * length;
+        let half = 0.5 * dense::dot(&v, &v);
+        for i in 0..rest.nrows() {
+            let along: f64 = (0..v.len()).map(|j| rest[(i, j)] * v[j]).sum::<f64>() / half;
+            (0..v.len()).for_each(|j| rest[(i, j)] -= along * v[j]);
+            // The reflection makes the pivot −sign·|r|.
+            rest[(i, 0)] *= -sign;
+        }
+    }
+}
+
+/// The first dof whose share of the modal mass, summed over the modes, is the largest.
+fn pivot(weights: &[f64], x: &MatMut<'_, f64>) -> usize {
+    let share = |i: usize| weights[i].max(0.0) * (0..x.ncols()).map(|j| x[(i, j)].powi(2)).sum::<f64>();
+    let shares: Vec<f64> = (0..x.nrows()).map(share).collect();
+    let largest = shares.iter().fold(0.0f64, |max, share| max.max(*share));
+    shares.iter().position(|share| *share >= (1.0 - ALIKE) * largest).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two bases of one subspace become one basis, whose first pivot moves in the first mode alone.
+    #[test]
+    fn rotated_pair_comes_back() {
+        let n = 7;
+        let mass = SparseMatrix::new((n, n), (0..=n).collect(), (0..n as u32).collect(), vec![1.0; n]);
+        let plane = Mat::from_fn(n, 2, |i, j| if i % 2 == j { (1.0 + i as f64) / 9.0 } else { 0.0 });
+        let error = ModeError { cancellation: 4.0, ..ModeError::default() };
+        let turned = |angle: f64| {
+            let (s, c) = angle.sin_cos();
+            let mut x = Mat::from_fn(n, 2, |i, j| {
+                if j == 0 { c * plane[(i, 0)] + s * plane[(i, 1)] } else { c * plane[(i, 1)] - s * plane[(i, 0)] }
+            });
+            canonicalise(&mass, &repeated(&[1.0, 1.0], &[error; 2]), &mut x);
+            x
+        };
+        let reference = turned(0.0);
+        assert!((reference.as_ref() - plane.as_ref()).norm_max() < 1e-15, "{reference:?}");
+        for angle in [0.3, 1.0, 2.0, 4.0] {
+            assert!((turned(angle) - &reference).norm_max() < 1e-15, "{angle}");
+        }
+        assert_eq!(repeated(&[1.0, 1.0, 1.0 + 1e-12, 2.0, 2.0], &[error; 5]), [0..2, 3..5]);
+    }
+}

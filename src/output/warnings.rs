@@ -1,0 +1,97 @@
+//! Warnings: what the user should know although no check failed.
+
+use super::{Results, omega};
+use crate::report::Warning;
+use crate::rigid::{Loose, RigidSource};
+
+/// Relative error bar of a frequency above which the digits of the data are told about: what a modal test resolves, the
+/// limit of M-09.
+const WANTED: f64 = 1e-4;
+
+/// Mechanisms, motions that nobody can tell from mechanisms, rigid-body motions without mass.
+pub(super) fn of_motions(results: &Results<'_>) -> Vec<Warning> {
+    let rigid = results.evidence.rigid;
+    let loose = results.loose;
+    let mut warnings = Vec::new();
+    // Without coordinates a body can move in six ways at most; what is beyond is a mechanism.
+    let surplus = match rigid.source {
+        RigidSource::Algebraic => rigid.count().saturating_sub(6 * results.model.bodies.n_bodies),
+        RigidSource::Geometric => 0,
+    };
+    let n_mechanisms = rigid.n_mechanisms.max(surplus);
+    if n_mechanisms > 0 {
+        let nodes: Vec<String> = loose.mechanisms.iter().map(|motion| motion.nodes.join(", ")).collect();
+        let largest = if nodes.is_empty() { String::new() } else { format!(", largest at {}", nodes.join("; at ")) };
+        warnings.push(Warning {
+            code: "W-MECHANISM",
+            message: format!(
+                "{} motions cost no energy, {n_mechanisms} of them inside the component{largest}: they are kept as zero modes \
+                 like rigid-body motions; close hinges and sliding joints if none were meant",
+                rigid.count()
+            ),
+        });
+    }
+    if !loose.grey.is_empty() {
+        warnings.push(Warning { code: "W-GREY", message: grey(results, &loose.grey) });
+    }
+    if rigid.n_massless > 0 {
+        warnings.push(Warning {
+            code: "W-RIGID-MASS",
+            message: format!(
+                "the mass of the rigid-body motions has rank {} of {}: {} motion without inertia takes no part in \
+                 inertia relief and cannot be integrated in time unless something holds it",
+                rigid.count() - rigid.n_massless,
+                rigid.count(),
+                rigid.n_massless
+            ),
+        });
+    }
+    warnings
+}
+
+fn grey(results: &Results<'_>, motions: &[Loose]) -> String {
+    let unit = results.evidence.partition.scaling.eigenvalue_unit();
+    let hertz = |lambda: f64| omega(lambda, unit) / std::f64::consts::TAU;
+    let each = motions.iter().map(|motion| {
+        format!(
+            "{:.3e} Hz known to {:.1e} of itself, largest at {}",
+            hertz(motion.lambda),
+            0.5 * motion.bar / motion.lambda,
+            motion.nodes.join(", ")
+        )
+    });
+    format!(
+        "{} motions cost so little energy that the data hardly tell them from mechanisms: {}; they are kept as elastic",
+        motions.len(),
+        each.collect::<Vec<_>>().join("; ")
+    )
+}
+
+/// Modes whose frequency the digits of the data leave less certain than a modal test.
+pub(super) fn data_precision(results: &Results<'_>) -> Option<Warning> {
+    let modes = &results.evidence.retained.modes;
+    let unit = results.evidence.partition.scaling.eigenvalue_unit();
+    let uncertain: Vec<String> = modes
+        .errors
+        .iter()
+        .zip(&modes.lambda)
+        .enumerate()
+        .filter(|(_, (error, _))| 0.5 * error.relative_bar > WANTED)
+        .map(|(mode, (error, lambda))| {
+            let hertz = omega(*lambda, unit) / std::f64::consts::TAU;
+            format!("mode {} at {hertz:.4e} Hz to {:.1e} of itself", mode + 1, 0.5 * error.relative_bar)
+        })
+        .collect();
+    let first = uncertain.first()?;
+    let [stiffness, mass] = &results.input.matrices;
+    Some(Warning {
+        code: "W-DATA-PRECISION",
+        message: format!(
+            "{} digits of the stiffness and {} of the mass leave {} frequencies less certain than {WANTED:.0e}, {first}; \
+             write the matrices with all their digits, and stiffnesses of like size",
+            stiffness.digits,
+            mass.digits,
+            uncertain.len()
+        ),
+    })
+}

@@ -1,0 +1,58 @@
+//! Interface nodes that lack a direction: constrained dofs leave no row in the matrices, so that only their absence shows.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::input::Direction;
+use crate::job::Coupling;
+use crate::model::{Finding, Model};
+
+use super::interface::{Interfaces, Resolved, Rows};
+
+/// One finding for each interface node, or node of a rigid patch, that is held in a direction.
+///
+/// A node counts as held where it has one translation and lacks another that most nodes with translations have, and the
+/// same for rotations: solids among shells have no rotations at all and are none the worse for it.
+pub(super) fn constrained_nodes(model: &Model, interfaces: &Interfaces) -> Vec<Finding> {
+    let Some(dofs) = &model.dofs else {
+        return Vec::new();
+    };
+    let mut of_node: BTreeMap<i64, BTreeSet<Direction>> = BTreeMap::new();
+    for dof in dofs {
+        of_node.entry(dof.node).or_default().insert(dof.direction);
+    }
+    let usual = [false, true].map(|rotations| usual_directions(&of_node, rotations));
+    let mut findings = Vec::new();
+    for Resolved { node, rows } in &interfaces.0 {
+        let (Rows::Own(rows) | Rows::Patch(rows)) = rows;
+        let labels: BTreeSet<i64> = rows.iter().map(|row| dofs[*row].node).collect();
+        for label in labels {
+            let has = &of_node[&label];
+            let lacking = usual.iter().filter(|usual| usual.iter().any(|direction| has.contains(direction)));
+            let lacks: Vec<Direction> = lacking.flatten().filter(|d| !has.contains(d)).copied().collect();
+            // A node that couples directly is asked for the directions its job lists and no others.
+            let asked = |direction: &Direction| match node.coupling {
+                Coupling::Direct => node.directions.iter().any(|d| d.is_rotation() == direction.is_rotation()),
+                Coupling::Rigid => true,
+            };
+            let lacks: Vec<Direction> = lacks.into_iter().filter(asked).collect();
+            if !lacks.is_empty() {
+                findings.push(Finding::ConstrainedInterface { interface: node.name.clone(), node: label, lacks });
+            }
+        }
+    }
+    findings
+}
+
+/// The translations, or rotations, that more than half of the nodes with any have.
+fn usual_directions(of_node: &BTreeMap<i64, BTreeSet<Direction>>, rotations: bool) -> Vec<Direction> {
+    let mut counts = [0usize; 6];
+    let mut n_nodes = 0;
+    for directions in of_node.values() {
+        let of_kind = || directions.iter().filter(|direction| direction.is_rotation() == rotations);
+        n_nodes += usize::from(of_kind().next().is_some());
+        of_kind().for_each(|direction| counts[*direction as usize] += 1);
+    }
+    let is_usual =
+        |direction: &Direction| direction.is_rotation() == rotations && 2 * counts[*direction as usize] > n_nodes;
+    Direction::ALL.into_iter().filter(is_usual).collect()
+}

@@ -1,1 +1,0 @@
-//! Scaling and conditioning: lines C-01 to C-15.
