@@ -1,7 +1,7 @@
 //! The stress catalogue: models made to break a reduction, each with the outcome it must have.
 //!
 //! Outcomes are of three classes: right within a stated figure, a named warning, or a named error that says what to do.
-//! Anything else is a failure.
+//! Anything else is a failure. [`registry`] lists every line of the catalogue; it fails when a line has no test.
 
 #[path = "../chain/mod.rs"]
 mod chain;
@@ -12,6 +12,7 @@ mod program;
 
 mod input;
 mod mass;
+mod registry;
 mod scaling;
 mod singularity;
 mod spectrum;

@@ -5,7 +5,7 @@ use supel::error::Error;
 use supel::input::Direction;
 use supel::job::InterfaceJob;
 use supel::rigid::{self, RigidSource};
-use supel_models::transform::{join, supported, translated};
+use supel_models::transform::{grounded, join, supported, translated};
 use supel_models::{Inertia, Material, Model, Section, brick, frame, membrane, spectrum};
 
 use super::{CORNERS, block};
@@ -183,6 +183,29 @@ fn s_12_partly_held_component_keeps_what_is_free() {
                 "{method}: {:?}",
                 lines(&outcome, supel::verification::check::Verdict::Warn)
             );
+        }
+    }
+}
+
+/// A spring to the ground at one corner of a thin plate, r times the largest stiffness: found from r = 10⁻¹¹, where it holds
+/// the plate a hundred times firmer than bending allows for; silent where it is rounding of the plate itself.
+#[test]
+fn s_13_weak_spring_to_the_ground_is_named() {
+    let plate = brick([12, 12, 1], [1.0, 1.0, 1e-2], &Material::UNIT);
+    let largest = plate.stiffness.iter().fold(0.0f64, |max, entry| max.max(entry.2));
+    let interfaces = [direct("corners", &[1, 13, 157])];
+    for (r, is_told) in [(1e-16, false), (1e-11, true), (1e-9, true)] {
+        // The dof uz of node 79, away from the corners.
+        let outcome = Case::new(&grounded(&plate, 3 * 78 + 2, r * largest), &interfaces).run();
+        match outcome {
+            Ok(outcome) => {
+                assert_eq!(warnings(&outcome).contains(&"W-GROUNDED"), is_told, "r = {r:e}: {:?}", warnings(&outcome));
+                if is_told {
+                    let message = message_of(&outcome, "W-GROUNDED");
+                    assert!(message.contains("node 79 uz"), "{message}");
+                }
+            }
+            Err(error) => panic!("r = {r:e}: {error}"),
         }
     }
 }

@@ -1,0 +1,60 @@
+//! Every line of the stress catalogue, and where it stands.
+//!
+//! A line `S-01` is built when a test whose name starts with `s_01_` stands among the tests. Lines that need a feature
+//! the program does not have stand in [`NOT_BUILT`] with that feature.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+/// The tables: prefix of the lines and their numbers.
+const TABLES: [(&str, &[u32]); 5] = [
+    ("S", &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 20, 21, 22, 23, 24, 25, 26, 27]),
+    ("C", &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15]),
+    ("MS", &[1, 2, 3, 4, 5, 6, 7, 8]),
+    ("E", &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]),
+    ("I", &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26]),
+];
+
+/// Lines that wait for a feature.
+const NOT_BUILT: [(&str, &str); 4] = [
+    ("C-07", "Rubin's method"),
+    ("C-11", "factors in single precision"),
+    ("C-12", "recovery rows in single precision"),
+    ("MS-08", "added masses"),
+];
+
+/// The names of all tests in a folder and the folders in it.
+fn tests_in(folder: &Path, names: &mut BTreeSet<String>) {
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            tests_in(&path, names);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            let source = fs::read_to_string(&path).expect("a source");
+            let pairs = source.lines().zip(source.lines().skip(1));
+            let tests = pairs.filter(|(attribute, _)| attribute.trim() == "#[test]");
+            names.extend(tests.filter_map(|(_, line)| line.trim().strip_prefix("fn ")).map(str::to_owned));
+        }
+    }
+}
+
+#[test]
+fn every_line_has_a_test_or_waits_for_a_named_feature() {
+    let mut names = BTreeSet::new();
+    tests_in(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests"), &mut names);
+    let mut missing = Vec::new();
+    for (prefix, numbers) in TABLES {
+        for number in numbers {
+            let line = format!("{prefix}-{number:02}");
+            let start = format!("{}_{number:02}_", prefix.to_lowercase());
+            let is_built = names.iter().any(|name| name.starts_with(&start));
+            let waits = NOT_BUILT.iter().any(|(id, _)| *id == line);
+            assert!(!(waits && is_built), "{line} has a test and waits for nothing");
+            if !waits && !is_built {
+                missing.push(line);
+            }
+        }
+    }
+    assert!(missing.is_empty(), "no test for {}", missing.join(", "));
+}
