@@ -59,14 +59,14 @@ use audit::Audit;
 use basis::Basis;
 use error::Result;
 use factor::{Analysis, Cholesky, Pencil};
-use job::{Certify, Job};
+use job::Job;
 use model::Model;
 use modes::{Component, ModeSource, Retained};
 use outcome::{Outcome, Resources};
 use output::{InputFacts, Results};
 use partition::Partition;
 use reduction::Reduction;
-use report::{Observer, WorkCounters};
+use report::Observer;
 use supel_runtime::Superelement;
 use verification::Evidence;
 
@@ -77,18 +77,7 @@ use verification::Evidence;
 /// # Errors
 /// Those of the stages; each says what, where, what was found, what was expected and what to do.
 pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Result<Outcome> {
-    // Small dense decompositions use faer's global setting; sequential ones give the same bits on every machine.
-    faer::set_global_parallelism(faer::Par::Seq);
-
-    observer.stage("read");
-    let read = input::read(&job.model)?;
-    let facts = InputFacts::of(&read);
-
-    observer.stage("check");
-    let model = Model::new(read)?;
-
-    observer.stage("partition");
-    let partition = Partition::new(&model, &job.interfaces)?;
+    let (facts, model, partition) = prepared(job, observer)?;
 
     observer.stage("rigid-body modes");
     let (rigid, n_extra) = rigid::rigid_body_modes(&partition)?;
@@ -118,9 +107,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let retained = Retained::new(component, search.problem.boundary, found);
 
     observer.stage("enclosures");
-    let enclosures = (job.run.certify == Certify::Full)
-        .then(|| verification::enclosures(&partition, internal, &rigid, &retained.modes, retained.boundary))
-        .transpose()?;
+    let enclosures = verification::enclosures_where_asked(component, &retained, job.run.certify)?;
 
     observer.stage("basis");
     let basis = Basis::new(&constraint, retained.columns.clone(), &m_ii);
@@ -146,20 +133,9 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let findings = verification::verify(&evidence)?;
 
     observer.stage("preservation");
-    let preserved = verification::preservation(&evidence, &factor, &analysis, job)?;
+    let preserved = verification::preservation(&evidence, &analysis, job)?;
 
-    let work = WorkCounters {
-        n_factorisations: 1
-            + n_extra
-            + usize::from(search.edge().is_some())
-            + retained.modes.work.factorisations
-            + certificate.as_ref().map_or(0, |certificate| certificate.n_factorisations)
-            + enclosures.as_ref().map_or(0, |enclosures| enclosures.n_factorisations),
-        n_solves: retained.modes.work.solves + partition.n_interface() + rigid.count(),
-        n_restarts: retained.modes.work.restarts,
-        factor_flops: analysis.flops,
-        factor_nonzeros: analysis.nnz_factor as u64,
-    };
+    let n_beside = n_extra + usize::from(search.edge().is_some());
     let (superelement, report) = output::output(&Results {
         job,
         input: &facts,
@@ -168,9 +144,27 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         evidence,
         findings: &findings,
         preserved: &preserved,
-        work,
+        analysis: &analysis,
+        n_beside,
     })?;
     Ok(Outcome { superelement, report })
+}
+
+/// The first three stages, which every look at the full model begins with.
+fn prepared(job: &Job, observer: &mut dyn Observer) -> Result<(InputFacts, Model, Partition)> {
+    // Small dense decompositions use faer's global setting; sequential ones give the same bits on every machine.
+    faer::set_global_parallelism(faer::Par::Seq);
+
+    observer.stage("read");
+    let read = input::read(&job.model)?;
+    let facts = InputFacts::of(&read);
+
+    observer.stage("check");
+    let model = Model::new(read)?;
+
+    observer.stage("partition");
+    let partition = Partition::new(&model, &job.interfaces)?;
+    Ok((facts, model, partition))
 }
 
 /// Checks a superelement that was made earlier: by its own content, and with a job against the full matrices.
@@ -184,15 +178,7 @@ pub fn verify(superelement: &Superelement, job: Option<&Job>, observer: &mut dyn
     let by_itself = audit::of_file(superelement)?;
     let Some(job) = job else { return Ok(by_itself) };
 
-    observer.stage("read");
-    let read = input::read(&job.model)?;
-    let facts = InputFacts::of(&read);
-
-    observer.stage("check");
-    let model = Model::new(read)?;
-
-    observer.stage("partition");
-    let partition = Partition::new(&model, &job.interfaces)?;
+    let (facts, _, partition) = prepared(job, observer)?;
 
     observer.stage("comparison");
     let against_model = audit::against_model(superelement, &partition, &facts)?;

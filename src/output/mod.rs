@@ -11,6 +11,7 @@ mod warnings;
 use supel_runtime::Superelement;
 
 use crate::error::Result;
+use crate::factor::Analysis;
 use crate::input::{Input, InputNote};
 use crate::job::Job;
 use crate::model::Model;
@@ -78,8 +79,10 @@ pub struct Results<'a> {
     pub findings: &'a Findings,
     /// The reduced beside the full model.
     pub preserved: &'a Compared,
-    /// What was done, counted.
-    pub work: WorkCounters,
+    /// The symbolic factorisation of K_II.
+    pub analysis: &'a Analysis,
+    /// Factorisations beside that of K_II, those of the modes, the certificate and the enclosures.
+    pub n_beside: usize,
 }
 
 impl Results<'_> {
@@ -88,6 +91,23 @@ impl Results<'_> {
         let mut checks = [&self.findings.checks[..], &self.preserved.checks].concat();
         checks.sort_by_key(|check| check.id);
         checks
+    }
+
+    /// What was done, counted.
+    fn work(&self) -> WorkCounters {
+        let Evidence { partition, rigid, retained, certificate, enclosures, .. } = self.evidence;
+        let work = &retained.modes.work;
+        WorkCounters {
+            n_factorisations: 1
+                + self.n_beside
+                + work.factorisations
+                + certificate.map_or(0, |certificate| certificate.n_factorisations)
+                + enclosures.map_or(0, |enclosures| enclosures.n_factorisations),
+            n_solves: work.solves + partition.n_interface() + rigid.count(),
+            n_restarts: work.restarts,
+            factor_flops: self.analysis.flops,
+            factor_nonzeros: self.analysis.nnz_factor as u64,
+        }
     }
 }
 
@@ -98,7 +118,7 @@ impl Results<'_> {
 pub fn output(results: &Results<'_>) -> Result<(Superelement, Report)> {
     let body = report::body(results);
     let superelement = superelement::superelement(results, body.verdict())?;
-    let run = crate::report::RunFacts { work: results.work, ..Default::default() };
+    let run = crate::report::RunFacts { work: results.work(), ..Default::default() };
     Ok((superelement, Report { body, run }))
 }
 

@@ -22,7 +22,8 @@ use super::check::{Check, Limits};
 use crate::dense;
 use crate::error::Result;
 use crate::factor::{Analysis, Pencil, whole_count};
-use crate::modes::{Boundary, ModeError, Modes};
+use crate::job::Certify;
+use crate::modes::{Boundary, Component, ModeError, Modes, Retained};
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
 use crate::sparse::SparseMatrix;
@@ -59,6 +60,22 @@ impl CountProof {
     /// True where the intervals hold every eigenvalue below the shift, beyond rounding.
     pub fn is_proved(&self) -> bool {
         self.uncertainty < 1.0 && self.counted == self.enclosed
+    }
+}
+
+/// Encloses the retained modes where the job asks for it.
+///
+/// # Errors
+/// Those of [`enclosures`].
+pub fn enclosures_where_asked(
+    component: Component<'_>,
+    retained: &Retained,
+    certify: Certify,
+) -> Result<Option<Enclosures>> {
+    let Component { partition, internal, rigid, .. } = component;
+    match certify {
+        Certify::None | Certify::Count => Ok(None),
+        Certify::Full => enclosures(partition, internal, rigid, &retained.modes, retained.boundary).map(Some),
     }
 }
 

@@ -33,7 +33,7 @@ use crate::sparse::SparseMatrix;
 
 use check::Check;
 
-pub use enclosure::{CountProof, Enclosures, enclosures};
+pub use enclosure::{CountProof, Enclosures, enclosures, enclosures_where_asked};
 pub use grounding::{Grounding, Restraint};
 pub use loads::EffectiveMasses;
 pub use preservation::{Compared, preservation};

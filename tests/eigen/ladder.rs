@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use supel::error::{Error, ErrorClass};
 use supel::job::{Certify, Eigensolver};
-use supel::modes::{Interval, Mending, ModeSource, Modes, SEED, Search, certified};
+use supel::modes::{Boundary, Interval, Mending, ModeSource, Modes, SEED, Search, certified};
 use supel_models::*;
 
 use crate::chain::certified::{count, free, held, judge, with_component};
@@ -42,11 +42,10 @@ impl ModeSource for Forgetful<'_> {
 }
 
 /// Loses a mode so many times from the start and so many times in a slice; the modes and how they were mended.
-fn lose(model: &Model, is_free: bool, loses: usize, times: (usize, usize)) -> Result<(Vec<f64>, Mending), Error> {
-    let (interfaces, job) = if is_free {
-        (vec![direct("ends", &[1, 2, 4, 7])], free(count(12), Eigensolver::Lanczos))
-    } else {
-        (Vec::new(), held(count(12), Eigensolver::Lanczos))
+fn lose(model: &Model, boundary: Boundary, loses: usize, times: (usize, usize)) -> Result<(Vec<f64>, Mending), Error> {
+    let (interfaces, job) = match boundary {
+        Boundary::FreeInterface => (vec![direct("ends", &[1, 2, 4, 7])], free(count(12), Eigensolver::Lanczos)),
+        Boundary::FixedInterface => (Vec::new(), held(count(12), Eigensolver::Lanczos)),
     };
     with_component(model, &interfaces, |component| {
         let search = Search::new(component, &job)?;
@@ -64,17 +63,17 @@ fn lose(model: &Model, is_free: bool, loses: usize, times: (usize, usize)) -> Re
 
 #[test]
 fn each_rung_of_the_ladder_finds_what_the_one_before_has_lost() {
-    for (model, is_free) in [
-        (brick([5, 2, 2], [5.0, 2.0, 1.5], &Material::UNIT), true),
-        (bar(120), false),
-        (known(&(1..=90).map(f64::from).collect::<Vec<_>>(), fnv1a("ladder")), false),
+    for (model, boundary) in [
+        (brick([5, 2, 2], [5.0, 2.0, 1.5], &Material::UNIT), Boundary::FreeInterface),
+        (bar(120), Boundary::FixedInterface),
+        (known(&(1..=90).map(f64::from).collect::<Vec<_>>(), fnv1a("ladder")), Boundary::FixedInterface),
     ] {
-        let (reference, mending) = lose(&model, is_free, 0, (0, 0)).expect("all modes");
+        let (reference, mending) = lose(&model, boundary, 0, (0, 0)).expect("all modes");
         assert_eq!(mending, Mending::None);
         for loses in [0, 5, 10] {
             for (times, expected) in [((1, 0), Mending::Restart), ((2, 0), Mending::Slices), ((2, 3), Mending::Slices)]
             {
-                let (lambda, mending) = lose(&model, is_free, loses, times).expect("all modes");
+                let (lambda, mending) = lose(&model, boundary, loses, times).expect("all modes");
                 assert_eq!(mending, expected, "mode {loses} lost {times:?} times");
                 for (lambda, reference) in lambda.iter().zip(&reference) {
                     // Both are Rayleigh quotients of vectors to a residual of 1e-13; κ of these models is below 1e5.
@@ -88,7 +87,7 @@ fn each_rung_of_the_ladder_finds_what_the_one_before_has_lost() {
 #[test]
 fn modes_that_nothing_finds_are_an_error_with_both_numbers() {
     let model = brick([5, 2, 2], [5.0, 2.0, 1.5], &Material::UNIT);
-    let error = lose(&model, true, 4, (usize::MAX, usize::MAX)).expect_err("a mode is missing");
+    let error = lose(&model, Boundary::FreeInterface, 4, (usize::MAX, usize::MAX)).expect_err("a mode is missing");
     // Six rigid-body modes and twelve elastic ones; the interval given up may end below the last of them.
     let Error::ModesMissing { found, counted, .. } = error else { panic!("{error}") };
     assert_eq!(counted, found + 1);

@@ -33,7 +33,7 @@ fn compared(damage: impl Fn(&mut Reduction, &mut Retained)) -> Compared {
         let analysis = Analysis::new(Pencil { stiffness, mass }).expect("memory");
         let job = Job::parse(JOB, "job.toml".as_ref()).expect("a job");
         let damaged = Evidence { reduction: &reduction, retained: &retained, ..evidence };
-        preservation(&damaged, evidence.factor, &analysis, &job).expect("compared")
+        preservation(&damaged, &analysis, &job).expect("compared")
     })
 }
 

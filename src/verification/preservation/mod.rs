@@ -25,7 +25,7 @@ mod statics;
 use super::Evidence;
 use super::check::Check;
 use crate::error::{Error, Result};
-use crate::factor::{Analysis, SolveOperator};
+use crate::factor::Analysis;
 use crate::job::Job;
 use crate::report::Preservation;
 
@@ -44,16 +44,11 @@ pub struct Compared {
     pub checks: Vec<Check>,
 }
 
-/// Compares the reduced with the full model; `factor` is that of K_II, `analysis` its structure.
+/// Compares the reduced with the full model; `analysis` is the structure of K_II.
 ///
 /// # Errors
 /// No memory. What the arithmetic cannot do is left out by name.
-pub fn preservation(
-    evidence: &Evidence<'_>,
-    factor: &dyn SolveOperator,
-    analysis: &Analysis,
-    job: &Job,
-) -> Result<Compared> {
+pub fn preservation(evidence: &Evidence<'_>, analysis: &Analysis, job: &Job) -> Result<Compared> {
     let plan = Plan::new(evidence, analysis, job);
     let interfaces = interfaces::interfaces(evidence.partition);
     let mut compared = Compared::default();
@@ -63,11 +58,11 @@ pub fn preservation(
     }
     compared.modes(evidence)?;
     let notes = &mut compared.report.not_compared;
-    compared.report.statics = statics::statics(evidence, factor, &interfaces, notes);
+    compared.report.statics = statics::statics(evidence, evidence.factor, &interfaces, notes);
     compared.checks.extend(statics::check(evidence, &compared.report.statics));
     if let Some(band_hz) = plan.band_hz {
-        let references = compared.references(evidence, factor, &interfaces, &plan)?;
-        compared.dynamics(evidence, factor, (&plan, band_hz), &references)?;
+        let references = compared.references(evidence, &interfaces, &plan)?;
+        compared.dynamics(evidence, (&plan, band_hz), &references)?;
     }
     Ok(compared)
 }
@@ -100,19 +95,13 @@ impl Compared {
     }
 
     /// The full model under each boundary of the plan.
-    fn references(
-        &mut self,
-        evidence: &Evidence<'_>,
-        factor: &dyn SolveOperator,
-        interfaces: &[Interface],
-        plan: &Plan,
-    ) -> Result<Vec<Reference>> {
+    fn references(&mut self, evidence: &Evidence<'_>, interfaces: &[Interface], plan: &Plan) -> Result<Vec<Reference>> {
         let mut references = Vec::new();
         let limit = plan.band_hz.map_or(0.0, |[_, high]| eigenvalue(evidence, high));
         for support in &plan.supports {
             let boundary = Boundary::new(evidence, interfaces, support);
             let what = format!("frequencies with boundary {support}");
-            references.extend(self.kept(&what, Reference::new(evidence, factor, boundary, limit))?);
+            references.extend(self.kept(&what, Reference::new(evidence, evidence.factor, boundary, limit))?);
         }
         Ok(references)
     }
@@ -120,7 +109,6 @@ impl Compared {
     fn dynamics(
         &mut self,
         evidence: &Evidence<'_>,
-        factor: &dyn SolveOperator,
         (plan, band_hz): (&Plan, [f64; 2]),
         references: &[Reference],
     ) -> Result<()> {
@@ -130,7 +118,7 @@ impl Compared {
             self.report.boundaries.extend(comparison);
         }
         let response = if plan.response {
-            self.kept("frequency response", response::compared(evidence, factor, band_hz, plan.eta))?
+            self.kept("frequency response", response::compared(evidence, evidence.factor, band_hz, plan.eta))?
         } else {
             None
         };
