@@ -4,8 +4,8 @@ use crate::report::mode_table::{Mode, mode_table};
 use crate::report::page::{Page, Tone, WIDTH, verdict_word};
 use crate::report::table::{self, Align};
 use crate::report::{
-    Completeness, MassProperties, MatrixReport, ModelReport, ReductionReport, ReportBody, RigidBodyEvidence, RigidBodySource,
-    TrustInterval, words,
+    Completeness, MassProperties, MatrixReport, ModelReport, ReductionReport, ReportBody, RigidBodyEvidence,
+    RigidBodySource, TrustInterval, words,
 };
 use crate::verification::check::{Check, Verdict};
 

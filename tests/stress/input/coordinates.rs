@@ -140,7 +140,7 @@ fn i_20_frames_at_some_nodes() {
         let place = Place::with(&block);
         let rest = format!("--interface foot=1,11,31,41 --method {method} --modes 5 --threads 1");
         let ended = place.reduce(&place.model_flags(), &rest);
-        let is_named = ended.err.starts_with("supel: error[E-MECHANISM]") || ended.out.contains("W-MECHANISM");
+        let is_named = ended.err.starts_with("supel: error[E-COORD]") || ended.out.contains("W-MECHANISM");
         let is_refused = ended.code == supel::cli::ExitCode::CheckFailed && !place.path("x.supel").exists();
         assert!(is_named || is_refused, "{method}: {:?} {}{}", ended.code, ended.out, ended.err);
     }
