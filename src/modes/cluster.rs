@@ -24,7 +24,11 @@ const ALIKE: f64 = 1e-6;
 pub(super) fn repeated(lambda: &[f64], errors: &[ModeError]) -> Vec<Range<usize>> {
     let is_tied = |j: usize| {
         let rounding = |j: usize| f64::EPSILON * errors[j].cancellation * lambda[j].abs();
-        (lambda[j] - lambda[j - 1]).abs() <= REPEATED_WITHIN * rounding(j).max(rounding(j - 1))
+        // Zero modes are left as they are: all of them are rounding of one size, whatever body they belong to.
+        let is_known = |j: usize| f64::EPSILON * errors[j].cancellation < 0.1;
+        is_known(j)
+            && is_known(j - 1)
+            && (lambda[j] - lambda[j - 1]).abs() <= REPEATED_WITHIN * rounding(j).max(rounding(j - 1))
     };
     let mut runs = Vec::new();
     let mut start = 0;

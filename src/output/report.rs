@@ -166,7 +166,10 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
             ),
         });
     }
-    warnings.extend(rigid_body::grounded(results));
+    // Rounded coordinates ground the component by themselves; their own warning says so.
+    if evidence.rigid.misfit.is_none() {
+        warnings.extend(rigid_body::grounded(results));
+    }
     for finding in results.model.findings.iter().chain(&evidence.partition.findings) {
         warnings.extend(finding.warning().map(|code| Warning { code, message: finding.to_string() }));
     }

@@ -3,7 +3,6 @@
 use std::process::{Command, Stdio};
 
 use faer::Mat;
-use supel::error::Error;
 use supel::job::Job;
 
 /// What the program says under a shell's limit, and its exit code.
@@ -101,7 +100,7 @@ fn arpack_with_solves_that_overflow() {
     let problem = ModalProblem { stiffness, mass, rigid: None, precision: partition.precision };
     let request = ModeRequest { wanted: Wanted::Count(3), eigensolver: Eigensolver::Arpack, seed: SEED };
     let error = elastic_modes(problem, &Overflowing, request).expect_err("no numbers");
-    assert!(matches!(error, Error::Arpack { .. }), "{error}");
+    assert!(matches!(error, supel::error::Error::Arpack { .. }), "{error}");
     assert_eq!(error.code(), "E-ARPACK");
 }
 

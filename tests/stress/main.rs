@@ -7,6 +7,9 @@
 mod chain;
 #[allow(dead_code, reason = "every table uses its part")]
 mod oracle;
+#[path = "../end_to_end/place.rs"]
+#[allow(dead_code, reason = "every table uses its part")]
+mod place;
 #[allow(dead_code, reason = "every table uses its part")]
 mod program;
 

@@ -26,7 +26,7 @@ fn ms_01_lumped_frame_has_its_finite_modes_only() {
             if method == "herting" { (twin.free_spectrum(), 6) } else { (twin.clamped_spectrum(), 0) };
         let unit = crate::chain::partition(&model, &pins).expect("a partition").scaling.eigenvalue_unit();
         let exact: Vec<f64> = exact[n_zero..].iter().map(|lambda| lambda * unit).collect();
-        assert_eq!(exact.len(), if n_zero > 0 { 18 - 6 } else { 12 }, "half the rows have mass");
+        assert_eq!(exact.len(), 12, "half the rows have mass");
         for eigensolver in eigensolvers() {
             for count in [3, 40] {
                 let outcome = Case::new(&model, &pins).method(method).by(eigensolver).count(count).accepted();
@@ -87,7 +87,7 @@ fn ms_03_massless_mechanisms_are_refused() {
     let anonymous = Model { dofs: Vec::new(), ..slack };
     for method in METHODS {
         let case = Case::new(&anonymous, &[rows("ends", &[0, 6, 7])]).method(method);
-        let error = case.run().err().expect("a pencil that is singular at every shift");
+        let error = case.run().expect_err("a pencil that is singular at every shift");
         assert!(matches!(error, Error::MasslessMechanism { .. } | Error::NotDefinite { .. }), "{error}");
         let message = error.to_string();
         assert!(message.contains("row 7") || message.contains("row 8"), "{message}");

@@ -20,11 +20,7 @@ use supel::cli::ExitCode;
 
 use crate::chain::certified::{Certified, certify, count, eigensolvers, free, held, up_to, with_component};
 use crate::chain::{direct, rows};
-use place::Place;
-
-#[path = "../end_to_end/place.rs"]
-#[allow(dead_code, reason = "the tests of whole runs use the rest")]
-mod place;
+use crate::place::Place;
 
 /// A square section bends alike in two directions: Beam = BRICK(20,2,2;10,1,1).
 fn beam() -> Model {

@@ -8,8 +8,8 @@ use supel::job::Job;
 use supel::outcome::Resources;
 use supel_models::{Material, brick};
 
-use super::place::{Ended, Place, supel};
 use super::{assert_done, assert_refused, chain, chain_job, reduce_chain};
+use crate::place::{Ended, Place, supel};
 
 fn gzip(bytes: &[u8]) -> Vec<u8> {
     let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());

@@ -1,7 +1,7 @@
 //! Dof maps that do not fit: I-15.
 
-use super::place::Place;
 use super::{assert_done, assert_refused};
+use crate::place::Place;
 
 const FOOT: &str = "--interface foot=1,11,31,41 --method herting --modes 5 --threads 1";
 

@@ -6,9 +6,6 @@ mod maps;
 mod matrices;
 mod mutations;
 mod paths;
-#[path = "../../end_to_end/place.rs"]
-#[allow(dead_code, reason = "each test crate uses its part")]
-mod place;
 mod sizes;
 mod triangles;
 
@@ -16,7 +13,7 @@ use supel::cli::ExitCode;
 use supel_models::model::Entry;
 use supel_models::{Ends, spring};
 
-use place::{Ended, Place};
+use crate::place::{Ended, Place};
 
 /// Five masses in a row without supports, reduced to its ends and one mode.
 const CHAIN: &str = "--interface ends=rows:0,4 --method craig-bampton --modes 1 --threads 1";

@@ -9,7 +9,7 @@ use supel::job::{Job, Method};
 use supel::outcome::Resources;
 use supel_models::{Material, SplitMix64, brick, fnv1a};
 
-use super::place::Place;
+use crate::place::Place;
 
 /// Cases without `SUPEL_CASES`: some seconds.
 const N_CASES: u64 = 3000;

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::place::{Place, supel};
 use super::{assert_done, assert_refused, chain, reduce_chain};
+use crate::place::{Place, supel};
 
 fn job(stiffness: &str) -> String {
     super::chain_job_with(stiffness, "count = 1")

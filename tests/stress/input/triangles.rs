@@ -3,8 +3,8 @@
 use supel_models::model::Entry;
 use supel_models::{Ends, spring};
 
-use super::place::Place;
 use super::{CHAIN, assert_done, assert_refused, chain, mtx, notes_say, reduce_chain};
+use crate::place::Place;
 
 /// The chain with these entries of its stiffness, declared so.
 fn with_entries(symmetry: &str, kept: impl Fn(u32, u32) -> bool) -> Place {
@@ -71,7 +71,7 @@ reduction = { method = "craig-bampton", modes = { count = 1 } }
 write     = { superelement = "x.supel" }
 "#;
     place.write("job.toml", job.as_bytes());
-    let ended = super::place::supel(&["reduce", &place.text("job.toml")]);
+    let ended = crate::place::supel(&["reduce", &place.text("job.toml")]);
     assert_done(&place, &ended, &[]);
     assert_is_the_chain(&place);
 }

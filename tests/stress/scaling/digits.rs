@@ -15,7 +15,13 @@ fn c_13_bars_follow_the_digits_of_the_text() {
     let exact = eigenvalues(&Case::new(&model, &pins).clean());
     for digits in [14, 12, 10, 9, 7, 5] {
         for eigensolver in eigensolvers() {
-            let outcome = Case::new(&rounded(&model, digits), &pins).by(eigensolver).accepted_but_for("M-24");
+            let case = Case::new(&rounded(&model, digits), &pins).by(eigensolver);
+            if digits == 5 {
+                // Rounding of five digits makes the held stiffness indefinite: refused, with the digits among the causes.
+                case.refused(&["negative eigenvalues", "lacks digits"]);
+                continue;
+            }
+            let outcome = case.accepted_but_for("M-24");
             assert_eq!(outcome.report.body.model.stiffness.digits as usize, digits);
             assert_eq!(n_rigid(&outcome), 6, "{digits} digits");
             let found = eigenvalues(&outcome);
