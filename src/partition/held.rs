@@ -20,7 +20,7 @@ pub(super) fn constrained_nodes(model: &Model, interfaces: &Interfaces) -> Vec<F
     for dof in dofs {
         of_node.entry(dof.node).or_default().insert(dof.direction);
     }
-    let usual = [false, true].map(|rotations| usual_directions(&of_node, rotations));
+    let usual = [&Direction::ALL[..3], &Direction::ALL[3..]].map(|kind| usual_directions(&of_node, kind));
     let mut findings = Vec::new();
     for Resolved { node, rows } in &interfaces.0 {
         let (Rows::Own(rows) | Rows::Patch(rows)) = rows;
@@ -43,16 +43,9 @@ pub(super) fn constrained_nodes(model: &Model, interfaces: &Interfaces) -> Vec<F
     findings
 }
 
-/// The translations, or rotations, that more than half of the nodes with any have.
-fn usual_directions(of_node: &BTreeMap<i64, BTreeSet<Direction>>, rotations: bool) -> Vec<Direction> {
-    let mut counts = [0usize; 6];
-    let mut n_nodes = 0;
-    for directions in of_node.values() {
-        let of_kind = || directions.iter().filter(|direction| direction.is_rotation() == rotations);
-        n_nodes += usize::from(of_kind().next().is_some());
-        of_kind().for_each(|direction| counts[*direction as usize] += 1);
-    }
-    let is_usual =
-        |direction: &Direction| direction.is_rotation() == rotations && 2 * counts[*direction as usize] > n_nodes;
-    Direction::ALL.into_iter().filter(is_usual).collect()
+/// Those directions of a kind, translations or rotations, that more than half of the nodes with any of them have.
+fn usual_directions(of_node: &BTreeMap<i64, BTreeSet<Direction>>, kind: &[Direction]) -> Vec<Direction> {
+    let n_nodes = of_node.values().filter(|has| kind.iter().any(|direction| has.contains(direction))).count();
+    let n_with = |direction: &Direction| of_node.values().filter(|has| has.contains(direction)).count();
+    kind.iter().filter(|direction| 2 * n_with(direction) > n_nodes).copied().collect()
 }
