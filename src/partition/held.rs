@@ -43,14 +43,9 @@ pub(super) fn constrained_nodes(model: &Model, interfaces: &Interfaces) -> Vec<F
     findings
 }
 
-/// Those of these directions that more than half of the nodes with any of them have.
+/// Those directions of a kind, translations or rotations, that more than half of the nodes with any of them have.
 fn usual_directions(of_node: &BTreeMap<i64, BTreeSet<Direction>>, kind: &[Direction]) -> Vec<Direction> {
-    let mut counts = [0usize; 6];
-    let mut n_nodes = 0;
-    for directions in of_node.values() {
-        let of_kind = || directions.iter().filter(|direction| kind.contains(direction));
-        n_nodes += usize::from(of_kind().next().is_some());
-        of_kind().for_each(|direction| counts[*direction as usize] += 1);
-    }
-    kind.iter().copied().filter(|direction| 2 * counts[*direction as usize] > n_nodes).collect()
+    let n_nodes = of_node.values().filter(|has| kind.iter().any(|direction| has.contains(direction))).count();
+    let n_with = |direction: &Direction| of_node.values().filter(|has| has.contains(direction)).count();
+    kind.iter().filter(|direction| 2 * n_with(direction) > n_nodes).copied().collect()
 }
