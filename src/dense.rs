@@ -110,6 +110,11 @@ pub fn worse(error: f64, worst: f64) -> bool {
     !worst.is_nan() && (error.is_nan() || error > worst)
 }
 
+/// The worst of some errors; zero where there are none.
+pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
+    errors.into_iter().fold(0.0, |worst, error| if worse(error, worst) { error } else { worst })
+}
+
 /// The Euclidean norm of a column.
 pub fn norm(column: &[f64]) -> f64 {
     dot(column, column).sqrt()

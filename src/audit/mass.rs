@@ -68,10 +68,11 @@ pub(super) fn stated(content: &Content<'_>) -> Option<Check> {
         let size = gyration(found);
         let inertia = (0..9).map(|k| (found.inertia[k / 3][k % 3] - stated.inertia[k / 3][k % 3]).abs());
         let scale = found.mass * size * size;
-        (found.mass / stated.mass - 1.0)
-            .abs()
-            .max(distance(found.center_of_mass, stated.center_of_mass) / size)
-            .max(inertia.fold(0.0, f64::max) / scale)
+        dense::worst([
+            (found.mass / stated.mass - 1.0).abs(),
+            distance(found.center_of_mass, stated.center_of_mass) / size,
+            dense::worst(inertia) / scale,
+        ])
     });
     Some(Check {
         id: "M-16",
@@ -95,7 +96,7 @@ pub(super) fn expected(content: &Content<'_>) -> Option<Check> {
         id: "M-16",
         name: "mass and centre are those expected",
         equation: "max |m/m_expected − 1|, |c − c_expected| / radius of gyration",
-        value: mass.max(shift),
+        value: dense::worst([mass, shift]),
         limits: Limits { engineering: 1e-4, ..Limits::default() },
         fail_above: 1e-2,
         worst: Some(described(&found)),

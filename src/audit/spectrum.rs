@@ -168,12 +168,20 @@ pub(super) fn symmetry(content: &Content<'_>) -> Check {
     }
 }
 
+/// Size of a negative eigenvalue of the scaled mass that is taken for zero where the file says that M̂ is singular.
+const SINGULAR_MASS: f64 = 1e-10;
+
 /// M-25, definiteness.
 pub(super) fn definiteness(content: &Content<'_>, spectrum: &Spectrum) -> Check {
     let d: Vec<f64> = (0..content.n_reduced()).map(|i| dense::power_of_two_root(content.m[(i, i)])).collect();
     let scaled = Mat::from_fn(d.len(), d.len(), |i, j| content.m[(i, j)] * d[i] * d[j]);
     let may_be_singular = content.superelement.metadata().flags.contains(&supel_runtime::Flag::SingularMass);
-    let is_definite = may_be_singular || scaled.llt(Side::Lower).is_ok();
+    // A mass that may be singular is held to what rounding of its scaled entries can make of a zero.
+    let is_definite = match may_be_singular {
+        true => dense::symmetric_eigen(scaled.as_ref())
+            .is_ok_and(|(values, _)| values.first().is_none_or(|least| *least >= -SINGULAR_MASS)),
+        false => scaled.llt(Side::Lower).is_ok(),
+    };
     let (value, worst) = match spectrum.free.first() {
         _ if !is_definite => (f64::INFINITY, Some("the reduced mass has no Cholesky factor".to_owned())),
         None if content.n_reduced() > 0 => (f64::INFINITY, Some("K̂ + λ₁M̂ is not definite".to_owned())),

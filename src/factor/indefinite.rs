@@ -96,7 +96,7 @@ impl<'a> Indefinite<'a> {
             while j < size {
                 let (d, below) = (node.val()[(j, j)], self.subdiagonal[start + j]);
                 signs.growth = signs.growth.max(d.abs()).max(below.abs());
-                if !d.is_finite() || (d == 0.0 && below == 0.0) {
+                if !d.is_finite() || !below.is_finite() || (d == 0.0 && below == 0.0) {
                     return Err(Error::SturmPivot { step: start + j });
                 }
                 if below == 0.0 {
@@ -106,6 +106,9 @@ impl<'a> Indefinite<'a> {
                 } else {
                     let next = node.val()[(j + 1, j + 1)];
                     let determinant = d * next - below * below;
+                    if !determinant.is_finite() || determinant == 0.0 {
+                        return Err(Error::SturmPivot { step: start + j });
+                    }
                     let largest = d.abs().max(next.abs()).max(below.abs());
                     signs.smallest = signs.smallest.min(determinant.abs() / largest);
                     // One of each sign unless the determinant is positive; then both have the sign of the trace.
@@ -113,6 +116,9 @@ impl<'a> Indefinite<'a> {
                     j += 2;
                 }
             }
+        }
+        if self.analysis.n == 0 {
+            return Ok(Signs { negative: 0, growth: 1.0, smallest: 1.0 });
         }
         signs.growth /= self.largest;
         signs.smallest /= self.largest;

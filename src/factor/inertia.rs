@@ -28,10 +28,14 @@ pub struct InertiaCount {
     pub pivot_gap: f64,
     /// Smallest |eigenvalue| of S(σ) over its largest: near rounding, σ lies on a free eigenvalue.
     pub schur_gap: f64,
+    /// The same relative to the stiffness of the interface dofs before condensation, which rounding of S(σ) is relative to.
+    pub condensed_gap: f64,
 }
 
 /// Below this share an eigenvalue of S(σ) is rounding, and σ too near a free eigenvalue.
 const SCHUR_GAP: f64 = 1e-12;
+/// Below this share of the stiffness before condensation an eigenvalue of S(σ) is what rounding left of the condensation.
+const CONDENSED_GAP: f64 = 100.0 * f64::EPSILON;
 /// Below this share a pivot of B is rounding, as in the Cholesky factorisation, and σ too near a clamped eigenvalue.
 const PIVOT_GAP: f64 = 1024.0 * f64::EPSILON;
 
@@ -44,7 +48,7 @@ impl InertiaCount {
 
     /// Whether σ lies off the free eigenvalues as far as S(σ) tells.
     pub fn is_off_free(&self) -> bool {
-        self.schur_gap > SCHUR_GAP
+        self.schur_gap > SCHUR_GAP && self.condensed_gap > CONDENSED_GAP
     }
 }
 
@@ -91,6 +95,8 @@ struct Schur {
     scale: Vec<f64>,
     eigenvalues: Vec<f64>,
     vectors: Mat<f64>,
+    /// Smallest |eigenvalue| relative to the interface before condensation; one without an interface.
+    condensed_gap: f64,
 }
 
 impl<'a> ShiftedFactor<'a> {
@@ -111,8 +117,11 @@ impl<'a> ShiftedFactor<'a> {
         let coupling = columns.as_ref().subrows(0, n_i).to_owned();
         let solution = if n_b == 0 { coupling.clone() } else { factor.solve(coupling.as_ref()) };
         let mut schur = columns.as_ref().subrows(n_i, n_b).to_owned();
+        let term = |matrix: &SparseMatrix, i: usize| matrix.get(n_i + i, n_i + i).map_or(0.0, |value| value.abs());
+        let uncondensed: Vec<f64> =
+            (0..n_b).map(|i| term(&partition.stiffness, i) + sigma.abs() * term(&partition.mass, i)).collect();
         dense::add_product(schur.as_mut(), -1.0, coupling.transpose(), solution.as_ref());
-        let schur = Schur::new(schur)?;
+        let schur = Schur::new(schur, &uncondensed)?;
         let count = InertiaCount {
             sigma,
             clamped: signs.negative,
@@ -120,6 +129,7 @@ impl<'a> ShiftedFactor<'a> {
             growth: signs.growth,
             pivot_gap: signs.smallest,
             schur_gap: schur.gap(),
+            condensed_gap: schur.condensed_gap,
         };
         if !count.schur_gap.is_finite() {
             return Err(Error::SturmPivot { step: n_i });
@@ -154,13 +164,17 @@ impl<'a> ShiftedFactor<'a> {
 }
 
 impl Schur {
-    fn new(mut schur: Mat<f64>) -> Result<Self> {
+    /// Decomposes S(σ); `uncondensed` is |K_ii| + |σ| M_ii of the interface dofs.
+    fn new(mut schur: Mat<f64>, uncondensed: &[f64]) -> Result<Self> {
         dense::symmetrise(&mut schur);
         let n_b = schur.nrows();
         let scale: Vec<f64> = (0..n_b).map(|i| dense::power_of_two_root(schur[(i, i)].abs())).collect();
-        let scaled = Mat::from_fn(n_b, n_b, |i, j| schur[(i, j)] * scale[i] * scale[j]);
-        let (eigenvalues, vectors) = dense::symmetric_eigen(scaled.as_ref())?;
-        Ok(Self { scale, eigenvalues, vectors })
+        let scaled_by = |scale: &[f64]| Mat::from_fn(n_b, n_b, |i, j| schur[(i, j)] * scale[i] * scale[j]);
+        let (eigenvalues, vectors) = dense::symmetric_eigen(scaled_by(&scale).as_ref())?;
+        let before: Vec<f64> = uncondensed.iter().map(|term| dense::power_of_two_root(*term)).collect();
+        let (beside_terms, _) = dense::symmetric_eigen(scaled_by(&before).as_ref())?;
+        let condensed_gap = beside_terms.iter().fold(1.0, |least: f64, value| least.min(value.abs()));
+        Ok(Self { scale, eigenvalues, vectors, condensed_gap })
     }
 
     fn n_negative(&self) -> usize {

@@ -119,16 +119,23 @@ impl<'a> BoundaryProblem<'a> {
     /// # Errors
     /// As [`Self::factor_at`].
     pub fn count_below(&self, sigma: f64) -> Result<ElasticCount> {
-        Ok(self.elastic(self.factor_at(sigma)?.count))
+        self.elastic(self.factor_at(sigma)?.count)
     }
 
-    /// Without the rigid-body modes: they lie below any shift above zero.
-    fn elastic(&self, inertia: InertiaCount) -> ElasticCount {
-        let n_elastic = match self.boundary {
-            Boundary::FreeInterface => inertia.free.saturating_sub(self.n_rigid()),
-            Boundary::FixedInterface => inertia.clamped,
+    /// Without the rigid-body modes: they lie below any shift above zero, and a count that says otherwise is wrong.
+    fn elastic(&self, inertia: InertiaCount) -> Result<ElasticCount> {
+        let (counted, found) = match self.boundary {
+            Boundary::FreeInterface => (inertia.free, self.n_rigid()),
+            Boundary::FixedInterface => (inertia.clamped, 0),
         };
-        ElasticCount { inertia, n_elastic }
+        match counted.checked_sub(found) {
+            Some(n_elastic) => Ok(ElasticCount { inertia, n_elastic }),
+            None => {
+                let unit = self.component.partition.scaling.eigenvalue_unit();
+                let below_hz = (inertia.sigma * unit).max(0.0).sqrt() / std::f64::consts::TAU;
+                Err(Error::ModesMissing { below_hz, found, counted })
+            }
+        }
     }
 
     /// Hands an operator with a shift inside an interval to `solve`, off the eigenvalues known so far and as near the middle

@@ -18,6 +18,7 @@
 use super::boundary_problem::{BoundaryProblem, ElasticCount, median_ratio};
 use super::slices::{ModeSource, fill, missing};
 use super::{Boundary, Modes, SEED};
+use crate::dense;
 use crate::error::{Error, Result};
 use crate::factor::InertiaCount;
 use crate::job::Certify;
@@ -70,14 +71,14 @@ pub enum Mending {
 }
 
 impl Certificate {
-    /// True where every mode below the upper end was found, interval by interval.
+    /// True where every mode below the upper end was found, interval by interval and in all.
     pub fn holds(&self) -> bool {
-        self.intervals.iter().all(|interval| interval.n_counted == interval.n_found)
+        self.n_counted == self.n_found && self.intervals.iter().all(|interval| interval.n_counted == interval.n_found)
     }
 
     /// The largest growth over its limit: up to one the counts are certain, above they are likely.
     pub fn doubt(&self) -> f64 {
-        self.intervals.iter().map(|interval| interval.growth / interval.growth_limit).fold(0.0, f64::max)
+        dense::worst(self.intervals.iter().map(|interval| interval.growth / interval.growth_limit))
     }
 }
 
@@ -176,7 +177,7 @@ fn judge(problem: &BoundaryProblem<'_>, modes: &Modes, upper: ElasticCount) -> C
         intervals.push(CountedInterval {
             from,
             to,
-            // A count that falls with the shift is off by more than it says: no interval then holds what it should.
+            // A count that falls with the shift is no count; the sum over the intervals is then more than the whole.
             n_counted: (end.n_elastic + rigid).saturating_sub(below),
             n_found: modes.n_between(from, to) + rigid,
             growth: end.inertia.growth.max(lower.0),
@@ -209,5 +210,10 @@ fn growth_limit(problem: &BoundaryProblem<'_>, modes: &Modes, sigma: f64) -> f64
     let floor = if largest > 0.0 { largest } else { f64::EPSILON * median_ratio(problem.modal()) };
     let of_found = modes.lambda.iter().zip(floors).map(|(lambda, floor)| (sigma - lambda).abs() / floor);
     let of_next = modes.next.map(|next| (next - sigma).abs() / floor);
-    of_found.chain(of_next).fold(f64::INFINITY, f64::min) / ROUNDINGS
+    let ratios: Vec<f64> = of_found.chain(of_next).collect();
+    // What is not a number bounds nothing.
+    if ratios.iter().any(|ratio| ratio.is_nan()) {
+        return 0.0;
+    }
+    ratios.into_iter().fold(f64::INFINITY, f64::min) / ROUNDINGS
 }

@@ -85,6 +85,8 @@ impl Filling<'_> {
             for attempt in 0..ATTEMPTS {
                 let count = counted - self.modes.n_between(from, to);
                 let more = self.source.between(Interval { from, to, count }, &self.modes, SEED + 2 + attempt)?;
+                // What is left of a copy of a known mode is rounding, with an eigenvalue anywhere.
+                let more = more.selected(|lambda| from < lambda && lambda < to);
                 let is_progress = more.count() > 0;
                 self.modes = std::mem::replace(&mut self.modes, Modes::none(0)).joined(more);
                 if self.is_filled(from, to, counted, upper)? {

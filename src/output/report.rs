@@ -212,7 +212,9 @@ fn number_of_modes(results: &Results<'_>) -> Option<Warning> {
     match results.job.reduction.modes {
         ModeSelection::Count { count } if found < count => Some(Warning {
             code: "W-FEWER-MODES",
-            message: format!("{count} modes were asked for; the model has only {found} of finite frequency"),
+            message: format!(
+                "{count} modes were asked for; the search ended with {found}: no other has a finite frequency that it can tell"
+            ),
         }),
         ModeSelection::UpTo { up_to_hz } => {
             let limit = modes.searched_to.filter(|limit| *limit > 0.0)?;

@@ -199,7 +199,8 @@ fn band(job: &Job, tensors: &Tensors) -> Option<[f64; 2]> {
     }
 }
 
-/// The job with its paths relative to the superelement's folder, so that the file does not depend on where that is.
+/// The job with its paths relative to the superelement's folder, so that the file does not depend on where that is; without
+/// pages for people and machines, which change nothing of the superelement.
 fn job_document(job: &Job) -> serde_json::Value {
     let folder = job.write.superelement.parent().unwrap_or(Path::new("")).to_owned();
     let mut job = job.clone();
@@ -210,6 +211,7 @@ fn job_document(job: &Job) -> serde_json::Value {
     job.model.nodes.as_mut().map(relative);
     relative(&mut job.write.superelement);
     job.write.report.as_mut().map(relative);
+    (job.write.html, job.write.junit) = (None, None);
     serde_json::to_value(job).unwrap_or_default()
 }
 

@@ -76,6 +76,8 @@ pub fn with_mechanisms(
         if lambda.abs() <= ZERO_WITHIN_BARS * bar {
             zero.push(j);
             found.mechanisms.push(loose());
+        } else if lambda < 0.0 {
+            return Err(Error::NegativeRigidEnergy { energy: lambda, noise: bar });
         } else if lambda <= GREY_WITHIN_BARS * bar {
             found.grey.push(loose());
         }

@@ -18,7 +18,7 @@ pub(super) fn count(evidence: &Evidence<'_>) -> Option<Check> {
         id: "M-06",
         name: "no mode is missing",
         equation: "|eigenvalues counted between shifts − modes found|, by the inertia of K − σM at both ends",
-        value: differences.sum::<usize>() as f64,
+        value: differences.sum::<usize>().max(certificate.n_counted.abs_diff(certificate.n_found)) as f64,
         limits: Limits::default(),
         fail_above: 0.0,
         worst: Some(format!(

@@ -138,7 +138,7 @@ fn proof(analysis: &Analysis, metric: &Metric<'_>, groups: &[Group], shift: f64)
     let distance = (shift - top) / (top - metric.sigma);
     let enclosed = groups.iter().map(|group| group.members.len()).sum();
     // A number that is none proves nothing.
-    let uncertainty = if omega.is_nan() || distance <= 0.0 { f64::INFINITY } else { omega / distance };
+    let uncertainty = if omega.is_nan() || omega >= 1.0 || distance <= 0.0 { f64::INFINITY } else { omega / distance };
     let ceiling = (shift + omega * metric.sigma) / (1.0 + omega);
     Ok((CountProof { uncertainty, counted: count.below, enclosed }, ceiling))
 }

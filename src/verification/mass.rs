@@ -52,7 +52,7 @@ pub(super) fn expected(evidence: &Evidence<'_>) -> Option<Check> {
     let gyration = ((m_f[(3, 3)] + m_f[(4, 4)] + m_f[(5, 5)]) / (2.0 * mass)).sqrt();
     let mass_error = expect.mass.map(|known| (mass * unit / known - 1.0).abs());
     let shift = expect.cg.map(|known| (0..3).map(|i| (centre[i] - known[i]).powi(2)).sum::<f64>().sqrt() / gyration);
-    let value = mass_error.unwrap_or(0.0).max(shift.unwrap_or(0.0));
+    let value = dense::worst(mass_error.into_iter().chain(shift));
     Some(Check {
         id: "M-16",
         name: "mass and centre are those expected",

@@ -40,6 +40,14 @@ fn assert_threads_change_nothing(method: &str) {
 }
 
 #[test]
+fn pages_for_people_do_not_touch_the_superelement() {
+    let place = Place::with_example();
+    let plain = reduced_by(&place, &[]);
+    let (html, junit) = (place.text("bracket.html"), place.text("bracket.xml"));
+    assert_same(&reduced_by(&place, &["--html", &html, "--junit", &junit]), &plain, "with a page");
+}
+
+#[test]
 fn herting_does_not_depend_on_threads() {
     assert_threads_change_nothing("herting");
 }

@@ -118,7 +118,15 @@ fn a_mode_that_was_not_found() {
 }
 
 fn certificate_count() -> supel::factor::InertiaCount {
-    supel::factor::InertiaCount { sigma: 0.0, clamped: 6, free: 12, growth: 1.0, pivot_gap: 1.0, schur_gap: 1.0 }
+    supel::factor::InertiaCount {
+        sigma: 0.0,
+        clamped: 6,
+        free: 12,
+        growth: 1.0,
+        pivot_gap: 1.0,
+        schur_gap: 1.0,
+        condensed_gap: 1.0,
+    }
 }
 
 #[test]

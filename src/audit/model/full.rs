@@ -155,10 +155,12 @@ impl<'a> Full<'a> {
 }
 
 fn column_products(a: &Mat<f64>, b: &Mat<f64>) -> Vec<f64> {
-    (0..a.ncols()).map(|j| dense::dot(dense::column(a.as_ref(), j), dense::column(b.as_ref(), j)).max(0.0)).collect()
+    (0..a.ncols()).map(|j| dense::dot(dense::column(a.as_ref(), j), dense::column(b.as_ref(), j))).collect()
 }
 
 /// The largest √(a/b).
 fn largest_ratio(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| if *b > 0.0 { (a / b).sqrt() } else { 0.0 }).fold(0.0, f64::max)
+    // Rounding may leave a square below zero; what is left of nothing, or is no number, is no small error.
+    let ratio = |(a, b): (&f64, &f64)| if *a <= 0.0 { 0.0 } else { (a / b).sqrt() };
+    dense::worst(a.iter().zip(b).map(ratio))
 }

@@ -108,9 +108,11 @@ impl<'a> Witness<'a> {
     }
 
     /// M-06: the inertia of the whole matrix counts as many modes as are stated.
-    pub(super) fn count(&self) -> Result<Check> {
-        let top = self.modes.lambda.get(self.n_stored.wrapping_sub(1)).copied().unwrap_or(0.0);
-        let next = self.modes.lambda.get(self.n_stored).copied().or(self.modes.next);
+    pub(super) fn count(&self, scaled: &Scaled) -> Result<Check> {
+        // The shift follows the frequencies that the file states: those of the witness count themselves.
+        let top = scaled.lambda.last().copied().unwrap_or(0.0);
+        let above = |lambda: &f64| *lambda > top * (1.0 + ONE_SPACE);
+        let next = self.modes.lambda.iter().copied().find(above).or(self.modes.next);
         let sigma = match next {
             Some(next) => top + PLACE * (next - top),
             None if top > 0.0 => (1.0 + PLACE) * top,

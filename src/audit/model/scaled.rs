@@ -47,7 +47,8 @@ impl Scaled {
     /// Loads K̂_BB x of interface motions x that span every motion with energy, n_B × k: x is orthonormal in
     /// K̂_BB + λM̂_BB, and each load does the work λ on the motion it makes.
     ///
-    /// A stiff direction counts as much as a soft one: an error in any entry of K̂_BB shows.
+    /// A stiff direction counts as much as a soft one: an error in any entry of K̂_BB shows. Where that sum is not definite
+    /// there are no such motions, and a load that is no number fails every check that uses it.
     pub(super) fn interface_loads(&self, lambda: f64) -> Result<Mat<f64>> {
         /// Share of the energy in that of K̂_BB + λM̂_BB below which a motion is that of a rigid body.
         const RIGID: f64 = 1e-6;
@@ -56,7 +57,7 @@ impl Scaled {
         let sum = Mat::from_fn(n, n, |i, j| k[(i, j)] + lambda * m[(i, j)]);
         let d: Vec<f64> = (0..n).map(|i| dense::power_of_two_root(sum[(i, i)])).collect();
         let scaled = Mat::from_fn(n, n, |i, j| sum[(i, j)] * d[i] * d[j]);
-        let Ok(factor) = scaled.llt(Side::Lower) else { return Ok(Mat::zeros(n, 0)) };
+        let Ok(factor) = scaled.llt(Side::Lower) else { return Ok(Mat::from_fn(n, 1, |_, _| f64::NAN)) };
         let (l, par) = (factor.L(), faer::Par::Seq);
         let mut half = Mat::from_fn(n, n, |i, j| k[(i, j)] * d[i] * d[j]);
         faer::linalg::triangular_solve::solve_lower_triangular_in_place(l, half.as_mut(), par);

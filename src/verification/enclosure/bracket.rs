@@ -100,7 +100,8 @@ impl Group {
     /// sin of the angle between a member and the eigenvectors of the group: the residual over the distance to all others.
     pub(super) fn angle(&self, neighbours: Neighbours) -> f64 {
         let [below, above] = self.inverse_gaps(neighbours);
-        self.radius * below.max(above)
+        // The residual is measured at the low end of the group, the gap above it at the high one.
+        self.radius * below.max(above * self.mu[1] / self.mu[0])
     }
 }
 

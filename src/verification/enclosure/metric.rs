@@ -80,7 +80,7 @@ impl<'a> Metric<'a> {
 fn factored<'a>(analysis: &'a Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<Option<Cholesky<'a>>> {
     match Cholesky::new(analysis, pencil, sigma, &|dof| dof.to_string()) {
         Ok(factor) => Ok(Some(factor)),
-        Err(Error::NotDefinite { .. }) => Ok(None),
+        Err(Error::NotDefinite { .. } | Error::IndefiniteStiffness { .. }) => Ok(None),
         Err(error) => Err(error),
     }
 }

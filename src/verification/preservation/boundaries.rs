@@ -121,7 +121,11 @@ impl Reference {
         limit: f64,
     ) -> Result<Self> {
         let modes = &evidence.retained.modes;
-        let is_covered = modes.next.is_none_or(|next| next > limit);
+        let is_covered = match (modes.next, modes.searched_to) {
+            (Some(next), _) => next > limit,
+            (None, Some(searched_to)) => searched_to >= limit,
+            (None, None) => true,
+        };
         let supported = Supported::new(evidence, &boundary)?;
         let found = if boundary.is_own(evidence) && is_covered {
             modes
