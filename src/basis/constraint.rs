@@ -6,7 +6,7 @@ use faer::{Mat, MatRef};
 use crate::dense;
 use crate::factor::SolveOperator;
 use crate::partition::Partition;
-use crate::rigid::{RigidBodyModes, absolute_energy, unit_motions};
+use crate::rigid::{RigidBodyModes, absolute_energy, scales, unit_motions};
 use crate::sparse::product;
 
 /// Ψ_S with what it took to make it exact.
@@ -38,18 +38,19 @@ pub fn constraint_modes(partition: &Partition, factor: &dyn SolveOperator, rigid
     }
     let u_i = rigid.orthonormal.as_ref().subrows(0, n_i);
     let u_b = rigid.orthonormal.as_ref().subrows(n_i, n_b);
+    let scale = scales(partition);
     let mut raw_rigid_error = 0.0;
     // Without an interface there is nothing to be carried.
     let is_carried = rigid.count() > 0 && n_b > 0;
     if is_carried {
-        raw_rigid_error = rigid_error(modes.as_ref(), u_i, u_b).0;
+        raw_rigid_error = rigid_error(&scale, modes.as_ref(), (u_i, u_b)).0;
         // Any basis of the motions serves; those of unit length U_B⁺ can tell apart whatever the mass they move.
         let unit = unit_motions(partition, rigid).unwrap_or_else(|_| rigid.orthonormal.clone());
         let (u_i, u_b) = unit.as_ref().split_at_row(n_i);
         let defect = defect(modes.as_ref(), u_i, u_b);
         dense::add_product(modes.as_mut(), 1.0, defect.as_ref(), left_inverse(partition, u_b).as_ref());
     }
-    let rigid_error = if is_carried { rigid_error(modes.as_ref(), u_i, u_b) } else { (0.0, 0) };
+    let rigid_error = if is_carried { rigid_error(&scale, modes.as_ref(), (u_i, u_b)) } else { (0.0, 0) };
     let (stiffness, cancellation) = condensed_stiffness(partition, modes.as_ref());
     ConstraintModes { modes, stiffness, cancellation, raw_rigid_error, rigid_error }
 }
@@ -61,18 +62,23 @@ fn defect(modes: MatRef<'_, f64>, u_i: MatRef<'_, f64>, u_b: MatRef<'_, f64>) ->
     defect
 }
 
-/// Largest defect of a rigid-body mode relative to the largest displacement of the mode, and where it is.
+/// Largest defect of a rigid-body mode relative to the largest displacement of the mode, both in the scales of the dofs, and
+/// where it is.
 ///
 /// A mode that moves interface dofs alone, that of a free mass at the interface, is measured by those.
-fn rigid_error(modes: MatRef<'_, f64>, u_i: MatRef<'_, f64>, u_b: MatRef<'_, f64>) -> (f64, usize) {
+fn rigid_error(scale: &[f64], modes: MatRef<'_, f64>, (u_i, u_b): (MatRef<'_, f64>, MatRef<'_, f64>)) -> (f64, usize) {
     let defect = defect(modes, u_i, u_b);
+    let (internal, interface) = scale.split_at(u_i.nrows());
     let mut worst = (0.0, 0);
     for j in 0..defect.ncols() {
-        let size = |u: MatRef<'_, f64>| dense::column(u, j).iter().fold(0.0f64, |max, value| max.max(value.abs()));
-        let largest = if size(u_i) > 0.0 { size(u_i) } else { size(u_b) };
-        for (i, value) in dense::column(defect.as_ref(), j).iter().enumerate() {
-            if dense::worse(value.abs() / largest, worst.0) {
-                worst = (value.abs() / largest, i);
+        let size = |u: MatRef<'_, f64>, scale: &[f64]| {
+            dense::column(u, j).iter().zip(scale).fold(0.0f64, |max, (value, d)| max.max((value * d).abs()))
+        };
+        let largest = if size(u_i, internal) > 0.0 { size(u_i, internal) } else { size(u_b, interface) };
+        for (i, (value, d)) in dense::column(defect.as_ref(), j).iter().zip(internal).enumerate() {
+            let error = (value * d).abs() / largest;
+            if dense::worse(error, worst.0) {
+                worst = (error, i);
             }
         }
     }

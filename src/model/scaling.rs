@@ -7,6 +7,9 @@ use crate::sparse::SparseMatrix;
 /// Largest and smallest exponents: what is left at the upper end takes the sums of many entries, at the lower end entries
 /// of a 10⁻¹⁸ th of the largest with all their digits.
 const EXPONENTS: std::ops::RangeInclusive<i32> = -960..=1000;
+/// Those of the ratio of K to M. No sums are made of it: what is left at the upper end, 2¹⁵, takes eigenvalues above the ratio
+/// of the largest entries; frequencies that leave the range all the same are refused where they are written.
+const RATIOS: std::ops::RangeInclusive<i32> = -960..=1008;
 
 /// Exponents of the powers of two taken out of K and M.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,12 +27,7 @@ impl Scaling {
     /// Numbers, or frequencies made of them, near the ends of the range of double precision.
     pub(super) fn take_out(stiffness: &mut SparseMatrix, mass: &mut SparseMatrix) -> Result<Self> {
         let scaling = Self { stiffness: scale_to_unit(stiffness), mass: scale_to_unit(mass) };
-        let of_lambda = scaling.stiffness - scaling.mass;
-        let sizes = [
-            ("the stiffness", scaling.stiffness),
-            ("the mass", scaling.mass),
-            ("the ratio of stiffness to mass, the square of a frequency,", of_lambda),
-        ];
+        let ratio = scaling.stiffness - scaling.mass;
         // Beside one huge entry the others may fall below what the range holds with all digits.
         let least = |matrix: &SparseMatrix| {
             let positive = diagonal(matrix).into_iter().filter(|value| *value > 0.0);
@@ -37,9 +35,14 @@ impl Scaling {
         };
         let smallest = least(stiffness).min(least(mass));
         let smallest = if smallest.is_finite() { binary_exponent(smallest) } else { 0 };
-        let sizes = sizes.into_iter().chain([("the smallest diagonal entry beside the largest", smallest)]);
-        match sizes.into_iter().find(|(_, exponent)| !EXPONENTS.contains(exponent)) {
-            Some((what, exponent)) => Err(Error::UnitRange { what, exponent }),
+        let sizes = [
+            ("the stiffness", scaling.stiffness, EXPONENTS),
+            ("the mass", scaling.mass, EXPONENTS),
+            ("the ratio of stiffness to mass, the square of a frequency,", ratio, RATIOS),
+            ("the smallest diagonal entry beside the largest", smallest, EXPONENTS),
+        ];
+        match sizes.into_iter().find(|(_, exponent, range)| !range.contains(exponent)) {
+            Some((what, exponent, _)) => Err(Error::UnitRange { what, exponent }),
             None => Ok(scaling),
         }
     }

@@ -51,11 +51,24 @@ pub(super) fn canonicalise(mass: &SparseMatrix, runs: &[Range<usize>], shapes: &
     }
 }
 
-/// Gives every mode of a repeated eigenvalue the mean of the quotients, which does not depend on the basis.
-pub(super) fn average(runs: &[Range<usize>], lambda: &mut [f64]) {
+/// Gives every mode of a repeated eigenvalue the mean of the quotients, and the largest bar of them, which holds for the mean
+/// whatever the basis.
+///
+/// Motions without energy are one eigenvalue too: their quotients are rounding, the mean of them is, and a bar that stayed
+/// relative to a quotient of its own would make of the mean a frequency.
+pub(super) fn average(runs: &[Range<usize>], lambda: &mut [f64], errors: &mut [ModeError]) {
     for run in runs {
-        let of_run = &mut lambda[run.clone()];
+        let (of_run, errors) = (&mut lambda[run.clone()], &mut errors[run.clone()]);
         let mean = of_run.iter().sum::<f64>() / of_run.len() as f64;
+        let largest = |bar: &dyn Fn(&ModeError) -> f64| {
+            let absolute = errors.iter().zip(of_run.iter()).map(|(error, lambda)| bar(error) * lambda.abs());
+            absolute.fold(0.0, f64::max) / mean.abs()
+        };
+        let (cancellation, data_bar) = (largest(&|error| error.cancellation), largest(&|error| error.data_bar));
+        let rounding_floor = errors.iter().map(|error| error.rounding_floor).fold(0.0, f64::max);
+        for error in errors {
+            *error = ModeError { cancellation, data_bar, relative_bar: data_bar, rounding_floor, ..*error };
+        }
         of_run.fill(mean);
     }
 }
@@ -114,5 +127,24 @@ mod tests {
             assert!((turned(angle) - &reference).norm_max() < 1e-15, "{angle}");
         }
         assert_eq!(repeated(&[1.0, 1.0, 1.0 + 1e-12, 2.0, 2.0], &[error; 5]), [0..2, 3..5]);
+    }
+
+    /// Quotients that are rounding leave a mean that is rounding, by the bars of every one of them.
+    #[test]
+    fn the_mean_of_motions_without_energy_has_none() {
+        let noise = 1e-13;
+        let mut lambda = [-0.8 * noise, 0.01 * noise, 2.5 * noise];
+        let mut errors = lambda.map(|lambda: f64| ModeError {
+            cancellation: noise / (f64::EPSILON * lambda.abs()),
+            data_bar: noise / lambda.abs(),
+            ..ModeError::default()
+        });
+        let runs = repeated(&lambda, &errors);
+        assert_eq!(runs, [0..3]);
+        average(&runs, &mut lambda, &mut errors);
+        for (lambda, error) in lambda.iter().zip(&errors) {
+            // One product and one quotient.
+            assert!((error.data_bar * lambda / noise - 1.0).abs() <= 4.0 * f64::EPSILON, "{lambda:e}, {error:?}");
+        }
     }
 }

@@ -249,7 +249,7 @@ fn judged(problem: ModalProblem<'_>, eigenproblem: Problem<'_>, pairs: Eigenpair
     if !repeated.is_empty() {
         cluster::canonicalise(problem.mass, &repeated, &mut shapes);
         (lambda, errors, residuals) = quality::rayleigh_quotients(problem, shapes.as_ref());
-        cluster::average(&repeated, &mut lambda);
+        cluster::average(&repeated, &mut lambda, &mut errors);
     }
     quality::add_residual_bars(eigenproblem, &lambda, &mut errors, residuals, around);
     let work = EigenWork { solves: pairs.work.solves + lambda.len(), ..pairs.work };

@@ -32,6 +32,9 @@ fn refuse_out_of_range(tensors: &Tensors) -> Result<()> {
             return Err(Error::UnitRange { what, exponent: f64::MAX_EXP });
         }
     }
+    if tensors.frequencies.contains(&f64::INFINITY) {
+        return Err(Error::UnitRange { what: "the square of a frequency", exponent: f64::MAX_EXP });
+    }
     Ok(())
 }
 

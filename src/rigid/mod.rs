@@ -24,8 +24,8 @@ use crate::sparse::{SparseMatrix, product};
 pub use algebraic::from_matrices;
 pub use mechanism::{Loose, LooseMotions, with_mechanisms};
 pub use misfit::Misfit;
-pub(crate) use rank::unit_motions;
 pub use rank::{ILL_CONDITIONED, InterfaceRank, interface_rank};
+pub(crate) use rank::{scales, unit_motions};
 
 /// Where rigid-body modes come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -33,19 +33,10 @@ pub fn interface_rank(partition: &Partition, rigid: &RigidBodyModes) -> Result<I
     if n_r == 0 || n_b == 0 {
         return Ok(InterfaceRank { singular_ratio: 1.0 });
     }
-    let size = size_of_component(partition);
-    let row_scale = |i: usize| match partition.dofs[n_i + i].site {
-        Some(site) if site.direction.is_rotation() => size,
-        Some(_) => 1.0,
-        // Without coordinates nothing tells a rotation from a translation; their stiffness makes them alike.
-        None => {
-            let stiffness = partition.stiffness.get(n_i + i, n_i + i).copied().unwrap_or(0.0);
-            1.0 / dense::power_of_two_root(stiffness)
-        }
-    };
     // Motions of unit length, not of unit mass: a seismic mass would make its own motions small.
     let unit = unit_motions(partition, rigid)?;
-    let u_b = Mat::from_fn(n_b.max(n_r), n_r, |i, j| if i < n_b { unit[(n_i + i, j)] * row_scale(i) } else { 0.0 });
+    let scale = scales(partition);
+    let u_b = Mat::from_fn(n_b.max(n_r), n_r, |i, j| if i < n_b { unit[(n_i + i, j)] * scale[n_i + i] } else { 0.0 });
     let (singular, v) = dense::right_singular(u_b.as_ref())?;
     let largest = singular.first().copied().unwrap_or(0.0);
     let rank = singular.iter().filter(|value| **value > RANK_TOLERANCE * largest).count();
@@ -58,21 +49,26 @@ pub fn interface_rank(partition: &Partition, rigid: &RigidBodyModes) -> Result<I
     Ok(InterfaceRank { singular_ratio: singular[n_r - 1] / largest })
 }
 
-fn size_of_component(partition: &Partition) -> f64 {
-    partition.sites().map_or(1.0, |sites| size_of(&sites))
+/// What each dof is multiplied by to be compared with others: a rotation by the size of the component.
+pub(crate) fn scales(partition: &Partition) -> Vec<f64> {
+    let size = partition.sites().map_or(1.0, |sites| size_of(&sites));
+    let stiffness = crate::model::diagonal(&partition.stiffness);
+    let scale = |dof: usize| match partition.dofs[dof].site {
+        Some(site) if site.direction.is_rotation() => size,
+        Some(_) => 1.0,
+        // Without coordinates nothing tells a rotation from a translation; their stiffness makes them alike.
+        None => 1.0 / dense::power_of_two_root(stiffness[dof]),
+    };
+    (0..partition.n_dofs()).map(scale).collect()
 }
 
-/// The rigid-body modes as motions that are orthogonal and of unit length over all dofs, rotations times the size of the component.
+/// The rigid-body modes as motions that are orthogonal and of unit length over all dofs in their [`scales`].
 pub(crate) fn unit_motions(partition: &Partition, rigid: &RigidBodyModes) -> Result<Mat<f64>> {
-    let size = size_of_component(partition);
-    let scale = |i: usize| match partition.dofs[i].site {
-        Some(site) if site.direction.is_rotation() => size,
-        _ => 1.0,
-    };
+    let scale = scales(partition);
     let mut unit = rigid.orthonormal.clone();
     // The second pass removes what rounding of the first left of lengths that differ by many orders.
     for _ in 0..2 {
-        let scaled = Mat::from_fn(unit.nrows(), unit.ncols(), |i, j| unit[(i, j)] * scale(i));
+        let scaled = Mat::from_fn(unit.nrows(), unit.ncols(), |i, j| unit[(i, j)] * scale[i]);
         let lengths: Vec<f64> = (0..scaled.ncols()).map(|j| dense::norm(dense::column(scaled.as_ref(), j))).collect();
         let even = Mat::from_fn(scaled.nrows(), scaled.ncols(), |i, j| scaled[(i, j)] / lengths[j]);
         let (squares, directions) = dense::symmetric_eigen(dense::gram(even.as_ref(), even.as_ref()).as_ref())?;

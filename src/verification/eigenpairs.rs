@@ -26,6 +26,8 @@ pub(super) struct Pairs {
     backward: Worst,
     /// M-02.
     componentwise: Worst,
+    /// max ‖D⁻¹x‖₂ / ‖D⁻¹x‖_∞: how far the norm of a mode exceeds its largest component.
+    concentration: f64,
     /// M-04: the largest coupling and its pair.
     coupling: (f64, (usize, usize)),
 }
@@ -43,7 +45,8 @@ impl Pairs {
         let (stiffness, mass) = pencil(evidence);
         let rows = Rows::of(stiffness, mass);
         let modes = &evidence.retained.modes;
-        let mut found = Self { backward: Worst::none(), componentwise: Worst::none(), coupling: (0.0, (0, 0)) };
+        let mut found =
+            Self { backward: Worst::none(), componentwise: Worst::none(), concentration: 1.0, coupling: (0.0, (0, 0)) };
         for start in (0..modes.count()).step_by(PANEL) {
             let width = PANEL.min(modes.count() - start);
             let shapes = modes.shapes.as_ref().subcols(start, width);
@@ -62,6 +65,8 @@ impl Pairs {
                 found.backward.take(rows.norms.backward_error(*lambda, x, r), start + j, at);
                 let (error, at) = rows.componentwise(*lambda, x, r, dense::column(terms.as_ref(), j));
                 found.componentwise.take(error, start + j, at);
+                let largest = x.iter().zip(&rows.norms.scale).fold(0.0f64, |max, (x, d)| max.max((x / d).abs()));
+                found.concentration = found.concentration.max(rows.norms.scaled_norm(x) / largest);
             }
             let energies = dense::gram(modes.shapes.as_ref().subcols(0, start + width), forces.as_ref());
             found.couple(&energies, start, &modes.lambda);
@@ -128,9 +133,11 @@ pub(super) fn backward_error(evidence: &Evidence<'_>, pairs: &Pairs) -> Check {
 /// M-02.
 pub(super) fn componentwise_error(evidence: &Evidence<'_>, pairs: &Pairs) -> Check {
     const FAIL: f64 = 1e-8;
-    // What may be left of a row's norm weighs more beside the smallest terms that a row is judged by.
-    let of_norm = residual_limits(evidence);
-    let limits = Limits { engineering: 1e-11, arithmetic: of_norm.arithmetic / AT_REST, data: of_norm.data / AT_REST };
+    // What may be left is a share of the norm of the whole mode, and all of it may be in one row, which is measured by the
+    // largest component. It weighs more still beside the smallest terms that a row is judged by.
+    let (of_norm, in_one_row) = (residual_limits(evidence), pairs.concentration / AT_REST);
+    let limits =
+        Limits { engineering: 1e-11, arithmetic: of_norm.arithmetic * in_one_row, data: of_norm.data * in_one_row };
     let limits = limits.capped(FAIL, 1.0);
     Check {
         id: "M-02",

@@ -8,6 +8,7 @@ use super::residual::Worst;
 use super::spectrum::{Spectrum, zero_level};
 use super::{Evidence, coordinate_name, reduced_norms, rigid_name};
 use crate::dense;
+use crate::rigid::scales;
 
 /// How far roundings of one sign may exceed their typical sum.
 const NOISE_FACTOR: f64 = 10.0;
@@ -88,13 +89,18 @@ pub(super) fn carried_by_interface(evidence: &Evidence<'_>) -> Check {
     let (u_i, u_b) = evidence.rigid.orthonormal.as_ref().split_at_row(n_i);
     let mut defect = u_i.to_owned();
     dense::add_product(defect.as_mut(), -1.0, evidence.basis.constraint_modes.as_ref(), u_b);
+    // Rounding of a dof is relative to its own scale, and a motion may be small in the dofs of the largest one.
+    let scale = scales(evidence.partition);
+    let (internal, interface) = scale.split_at(n_i);
     let mut worst = Worst::none();
     for j in 0..defect.ncols() {
         // The mode of a free mass at the interface moves nothing else; it is measured by the mass.
-        let size = |u: MatRef<'_, f64>| dense::column(u, j).iter().fold(0.0f64, |max, value| max.max(value.abs()));
-        let largest = if size(u_i) > 0.0 { size(u_i) } else { size(u_b) };
-        for (i, value) in dense::column(defect.as_ref(), j).iter().enumerate() {
-            worst.take(value.abs() / largest, j, i);
+        let size = |u: MatRef<'_, f64>, scale: &[f64]| {
+            dense::column(u, j).iter().zip(scale).fold(0.0f64, |max, (value, d)| max.max((value * d).abs()))
+        };
+        let largest = if size(u_i, internal) > 0.0 { size(u_i, internal) } else { size(u_b, interface) };
+        for (i, (value, d)) in dense::column(defect.as_ref(), j).iter().zip(internal).enumerate() {
+            worst.take((value * d).abs() / largest, j, i);
         }
     }
     let raw = evidence.constraint.raw_rigid_error;

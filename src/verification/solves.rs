@@ -3,7 +3,7 @@
 use faer::{Mat, MatRef};
 
 use super::check::{Check, Limits};
-use super::residual::{Rows, Worst};
+use super::residual::{AT_REST, Rows, Worst};
 use super::{Evidence, data_noise};
 use crate::dense;
 use crate::sparse::product;
@@ -47,8 +47,9 @@ pub(super) fn static_solves(evidence: &Evidence<'_>) -> Check {
     let limits = Limits {
         engineering: 1e-12,
         arithmetic: 0.0,
-        // The correction makes the interface carry rigid-body motion; what K lets pass of it is as good as its digits.
-        data: NOISE_FACTOR * data_noise(partition) / evidence.rank.singular_ratio,
+        // The correction makes the interface carry rigid-body motion; what K lets pass of it is as good as its digits, relative
+        // to the norms of the rows. That weighs more beside the smallest terms that a row is judged by.
+        data: NOISE_FACTOR * data_noise(partition) / (evidence.rank.singular_ratio * AT_REST),
     }
     .capped(0.0, 1e-2);
     Check {
