@@ -20,14 +20,16 @@ COPY = ROOT / "target" / "mutations"
 
 
 def copy_sources():
-    """A copy of all files of the repository, without those it ignores; unchanged ones keep their times."""
+    """A copy of all files of the repository, without those it ignores; unchanged ones keep their times, old ones go."""
     listed = subprocess.run(
         ["git", "ls-files", "--cached", "--others", "--exclude-standard"], cwd=ROOT, check=True, capture_output=True, text=True
     )
-    for name in listed.stdout.splitlines():
+    names = {name for name in listed.stdout.splitlines() if (ROOT / name).is_file()}
+    for old in [path for path in COPY.rglob("*") if path.is_file()]:
+        if old.relative_to(COPY).as_posix() not in names:
+            old.unlink()
+    for name in sorted(names):
         source, target = ROOT / name, COPY / name
-        if not source.is_file():
-            continue
         target.parent.mkdir(parents=True, exist_ok=True)
         if not target.exists() or target.read_bytes() != source.read_bytes():
             shutil.copyfile(source, target)
