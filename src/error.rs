@@ -854,8 +854,8 @@ pub enum Error {
         expected: &'static str,
     },
     /// Neither a job document nor the flags that replace it were given.
-    #[error("{} missing – give a job document, or all of --stiffness, --mass, --method, a number of modes and --output",
-        flags.join(", "))]
+    #[error("no job document, and without one {} {} missing – give a job document or these flags",
+        flags.join(", "), if flags.len() == 1 { "is" } else { "are" })]
     MissingFlags {
         /// The flags that are missing.
         flags: Vec<&'static str>,
@@ -1170,7 +1170,7 @@ pub enum Error {
         boundary: &'static str,
     },
     /// The forecast exceeds the memory there is.
-    #[error("the run needs {:.1} GiB – {:.1} GiB are available – {what} – free memory, raise run.memory_gib, or use --certify none, which saves one factor", gib(*needed), gib(*available))]
+    #[error("the run needs {} – {} are available – {what} – free memory, raise run.memory_gib, or use a weaker --certify, which needs fewer factors", memory(*needed), memory(*available))]
     MemoryForecast {
         /// Bytes needed at the peak.
         needed: u64,
@@ -1292,7 +1292,8 @@ fn listed(names: &[String]) -> String {
     }
 }
 
-/// Bytes in GiB.
-fn gib(bytes: u64) -> f64 {
-    bytes as f64 / f64::from(1 << 30)
+/// Bytes in GiB, or in MiB where that is less than one.
+fn memory(bytes: u64) -> String {
+    let mib = bytes as f64 / f64::from(1 << 20);
+    if mib < 1024.0 { format!("{mib:.1} MiB") } else { format!("{:.1} GiB", mib / 1024.0) }
 }

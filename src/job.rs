@@ -1,6 +1,6 @@
 //! The job: one document that says what to read, how to reduce and what to write.
 //!
-//! Everything in it can also be given by flags. Paths are relative to the folder of the document; [`Job::resolve`]
+//! What one-off use needs can also be given by flags. Paths are relative to the folder of the document; [`Job::resolve`]
 //! makes them absolute before any stage sees them. Unknown keys are errors.
 
 mod document;

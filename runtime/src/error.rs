@@ -46,7 +46,9 @@ pub enum FileError {
         found: usize,
     },
     /// The header is longer than any reader of the format accepts.
-    #[error("superelement file's header would be {found} bytes long; at most {limit} are allowed")]
+    #[error(
+        "not a superelement file: its first eight bytes would make a header of {found} bytes, at most {limit} are allowed – give a .supel file written by supel reduce"
+    )]
     HeaderTooLarge {
         /// Length in the prefix, or of the metadata to be written.
         found: u64,

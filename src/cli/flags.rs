@@ -30,8 +30,8 @@ pub(super) enum Typed {
 }
 
 const EXIT_CODES: &str = "\
-Exit codes: 0 done and verified; 1 done, a check failed; 2 usage; 3 input data; 4 model physics; 5 numerical limit;
-6 resources; 7 input or output; 70 a defect of supel; 130 interrupted.";
+Exit codes: 0 done and verified; 1 done, a check failed; 2 usage; 3 input data; 4 model physics;
+5 numerical limit; 6 resources; 7 input or output; 70 a defect of supel; 130 interrupted.";
 
 #[derive(Debug, Args)]
 pub(super) struct ReduceFlags {

@@ -3,7 +3,8 @@
 /// How firm the answer of a check is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Proof {
-    /// A count, an enclosure or a comparison of bits that leaves room for rounding only.
+    /// A count, an enclosure or a comparison of bits that leaves room for rounding only; with full certification that
+    /// room is bounded as well.
     Certified,
     /// Computed directly from the full and the reduced matrices.
     Measured,
@@ -27,7 +28,10 @@ impl Proof {
     /// What the word means.
     pub fn meaning(self) -> &'static str {
         match self {
-            Self::Certified => "a count, an enclosure or a comparison of bits that leaves room for rounding only",
+            Self::Certified => {
+                "a count, an enclosure or a comparison of bits that leaves room for rounding only; with --certify full \
+                 that room is bounded as well"
+            }
             Self::Measured => "computed directly from the full and the reduced matrices",
             Self::Estimated => "a first-order bound, or a sample that stands for the whole",
             Self::Shown => "a number for your judgement, because no limit can be right for every use",
@@ -201,8 +205,10 @@ pub const EXPLANATIONS: [Explanation; 26] = [
     line(
         "M-21",
         Proof::Estimated,
-        "Bound of the response error from the modes that were left out, between the samples of M-20.",
-        "Keep more modes.",
+        "How well the full model's response itself is known at each sample: a bound from what the iteration left over, \
+         relative to the response. A small value says that the difference of M-20 is that of the reduction and not of the \
+         solution it is compared with.",
+        "The comparison at the frequency named says little: give more damping in [scene], or a band that ends below it.",
     ),
     line(
         "M-22",
@@ -227,8 +233,8 @@ pub const EXPLANATIONS: [Explanation; 26] = [
     line(
         "M-25",
         Proof::Certified,
-        "The reduced matrices are symmetric to the last bit, every motion has positive mass, and none has negative \
-         stiffness: time integration will not gain energy from them.",
+        "The projections are symmetric up to rounding, which is then removed; every motion has positive mass and no \
+         negative stiffness.",
         "A column depends on the others, or the full matrices are not definite; see the notes of the model.",
     ),
     line(

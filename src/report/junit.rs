@@ -70,7 +70,11 @@ fn of_check(check: &Check, warnings: JunitWarnings) -> Outcome {
     let worst = check.worst.as_ref().map(|worst| format!("\nworst: {worst}")).unwrap_or_default();
     let limits = if check.is_judged() {
         let source = words::active_limit(check.limits.active());
-        format!("limit {limit}, set by {source}; fails above {}", scientific(check.fail_above, 3))
+        let fails = match check.fail_above {
+            Check::NEVER => "never fails".to_owned(),
+            fail_above => format!("fails above {}", scientific(fail_above, 3)),
+        };
+        format!("limit {limit}, set by {source}; {fails}")
     } else {
         "no limit: shown, not judged".to_owned()
     };

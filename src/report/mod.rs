@@ -175,6 +175,14 @@ pub struct ReductionReport {
     pub modes: Vec<ModeRow>,
 }
 
+impl ReductionReport {
+    /// Coordinates that are none of the interface, of inertia relief or of an elastic mode: rigid-body motions of a
+    /// component without an interface to carry them.
+    pub fn n_rigid_body(&self) -> usize {
+        self.n_reduced.saturating_sub(self.n_interface + self.n_inertia_relief + self.n_modes)
+    }
+}
+
 /// One interface of the superelement.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct InterfaceReport {

@@ -32,6 +32,21 @@ pub(super) fn mode_kind(kind: ModeKind) -> &'static str {
     }
 }
 
+/// A boundary in words: `base held` for `fix:base`, `base loaded` for `mass:base=2.5`; names of others as they stand.
+pub(super) fn boundary(code: &str) -> String {
+    if let Some(interface) = code.strip_prefix("fix:") {
+        return format!("{interface} held");
+    }
+    let Some(loaded) = code.strip_prefix("mass:") else { return code.to_owned() };
+    let named = loaded.rsplit_once('=').filter(|(_, mass)| mass.parse::<f64>().is_ok());
+    format!("{} loaded", named.map_or(loaded, |(interface, _)| interface))
+}
+
+/// The lower end of an interval of frequencies; a shift below zero has none.
+pub(super) fn lower_end(hz: f64, digits: usize) -> String {
+    if hz < 0.0 { "below 0".to_owned() } else { table::quantity(hz, digits) }
+}
+
 /// Limit, its source and the margin; dashes where a check has none.
 pub(super) fn limit(check: &Check) -> [String; 3] {
     if !check.is_judged() {

@@ -96,6 +96,9 @@ pub struct Check {
 }
 
 impl Check {
+    /// `fail_above` of a check that warns above its limit and never fails: finite, so that a value that is not does fail.
+    pub const NEVER: f64 = f64::MAX;
+
     /// The verdict; a value that is not a number fails, and so does one that only an infinite excuse would let pass.
     pub fn verdict(&self) -> Verdict {
         if self.value.is_finite() && !self.is_judged() {

@@ -3,6 +3,7 @@
 use super::Evidence;
 use super::check::{Check, Limits};
 use crate::modes::Mending;
+use crate::report::table;
 
 /// M-06, where a count was made: judged interval by interval, so that a mode too many in one does not hide one missing in
 /// another.
@@ -22,13 +23,13 @@ pub(super) fn count(evidence: &Evidence<'_>) -> Option<Check> {
         limits: Limits::default(),
         fail_above: 0.0,
         worst: Some(format!(
-            "counted {}, found {}{mended}; {} with the interface held, {} free; pivot growth {:.1}, {:.1e} of what is certain",
+            "counted {}, found {}{mended}; {} with the interface held, {} free; pivot growth {:.1}; {} of what would make the count doubtful",
             certificate.n_counted,
             certificate.n_found,
             certificate.count.clamped,
             certificate.count.free,
             certificate.count.growth,
-            certificate.doubt()
+            table::scientific(certificate.doubt(), 2)
         )),
     })
 }

@@ -125,5 +125,5 @@ fn shown(name: &'static str, equation: &'static str, (value, worst): (f64, Optio
 /// A line that warns above its limit and never fails: a bad condition loses digits, and other measures say whether too many.
 fn judged(name: &'static str, equation: &'static str, (value, worst): (f64, Option<String>), limit: f64) -> Check {
     let limits = Limits { engineering: limit, ..Limits::default() };
-    Check { id: "M-23", name, equation, value, limits, fail_above: f64::MAX, worst }
+    Check { id: "M-23", name, equation, value, limits, fail_above: Check::NEVER, worst }
 }

@@ -4,6 +4,7 @@ use super::check::{Check, Limits};
 use super::rigid_body::mass_difference;
 use super::{Evidence, rigid_name};
 use crate::dense;
+use crate::report::table::quantity;
 
 /// M-16: ÛᵀM̂Û against UᵀMU.
 pub(super) fn preserved(evidence: &Evidence<'_>) -> Check {
@@ -53,6 +54,8 @@ pub(super) fn expected(evidence: &Evidence<'_>) -> Option<Check> {
     let mass_error = expect.mass.map(|known| (mass * unit / known - 1.0).abs());
     let shift = expect.cg.map(|known| (0..3).map(|i| (centre[i] - known[i]).powi(2)).sum::<f64>().sqrt() / gyration);
     let value = dense::worst(mass_error.into_iter().chain(shift));
+    // What is rounding beside the component's size would only draw the eye.
+    let coordinate = |value: f64| quantity(if value.abs() < 1e-12 * gyration { 0.0 } else { value }, 6);
     Some(Check {
         id: "M-16",
         name: "mass and centre are those expected",
@@ -60,12 +63,6 @@ pub(super) fn expected(evidence: &Evidence<'_>) -> Option<Check> {
         value,
         limits: Limits { engineering: 1e-4, ..Limits::default() },
         fail_above: 1e-2,
-        worst: Some(format!(
-            "mass {:.6e}, centre ({:.4e}, {:.4e}, {:.4e})",
-            mass * unit,
-            centre[0],
-            centre[1],
-            centre[2]
-        )),
+        worst: Some(format!("mass {}, centre ({})", quantity(mass * unit, 6), centre.map(coordinate).join(", "))),
     })
 }

@@ -27,9 +27,9 @@ fn first_page_has_all_that_is_signed_for() {
         "65 coordinates: 9 of the interface, 6 inertia relief, 50 elastic modes",
         "50 free-interface modes, 100 Hz to 16168.2 Hz",
         "a Sturm count finds 56 below 16200.25 Hz and all were found",
-        "fix:hub, interface hub was held: frequencies within",
+        "hub held, interface hub was held: frequencies off by at most",
         "up to 7818.9 Hz",
-        "response, free: within",
+        "response, free: off by at most",
         "static stiffness at rim: it has 96 dofs",
         "stiffness: declared general but held one triangle; it was mirrored",
         "left out mode 7: spanned by the constraint modes to 2.3e-11",
@@ -125,7 +125,7 @@ fn absent_evidence_is_named_as_absent() {
     let absent = page.descendants().filter(|node| node.attribute("class") == Some("absent")).count();
     assert_eq!(absent, 13, "parts that are absent and say so");
     assert_eq!(page.descendants().filter(|node| node.tag_name().name() == "svg").count(), 0);
-    assert!(text(by_id(&page, "verdict")).contains("no other boundary was compared"));
+    assert!(text(by_id(&page, "verdict")).contains("Compared with full model nothing"));
     assert!(text(by_id(&page, "of-run")).contains("No superelement was written"));
 }
 
@@ -138,7 +138,7 @@ fn every_check_is_explained_and_advice_follows_what_is_past_its_limit() {
         let told = text(by_id(&page, &format!("check-{}", explanation.id)));
         assert!(told.contains(explanation.meaning), "{told}");
         assert!(told.to_lowercase().contains(&format!(" {}.", explanation.proof.word())), "{told}");
-        assert!(told.contains("worst: node 12 uz"), "{told}");
+        assert!(told.contains("; node 12 uz"), "{told}");
         assert_eq!(told.contains(explanation.remedy), check.verdict() != Verdict::Pass, "{told}");
     }
 }
@@ -154,6 +154,7 @@ fn explanations_cover_m_01_to_m_26_in_order() {
 #[test]
 fn documentation_explains_the_checks_in_the_same_words() {
     let document = include_str!("../../docs/what-the-report-proves.md");
+    let document = document.replace('`', "");
     let document = document.split_whitespace().collect::<Vec<_>>().join(" ");
     for explanation in &EXPLANATIONS {
         let row = format!("| {} | {} | {} |", explanation.id, explanation.proof.word(), explanation.meaning);

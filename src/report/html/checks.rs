@@ -19,8 +19,12 @@ pub(super) fn checks(page: &mut Markup, checks: &[Check]) {
     page.table(&Table { id: "table-checks".to_owned(), caption: "All checks of this run.".to_owned(), heads, rows });
     page.heading("What they mean");
     let kinds = [Proof::Certified, Proof::Measured, Proof::Estimated, Proof::Shown];
-    let kinds = kinds.map(|kind| format!("{}: {}", kind.word(), kind.meaning()));
-    page.paragraph(&sentence(&format!("not every answer is equally firm. {}", kinds.join("; "))));
+    page.paragraph("Not every answer is equally firm.");
+    page.raw("<ul>\n");
+    for kind in kinds {
+        page.element("li", &format!("{}: {}", kind.word(), kind.meaning()));
+    }
+    page.raw("</ul>\n");
     let mut told: Vec<&str> = Vec::new();
     for check in checks {
         if !told.contains(&check.id) {
@@ -55,7 +59,7 @@ fn tell(page: &mut Markup, id: &str, group: &[&Check]) {
     }
     page.raw("<ul>\n");
     for check in group {
-        let worst = check.worst.as_ref().map(|worst| format!("; worst: {worst}")).unwrap_or_default();
+        let worst = check.worst.as_ref().map(|worst| format!("; {worst}")).unwrap_or_default();
         let definition = format!("{}: {}{worst}", check.equation, in_words(check.value, 2));
         page.element("li", &definition);
     }

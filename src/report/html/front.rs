@@ -56,7 +56,7 @@ pub(super) fn front(page: &mut Markup, body: &ReportBody) {
         ("Reduced to", vec![coordinates(&body.reduction)]),
         ("Modes kept", vec![modes(&body.reduction)]),
         ("Completeness", vec![sentence(&body.completeness.statement())]),
-        ("Valid for", validity(&body.preservation)),
+        ("Compared with full model", compared(body)),
         ("Not compared", body.preservation.not_compared.clone()),
         ("Done to the data", repairs(body)),
         ("Warnings", body.warnings.iter().map(|warning| format!("{}: {}", warning.code, warning.message)).collect()),
@@ -146,6 +146,10 @@ fn coordinates(reduction: &ReductionReport) -> String {
     if reduction.n_inertia_relief > 0 {
         parts.push(format!("{} inertia relief", table::count(reduction.n_inertia_relief as u64)));
     }
+    let n_rigid_body = reduction.n_rigid_body();
+    if n_rigid_body > 0 {
+        parts.push(format!("{} rigid-body", table::count(n_rigid_body as u64)));
+    }
     parts.push(counted(reduction.n_modes, "elastic mode", "elastic modes"));
     format!("{}: {}", counted(reduction.n_reduced, "coordinate", "coordinates"), parts.join(", "))
 }
@@ -168,39 +172,45 @@ fn modes(reduction: &ReductionReport) -> String {
 }
 
 /// The band and the boundaries for which the reduced model was compared with the full one.
-fn validity(preservation: &Preservation) -> Vec<String> {
-    let mut lines: Vec<String> = preservation
+fn compared(body: &ReportBody) -> Vec<String> {
+    let mut lines = compared_boundaries(&body.preservation);
+    lines.extend(compared_response(&body.preservation));
+    if lines.is_empty() {
+        lines.push(if body.reduction.modes.is_empty() { "nothing" } else { "nothing but its own modes" }.to_owned());
+    }
+    lines
+}
+
+fn compared_boundaries(preservation: &Preservation) -> Vec<String> {
+    preservation
         .boundaries
         .iter()
         .map(|comparison| {
             let worst = percent(comparison.worst_in_band);
             let in_band = comparison.frequencies.iter().filter(|pair| pair.in_band);
+            let boundary = words::boundary(&comparison.boundary);
             match in_band.map(|pair| pair.full_hz).reduce(f64::max) {
                 Some(highest) => format!(
-                    "{}, {}: frequencies within {worst}, up to {} Hz",
-                    comparison.boundary,
+                    "{boundary}, {}: frequencies off by at most {worst}, up to {} Hz",
                     comparison.description,
                     quantity(highest, 5)
                 ),
-                None => format!("{}, {}: no frequency in the band", comparison.boundary, comparison.description),
+                None => format!("{boundary}, {}: no frequency in the band", comparison.description),
             }
         })
-        .collect();
-    if let Some(response) = &preservation.response
-        && let (Some(first), Some(last)) = (response.samples.first(), response.samples.last())
-    {
-        lines.push(format!(
-            "response, {}: within {} dB, {} Hz to {} Hz",
-            response.boundary,
-            quantity(response.worst_db, 2),
-            quantity(first.frequency_hz, 4),
-            quantity(last.frequency_hz, 5)
-        ));
-    }
-    if lines.is_empty() {
-        lines.push("the boundary of its own modes; no other boundary was compared in this report".to_owned());
-    }
-    lines
+        .collect()
+}
+
+fn compared_response(preservation: &Preservation) -> Option<String> {
+    let response = preservation.response.as_ref()?;
+    let (first, last) = (response.samples.first()?, response.samples.last()?);
+    Some(format!(
+        "response, {}: off by at most {} dB, {} Hz to {} Hz",
+        words::boundary(&response.boundary),
+        quantity(response.worst_db, 2),
+        quantity(first.frequency_hz, 4),
+        quantity(last.frequency_hz, 5)
+    ))
 }
 
 /// A relative difference as engineers say it: percent where it can be seen, a power of ten where it cannot.
@@ -224,7 +234,7 @@ fn repairs(body: &ReportBody) -> Vec<String> {
     let mut lines = body.model.notes.clone();
     let dropped = body.reduction.dropped.iter();
     lines.extend(dropped.map(|dropped| format!("left out {}: {}", dropped.coordinate, dropped.reason)));
-    if body.model.rigid_body_modes.count > 0 {
+    if body.model.rigid_body_modes.count > 0 && body.reduction.n_interface > 0 {
         lines.push(
             "constraint modes corrected, so that rigid-body motion of the interface carries the component exactly \
              (always done; M-11 measures the result)"

@@ -139,6 +139,9 @@ impl Markup {
 
     fn cell(&mut self, cell: &Cell) {
         let _ = match cell {
+            Cell::Head(text) if text.chars().count() <= UNBROKEN => {
+                write!(self.0, "<th scope=\"row\" class=\"unbroken\">{}</th>", escaped(text))
+            }
             Cell::Head(text) => write!(self.0, "<th scope=\"row\">{}</th>", escaped(text)),
             Cell::Text(text) if text.chars().count() <= UNBROKEN => {
                 write!(self.0, "<td class=\"unbroken\">{}</td>", escaped(text))

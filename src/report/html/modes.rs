@@ -42,7 +42,7 @@ fn trust(page: &mut Markup, intervals: &[TrustInterval]) {
     let heads = ["from, Hz", "to, Hz", "boundary", "counted", "found", "pivot growth"].map(str::to_owned).into();
     let rows = intervals.iter().map(|interval| {
         vec![
-            Cell::Number(crate::report::table::quantity(interval.from_hz, 8)),
+            Cell::Number(words::lower_end(interval.from_hz, 8)),
             Cell::Number(crate::report::table::quantity(interval.to_hz, 8)),
             Cell::Text(words::mode_kind(interval.kind).to_owned()),
             Cell::Number(interval.n_counted.to_string()),
@@ -51,8 +51,7 @@ fn trust(page: &mut Markup, intervals: &[TrustInterval]) {
         ]
     });
     let caption = "Intervals in which every natural frequency is accounted for: the number counted from the signs of two \
-                   factorisations, rigid-body motions included, beside the number found. A large pivot growth would make the signs doubtful. \
-                   A negative lower end is a shift below zero."
+                   factorisations, rigid-body motions included, beside the number found. A large pivot growth would make the signs doubtful."
         .to_owned();
     page.table(&Table { id: "table-trust".to_owned(), caption, heads, rows: rows.collect() });
 }

@@ -121,10 +121,16 @@ fn pairs(page: &mut Markup, boundaries: &[BoundaryComparison]) {
             }
             row
         });
+        let is_beyond =
+            |line: &BoundaryComparison| line.frequencies.iter().take(listed(line)).any(|pair| !pair.in_band);
+        let beyond = if group.iter().any(is_beyond) {
+            format!(" and the next {BEYOND}, whose differences stand in parentheses")
+        } else {
+            String::new()
+        };
         let caption = format!(
             "Elastic frequencies of the full model under each boundary and the relative difference of the reduced model: \
-             those of the band and the next {BEYOND}, whose differences stand in parentheses. The JSON report has all \
-             that were computed."
+             those of the band{beyond}. The JSON report has all that were computed."
         );
         let id = format!("table-pairs-{}", part + 1);
         page.table(&Table { id, caption, heads, rows: rows.collect() });

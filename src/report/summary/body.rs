@@ -110,6 +110,10 @@ fn reduced(page: &mut Page, reduction: &ReductionReport) {
     if reduction.n_inertia_relief > 0 {
         parts.push(format!("{} inertia relief", table::count(reduction.n_inertia_relief as u64)));
     }
+    let n_rigid_body = reduction.n_rigid_body();
+    if n_rigid_body > 0 {
+        parts.push(format!("{} rigid-body", table::count(n_rigid_body as u64)));
+    }
     parts.push(table::counted(reduction.n_modes, "elastic mode", "elastic modes"));
     page.entry("coordinates", &format!("{} = {}", table::count(reduction.n_reduced as u64), parts.join(" + ")));
     let dropped: Vec<String> =
@@ -192,7 +196,7 @@ fn trust_intervals(page: &mut Page, intervals: &[TrustInterval]) {
     let line = |interval: &TrustInterval| {
         format!(
             "{} to {} Hz · {} counted, {} found · pivot growth {}",
-            table::quantity(interval.from_hz, 4),
+            words::lower_end(interval.from_hz, 4),
             table::quantity(interval.to_hz, 6),
             interval.n_counted,
             interval.n_found,

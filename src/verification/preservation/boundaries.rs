@@ -12,6 +12,7 @@ use crate::error::Result;
 use crate::factor::SolveOperator;
 use crate::job::Support;
 use crate::modes::{Boundary as ModeBoundary, ModeError};
+use crate::report::table::quantity;
 use crate::report::{BoundaryComparison, FrequencyPair};
 
 /// How far roundings of one sign may exceed their typical sum.
@@ -67,10 +68,10 @@ impl Boundary {
         }
         let whose = if mass.is_none() { ", those of the component itself" } else { "" };
         self.description = format!(
-            "{} carries a mass of {:.6e} with moments of inertia of {:.6e}{whose}; nothing is held",
+            "{} carries a mass of {} with moments of inertia of {}{whose}; nothing is held",
             interface.name,
-            inertia.mass * unit,
-            inertia.moment * unit
+            quantity(inertia.mass * unit, 4),
+            quantity(inertia.moment * unit, 4)
         );
     }
 

@@ -12,6 +12,7 @@ use super::samples;
 use crate::dense;
 use crate::error::Result;
 use crate::factor::SolveOperator;
+use crate::report::table::quantity;
 use crate::report::{ResponseComparison, ResponseSample};
 
 /// A pair that responds this much less than its two driving points do is judged by them: symmetry uncouples such pairs,
@@ -202,7 +203,7 @@ pub(super) fn checks(compared: &Compared) -> [Check; 2] {
             // How much is tolerable is for the scene to say; nobody has said.
             limits: Limits::NONE,
             fail_above: f64::INFINITY,
-            worst: Some(format!("{driven} to {observed} at {:.6} Hz", report.worst_at_hz)),
+            worst: Some(format!("{driven} to {observed} at {} Hz", quantity(report.worst_at_hz, 6))),
         },
         Check {
             id: "M-21",
@@ -212,8 +213,8 @@ pub(super) fn checks(compared: &Compared) -> [Check; 2] {
             // A hundredth is a tenth of a dB.
             limits: Limits { engineering: 1e-2, ..Limits::default() },
             // Past it the comparison says nothing, which makes no reduction wrong.
-            fail_above: f64::MAX,
-            worst: Some(format!("{:.6} Hz", compared.uncertainty.1)),
+            fail_above: Check::NEVER,
+            worst: Some(format!("{} Hz", quantity(compared.uncertainty.1, 6))),
         },
     ]
 }
