@@ -140,7 +140,7 @@ mod tests {
             ..ModeError::default()
         });
         let runs = repeated(&lambda, &errors);
-        assert_eq!(runs, [0..3]);
+        assert_eq!(runs, std::slice::from_ref(&(0..3)));
         average(&runs, &mut lambda, &mut errors);
         for (lambda, error) in lambda.iter().zip(&errors) {
             // One product and one quotient.
