@@ -103,7 +103,7 @@ pub(super) fn pair_residual(evidence: &Evidence<'_>) -> Check {
     let zero = zero_level(evidence);
     // A mode that is nearly spanned by the columns before it is put together from what little it adds to them.
     let dependence = reduction.n_reduced() as f64 * f64::EPSILON / independence(evidence).0;
-    let arithmetic = zero.arithmetic.max(dependence).max(repeated_rounding(modes));
+    let arithmetic = zero.arithmetic.max(dependence).max(repeated_rounding(modes)).max(coupling_rounding(modes));
     let limits = Limits { engineering: 1e-12, arithmetic, data: zero.data };
     Check {
         id: "M-14",
@@ -114,6 +114,16 @@ pub(super) fn pair_residual(evidence: &Evidence<'_>) -> Check {
         fail_above: limits.value().max(1e-9),
         worst: worst.1,
     }
+}
+
+/// A coupling of two modes of this size moves their frequencies by its square: no more rounding than this is excused.
+const HARMLESS_COUPLING: f64 = 1e-6;
+
+/// What rounding of K̂ and of the modes leaves of x_iᵀKx_j, in the scales of the coordinates, as in M-04: the row of a mode in the
+/// residual of another one is nothing else. Its terms are √(c_i c_j) times the energies.
+fn coupling_rounding(modes: &Modes) -> f64 {
+    let cancellation = modes.errors.iter().map(|error| error.cancellation).fold(0.0, f64::max);
+    (NOISE_FACTOR * f64::EPSILON * cancellation).min(HARMLESS_COUPLING)
 }
 
 /// What the basis of a repeated eigenvalue leaves of it: its copies are told apart by the rounding of the full model only,
