@@ -116,6 +116,9 @@ fn examine(pairs: &Path, pair: &Pair, method: &str) -> Vec<String> {
 /// A pair, what is said of it, and why.
 type Known = (&'static str, &'static [&'static str], &'static str);
 
+/// A solid of eight rows on a spring: its first eigenvalue is 5·10⁻⁵ of the next, as in the references.
+const SOFTLY_HELD: &str = "a spring to the ground holds a stiff solid, and eight rows have no twenty modes";
+
 /// Complaints that are true, with the reason.
 const TRUE: &[Known] = &[
     (
@@ -124,9 +127,14 @@ const TRUE: &[Known] = &[
         "ten digits: rounding turns rigid-body motions into frequencies of an eighth of the first elastic one",
     ),
     ("nastran_pch_1", &["W-FEWER-MODES"], "ten rows have no twenty modes"),
-    ("ccx_dashpot1", &["W-FEWER-MODES"], "eight rows have no twenty modes"),
-    ("ccx_spring3", &["W-FEWER-MODES"], "eight rows have no twenty modes"),
-    ("ccx_spring4", &["W-FEWER-MODES"], "eight rows have no twenty modes"),
+    ("ccx_dashpot1", &["W-FEWER-MODES", "W-GROUNDED"], SOFTLY_HELD),
+    ("ccx_spring3", &["W-FEWER-MODES", "W-GROUNDED"], SOFTLY_HELD),
+    ("ccx_spring4", &["W-FEWER-MODES", "W-GROUNDED"], SOFTLY_HELD),
+    (
+        "nafems_FV12_free_thin_plate_S8R",
+        &["M-09 warn", "W-DATA-PRECISION"],
+        "thirteen digits do not hold a thin plate's frequencies to a tenth of a per mille",
+    ),
     // CalculiX itself gets frequencies that differ by 9e-4 and 8e-5 from the dense reference on the matrices it wrote.
     (
         "ccx_dloadlin20f",
@@ -143,14 +151,11 @@ const TRUE: &[Known] = &[
 /// Complaints that nobody has explained yet: a false alarm or a true one. Only a reason moves a line from here; none is added
 /// but for a new warning.
 const OPEN: &[Known] = &[
-    ("ccx_dashpot1", &["W-GROUNDED"], ""),
     ("ccx_dloadlin20f", &["W-GREY"], ""),
     ("ccx_mass2", &["W-GROUNDED"], ""),
-    ("ccx_spring3", &["W-GROUNDED"], ""),
-    ("ccx_spring4", &["W-GROUNDED"], ""),
     ("exudyn_abaqus_blockC3D8", &["M-05 warn"], ""),
     ("hb_bcsst01", &["M-02 warn"], ""),
-    ("nafems_FV12_free_thin_plate_S8R", &["M-09 warn", "W-DATA-PRECISION", "W-GREY"], ""),
+    ("nafems_FV12_free_thin_plate_S8R", &["W-GREY"], ""),
     ("nastran_cb_nas2cam_csuper_inboard", SUPERELEMENT, ""),
     ("nastran_cb_nas2cam_csuper_inboard_mk", SUPERELEMENT, ""),
     ("nastran_cb_nas2cam_extseout_inboard", SUPERELEMENT, ""),
