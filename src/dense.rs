@@ -110,6 +110,14 @@ pub fn worse(error: f64, worst: f64) -> bool {
     !worst.is_nan() && (error.is_nan() || error > worst)
 }
 
+/// [A B].
+pub fn beside(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
+    let mut both = Mat::zeros(a.nrows(), a.ncols() + b.ncols());
+    both.as_mut().subcols_mut(0, a.ncols()).copy_from(a);
+    both.as_mut().subcols_mut(a.ncols(), b.ncols()).copy_from(b);
+    both
+}
+
 /// The worst of some errors; zero where there are none.
 pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
     errors.into_iter().fold(0.0, |worst, error| if worse(error, worst) { error } else { worst })

@@ -2,6 +2,8 @@
 
 use std::num::NonZeroUsize;
 
+use crate::error::{Error, Result};
+
 /// Largest resident memory so far, in bytes, where the system tells.
 pub(super) fn peak_memory_bytes() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
@@ -13,4 +15,15 @@ pub(super) fn peak_memory_bytes() -> Option<u64> {
 /// How many threads the machine runs at once.
 pub(super) fn available_threads() -> usize {
     std::thread::available_parallelism().map_or(1, NonZeroUsize::get)
+}
+
+/// So many working threads.
+///
+/// # Errors
+/// [`Error::Threads`] where the system has no more.
+pub(super) fn threads(n_threads: usize) -> Result<rayon::ThreadPool> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(n_threads)
+        .build()
+        .map_err(|source| Error::Threads { n_threads, source })
 }

@@ -19,10 +19,7 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
         rehearsal::rehearse(&command.job.model)?;
     }
     let n_threads = command.n_threads;
-    let threads = rayon::ThreadPoolBuilder::new()
-        .num_threads(n_threads)
-        .build()
-        .map_err(|source| Error::Threads { n_threads, source })?;
+    let threads = process::threads(n_threads)?;
     let mut stage_line = StageLine::new(terminal.progress);
     let mut clock = StageClock::new(&mut stage_line);
     let resources = Resources { memory_bytes: memory::available_bytes() };

@@ -6,7 +6,7 @@ use super::answer::{Program, Terminal};
 use super::command::{Answer, Strictness, VerifyCommand};
 use super::exit_code::ExitCode;
 use super::progress::StageLine;
-use super::rehearsal;
+use super::{process, rehearsal};
 use crate::audit;
 use crate::error::{Error, Result};
 use crate::report::{Against, VerificationReport};
@@ -20,11 +20,7 @@ pub(super) fn run(command: &VerifyCommand, terminal: &mut Terminal<'_>) -> Resul
     if let Some(job) = command.job.as_ref().filter(|_| terminal.program == Program::Supel) {
         rehearsal::rehearse(&job.model)?;
     }
-    let n_threads = command.n_threads;
-    let threads = rayon::ThreadPoolBuilder::new()
-        .num_threads(n_threads)
-        .build()
-        .map_err(|source| Error::Threads { n_threads, source })?;
+    let threads = process::threads(command.n_threads)?;
     let mut stage_line = StageLine::new(terminal.progress);
     let mut audit = threads.install(|| crate::verify(&superelement, command.job.as_ref(), &mut stage_line))?;
     drop(stage_line);

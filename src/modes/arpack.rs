@@ -190,8 +190,9 @@ impl<'a> Search<'a> {
     fn take(&mut self, vectors: MatRef<'_, f64>, theta: &[f64]) {
         let mut vectors = vectors.to_owned();
         self.remaining().deflate(vectors.as_mut());
-        self.mass_taken = beside(self.mass_taken.as_ref(), product(self.problem.mass, vectors.as_ref()).as_ref());
-        self.taken = beside(self.taken.as_ref(), vectors.as_ref());
+        self.mass_taken =
+            dense::beside(self.mass_taken.as_ref(), product(self.problem.mass, vectors.as_ref()).as_ref());
+        self.taken = dense::beside(self.taken.as_ref(), vectors.as_ref());
         self.theta.extend_from_slice(theta);
     }
 
@@ -224,14 +225,6 @@ impl<'a> Search<'a> {
             work: self.work,
         })
     }
-}
-
-/// [A B].
-fn beside(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
-    let mut both = Mat::zeros(a.nrows(), a.ncols() + b.ncols());
-    both.as_mut().subcols_mut(0, a.ncols()).copy_from(a);
-    both.as_mut().subcols_mut(a.ncols(), b.ncols()).copy_from(b);
-    both
 }
 
 /// What ARPACK asks its caller for.

@@ -30,6 +30,7 @@ mod slices;
 
 use faer::{Mat, MatRef};
 
+use crate::dense;
 use crate::error::Result;
 use crate::job::Eigensolver;
 use crate::model::Precision;
@@ -116,7 +117,7 @@ impl Modes {
     pub fn joined(self, more: Self) -> Self {
         let mut work = self.work;
         work += more.work;
-        let shapes = slices::beside(self.shapes.as_ref(), more.shapes.as_ref());
+        let shapes = dense::beside(self.shapes.as_ref(), more.shapes.as_ref());
         let lambda = [self.lambda, more.lambda].concat();
         let errors = [self.errors, more.errors].concat();
         Self {

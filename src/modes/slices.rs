@@ -173,8 +173,8 @@ pub(super) fn search_between(
     // Modes further away than the interval is wide are damped by the shift and orthogonalised away at the end.
     let width = interval.to - interval.from;
     let near = known.shapes_between(interval.from - width, interval.to + width);
-    let q = beside(rigid.0, near.as_ref());
-    let mass_q = beside(rigid.1, product(modal.mass, near.as_ref()).as_ref());
+    let q = dense::beside(rigid.0, near.as_ref());
+    let mass_q = dense::beside(rigid.1, product(modal.mass, near.as_ref()).as_ref());
     let (modes, n_factorisations) = problem.with_operator_inside(interval, |operator| {
         let deflated = [q.as_ref(), mass_q.as_ref()];
         let mut pairs = lanczos_between(Problem { operator, mass: modal.mass, deflated }, interval, seed)?;
@@ -186,12 +186,4 @@ pub(super) fn search_between(
     })?;
     let work = EigenWork { factorisations: n_factorisations, ..modes.work };
     Ok(Modes { work, next: None, ..modes })
-}
-
-/// [A B].
-pub(super) fn beside(a: faer::MatRef<'_, f64>, b: faer::MatRef<'_, f64>) -> Mat<f64> {
-    let mut both = Mat::zeros(a.nrows(), a.ncols() + b.ncols());
-    both.as_mut().subcols_mut(0, a.ncols()).copy_from(a);
-    both.as_mut().subcols_mut(a.ncols(), b.ncols()).copy_from(b);
-    both
 }

@@ -211,7 +211,7 @@ impl<'a> Extended<'a> {
         padded.as_mut().subrows_mut(0, n_i).copy_from(&fresh);
         let force = product(&partition.stiffness, padded.as_ref());
         let momentum = product(&partition.mass, padded.as_ref());
-        self.basis = beside(&self.basis, &padded);
+        self.basis = dense::beside(self.basis.as_ref(), padded.as_ref());
         for (projected, images, image) in
             [(&mut self.stiffness, &mut self.forces, &force), (&mut self.mass, &mut self.momenta, &momentum)]
         {
@@ -223,7 +223,7 @@ impl<'a> Extended<'a> {
                 (false, true) => columns[(j, i - old)],
             });
             dense::symmetrise(projected);
-            *images = beside(images, image);
+            *images = dense::beside(images.as_ref(), image.as_ref());
         }
         self.spectral = Spectral::of(self.stiffness.as_ref(), self.mass.as_ref(), super::shift(self.evidence))?;
         Ok(true)
@@ -291,14 +291,6 @@ impl<'a> Extended<'a> {
         });
         squares[0].iter().zip(&squares[1]).map(|(re, im)| ((re + im) / self.eta).max(0.0).sqrt()).collect()
     }
-}
-
-/// [A B].
-fn beside(a: &Mat<f64>, b: &Mat<f64>) -> Mat<f64> {
-    let mut joined = Mat::zeros(a.nrows(), a.ncols() + b.ncols());
-    joined.as_mut().subcols_mut(0, a.ncols()).copy_from(a);
-    joined.as_mut().subcols_mut(a.ncols(), b.ncols()).copy_from(b);
-    joined
 }
 
 /// A matrix of frequency responses between interface dofs: displacement of the row for a unit force on the column.
