@@ -58,7 +58,7 @@ pub mod verification;
 use audit::Audit;
 use basis::Basis;
 use error::Result;
-use factor::{Analysis, Cholesky, Pencil};
+use factor::{Analysis, Cholesky};
 use job::Job;
 use model::Model;
 use modes::{Component, ModeSource, Retained};
@@ -84,18 +84,17 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let rank = rigid::interface_rank(&partition, &rigid)?;
 
     observer.stage("factor");
-    let (k_ii, m_ii) = (partition.internal_stiffness(), partition.internal_mass());
-    let pencil = Pencil { stiffness: &k_ii, mass: &m_ii };
-    let analysis = Analysis::new(pencil)?;
+    let analysis = Analysis::of(&partition)?;
     factor::refuse_beyond_memory(&analysis, &partition, job, resources, None)?;
     let sigma = modes::shift_of_factor(&partition, &rigid);
-    let factor = Cholesky::new(&analysis, pencil, sigma, &|dof| partition.name_of(dof))?;
+    let factor = Cholesky::new(&analysis, partition.pencil(), sigma, &|dof| partition.name_of(dof))?;
 
     observer.stage("constraint modes");
     let constraint = basis::constraint_modes(&partition, &factor, &rigid);
     let (rigid, loose) = rigid::with_mechanisms(&partition, &constraint, rigid)?;
 
     observer.stage("modes");
+    let (k_ii, m_ii) = (partition.internal_stiffness(), partition.internal_mass());
     let internal = (&k_ii, &m_ii);
     let component = Component::new(&partition, internal, &analysis, &factor, &rigid, &constraint);
     let search = modes::Search::new(component, &job.reduction)?;

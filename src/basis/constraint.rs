@@ -4,7 +4,7 @@ use faer::linalg::solvers::SolveLstsq;
 use faer::{Mat, MatRef};
 
 use crate::dense;
-use crate::factor::SolveOperator;
+use crate::factor::Cholesky;
 use crate::partition::Partition;
 use crate::rigid::{RigidBodyModes, absolute_energy, scales, unit_motions};
 use crate::sparse::product;
@@ -29,13 +29,9 @@ pub struct ConstraintModes {
 ///
 /// The correction has rank n_r and removes exactly the part of the error that the condition of K_II amplifies: after
 /// it the interface carries every rigid-body motion to rounding, and with it the mass properties.
-pub fn constraint_modes(partition: &Partition, factor: &dyn SolveOperator, rigid: &RigidBodyModes) -> ConstraintModes {
+pub fn constraint_modes(partition: &Partition, factor: &Cholesky<'_>, rigid: &RigidBodyModes) -> ConstraintModes {
     let (n_i, n_b) = (partition.n_internal, partition.n_interface());
-    let mut modes = partition.interface_columns(0.0).as_ref().subrows(0, n_i).to_owned();
-    factor.solve_in_place(modes.as_mut());
-    for j in 0..n_b {
-        dense::column_mut(modes.as_mut(), j).iter_mut().for_each(|value| *value = -*value);
-    }
+    let mut modes = factor.follow_border(Mat::<f64>::identity(n_b, n_b).as_ref());
     let u_i = rigid.orthonormal.as_ref().subrows(0, n_i);
     let u_b = rigid.orthonormal.as_ref().subrows(n_i, n_b);
     let scale = scales(partition);

@@ -2,17 +2,13 @@
 
 mod whole;
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::perm::PermRef;
-use faer::sparse::linalg::cholesky::supernodal::{
-    SupernodalIntranodeLbltRef, factorize_supernodal_numeric_intranode_lblt,
-    factorize_supernodal_numeric_intranode_lblt_scratch,
-};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Conj, Mat, MatRef, Par, Spec};
+use faer::{Mat, MatMut};
 
-use super::cholesky::zeros;
-use super::{Analysis, Pencil, Triangle};
+use super::elimination::Kind;
+use super::matrix::Shifted;
+use super::multifrontal::{Keep, Numbers, eliminate};
+use super::substitution::Factor;
+use super::{Analysis, Pencil};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::model::diagonal;
@@ -27,10 +23,7 @@ pub(super) struct Indefinite<'a> {
     analysis: &'a Analysis,
     scale: Vec<f64>,
     largest: f64,
-    values: Vec<f64>,
-    subdiagonal: Vec<f64>,
-    forward: Vec<usize>,
-    inverse: Vec<usize>,
+    numbers: Numbers,
 }
 
 /// Signs of the pivots of B and what they can be trusted with.
@@ -44,80 +37,45 @@ pub(super) struct Signs {
 }
 
 impl<'a> Indefinite<'a> {
-    pub(super) fn new(analysis: &'a Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<Self> {
-        let (symbolic, n) = (&analysis.symbolic, analysis.n);
+    pub(super) fn new(analysis: &'a Analysis, pencil: Pencil<'_>, sigma: f64, keep: Keep) -> Result<Self> {
         let diagonals = diagonal(pencil.stiffness).into_iter().zip(diagonal(pencil.mass));
         let terms: Vec<f64> = diagonals.map(|(k, m)| k.abs() + sigma.abs() * m.abs()).collect();
         let scale: Vec<f64> = terms.iter().map(|terms| dense::power_of_two_root(*terms)).collect();
-        let lower = Triangle::shifted_and_scaled(pencil, sigma, &scale);
+        let matrix = Shifted { pencil, sigma, scale: Some(&scale), n_border: analysis.n_border() };
         // On an eigenvalue all of K − σM may cancel: what is left is measured by the terms it is left of.
         let largest_term = terms.iter().zip(&scale).fold(0.0, |max: f64, (terms, d)| max.max(terms * d * d));
-        let largest = lower.values.iter().fold(largest_term, |max: f64, value| max.max(value.abs()));
-        let pattern = SymbolicSparseColMatRef::new_checked(n, n, &lower.pointers, None, &lower.indices);
-        let mut factor = Self {
-            analysis,
-            scale,
-            largest,
-            values: zeros(symbolic.len_val())?,
-            subdiagonal: vec![0.0; n],
-            forward: vec![0; n],
-            inverse: vec![0; n],
-        };
-        let parameters = Spec::default();
-        let scratch = factorize_supernodal_numeric_intranode_lblt_scratch::<usize, f64>(symbolic, Par::Seq, parameters);
-        let mut memory = MemBuffer::try_new(scratch).map_err(|_| Error::OutOfMemory { what: "the Sturm count" })?;
-        factorize_supernodal_numeric_intranode_lblt(
-            &mut factor.values,
-            &mut factor.subdiagonal,
-            &mut factor.forward,
-            &mut factor.inverse,
-            SparseColMatRef::new(pattern, lower.values.as_slice()),
-            symbolic,
-            Par::Seq,
-            MemStack::new(&mut memory),
-            parameters,
-        );
-        Ok(factor)
-    }
-
-    fn as_ref(&self) -> SupernodalIntranodeLbltRef<'_, usize, f64> {
-        let permutation = PermRef::new_checked(&self.forward, &self.inverse, self.analysis.n);
-        SupernodalIntranodeLbltRef::new(&self.analysis.symbolic, &self.values, &self.subdiagonal, permutation)
+        let largest = largest_term.max(matrix.largest_entry());
+        let numbers = eliminate(analysis, &matrix, Kind::Indefinite, keep)
+            .map_err(|_| Error::OutOfMemory { what: "the Sturm count" })?;
+        Ok(Self { analysis, scale, largest, numbers })
     }
 
     /// Signs of the pivots of B.
     pub(super) fn signs(&self) -> Result<Signs> {
-        let factor = self.as_ref();
         let mut signs = Signs { negative: 0, growth: 0.0, smallest: f64::INFINITY };
-        for s in 0..self.analysis.symbolic.n_supernodes() {
-            let node = factor.supernode(s);
-            let (size, start) = (node.val().ncols(), node.start());
-            let mut j = 0;
-            while j < size {
-                let (d, below) = (node.val()[(j, j)], self.subdiagonal[start + j]);
-                signs.growth = signs.growth.max(d.abs()).max(below.abs());
-                if !d.is_finite() || !below.is_finite() || (d == 0.0 && below == 0.0) {
-                    return Err(Error::SturmPivot { step: start + j });
-                }
-                if below == 0.0 {
-                    signs.negative += usize::from(d < 0.0);
-                    signs.smallest = signs.smallest.min(d.abs());
-                    j += 1;
-                } else {
-                    let next = node.val()[(j + 1, j + 1)];
-                    let determinant = d * next - below * below;
-                    if !determinant.is_finite() || determinant == 0.0 {
-                        return Err(Error::SturmPivot { step: start + j });
-                    }
-                    let largest = d.abs().max(next.abs()).max(below.abs());
-                    signs.smallest = signs.smallest.min(determinant.abs() / largest);
-                    // One of each sign unless the determinant is positive; then both have the sign of the trace.
-                    signs.negative += if determinant < 0.0 { 1 } else { 2 * usize::from(d < 0.0) };
-                    j += 2;
-                }
+        let mut pivots = self.numbers.pivots().enumerate();
+        while let Some((step, (d, coupling))) = pivots.next() {
+            signs.growth = signs.growth.max(d.abs()).max(coupling.abs());
+            if !d.is_finite() || !coupling.is_finite() || (d == 0.0 && coupling == 0.0) {
+                return Err(Error::SturmPivot { step });
             }
+            if coupling == 0.0 {
+                signs.negative += usize::from(d < 0.0);
+                signs.smallest = signs.smallest.min(d.abs());
+                continue;
+            }
+            let Some((_, (next, _))) = pivots.next() else { return Err(Error::SturmPivot { step }) };
+            let determinant = d * next - coupling * coupling;
+            if !determinant.is_finite() || determinant == 0.0 {
+                return Err(Error::SturmPivot { step });
+            }
+            signs.growth = signs.growth.max(next.abs());
+            let largest = d.abs().max(next.abs()).max(coupling.abs());
+            signs.smallest = signs.smallest.min(determinant.abs() / largest);
+            // One of each sign unless the determinant is positive; then both have the sign of the trace.
+            signs.negative += if determinant < 0.0 { 1 } else { 2 * usize::from(d < 0.0) };
         }
-        if self.analysis.n == 0 {
+        if self.analysis.n() == 0 {
             return Ok(Signs { negative: 0, growth: 1.0, smallest: 1.0 });
         }
         signs.growth /= self.largest;
@@ -125,16 +83,42 @@ impl<'a> Indefinite<'a> {
         Ok(signs)
     }
 
-    /// (K − σM)_II⁻¹ applied to a block.
-    pub(super) fn solve(&self, block: MatRef<'_, f64>) -> Mat<f64> {
-        let mut x = Mat::from_fn(block.nrows(), block.ncols(), |i, j| {
-            let row = self.forward[i];
-            block[(row, j)] * self.scale[row]
+    /// S(σ), n_B × n_B: what elimination left of the border, without the scales.
+    pub(super) fn schur(&self) -> Mat<f64> {
+        let border = &self.scale[self.analysis.n()..];
+        Mat::from_fn(border.len(), border.len(), |i, j| self.numbers.schur[(i, j)] / (border[i] * border[j]))
+    }
+
+    /// X ← (K − σM)_II⁻¹ X, n rows.
+    pub(super) fn solve_held(&self, mut block: MatMut<'_, f64>) {
+        self.scale_rows(block.as_mut(), |d| d);
+        self.factor().solve_in_place(block.as_mut());
+        self.scale_rows(block, |d| d);
+    }
+
+    /// X ← (K − σM)⁻¹ X, n + n_B rows; `at_border` solves with S(σ).
+    pub(super) fn solve_free(&self, mut block: MatMut<'_, f64>, at_border: impl Fn(MatMut<'_, f64>)) {
+        let border = &self.scale[self.analysis.n()..];
+        self.scale_rows(block.as_mut(), |d| d);
+        self.factor().solve_with_border(block.as_mut(), |mut loads| {
+            scale_rows(loads.as_mut(), border, |d| 1.0 / d);
+            at_border(loads.as_mut());
+            scale_rows(loads, border, |d| 1.0 / d);
         });
-        let scratch = self.analysis.symbolic.solve_in_place_scratch::<f64>(x.ncols(), Par::Seq);
-        let mut memory = MemBuffer::new(scratch);
-        let stack = MemStack::new(&mut memory);
-        self.as_ref().solve_in_place_no_numeric_permute_with_conj(Conj::No, x.as_mut(), Par::Seq, stack);
-        Mat::from_fn(x.nrows(), x.ncols(), |i, j| x[(self.inverse[i], j)] * self.scale[i])
+        self.scale_rows(block, |d| d);
+    }
+
+    fn factor(&self) -> Factor<'_> {
+        Factor::indefinite(self.analysis, &self.numbers)
+    }
+
+    fn scale_rows(&self, block: MatMut<'_, f64>, factor: impl Fn(f64) -> f64) {
+        scale_rows(block, &self.scale, factor);
+    }
+}
+
+fn scale_rows(mut block: MatMut<'_, f64>, scale: &[f64], factor: impl Fn(f64) -> f64) {
+    for column in block.as_mut().col_iter_mut() {
+        column.iter_mut().zip(scale).for_each(|(value, d)| *value *= factor(*d));
     }
 }

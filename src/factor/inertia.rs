@@ -7,6 +7,7 @@
 use faer::{Mat, MatMut};
 
 use super::indefinite::Indefinite;
+use super::multifrontal::Keep;
 use super::{Analysis, Pencil};
 use crate::dense;
 use crate::error::{Error, Result};
@@ -52,14 +53,43 @@ impl InertiaCount {
     }
 }
 
-/// Counts the eigenvalues of the partition's pencil below σ; `analysis` is that of K_II and M_II.
+/// Counts the eigenvalues of the partition's pencil below σ; `analysis` is that of the partition.
 ///
 /// # Errors
 /// No memory for the second factor; pivots that are not numbers, which means that σ hits an eigenvalue exactly.
 pub fn count_below(partition: &Partition, analysis: &Analysis, sigma: f64) -> Result<InertiaCount> {
-    let (stiffness, mass) = (partition.internal_stiffness(), partition.internal_mass());
-    let shifted = ShiftedFactor::new(partition, (&stiffness, &mass), analysis, sigma)?;
-    Ok(shifted.count)
+    let (_, _, count) = counted(partition, analysis, sigma, Keep::Pivots)?;
+    Ok(count)
+}
+
+/// K − σM factored, S(σ) decomposed, and the counts.
+fn counted<'a>(
+    partition: &Partition,
+    analysis: &'a Analysis,
+    sigma: f64,
+    keep: Keep,
+) -> Result<(Indefinite<'a>, Schur, InertiaCount)> {
+    let factor = Indefinite::new(analysis, partition.pencil(), sigma, keep)?;
+    let signs = factor.signs()?;
+    let n_i = partition.n_internal;
+    let term = |matrix: &SparseMatrix, i: usize| matrix.get(n_i + i, n_i + i).map_or(0.0, |value| value.abs());
+    let uncondensed: Vec<f64> = (0..partition.n_interface())
+        .map(|i| term(&partition.stiffness, i) + sigma.abs() * term(&partition.mass, i))
+        .collect();
+    let schur = Schur::new(factor.schur(), &uncondensed)?;
+    let count = InertiaCount {
+        sigma,
+        clamped: signs.negative,
+        free: signs.negative + schur.n_negative(),
+        growth: signs.growth,
+        pivot_gap: signs.smallest,
+        schur_gap: schur.gap(),
+        condensed_gap: schur.condensed_gap,
+    };
+    if !count.schur_gap.is_finite() {
+        return Err(Error::SturmPivot { step: n_i });
+    }
+    Ok((factor, schur, count))
 }
 
 /// Eigenvalues of K_II below zero by more than rounding of its entries, however σ and M are.
@@ -74,17 +104,13 @@ pub fn count_negative(analysis: &Analysis, stiffness: &SparseMatrix) -> Result<u
     let diagonal = crate::model::diagonal(stiffness).into_iter().map(f64::abs).collect();
     let diagonal = SparseMatrix::new((n, n), (0..=n).collect(), (0..n as u32).collect(), diagonal);
     let pencil = Pencil { stiffness, mass: &diagonal };
-    Ok(Indefinite::new(analysis, pencil, -PIVOT_GAP)?.signs()?.negative)
+    Ok(Indefinite::new(analysis, pencil, -PIVOT_GAP, Keep::Pivots)?.signs()?.negative)
 }
 
 /// K − σM factored, σ inside the spectrum: counts, and solves with the interface held or free.
 #[allow(missing_debug_implementations)]
 pub struct ShiftedFactor<'a> {
     factor: Indefinite<'a>,
-    /// (K − σM)_IB.
-    coupling: Mat<f64>,
-    /// (K − σM)_II⁻¹ (K − σM)_IB.
-    solution: Mat<f64>,
     schur: Schur,
     /// The counts below σ.
     pub count: InertiaCount,
@@ -100,66 +126,23 @@ struct Schur {
 }
 
 impl<'a> ShiftedFactor<'a> {
-    /// Factors K − σM; `internal` is K_II and M_II, `analysis` theirs.
+    /// Factors K − σM; `analysis` is that of the partition.
     ///
     /// # Errors
     /// As [`count_below`].
-    pub fn new(
-        partition: &Partition,
-        internal: (&SparseMatrix, &SparseMatrix),
-        analysis: &'a Analysis,
-        sigma: f64,
-    ) -> Result<Self> {
-        let factor = Indefinite::new(analysis, Pencil { stiffness: internal.0, mass: internal.1 }, sigma)?;
-        let signs = factor.signs()?;
-        let (n_i, n_b) = (partition.n_internal, partition.n_interface());
-        let columns = partition.interface_columns(sigma);
-        let coupling = columns.as_ref().subrows(0, n_i).to_owned();
-        let solution = if n_b == 0 { coupling.clone() } else { factor.solve(coupling.as_ref()) };
-        let mut schur = columns.as_ref().subrows(n_i, n_b).to_owned();
-        let term = |matrix: &SparseMatrix, i: usize| matrix.get(n_i + i, n_i + i).map_or(0.0, |value| value.abs());
-        let uncondensed: Vec<f64> =
-            (0..n_b).map(|i| term(&partition.stiffness, i) + sigma.abs() * term(&partition.mass, i)).collect();
-        dense::add_product(schur.as_mut(), -1.0, coupling.transpose(), solution.as_ref());
-        let schur = Schur::new(schur, &uncondensed)?;
-        let count = InertiaCount {
-            sigma,
-            clamped: signs.negative,
-            free: signs.negative + schur.n_negative(),
-            growth: signs.growth,
-            pivot_gap: signs.smallest,
-            schur_gap: schur.gap(),
-            condensed_gap: schur.condensed_gap,
-        };
-        if !count.schur_gap.is_finite() {
-            return Err(Error::SturmPivot { step: n_i });
-        }
-        Ok(Self { factor, coupling, solution, schur, count })
+    pub fn new(partition: &Partition, analysis: &'a Analysis, sigma: f64) -> Result<Self> {
+        let (factor, schur, count) = counted(partition, analysis, sigma, Keep::Factor)?;
+        Ok(Self { factor, schur, count })
     }
 
     /// F ← (K − σM)_II⁻¹ F, the interface held: n_I rows.
-    pub fn solve_held(&self, mut block: MatMut<'_, f64>) {
-        let solution = self.factor.solve(block.as_ref());
-        block.copy_from(&solution);
+    pub fn solve_held(&self, block: MatMut<'_, f64>) {
+        self.factor.solve_held(block);
     }
 
     /// F ← (K − σM)⁻¹ F, the interface free: n_I + n_B rows.
-    ///
-    /// ```text
-    /// y   = (K − σM)_II⁻¹ f_I
-    /// x_B = S(σ)⁻¹ (f_B − (K − σM)_BI y)
-    /// x_I = y − (K − σM)_II⁻¹ (K − σM)_IB x_B
-    /// ```
-    pub fn solve_free(&self, mut block: MatMut<'_, f64>) {
-        let n_i = self.coupling.nrows();
-        let n_b = block.nrows() - n_i;
-        self.solve_held(block.as_mut().subrows_mut(0, n_i));
-        let mut loads = block.as_ref().subrows(n_i, n_b).to_owned();
-        let reactions = dense::gram(self.coupling.as_ref(), block.as_ref().subrows(0, n_i));
-        loads -= &reactions;
-        let x_b = self.schur.solve(&loads);
-        dense::add_product(block.as_mut().subrows_mut(0, n_i), -1.0, self.solution.as_ref(), x_b.as_ref());
-        block.subrows_mut(n_i, n_b).copy_from(&x_b);
+    pub fn solve_free(&self, block: MatMut<'_, f64>) {
+        self.factor.solve_free(block, |loads| self.schur.solve_in_place(loads));
     }
 }
 
@@ -188,7 +171,8 @@ impl Schur {
         if self.eigenvalues.is_empty() { 1.0 } else { smallest / largest }
     }
 
-    fn solve(&self, loads: &Mat<f64>) -> Mat<f64> {
+    /// X ← S(σ)⁻¹ X.
+    fn solve_in_place(&self, mut loads: MatMut<'_, f64>) {
         let scaled = Mat::from_fn(loads.nrows(), loads.ncols(), |i, j| loads[(i, j)] * self.scale[i]);
         let mut along = dense::gram(self.vectors.as_ref(), scaled.as_ref());
         for j in 0..along.ncols() {
@@ -197,6 +181,6 @@ impl Schur {
             }
         }
         let x = dense::product(self.vectors.as_ref(), along.as_ref());
-        Mat::from_fn(x.nrows(), x.ncols(), |i, j| x[(i, j)] * self.scale[i])
+        loads.copy_from(Mat::from_fn(x.nrows(), x.ncols(), |i, j| x[(i, j)] * self.scale[i]));
     }
 }

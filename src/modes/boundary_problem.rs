@@ -8,7 +8,7 @@ use super::random::SplitMix64;
 use super::{Component, Equilibrated, ModalProblem, SEED, Shifted, shifted};
 use crate::dense;
 use crate::error::{Error, Result};
-use crate::factor::{Analysis, InertiaCount, Pencil, ShiftedFactor};
+use crate::factor::{Analysis, InertiaCount, Pencil, ShiftedFactor, count_below};
 use crate::job::Method;
 use crate::model::diagonal;
 use crate::partition::Partition;
@@ -105,13 +105,18 @@ impl<'a> BoundaryProblem<'a> {
     /// # Errors
     /// σ lies on an eigenvalue; no memory for the factor.
     pub fn factor_at(&self, sigma: f64) -> Result<ShiftedFactor<'a>> {
-        let Component { partition, internal, analysis, .. } = self.component;
-        let factor = ShiftedFactor::new(partition, internal, analysis, sigma)?;
+        let Component { partition, analysis, .. } = self.component;
+        let factor = ShiftedFactor::new(partition, analysis, sigma)?;
+        self.refuse_on_eigenvalue(factor.count)?;
+        Ok(factor)
+    }
+
+    fn refuse_on_eigenvalue(&self, count: InertiaCount) -> Result<()> {
         let is_off = match self.boundary {
-            Boundary::FixedInterface => factor.count.is_off_clamped(),
-            Boundary::FreeInterface => factor.count.is_off_clamped() && factor.count.is_off_free(),
+            Boundary::FixedInterface => count.is_off_clamped(),
+            Boundary::FreeInterface => count.is_off_clamped() && count.is_off_free(),
         };
-        if is_off { Ok(factor) } else { Err(Error::SturmPivot { step: self.modal().mass.rows() }) }
+        if is_off { Ok(()) } else { Err(Error::SturmPivot { step: self.modal().mass.rows() }) }
     }
 
     /// Counts the elastic eigenvalues below a shift above zero.
@@ -119,7 +124,9 @@ impl<'a> BoundaryProblem<'a> {
     /// # Errors
     /// As [`Self::factor_at`].
     pub fn count_below(&self, sigma: f64) -> Result<ElasticCount> {
-        self.elastic(self.factor_at(sigma)?.count)
+        let count = count_below(self.component.partition, self.component.analysis, sigma)?;
+        self.refuse_on_eigenvalue(count)?;
+        self.elastic(count)
     }
 
     /// Without the rigid-body modes: they lie below any shift above zero, and a count that says otherwise is wrong.
@@ -302,10 +309,9 @@ mod tests {
     fn operator_that_does_not_hold_up_is_noticed_and_the_shift_gives_the_same_modes() {
         let partition = chain(60);
         let rigid = rigid::rigid_body_modes(&partition).expect("free").0;
-        let (k, m) = (partition.internal_stiffness(), partition.internal_mass());
-        let pencil = Pencil { stiffness: &k, mass: &m };
-        let analysis = Analysis::new(pencil).expect("memory");
-        let factor = Cholesky::new(&analysis, pencil, 0.0, &|dof| partition.name_of(dof)).expect("definite");
+        let analysis = Analysis::of(&partition).expect("memory");
+        let factor =
+            Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof)).expect("definite");
         let constraint = crate::basis::constraint_modes(&partition, &factor, &rigid);
         let schur = constraint.stiffness.as_ref();
         let operator =

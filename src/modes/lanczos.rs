@@ -13,8 +13,8 @@
 use faer::{Mat, MatRef};
 
 use super::answer::Goal;
-use super::eigenproblem::{CLUSTER_GAP, EigenWork, Eigenpairs, Interval, Problem, Wanted, is_above, mass_norm};
-use super::orthogonalisation::{combine_in_place, gram_schmidt};
+use super::eigenproblem::{CLUSTER_GAP, EigenWork, Eigenpairs, Interval, Problem, Wanted, is_above};
+use super::orthogonalisation::combine_in_place;
 use super::random::SplitMix64;
 use super::ritz::Ritz;
 use crate::dense;
@@ -72,17 +72,19 @@ fn run(problem: Problem<'_>, goal: Goal, seed: u64) -> Result<Eigenpairs> {
 
 pub(super) struct Basis<'a> {
     pub(super) problem: Problem<'a>,
-    random: SplitMix64,
+    pub(super) random: SplitMix64,
     /// V followed by W.
     pub(super) vectors: Mat<f64>,
     /// M W, kept for the next application of OP.
-    mass_next: Mat<f64>,
+    pub(super) mass_next: Mat<f64>,
     /// T.
-    projected: Mat<f64>,
+    pub(super) projected: Mat<f64>,
     /// B, b × m.
     pub(super) coupling: Mat<f64>,
     /// m: columns of V.
     pub(super) size: usize,
+    /// The first column of V that OP W couples to by its recurrence.
+    pub(super) recent: usize,
     /// Leading columns of V that are locked: their coupling is zero.
     locked: usize,
     /// Largest m.
@@ -111,6 +113,7 @@ impl<'a> Basis<'a> {
             projected: Mat::zeros(0, 0),
             coupling: Mat::zeros(0, 0),
             size: 0,
+            recent: 0,
             locked: 0,
             capacity,
             n_starts: 0,
@@ -129,6 +132,7 @@ impl<'a> Basis<'a> {
         self.problem.deflate(first.as_mut());
         let mut image = product(self.problem.mass, first.as_ref());
         self.apply(&mut image);
+        self.recent = 0;
         let (_, _) = self.orthonormalise(image);
         self.n_starts += block;
     }
@@ -150,7 +154,7 @@ impl<'a> Basis<'a> {
     }
 
     /// Replaces M v by OP v.
-    fn apply(&mut self, block: &mut Mat<f64>) {
+    pub(super) fn apply(&mut self, block: &mut Mat<f64>) {
         self.work.solves += block.ncols();
         self.problem.equilibrate(block.as_mut());
         self.problem.operator.solve_in_place(block.as_mut());
@@ -166,6 +170,7 @@ impl<'a> Basis<'a> {
         let before = self.size;
         self.size += block;
         let (mut coefficients, coupling) = self.orthonormalise(image);
+        self.recent = before;
         // Locked pairs are exact to the tolerance; their coupling is rounding and would unlock them.
         coefficients.as_mut().subrows_mut(0, self.locked).fill(0.0);
         let mut projected = Mat::zeros(self.size, self.size);
@@ -185,93 +190,6 @@ impl<'a> Basis<'a> {
         self.projected = projected;
         self.coupling = Mat::zeros(coupling.nrows(), self.size);
         self.coupling.as_mut().subcols_mut(before, block).copy_from(&coupling);
-    }
-
-    /// Makes a block M-orthogonal to V and M-orthonormal in itself: block = V C + W B. Stores W and M W.
-    fn orthonormalise(&mut self, mut block: Mat<f64>) -> (Mat<f64>, Mat<f64>) {
-        let width = block.ncols();
-        let mut coefficients = Mat::zeros(self.size, width);
-        let mut coupling: Mat<f64> = Mat::identity(width, width);
-        let mut mass_block = product(self.problem.mass, block.as_ref());
-        let floor = self.rounding_floor(&block, &mass_block);
-        let mut dependent = vec![false; width];
-        // Twice is enough for orthogonality to rounding; the first pass normalises, so that the second works on columns
-        // of unit length however small they were.
-        for pass in 0..2 {
-            if pass == 1 {
-                // A column of which little was left has been blown up together with its rounding: the rigid-body motion
-                // in it, and the difference between MW carried along and M times W.
-                self.problem.deflate(block.as_mut());
-                mass_block = product(self.problem.mass, block.as_ref());
-            }
-            let c = dense::gram(self.v(), mass_block.as_ref());
-            dense::add_product(block.as_mut(), -1.0, self.v(), c.as_ref());
-            dense::add_product(coefficients.as_mut(), 1.0, c.as_ref(), coupling.as_ref());
-            mass_block = product(self.problem.mass, block.as_ref());
-            let least = if pass == 0 { floor } else { 0.5 };
-            let r = gram_schmidt(&mut block, &mut mass_block, least, &mut dependent);
-            coupling = dense::product(r.as_ref(), coupling.as_ref());
-        }
-        self.replace_dependent(&mut block, &dependent);
-        let kept: Vec<usize> = (0..width).filter(|j| !dependent[*j] || self.holds(block.as_ref(), *j)).collect();
-        let next = Mat::from_fn(block.nrows(), kept.len(), |i, j| block[(i, kept[j])]);
-        let coupling = Mat::from_fn(kept.len(), width, |i, j| coupling[(kept[i], j)]);
-        self.vectors.as_mut().subcols_mut(self.size, kept.len()).copy_from(&next);
-        self.mass_next = product(self.problem.mass, next.as_ref());
-        (coefficients, coupling)
-    }
-
-    /// Length below which a column of OP V is rounding.
-    fn rounding_floor(&self, block: &Mat<f64>, mass_block: &Mat<f64>) -> f64 {
-        let largest = (0..self.projected.nrows()).fold(0.0f64, |max, i| max.max(self.projected[(i, i)].abs()));
-        let own = (0..block.ncols()).fold(0.0f64, |max, j| {
-            let square = dense::dot(dense::column(block.as_ref(), j), dense::column(mass_block.as_ref(), j));
-            max.max(square.max(0.0).sqrt())
-        });
-        f64::EPSILON * largest.max(own)
-    }
-
-    fn holds(&self, block: MatRef<'_, f64>, j: usize) -> bool {
-        dense::column(block, j).iter().any(|value| *value != 0.0)
-    }
-
-    /// Puts new random directions in the place of dependent columns, or zeros where the space is exhausted.
-    fn replace_dependent(&mut self, block: &mut Mat<f64>, dependent: &[bool]) {
-        const ATTEMPTS: usize = 3;
-        for j in (0..block.ncols()).filter(|j| dependent[*j]) {
-            dense::column_mut(block.as_mut(), j).fill(0.0);
-            for _ in 0..ATTEMPTS {
-                let mut fresh = Mat::zeros(block.nrows(), 1);
-                self.random.fill(fresh.as_mut());
-                self.problem.deflate(fresh.as_mut());
-                let mut image = product(self.problem.mass, fresh.as_ref());
-                self.apply(&mut image);
-                if let Some(unit) = self.unit_component(&image, block) {
-                    block.as_mut().subcols_mut(j, 1).copy_from(&unit);
-                    break;
-                }
-            }
-        }
-    }
-
-    /// The part of a vector M-orthogonal to V and to the block, at unit length; none where nothing but rounding is left.
-    fn unit_component(&self, image: &Mat<f64>, block: &Mat<f64>) -> Option<Mat<f64>> {
-        // What is left of a random direction after projection is of order one unless the space is exhausted.
-        const LEFT: f64 = 1e-8;
-        let mut vector = image.clone();
-        for pass in 0..3 {
-            let before = mass_norm(self.problem.mass, &vector);
-            for basis in [self.v(), block.as_ref()] {
-                let c = dense::gram(basis, product(self.problem.mass, vector.as_ref()).as_ref());
-                dense::add_product(vector.as_mut(), -1.0, basis, c.as_ref());
-            }
-            let after = mass_norm(self.problem.mass, &vector);
-            if after.is_nan() || after <= if pass == 0 { LEFT } else { 0.5 } * before {
-                return None;
-            }
-            vector.as_mut().col_mut(0).iter_mut().for_each(|value| *value /= after);
-        }
-        Some(vector)
     }
 
     pub(super) fn ritz(&self) -> Result<Ritz> {
@@ -355,6 +273,7 @@ impl<'a> Basis<'a> {
         self.coupling.as_mut().subcols_mut(0, self.locked).fill(0.0);
         self.projected = Mat::from_fn(keep, keep, |i, j| if i == j { ritz.theta[i] } else { 0.0 });
         self.size = keep;
+        self.recent = 0;
         Ok(())
     }
 }

@@ -18,6 +18,7 @@ mod eigenproblem;
 mod equilibration;
 mod indefinite;
 mod lanczos;
+mod next_block;
 mod operator;
 mod orthogonalisation;
 mod quality;

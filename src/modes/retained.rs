@@ -16,7 +16,7 @@ pub struct Component<'a> {
     pub partition: &'a Partition,
     /// K_II and M_II.
     pub internal: (&'a SparseMatrix, &'a SparseMatrix),
-    /// The symbolic factorisation of those two.
+    /// The symbolic factorisation of the partition.
     pub analysis: &'a Analysis,
     /// The factor of K_II.
     pub factor: &'a Cholesky<'a>,

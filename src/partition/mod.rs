@@ -20,6 +20,7 @@ mod transformation;
 use faer::Mat;
 
 use crate::error::{Error, Result};
+use crate::factor::Pencil;
 use crate::job::InterfaceJob;
 use crate::model::{Finding, Model, Precision, Scaling};
 use crate::sparse::SparseMatrix;
@@ -110,6 +111,11 @@ impl Partition {
     /// What a dof is called in messages.
     pub fn name_of(&self, dof: usize) -> String {
         self.dofs[dof].name(&self.interface)
+    }
+
+    /// K and M.
+    pub fn pencil(&self) -> Pencil<'_> {
+        Pencil { stiffness: &self.stiffness, mass: &self.mass }
     }
 
     /// K_II as a matrix of its own.

@@ -58,9 +58,8 @@ pub(crate) fn with_component<T>(
     let (partition, rigid) = super::rigid_of(model, interfaces)?;
     rigid::interface_rank(&partition, &rigid)?;
     let (k_ii, m_ii) = (partition.internal_stiffness(), partition.internal_mass());
-    let pencil = Pencil { stiffness: &k_ii, mass: &m_ii };
-    let analysis = Analysis::new(pencil)?;
-    let factor = Cholesky::new(&analysis, pencil, 0.0, &|dof| partition.name_of(dof))?;
+    let analysis = Analysis::of(&partition)?;
+    let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof))?;
     let constraint = constraint_modes(&partition, &factor, &rigid);
     look(Component {
         partition: &partition,

@@ -31,8 +31,7 @@ fn counts_agree(model: &Model, held: NodeSelection, is_held: impl Fn((i64, u8)) 
 }
 
 fn check(partition: &Partition, shift: f64, [free, clamped]: [&[f64]; 2]) {
-    let (stiffness, mass) = (partition.internal_stiffness(), partition.internal_mass());
-    let analysis = Analysis::new(Pencil { stiffness: &stiffness, mass: &mass }).expect("an analysis");
+    let analysis = Analysis::of(partition).expect("an analysis");
     let sigma = shift / partition.scaling.eigenvalue_unit();
     let found = count_below(partition, &analysis, sigma).expect("a count");
     let below = |spectrum: &[f64]| spectrum.iter().filter(|lambda| **lambda < shift).count();

@@ -26,9 +26,8 @@ pub(crate) fn with_evidence<T>(
     let (rigid, _) = rigid::rigid_body_modes(&partition).expect("rigid-body modes");
     let rank = rigid::interface_rank(&partition, &rigid).expect("an interface that reacts them");
     let (k_ii, m_ii) = (partition.internal_stiffness(), partition.internal_mass());
-    let pencil = Pencil { stiffness: &k_ii, mass: &m_ii };
-    let analysis = Analysis::new(pencil).expect("memory");
-    let factor = Cholesky::new(&analysis, pencil, 0.0, &|dof| partition.name_of(dof)).expect("definite");
+    let analysis = Analysis::of(&partition).expect("memory");
+    let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof)).expect("definite");
     let constraint = constraint_modes(&partition, &factor, &rigid);
     let internal = (&k_ii, &m_ii);
     let component = Component::new(&partition, internal, &analysis, &factor, &rigid, &constraint);

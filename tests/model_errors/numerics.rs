@@ -53,8 +53,7 @@ fn hinge_between_interfaces() {
 fn sturm_count_on_an_eigenvalue() {
     let model = spring(2, Ends::Fixed);
     let partition = partition(&model, &[rows("end", &[1])]).expect("two masses");
-    let (k_ii, m_ii) = (partition.internal_stiffness(), partition.internal_mass());
-    let analysis = Analysis::new(Pencil { stiffness: &k_ii, mass: &m_ii }).expect("one dof");
+    let analysis = Analysis::of(&partition).expect("one dof");
     // K_II = 2 and M_II = 1; counts are taken in scaled units.
     let sigma = 2.0 / partition.scaling.eigenvalue_unit();
     let error = refusal(count_below(&partition, &analysis, sigma));

@@ -29,8 +29,7 @@ fn compared(damage: impl Fn(&mut Reduction, &mut Retained)) -> Compared {
     with_model(&block(), &interfaces, (Method::Herting, 6), |evidence| {
         let (mut reduction, mut retained) = (evidence.reduction.clone(), evidence.retained.clone());
         damage(&mut reduction, &mut retained);
-        let (stiffness, mass) = evidence.internal;
-        let analysis = Analysis::new(Pencil { stiffness, mass }).expect("memory");
+        let analysis = Analysis::of(evidence.partition).expect("memory");
         let job = Job::parse(JOB, "job.toml".as_ref()).expect("a job");
         let damaged = Evidence { reduction: &reduction, retained: &retained, ..evidence };
         preservation(&damaged, &analysis, &job).expect("compared")

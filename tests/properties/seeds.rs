@@ -27,9 +27,8 @@ struct Built {
 fn built(method: Method, count: usize, seed: u64) -> Built {
     let (partition, rigid) = rigid_of(&square_beam(), &[direct("ends", &[1, 15, 43, 63])]).expect("a beam");
     let (k_ii, m_ii) = (partition.internal_stiffness(), partition.internal_mass());
-    let pencil = Pencil { stiffness: &k_ii, mass: &m_ii };
-    let analysis = Analysis::new(pencil).expect("memory");
-    let factor = Cholesky::new(&analysis, pencil, 0.0, &|dof| partition.name_of(dof)).expect("definite");
+    let analysis = Analysis::of(&partition).expect("memory");
+    let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof)).expect("definite");
     let constraint = constraint_modes(&partition, &factor, &rigid);
     let internal = (&k_ii, &m_ii);
     let component = Component {

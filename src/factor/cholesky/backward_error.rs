@@ -1,8 +1,7 @@
 //! How far L Lᵀ can be from the matrix that was factored.
 
-use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
-
 use super::Cholesky;
+use crate::dense;
 use crate::factor::rounding::{gamma, largest_row_sum};
 
 /// Roundings of an entry beside those of its sum: the root or the division of the pivot, and the product with its
@@ -15,17 +14,17 @@ impl Cholesky<'_> {
     /// |A − LLᵀ| ≤ γ_{m+3} |L||Lᵀ| with m the longest row of L, in whatever order sums are taken (Higham 2002, theorem
     /// 10.3), and ‖ |L||Lᵀ| ‖₂ is at most its largest row sum. Underflow adds less than the last bit of the bound.
     pub fn backward_error(&self, scale: &[f64]) -> f64 {
-        let n = self.analysis.n;
-        let factor = SupernodalLltRef::new(&self.analysis.symbolic, &self.values);
+        let n = self.analysis.n();
+        let given = self.analysis.given();
         let (mut columns, mut rows, mut lengths) = (vec![0.0; n], vec![0.0; n], vec![0usize; n]);
         let visit = |with: &mut dyn FnMut(usize, usize, f64)| {
-            for s in 0..self.analysis.symbolic.n_supernodes() {
-                let node = factor.supernode(s);
-                let (start, size, pattern) = (node.start(), node.val().ncols(), node.pattern());
+            for (node, numbers) in self.numbers.supernodes(self.analysis) {
+                let size = node.steps.len();
                 for j in 0..size {
-                    for i in j..node.val().nrows() {
-                        let row = if i < size { start + i } else { pattern[i - size] };
-                        with(row, start + j, node.val()[(i, j)].abs() * scale[row]);
+                    let column = dense::column(numbers.trapezoid, j);
+                    for (i, value) in column.iter().enumerate().skip(j) {
+                        let row = if i < size { node.steps.start + i } else { node.below[i - size] as usize };
+                        with(row, node.steps.start + j, value.abs() * scale[given[row] as usize]);
                     }
                 }
             }

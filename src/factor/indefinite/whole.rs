@@ -1,7 +1,9 @@
 //! The inertia of a whole matrix, and how far its factors can be from it.
 
 use super::Indefinite;
+use crate::dense;
 use crate::error::Result;
+use crate::factor::multifrontal::Keep;
 use crate::factor::rounding::{forming_error, gamma, largest_row_sum};
 use crate::factor::{Analysis, Pencil};
 
@@ -29,7 +31,7 @@ const PIVOT: usize = 64;
 /// # Errors
 /// Those of [`crate::factor::count_below`].
 pub fn whole_count(analysis: &Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<WholeCount> {
-    let factor = Indefinite::new(analysis, pencil, sigma)?;
+    let factor = Indefinite::new(analysis, pencil, sigma, Keep::Factor)?;
     let signs = factor.signs()?;
     let backward_error = factor.backward_error() + forming_error(pencil, sigma, &factor.scale);
     Ok(WholeCount { sigma, below: signs.negative, growth: signs.growth, backward_error, scale: factor.scale })
@@ -41,25 +43,23 @@ impl Indefinite<'_> {
     /// Rows of a supernode are exchanged among themselves only. The largest row sum from its own columns plus the largest
     /// from earlier ones bounds every row, whatever the exchange.
     fn backward_error(&self) -> f64 {
-        let n = self.analysis.n;
-        let factor = self.as_ref();
-        let symbolic = &self.analysis.symbolic;
+        let n = self.analysis.n();
+        let supernodes = || self.numbers.supernodes(self.analysis);
         let mut lengths = vec![0usize; n];
         // |B| |Lᵀ| 1 by columns.
         let mut images = vec![0.0; n];
-        for s in 0..symbolic.n_supernodes() {
-            let node = factor.supernode(s);
-            let (start, size) = (node.start(), node.val().ncols());
+        for (node, numbers) in supernodes() {
+            let (start, size) = (node.steps.start, node.steps.len());
             let mut sums = vec![1.0; size];
             for (j, sum) in sums.iter_mut().enumerate() {
-                for i in j + 1..node.val().nrows() {
-                    *sum += node.val()[(i, j)].abs();
-                    lengths[if i < size { start + i } else { node.pattern()[i - size] }] += 1;
+                for (i, value) in dense::column(numbers.trapezoid, j).iter().enumerate().skip(j + 1) {
+                    *sum += value.abs();
+                    lengths[if i < size { start + i } else { node.below[i - size] as usize }] += 1;
                 }
             }
             for j in 0..size {
-                images[start + j] += node.val()[(j, j)].abs() * sums[j];
-                let below = self.subdiagonal[start + j].abs();
+                images[start + j] += numbers.diagonal[j].abs() * sums[j];
+                let below = numbers.subdiagonal[j].abs();
                 if below > 0.0 && j + 1 < size {
                     images[start + j] += below * sums[j + 1];
                     images[start + j + 1] += below * sums[j];
@@ -68,17 +68,16 @@ impl Indefinite<'_> {
         }
         let mut earlier = vec![0.0; n];
         let mut largest = 0.0f64;
-        for s in 0..symbolic.n_supernodes() {
-            let node = factor.supernode(s);
-            let (start, size) = (node.start(), node.val().ncols());
+        for (node, numbers) in supernodes() {
+            let (start, size) = (node.steps.start, node.steps.len());
             let mut own = images[start..start + size].to_vec();
             for j in 0..size {
-                for i in j + 1..node.val().nrows() {
-                    let value = node.val()[(i, j)].abs() * images[start + j];
+                for (i, value) in dense::column(numbers.trapezoid, j).iter().enumerate().skip(j + 1) {
+                    let value = value.abs() * images[start + j];
                     if i < size {
                         own[i] += value;
                     } else {
-                        earlier[node.pattern()[i - size]] += value;
+                        earlier[node.below[i - size] as usize] += value;
                     }
                 }
             }

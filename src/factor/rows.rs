@@ -1,8 +1,8 @@
-//! Triangular solves on blocks of right-hand sides, stored row by row.
+//! One supernode times blocks of right-hand sides, stored row by row.
 //!
 //! ```text
-//! L    n × n, by supernodes: a dense trapezoid of `size` columns, the triangle on top, `pattern` rows below
-//! X    n × W, row-major: the W numbers that an entry of L meets are neighbours in memory
+//! trapezoid   `size` columns: the triangle on top, rows below
+//! X           n × W, row-major: the W numbers that an entry of L meets are neighbours in memory
 //! ```
 //! A solve reads L once down and once up and does 2·W multiplications with each entry, so for a narrow block it is bound
 //! by memory traffic. Column-major right-hand sides would touch W cache lines for every row index; row-major ones touch
@@ -10,13 +10,15 @@
 //!
 //! Every sum has a fixed order: the rows of a large supernode may be shared among threads, never the terms of a row.
 
-use faer::sparse::linalg::cholesky::supernodal::{SupernodalLltRef, SupernodeRef};
-use faer::{MatMut, MatRef};
+use faer::MatRef;
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
+use super::elimination::{Inverse, Kind, PANEL};
+use super::multifrontal::Eliminated;
+
 /// Columns of the triangle that are solved one by one before the rest is updated.
-const PANEL: usize = 32;
+const STRIP: usize = 32;
 /// Rows or columns of a supernode given to one task.
 const CHUNK: usize = 128;
 /// Entries of a trapezoid above which its rows are shared among threads: at a few nanoseconds an entry the work is then
@@ -24,73 +26,113 @@ const CHUNK: usize = 128;
 const PARALLEL_ABOVE: usize = 1 << 16;
 
 /// One row of a block of W right-hand sides.
-type Row<const W: usize> = [f64; W];
+pub(super) type Row<const W: usize> = [f64; W];
 
-/// X ← (L Lᵀ)⁻¹ X for a column-major block.
-pub(super) fn solve_in_place(factor: SupernodalLltRef<'_, usize, f64>, block: MatMut<'_, f64>) {
-    match block.ncols() {
-        0 => {}
-        1..=4 => solve_width::<4>(factor, block),
-        _ => solve_width::<8>(factor, block),
-    }
+/// One supernode of a factor.
+pub(super) struct Block<'a> {
+    numbers: Eliminated<'a>,
+    columns: Columns<'a>,
+    kind: Kind,
 }
 
-fn solve_width<const W: usize>(factor: SupernodalLltRef<'_, usize, f64>, mut block: MatMut<'_, f64>) {
-    let n = block.nrows();
-    let mut x = vec![[0.0; W]; n];
-    for start in (0..block.ncols()).step_by(W) {
-        let width = W.min(block.ncols() - start);
-        let mut tile = block.as_mut().subcols_mut(start, width);
-        for (i, row) in x.iter_mut().enumerate() {
-            *row = std::array::from_fn(|j| if j < width { tile[(i, j)] } else { 0.0 });
+impl<'a> Block<'a> {
+    pub(super) fn new(numbers: Eliminated<'a>, kind: Kind) -> Self {
+        Self { columns: Columns(numbers.trapezoid), numbers, kind }
+    }
+
+    /// L_11⁻¹ P on the rows of its columns, `top`; `update` becomes L_21 times the result.
+    pub(super) fn forward<const W: usize>(&self, top: &mut [Row<W>], update: &mut Vec<Row<W>>) {
+        let (columns, size) = (&self.columns, top.len());
+        Kernel::Triangle { columns, diagonal: self.diagonal(), top: &mut *top }.run();
+        update.clear();
+        update.resize(self.numbers.trapezoid.nrows() - size, [0.0; W]);
+        let top = &*top;
+        for_chunks(size, update, |first, rows| {
+            Kernel::Rows { columns, first: size + first, top, rows }.run();
+        });
+    }
+
+    /// B⁻¹ on the rows of its columns.
+    pub(super) fn divide<const W: usize>(&self, top: &mut [Row<W>]) {
+        if self.kind == Kind::Definite {
+            return;
         }
-        let n_supernodes = factor.symbolic().n_supernodes();
-        let mut gathered = Vec::new();
-        for s in 0..n_supernodes {
-            forward(factor.supernode(s), &mut x, &mut gathered);
-        }
-        for s in (0..n_supernodes).rev() {
-            backward(factor.supernode(s), &mut x, &mut gathered);
-        }
-        for (i, row) in x.iter().enumerate() {
-            for j in 0..width {
-                tile[(i, j)] = row[j];
+        let mut j = 0;
+        while j < top.len() {
+            match Inverse::of(self.numbers.diagonal, self.numbers.subdiagonal, j) {
+                Inverse::One(inverse) => {
+                    top[j].iter_mut().for_each(|x| *x *= inverse);
+                    j += 1;
+                }
+                Inverse::Two(inverse) => {
+                    for lane in 0..W {
+                        [top[j][lane], top[j + 1][lane]] = inverse.times([top[j][lane], top[j + 1][lane]]);
+                    }
+                    j += 2;
+                }
             }
         }
     }
-}
 
-/// L X = B on one supernode: solves its triangle and subtracts its rows from those below.
-fn forward<const W: usize>(node: SupernodeRef<'_, usize, f64>, x: &mut [Row<W>], update: &mut Vec<Row<W>>) {
-    let (size, pattern) = (node.val().ncols(), node.pattern());
-    let columns = Columns::of(node.val());
-    let top = &mut x[node.start()..node.start() + size];
-    Kernel::Triangle { columns: &columns, top }.run();
-    update.clear();
-    update.resize(pattern.len(), [0.0; W]);
-    let top = &*top;
-    for_chunks(size, update, |first, rows| {
-        Kernel::Rows { columns: &columns, first: size + first, top, rows }.run();
-    });
-    for (row, change) in pattern.iter().zip(&*update) {
-        for (x, change) in x[*row].iter_mut().zip(change) {
-            *x -= change;
+    /// Pᵀ L_11⁻ᵀ (X − L_21ᵀ `below`) on the rows of its columns.
+    pub(super) fn backward<const W: usize>(&self, top: &mut [Row<W>], below: &[Row<W>]) {
+        let (columns, size) = (&self.columns, top.len());
+        for_chunks(below.len(), top, |first, targets| {
+            Kernel::Columns { columns, first, size, below, targets }.run();
+        });
+        Kernel::TransposedTriangle { columns, diagonal: self.diagonal(), top }.run();
+    }
+
+    fn diagonal(&self) -> Diagonal<'a> {
+        match self.kind {
+            Kind::Definite => Diagonal::OfTriangle,
+            Kind::Indefinite => Diagonal::Ones { order: self.numbers.order },
         }
     }
 }
 
-/// Lᵀ X = B on one supernode: takes in the rows below, then solves its triangle.
-fn backward<const W: usize>(node: SupernodeRef<'_, usize, f64>, x: &mut [Row<W>], below: &mut Vec<Row<W>>) {
-    let (size, pattern) = (node.val().ncols(), node.pattern());
-    let columns = Columns::of(node.val());
-    below.clear();
-    below.extend(pattern.iter().map(|row| x[*row]));
-    let below = &*below;
-    let top = &mut x[node.start()..node.start() + size];
-    for_chunks(below.len(), top, |first, targets| {
-        Kernel::Columns { columns: &columns, first, size, below, targets }.run();
-    });
-    Kernel::TransposedTriangle { columns: &columns, top }.run();
+/// The diagonal of the triangle.
+#[derive(Clone, Copy)]
+enum Diagonal<'a> {
+    /// As it is stored.
+    OfTriangle,
+    /// Ones; the columns of each panel in an order of their own.
+    Ones { order: &'a [u32] },
+}
+
+impl Diagonal<'_> {
+    #[inline(always)]
+    fn inverse(self, column: &[f64], j: usize) -> f64 {
+        match self {
+            Self::OfTriangle => 1.0 / column[j],
+            Self::Ones { .. } => 1.0,
+        }
+    }
+
+    /// Puts the rows of the panel that begins at `start` in the order of its pivots.
+    fn permute<const W: usize>(self, start: usize, top: &mut [Row<W>]) {
+        self.exchange(start, top, |rows, before, place, column| rows[place] = before[column]);
+    }
+
+    /// Undoes [`Diagonal::permute`].
+    fn restore<const W: usize>(self, start: usize, top: &mut [Row<W>]) {
+        self.exchange(start, top, |rows, before, place, column| rows[column] = before[place]);
+    }
+
+    fn exchange<const W: usize>(
+        self,
+        start: usize,
+        top: &mut [Row<W>],
+        exchange: impl Fn(&mut [Row<W>], &[Row<W>], usize, usize),
+    ) {
+        let Self::Ones { order } = self else { return };
+        let end = top.len().min(start + PANEL);
+        let rows = &mut top[start..end];
+        let before = rows.to_vec();
+        for (place, column) in order[start..end].iter().enumerate() {
+            exchange(rows, &before, place, *column as usize);
+        }
+    }
 }
 
 /// Gives chunks of rows to tasks where the work (rows times `depth`) is worth it.
@@ -105,13 +147,13 @@ fn for_chunks<const W: usize>(depth: usize, rows: &mut [Row<W>], work: impl Fn(u
 /// The four inner loops, compiled for the vector unit that the machine turns out to have.
 enum Kernel<'a, const W: usize> {
     /// Solves the triangle on top.
-    Triangle { columns: &'a Columns<'a>, top: &'a mut [Row<W>] },
+    Triangle { columns: &'a Columns<'a>, diagonal: Diagonal<'a>, top: &'a mut [Row<W>] },
     /// Multiplies rows of the trapezoid with the solved top.
     Rows { columns: &'a Columns<'a>, first: usize, top: &'a [Row<W>], rows: &'a mut [Row<W>] },
     /// Takes the rows below into rows of the top.
     Columns { columns: &'a Columns<'a>, first: usize, size: usize, below: &'a [Row<W>], targets: &'a mut [Row<W>] },
     /// Solves the transposed triangle.
-    TransposedTriangle { columns: &'a Columns<'a>, top: &'a mut [Row<W>] },
+    TransposedTriangle { columns: &'a Columns<'a>, diagonal: Diagonal<'a>, top: &'a mut [Row<W>] },
 }
 
 impl<const W: usize> Kernel<'_, W> {
@@ -126,12 +168,14 @@ impl<const W: usize> WithSimd for Kernel<'_, W> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         match self {
-            Self::Triangle { columns, top } => solve_triangle(columns, top),
+            Self::Triangle { columns, diagonal, top } => solve_triangle(columns, diagonal, top),
             Self::Rows { columns, first, top, rows } => accumulate_rows(columns, first, top, rows),
             Self::Columns { columns, first, size, below, targets } => {
                 subtract_columns(columns, first, size, below, targets);
             }
-            Self::TransposedTriangle { columns, top } => solve_transposed_triangle(columns, top),
+            Self::TransposedTriangle { columns, diagonal, top } => {
+                solve_transposed_triangle(columns, diagonal, top);
+            }
         }
     }
 }
@@ -140,46 +184,45 @@ impl<const W: usize> WithSimd for Kernel<'_, W> {
 struct Columns<'a>(MatRef<'a, f64>);
 
 impl<'a> Columns<'a> {
-    fn of(trapezoid: MatRef<'a, f64>) -> Self {
-        Self(trapezoid)
-    }
-
     #[inline(always)]
     fn get(&self, j: usize) -> &'a [f64] {
         crate::dense::column(self.0, j)
     }
 }
 
-/// Solves the triangle panel by panel.
+/// Solves the triangle strip by strip.
 #[inline(always)]
-fn solve_triangle<const W: usize>(columns: &Columns<'_>, top: &mut [Row<W>]) {
+fn solve_triangle<const W: usize>(columns: &Columns<'_>, diagonal: Diagonal<'_>, top: &mut [Row<W>]) {
     let size = top.len();
-    for start in (0..size).step_by(PANEL) {
-        let end = (start + PANEL).min(size);
+    for start in (0..size).step_by(STRIP) {
+        if start % PANEL == 0 {
+            diagonal.permute(start, top);
+        }
+        let end = (start + STRIP).min(size);
         for j in start..end {
             let column = columns.get(j);
-            let inverse = 1.0 / column[j];
+            let inverse = diagonal.inverse(column, j);
             let pivot: Row<W> = std::array::from_fn(|lane| top[j][lane] * inverse);
             top[j] = pivot;
             for (row, entry) in top[j + 1..end].iter_mut().zip(&column[j + 1..end]) {
                 subtract(row, *entry, &pivot);
             }
         }
-        let (panel, rest) = top.split_at_mut(end);
-        let panel = &panel[start..];
-        let (quads, single) = (panel.len() / 4, panel.len() / 4 * 4);
+        let (strip, rest) = top.split_at_mut(end);
+        let strip = &strip[start..];
+        let (quads, single) = (strip.len() / 4, strip.len() / 4 * 4);
         for quad in 0..quads {
             let at = 4 * quad;
             let [a, b, c, d]: [&[f64]; 4] = std::array::from_fn(|k| &columns.get(start + at + k)[end..size]);
             for ((((row, a), b), c), d) in rest.iter_mut().zip(a).zip(b).zip(c).zip(d) {
                 for lane in 0..W {
-                    row[lane] -= a * panel[at][lane]
-                        + b * panel[at + 1][lane]
-                        + (c * panel[at + 2][lane] + d * panel[at + 3][lane]);
+                    row[lane] -= a * strip[at][lane]
+                        + b * strip[at + 1][lane]
+                        + (c * strip[at + 2][lane] + d * strip[at + 3][lane]);
                 }
             }
         }
-        for (k, pivot) in panel.iter().enumerate().skip(single) {
+        for (k, pivot) in strip.iter().enumerate().skip(single) {
             for (row, entry) in rest.iter_mut().zip(&columns.get(start + k)[end..size]) {
                 subtract(row, *entry, pivot);
             }
@@ -254,7 +297,7 @@ fn subtract_columns<const W: usize>(
 
 /// Solves the transposed triangle from its last row up.
 #[inline(always)]
-fn solve_transposed_triangle<const W: usize>(columns: &Columns<'_>, top: &mut [Row<W>]) {
+fn solve_transposed_triangle<const W: usize>(columns: &Columns<'_>, diagonal: Diagonal<'_>, top: &mut [Row<W>]) {
     for j in (0..top.len()).rev() {
         let column = columns.get(j);
         let (upper, lower) = top.split_at_mut(j + 1);
@@ -273,9 +316,12 @@ fn solve_transposed_triangle<const W: usize>(columns: &Columns<'_>, top: &mut [R
                 sums[0][lane] += entry * x[lane];
             }
         }
-        let inverse = 1.0 / column[j];
+        let inverse = diagonal.inverse(column, j);
         for lane in 0..W {
             upper[j][lane] = (upper[j][lane] - (sums[0][lane] + sums[1][lane])) * inverse;
+        }
+        if j % PANEL == 0 {
+            diagonal.restore(j, top);
         }
     }
 }

@@ -1,0 +1,109 @@
+//! The next block of a Lanczos basis: M-orthogonal to what is there, M-orthonormal in itself.
+
+use faer::{Mat, MatRef};
+
+use super::eigenproblem::mass_norm;
+use super::lanczos::Basis;
+use super::orthogonalisation::gram_schmidt;
+use crate::dense;
+use crate::sparse::product;
+
+/// Share of its length that a column may lose to the columns before it while M times it is still good enough as it is carried
+/// along: it loses one digit then.
+const SHRINKS: f64 = 0.1;
+
+impl Basis<'_> {
+    /// Makes a block M-orthogonal to V and M-orthonormal in itself: block = V C + W B. Stores W and M W.
+    ///
+    /// By its recurrence OP W couples to the columns from `recent` on alone. The first pass takes those out and normalises,
+    /// however small the columns are; the second, on columns of unit length, takes out what rounding left along all of V.
+    pub(super) fn orthonormalise(&mut self, mut block: Mat<f64>) -> (Mat<f64>, Mat<f64>) {
+        let width = block.ncols();
+        let mut coefficients = Mat::zeros(self.size, width);
+        let mut coupling: Mat<f64> = Mat::identity(width, width);
+        let mut mass_block = product(self.problem.mass, block.as_ref());
+        let floor = self.rounding_floor(&block, &mass_block);
+        let mut dependent = vec![false; width];
+        for (from, least) in [(self.recent, floor), (0, 0.5)] {
+            let basis = self.v().subcols(from, self.size - from);
+            let c = dense::gram(basis, mass_block.as_ref());
+            dense::add_product(block.as_mut(), -1.0, basis, c.as_ref());
+            dense::add_product(coefficients.as_mut().subrows_mut(from, c.nrows()), 1.0, c.as_ref(), coupling.as_ref());
+            // What was blown up took its rounding along: rigid-body motion, and the difference between M W and what is carried.
+            self.problem.deflate(block.as_mut());
+            mass_block = product(self.problem.mass, block.as_ref());
+            let r = gram_schmidt(&mut block, &mut mass_block, least, &mut dependent);
+            if least == floor && shrinks(&r) {
+                self.problem.deflate(block.as_mut());
+                mass_block = product(self.problem.mass, block.as_ref());
+            }
+            coupling = dense::product(r.as_ref(), coupling.as_ref());
+        }
+        self.replace_dependent(&mut block, &dependent);
+        let kept: Vec<usize> = (0..width).filter(|j| !dependent[*j] || self.holds(block.as_ref(), *j)).collect();
+        let next = Mat::from_fn(block.nrows(), kept.len(), |i, j| block[(i, kept[j])]);
+        let coupling = Mat::from_fn(kept.len(), width, |i, j| coupling[(kept[i], j)]);
+        self.vectors.as_mut().subcols_mut(self.size, kept.len()).copy_from(&next);
+        let is_carried = dependent.iter().all(|dependent| !dependent);
+        self.mass_next = if is_carried { mass_block } else { product(self.problem.mass, next.as_ref()) };
+        (coefficients, coupling)
+    }
+
+    /// Length below which a column of OP V is rounding.
+    fn rounding_floor(&self, block: &Mat<f64>, mass_block: &Mat<f64>) -> f64 {
+        let largest = (0..self.projected.nrows()).fold(0.0f64, |max, i| max.max(self.projected[(i, i)].abs()));
+        let own = (0..block.ncols()).fold(0.0f64, |max, j| {
+            let square = dense::dot(dense::column(block.as_ref(), j), dense::column(mass_block.as_ref(), j));
+            max.max(square.max(0.0).sqrt())
+        });
+        f64::EPSILON * largest.max(own)
+    }
+
+    fn holds(&self, block: MatRef<'_, f64>, j: usize) -> bool {
+        dense::column(block, j).iter().any(|value| *value != 0.0)
+    }
+
+    /// Puts new random directions in the place of dependent columns, or zeros where the space is exhausted.
+    fn replace_dependent(&mut self, block: &mut Mat<f64>, dependent: &[bool]) {
+        const ATTEMPTS: usize = 3;
+        for j in (0..block.ncols()).filter(|j| dependent[*j]) {
+            dense::column_mut(block.as_mut(), j).fill(0.0);
+            for _ in 0..ATTEMPTS {
+                let mut fresh = Mat::zeros(block.nrows(), 1);
+                self.random.fill(fresh.as_mut());
+                self.problem.deflate(fresh.as_mut());
+                let mut image = product(self.problem.mass, fresh.as_ref());
+                self.apply(&mut image);
+                if let Some(unit) = self.unit_component(&image, block) {
+                    block.as_mut().subcols_mut(j, 1).copy_from(&unit);
+                    break;
+                }
+            }
+        }
+    }
+
+    /// The part of a vector M-orthogonal to V and to the block, at unit length; none where nothing but rounding is left.
+    fn unit_component(&self, image: &Mat<f64>, block: &Mat<f64>) -> Option<Mat<f64>> {
+        // What is left of a random direction after projection is of order one unless the space is exhausted.
+        const LEFT: f64 = 1e-8;
+        let mut vector = image.clone();
+        for pass in 0..3 {
+            let before = mass_norm(self.problem.mass, &vector);
+            for basis in [self.v(), block.as_ref()] {
+                let c = dense::gram(basis, product(self.problem.mass, vector.as_ref()).as_ref());
+                dense::add_product(vector.as_mut(), -1.0, basis, c.as_ref());
+            }
+            let after = mass_norm(self.problem.mass, &vector);
+            if after.is_nan() || after <= if pass == 0 { LEFT } else { 0.5 } * before {
+                return None;
+            }
+            vector.as_mut().col_mut(0).iter_mut().for_each(|value| *value /= after);
+        }
+        Some(vector)
+    }
+}
+
+/// Whether Gram-Schmidt left less of a column than is good for what was carried along with it; `r` is its triangle.
+fn shrinks(r: &Mat<f64>) -> bool {
+    (0..r.ncols()).any(|j| r[(j, j)] < SHRINKS * dense::norm(dense::column(r.as_ref(), j)))
+}
