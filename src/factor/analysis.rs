@@ -39,6 +39,8 @@ pub struct Analysis {
     values_at: Vec<usize>,
     n_children: Vec<u32>,
     tasks: Tasks,
+    /// Most entries that wait for their parents at once, one front after the other.
+    stack: usize,
     /// Entries of the factor, without the zeros that supernodes add.
     pub nnz_factor: f64,
     /// Floating-point operations of one factorisation.
@@ -116,9 +118,28 @@ impl Analysis {
             values_at,
             n_children,
             tasks,
+            stack: 0,
         };
+        analysis.stack = analysis.predicted_stack();
         analysis.number_places();
         Ok(analysis)
+    }
+
+    /// Most entries of rests at once where fronts are eliminated in order, and the trapezoid of the front at hand.
+    fn predicted_stack(&self) -> usize {
+        let (mut live, mut peak) = (0usize, 0usize);
+        let mut waiting = Vec::new();
+        for s in 0..self.n_children.len() {
+            let node = self.supernode(s);
+            let rest = node.below.len().saturating_mul(node.below.len() + 1);
+            peak = peak.max(live.saturating_add(rest).saturating_add(node.values.len()));
+            live = live.saturating_add(rest);
+            for child in waiting.drain(waiting.len() - node.n_children..) {
+                live -= child;
+            }
+            waiting.push(rest);
+        }
+        peak
     }
 
     /// Numbers the places of each task: its own steps first, then those it reaches outside.
@@ -156,6 +177,11 @@ impl Analysis {
     /// Bytes that one factor takes, with the zeros that supernodes add.
     pub fn factor_bytes(&self) -> u64 {
         8 * self.n_values() as u64
+    }
+
+    /// Bytes that elimination needs beside the factor when one thread does it: what waits for its parent.
+    pub fn stack_bytes(&self) -> u64 {
+        8 * self.stack as u64
     }
 
     /// Entries of a factor, with the zeros that supernodes add.

@@ -114,6 +114,26 @@ pub(super) fn eliminate_columns(
     Ok(())
 }
 
+/// Adds the diagonal of |L| |B| |Lᵀ| as far as these columns make it up, with the row sums of |B| on its diagonal; rows of the
+/// triangle are those of the front as it was assembled.
+pub(super) fn add_products(trapezoid: MatRef<'_, f64>, pivots: &Pivots<'_>, products: &mut [f64]) {
+    let size = trapezoid.ncols();
+    for j in 0..size {
+        let coupling = |at: usize| pivots.subdiagonal[at].abs();
+        let weight = pivots.diagonal[j].abs() + coupling(j) + if j > 0 { coupling(j - 1) } else { 0.0 };
+        let panel = j - j % PANEL;
+        let end = size.min(panel + PANEL);
+        let column = crate::dense::column(trapezoid, j);
+        products[panel + pivots.order[j] as usize] += weight;
+        for (place, value) in pivots.order[j + 1..end].iter().zip(&column[j + 1..end]) {
+            products[panel + *place as usize] += value * value * weight;
+        }
+        for (product, value) in products[end..].iter_mut().zip(&column[end..]) {
+            *product += value * value * weight;
+        }
+    }
+}
+
 /// Lower triangle of −L_21 B L_21ᵀ.
 pub(super) fn outer_product(kind: Kind, l_21: MatRef<'_, f64>, pivots: &Pivots<'_>, mut rest: MatMut<'_, f64>) {
     let (b, size) = l_21.shape();

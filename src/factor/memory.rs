@@ -3,6 +3,7 @@
 use super::Analysis;
 use crate::error::{Error, Result};
 use crate::job::{Certify, Job, ModeSelection};
+use crate::modes::SLICED_FROM;
 use crate::outcome::Resources;
 use crate::partition::Partition;
 
@@ -15,8 +16,8 @@ const MODES_IN_A_BAND: u64 = 50;
 
 /// Refuses a run whose forecast exceeds the memory allowed by the job, or else what the machine offers.
 ///
-/// Counted are the matrices, one factor (two where a Sturm count needs a second), the constraint modes and the basis of
-/// the eigensolver: three vectors for each mode and eight blocks of eight. `n_modes` is what a count in the band has found,
+/// Counted are the matrices, the factors that are kept, what waits for its parent while one is made, the constraint modes and
+/// the basis of the eigensolver: three vectors for each mode and eight blocks of eight. `n_modes` is what a count in the band has found,
 /// once there is one.
 ///
 /// # Errors
@@ -40,12 +41,14 @@ pub fn refuse_beyond_memory(
     // The partitioned matrices, their internal blocks, and one triangle with wide indices while a factor is made.
     let entries = (partition.stiffness.nnz() + partition.mass.nnz()) as u64;
     let matrices = 3 * ENTRY * entries;
-    let factors = match job.run.certify {
-        Certify::None => analysis.factor_bytes(),
-        Certify::Count => 2 * analysis.factor_bytes(),
+    // A count keeps the pivots alone; a slice keeps the factor of its shift.
+    let n_factors = match job.run.certify {
         // Beside the factor of K_II, those of K − σM and of the proof that it is definite.
-        Certify::Full => 3 * analysis.factor_bytes(),
+        Certify::Full => 3,
+        Certify::None | Certify::Count if n_modes >= SLICED_FROM as u64 => 2,
+        Certify::None | Certify::Count => 1,
     };
+    let factors = n_factors * analysis.factor_bytes() + analysis.stack_bytes();
     let vectors = DOUBLE * n * (2 * partition.n_interface() as u64 + 5 * n_modes + 64);
     let needed = matrices.saturating_add(factors).saturating_add(vectors);
     if needed <= available {

@@ -7,6 +7,8 @@
 //! Inside a task the rests lie on a stack, the children's on top; between tasks they are handed over one by one. What reaches the border
 //! is the Schur complement.
 
+mod assembly;
+
 use std::sync::{Mutex, OnceLock};
 
 use faer::dyn_stack::MemBuffer;
@@ -14,8 +16,9 @@ use faer::{Mat, MatMut, MatRef};
 
 use super::Analysis;
 use super::analysis::{Supernode, Task};
-use super::elimination::{self, Kind, Pivots, eliminate_columns, outer_product};
+use super::elimination::{self, Kind, Pivots, add_products, eliminate_columns, outer_product};
 use super::matrix::Shifted;
+use assembly::{Places, Rest, RestStack, rest_len};
 
 /// What is kept of L.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,6 +36,9 @@ pub(super) struct Numbers {
     tasks: Vec<TaskNumbers>,
     /// What elimination left of the border, both triangles.
     pub(super) schur: Mat<f64>,
+    /// A bound of the largest entry of |L||B||Lᵀ| of an indefinite matrix: the largest of its diagonal with the row sums of |B|
+    /// on that of B, which bounds the entries beside the diagonal too (Cauchy and Schwarz).
+    pub(super) largest_product: f64,
 }
 
 /// The numbers that one task computes.
@@ -43,6 +49,7 @@ struct TaskNumbers {
     diagonal: Vec<f64>,
     subdiagonal: Vec<f64>,
     order: Vec<u32>,
+    largest_product: f64,
 }
 
 /// The numbers of one supernode.
@@ -103,12 +110,6 @@ pub(super) enum Stop {
 struct Part<'a> {
     values: &'a mut [f64],
     pivots: Pivots<'a>,
-}
-
-/// Rows and entries that a child leaves to its parent: a lower triangle, by columns of full length.
-struct Rest<'a> {
-    rows: &'a [u32],
-    values: &'a [f64],
 }
 
 /// Memory that a thread uses again for its next task.
@@ -172,8 +173,9 @@ pub(super) fn eliminate(
             schur[(i, j)] = schur[(j, i)];
         }
     }
-    let tasks = numbers.into_iter().map(|numbers| numbers.into_inner().unwrap_or_default()).collect();
-    stop.map_or(Ok(Numbers { tasks, schur }), Err)
+    let tasks: Vec<TaskNumbers> = numbers.into_iter().map(|numbers| numbers.into_inner().unwrap_or_default()).collect();
+    let largest_product = crate::dense::worst(tasks.iter().map(|task| task.largest_product));
+    stop.map_or(Ok(Numbers { tasks, schur, largest_product }), Err)
 }
 
 /// The rest of a task, or why there is none.
@@ -218,42 +220,47 @@ impl Run<'_> {
             diagonal: zeros(n_steps)?,
             subdiagonal: zeros(n_steps)?,
             order: vec![0; n_steps],
+            largest_product: 0.0,
         };
         let pivots = Pivots {
             diagonal: &mut numbers.diagonal,
             subdiagonal: &mut numbers.subdiagonal,
             order: &mut numbers.order,
         };
-        let rest = self.eliminate(Part { values: &mut numbers.values, pivots }, handed, workspace)?;
+        let part = Part { values: &mut numbers.values, pivots };
+        let (rest, largest_product) = self.eliminate(part, handed, workspace)?;
+        numbers.largest_product = largest_product;
         Ok((numbers, rest))
     }
 
-    /// Eliminates the columns of the task; gives what it leaves to its parent.
+    /// Eliminates the columns of the task; gives what it leaves to its parent, and the largest product.
     fn eliminate(
         &self,
         mut part: Part<'_>,
         handed: &[Vec<f64>],
         workspace: &mut Workspace,
-    ) -> std::result::Result<Vec<f64>, Stop> {
+    ) -> std::result::Result<(Vec<f64>, f64), Stop> {
+        let mut largest = 0.0;
         let Workspace { place, stack, tools } = workspace;
         stack.clear();
         let root = self.task.supernodes.end - 1;
         for s in self.task.supernodes.start..root {
             let node = self.analysis.supernode(s);
-            let (children, rest) = stack.open(self.analysis, &node, node.below.len().pow(2))?;
-            self.eliminate_supernode(&node, &children, (part.take(&node), rest), place, tools)?;
+            let (children, rest) = stack.open(self.analysis, &node, rest_len(node.below.len()))?;
+            let product = self.eliminate_supernode(&node, &children, (part.take(&node), rest), place, tools)?;
+            largest = crate::dense::worst([largest, product]);
             stack.close(s, &node);
         }
         let node = self.analysis.supernode(root);
-        let mut last = zeros(node.below.len().pow(2))?;
+        let mut last = zeros(rest_len(node.below.len()))?;
         // The children of a task's root lie on the stack, or each of them is a task's root itself.
         let (inside, _) = stack.open(self.analysis, &node, 0)?;
         let children = if self.task.children.is_empty() { inside } else { self.handed_over(handed) };
-        self.eliminate_supernode(&node, &children, (part.take(&node), &mut last), place, tools)?;
-        Ok(last)
+        let product = self.eliminate_supernode(&node, &children, (part.take(&node), &mut last), place, tools)?;
+        Ok((last, crate::dense::worst([largest, product])))
     }
 
-    /// Assembles and eliminates one front; `rest` is what its parent will take over.
+    /// Assembles and eliminates one front; `rest` is what its parent will take over. Gives the largest product of its rows.
     fn eliminate_supernode(
         &self,
         node: &Supernode<'_>,
@@ -261,7 +268,7 @@ impl Run<'_> {
         (mut part, rest): (Part<'_>, &mut [f64]),
         place: &mut [u32],
         tools: &mut Tools,
-    ) -> std::result::Result<(), Stop> {
+    ) -> std::result::Result<f64, Stop> {
         let (size, b) = (node.steps.len(), node.below.len());
         let values = if part.values.is_empty() {
             tools.trapezoid.clear();
@@ -281,12 +288,22 @@ impl Run<'_> {
         }
         eliminate_columns(self.kind, trapezoid.as_mut(), &mut part.pivots, &mut tools.dense)
             .map_err(|column| Stop::NotPositive(node.steps.start + column))?;
+        let (rest, products_left) = rest.split_at_mut(b * b);
         let mut rest = MatMut::from_column_major_slice_mut(rest, b, b);
         outer_product(self.kind, trapezoid.as_ref().subrows(size, b), &part.pivots, rest.as_mut());
         for (child, places) in children.iter().zip(&places) {
             places.add_rest(child.values, rest.as_mut());
         }
-        Ok(())
+        if self.kind == Kind::Definite {
+            return Ok(0.0);
+        }
+        let mut products = vec![0.0; size + b];
+        for (child, places) in children.iter().zip(&places) {
+            places.add_products(child.values, &mut products);
+        }
+        add_products(trapezoid.as_ref(), &part.pivots, &mut products);
+        products_left.copy_from_slice(&products[size..]);
+        Ok(crate::dense::worst(products[..size].iter().copied()))
     }
 
     fn handed_over<'b>(&'b self, handed: &'b [Vec<f64>]) -> Vec<Rest<'b>> {
@@ -307,121 +324,6 @@ impl<'a> Part<'a> {
 /// The first `n` of what is left.
 fn split<'a, T>(left: &mut &'a mut [T], n: usize) -> &'a mut [T] {
     left.split_off_mut(..n).expect("the supernodes make up the factor")
-}
-
-/// Where the rows of a child lie in the front of its parent, by runs of neighbours.
-struct Places {
-    n_rows: usize,
-    /// Columns of the parent that are eliminated.
-    size: usize,
-    /// How many of the child's rows are such columns.
-    n_columns: usize,
-    runs: Vec<PlaceRun>,
-}
-
-/// Rows `child` .. of the child at rows `parent` .. of the parent's front.
-#[derive(Clone, Copy)]
-struct PlaceRun {
-    child: usize,
-    parent: usize,
-    len: usize,
-}
-
-impl Places {
-    fn new(rows: &[u32], node: &Supernode<'_>, place: &[u32]) -> Self {
-        let place_of = |row: u32| match node.steps.contains(&(row as usize)) {
-            true => row as usize - node.steps.start,
-            false => place[row as usize] as usize,
-        };
-        let mut runs: Vec<PlaceRun> = Vec::new();
-        for (child, row) in rows.iter().enumerate() {
-            let parent = place_of(*row);
-            match runs.last_mut() {
-                Some(run) if run.parent + run.len == parent => run.len += 1,
-                _ => runs.push(PlaceRun { child, parent, len: 1 }),
-            }
-        }
-        let n_columns = rows.partition_point(|row| (*row as usize) < node.steps.end);
-        Self { n_rows: rows.len(), size: node.steps.len(), n_columns, runs }
-    }
-
-    /// Adds the child's entries in columns that the parent eliminates.
-    fn add_columns(&self, child: &[f64], mut trapezoid: MatMut<'_, f64>) {
-        self.add(child, 0..self.n_columns, 0, trapezoid.as_mut());
-    }
-
-    /// Adds the child's other entries to the parent's own rest.
-    fn add_rest(&self, child: &[f64], mut rest: MatMut<'_, f64>) {
-        self.add(child, self.n_columns..self.n_rows, self.size, rest.as_mut());
-    }
-
-    /// Adds some columns of the child to a block that begins `skipped` rows and columns into the front.
-    fn add(&self, child: &[f64], columns: std::ops::Range<usize>, skipped: usize, mut block: MatMut<'_, f64>) {
-        let mut first_run = 0;
-        for j in columns {
-            while self.runs[first_run].child + self.runs[first_run].len <= j {
-                first_run += 1;
-            }
-            let at = self.runs[first_run];
-            let target = crate::dense::column_mut(block.as_mut(), at.parent + (j - at.child) - skipped);
-            let source = &child[j * self.n_rows..(j + 1) * self.n_rows];
-            for run in &self.runs[first_run..] {
-                let start = run.child.max(j);
-                let len = run.child + run.len - start;
-                let to = run.parent + (start - run.child) - skipped;
-                for (target, source) in target[to..to + len].iter_mut().zip(&source[start..start + len]) {
-                    *target += source;
-                }
-            }
-        }
-    }
-}
-
-/// Rests that wait for their parents inside a task, the next parent's children on top.
-#[derive(Default)]
-struct RestStack {
-    values: Vec<f64>,
-    /// Supernodes and where their rests begin.
-    held: Vec<(usize, usize)>,
-    top: usize,
-}
-
-impl RestStack {
-    fn clear(&mut self) {
-        self.held.clear();
-        self.top = 0;
-    }
-
-    /// The rests of a supernode's children, and room for its own above them.
-    fn open<'b>(
-        &'b mut self,
-        analysis: &'b Analysis,
-        node: &Supernode<'_>,
-        room: usize,
-    ) -> std::result::Result<(Vec<Rest<'b>>, &'b mut [f64]), Stop> {
-        if let Some(more) = (self.top + room).checked_sub(self.values.len()) {
-            self.values.try_reserve(more).map_err(|_| Stop::NoMemory)?;
-            self.values.resize(self.top + room, 0.0);
-        }
-        let (below, above) = self.values.split_at_mut(self.top);
-        let below = &*below;
-        let children = self.held[self.held.len().saturating_sub(node.n_children)..].iter().map(|(child, start)| {
-            let rows = analysis.supernode(*child).below;
-            Rest { rows, values: &below[*start..start + rows.len() * rows.len()] }
-        });
-        Ok((children.collect(), &mut above[..room]))
-    }
-
-    /// Puts the rest of supernode `s` in the place of its children's.
-    fn close(&mut self, s: usize, node: &Supernode<'_>) {
-        let room = node.below.len().pow(2);
-        let first_child = self.held.len() - node.n_children;
-        let bottom = self.held.get(first_child).map_or(self.top, |(_, start)| *start);
-        self.values.copy_within(self.top..self.top + room, bottom);
-        self.held.truncate(first_child);
-        self.held.push((s, bottom));
-        self.top = bottom + room;
-    }
 }
 
 /// Adds what the last task of a tree leaves.

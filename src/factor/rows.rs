@@ -6,7 +6,8 @@
 //! ```
 //! A solve reads L once down and once up and does 2·W multiplications with each entry, so for a narrow block it is bound
 //! by memory traffic. Column-major right-hand sides would touch W cache lines for every row index; row-major ones touch
-//! one. Columns of a supernode are taken four at a time, so that a row of X is loaded once for four entries.
+//! one. Columns of a supernode are taken four at a time, so that a row of X is loaded once for four entries, and each is
+//! read in the order of memory, which is what a factor larger than the cache asks for.
 //!
 //! Every sum has a fixed order: the rows of a large supernode may be shared among threads, never the terms of a row.
 
@@ -40,7 +41,7 @@ impl<'a> Block<'a> {
         Self { columns: Columns(numbers.trapezoid), numbers, kind }
     }
 
-    /// L_11⁻¹ P on the rows of its columns, `top`; `update` becomes L_21 times the result.
+    /// L_11⁻¹ P on the rows of its columns, `top`; `update` becomes −L_21 times the result.
     pub(super) fn forward<const W: usize>(&self, top: &mut [Row<W>], update: &mut Vec<Row<W>>) {
         let (columns, size) = (&self.columns, top.len());
         Kernel::Triangle { columns, diagonal: self.diagonal(), top: &mut *top }.run();
@@ -144,11 +145,11 @@ fn for_chunks<const W: usize>(depth: usize, rows: &mut [Row<W>], work: impl Fn(u
     }
 }
 
-/// The four inner loops, compiled for the vector unit that the machine turns out to have.
+/// The inner loops, compiled for the vector unit that the machine turns out to have.
 enum Kernel<'a, const W: usize> {
     /// Solves the triangle on top.
     Triangle { columns: &'a Columns<'a>, diagonal: Diagonal<'a>, top: &'a mut [Row<W>] },
-    /// Multiplies rows of the trapezoid with the solved top.
+    /// Subtracts from rows what the trapezoid makes of the solved top.
     Rows { columns: &'a Columns<'a>, first: usize, top: &'a [Row<W>], rows: &'a mut [Row<W>] },
     /// Takes the rows below into rows of the top.
     Columns { columns: &'a Columns<'a>, first: usize, size: usize, below: &'a [Row<W>], targets: &'a mut [Row<W>] },
@@ -160,22 +161,35 @@ impl<const W: usize> Kernel<'_, W> {
     fn run(self) {
         Arch::new().dispatch(self);
     }
+
+    /// With V vectors to a row of W numbers, and C columns whose sums fit into registers together.
+    #[inline(always)]
+    fn with_vectors<S: Simd, const V: usize, const C: usize>(self, simd: S) {
+        let unit = Unit::<S, V, C>(simd);
+        match self {
+            Self::Triangle { columns, diagonal, top } => unit.solve_triangle(columns, diagonal, top),
+            Self::Rows { columns, first, top, rows } => unit.subtract_rows(columns, (first, 0), top, rows),
+            Self::Columns { columns, first, size, below, targets } => {
+                unit.subtract_columns(columns, (size, first), below, targets);
+            }
+            Self::TransposedTriangle { columns, diagonal, top } => {
+                unit.solve_transposed_triangle(columns, diagonal, top);
+            }
+        }
+    }
 }
 
 impl<const W: usize> WithSimd for Kernel<'_, W> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        match self {
-            Self::Triangle { columns, diagonal, top } => solve_triangle(columns, diagonal, top),
-            Self::Rows { columns, first, top, rows } => accumulate_rows(columns, first, top, rows),
-            Self::Columns { columns, first, size, below, targets } => {
-                subtract_columns(columns, first, size, below, targets);
-            }
-            Self::TransposedTriangle { columns, diagonal, top } => {
-                solve_transposed_triangle(columns, diagonal, top);
-            }
+    fn with_simd<S: Simd>(self, simd: S) {
+        match W / S::F64_LANES {
+            1 => self.with_vectors::<S, 1, 4>(simd),
+            2 => self.with_vectors::<S, 2, 4>(simd),
+            4 => self.with_vectors::<S, 4, 2>(simd),
+            8 => self.with_vectors::<S, 8, 1>(simd),
+            _ => self.with_vectors::<S, 16, 1>(simd),
         }
     }
 }
@@ -190,145 +204,142 @@ impl<'a> Columns<'a> {
     }
 }
 
-/// Solves the triangle strip by strip.
-#[inline(always)]
-fn solve_triangle<const W: usize>(columns: &Columns<'_>, diagonal: Diagonal<'_>, top: &mut [Row<W>]) {
-    let size = top.len();
-    for start in (0..size).step_by(STRIP) {
-        if start % PANEL == 0 {
-            diagonal.permute(start, top);
-        }
-        let end = (start + STRIP).min(size);
-        for j in start..end {
-            let column = columns.get(j);
-            let inverse = diagonal.inverse(column, j);
-            let pivot: Row<W> = std::array::from_fn(|lane| top[j][lane] * inverse);
-            top[j] = pivot;
-            for (row, entry) in top[j + 1..end].iter_mut().zip(&column[j + 1..end]) {
-                subtract(row, *entry, &pivot);
-            }
-        }
-        let (strip, rest) = top.split_at_mut(end);
-        let strip = &strip[start..];
-        let (quads, single) = (strip.len() / 4, strip.len() / 4 * 4);
-        for quad in 0..quads {
-            let at = 4 * quad;
-            let [a, b, c, d]: [&[f64]; 4] = std::array::from_fn(|k| &columns.get(start + at + k)[end..size]);
-            for ((((row, a), b), c), d) in rest.iter_mut().zip(a).zip(b).zip(c).zip(d) {
-                for lane in 0..W {
-                    row[lane] -= a * strip[at][lane]
-                        + b * strip[at + 1][lane]
-                        + (c * strip[at + 2][lane] + d * strip[at + 3][lane]);
+/// A vector unit that holds a row of right-hand sides in V vectors.
+struct Unit<S, const V: usize, const C: usize>(S);
+
+impl<S: Simd, const V: usize, const C: usize> Unit<S, V, C> {
+    #[inline(always)]
+    fn vectors<const W: usize>(rows: &[Row<W>]) -> &[[S::f64s; V]] {
+        S::as_simd_f64s(rows.as_flattened()).0.as_chunks::<V>().0
+    }
+
+    #[inline(always)]
+    fn vectors_mut<const W: usize>(rows: &mut [Row<W>]) -> &mut [[S::f64s; V]] {
+        S::as_mut_simd_f64s(rows.as_flattened_mut()).0.as_chunks_mut::<V>().0
+    }
+
+    /// `rows` − A X, where A begins at row and column `at` of the trapezoid. Four columns are read side by side, each in the
+    /// order of memory.
+    #[inline(always)]
+    fn subtract_rows<const W: usize>(
+        &self,
+        columns: &Columns<'_>,
+        at: (usize, usize),
+        x: &[Row<W>],
+        rows: &mut [Row<W>],
+    ) {
+        let simd = self.0;
+        let (x, rows) = (Self::vectors(x), Self::vectors_mut(rows));
+        let range = at.0..at.0 + rows.len();
+        let (quads, single) = x.as_chunks::<4>();
+        for (quad, x) in quads.iter().enumerate() {
+            let [a, b, c, d]: [&[f64]; 4] = std::array::from_fn(|k| &columns.get(at.1 + 4 * quad + k)[range.clone()]);
+            for ((((row, a), b), c), d) in rows.iter_mut().zip(a).zip(b).zip(c).zip(d) {
+                let entries = [a, b, c, d].map(|entry| simd.splat_f64s(-entry));
+                for v in 0..V {
+                    row[v] = entries.iter().zip(x).fold(row[v], |sum, (entry, x)| simd.mul_add_f64s(*entry, x[v], sum));
                 }
             }
         }
-        for (k, pivot) in strip.iter().enumerate().skip(single) {
-            for (row, entry) in rest.iter_mut().zip(&columns.get(start + k)[end..size]) {
-                subtract(row, *entry, pivot);
+        for (k, x) in single.iter().enumerate() {
+            for (row, entry) in rows.iter_mut().zip(&columns.get(at.1 + 4 * quads.len() + k)[range.clone()]) {
+                let entry = simd.splat_f64s(-entry);
+                for v in 0..V {
+                    row[v] = simd.mul_add_f64s(entry, x[v], row[v]);
+                }
             }
         }
     }
-}
 
-/// Rows `first` .. of the trapezoid times the solved top, added to `rows`.
-#[inline(always)]
-fn accumulate_rows<const W: usize>(columns: &Columns<'_>, first: usize, top: &[Row<W>], rows: &mut [Row<W>]) {
-    let range = first..first + rows.len();
-    let (quads, rest) = top.as_chunks::<4>();
-    for (quad, x) in quads.iter().enumerate() {
-        let [a, b, c, d]: [&[f64]; 4] = std::array::from_fn(|k| &columns.get(4 * quad + k)[range.clone()]);
-        for ((((row, a), b), c), d) in rows.iter_mut().zip(a).zip(b).zip(c).zip(d) {
-            for lane in 0..W {
-                row[lane] += a * x[0][lane] + b * x[1][lane] + (c * x[2][lane] + d * x[3][lane]);
-            }
+    /// `targets` − Aᵀ X, where A begins at row and column `at` of the trapezoid.
+    #[inline(always)]
+    fn subtract_columns<const W: usize>(
+        &self,
+        columns: &Columns<'_>,
+        at: (usize, usize),
+        x: &[Row<W>],
+        targets: &mut [Row<W>],
+    ) {
+        let (x, targets) = (Self::vectors(x), Self::vectors_mut(targets));
+        let rows = at.0..at.0 + x.len();
+        let (groups, single) = targets.as_chunks_mut::<C>();
+        let n_grouped = C * groups.len();
+        for (group, targets) in groups.iter_mut().enumerate() {
+            let entries = std::array::from_fn(|k| &columns.get(at.1 + C * group + k)[rows.clone()]);
+            self.subtract_group::<C>(entries, x, targets);
+        }
+        for (k, target) in single.iter_mut().enumerate() {
+            let entries = [&columns.get(at.1 + n_grouped + k)[rows.clone()]];
+            self.subtract_group::<1>(entries, x, std::array::from_mut(target));
         }
     }
-    for (k, x) in rest.iter().enumerate() {
-        for (row, entry) in rows.iter_mut().zip(&columns.get(4 * quads.len() + k)[range.clone()]) {
-            for lane in 0..W {
-                row[lane] += entry * x[lane];
-            }
-        }
-    }
-}
 
-/// Subtracts from the rows of some columns of the supernode their products with the rows below the triangle.
-#[inline(always)]
-fn subtract_columns<const W: usize>(
-    columns: &Columns<'_>,
-    first: usize,
-    size: usize,
-    below: &[Row<W>],
-    targets: &mut [Row<W>],
-) {
-    let bottom = size..size + below.len();
-    let (quads, rest) = targets.as_chunks_mut::<4>();
-    let n_quads = quads.len();
-    for (quad, target) in quads.iter_mut().enumerate() {
-        let [a, b, c, d]: [&[f64]; 4] = std::array::from_fn(|k| &columns.get(first + 4 * quad + k)[bottom.clone()]);
-        let mut sums = [[0.0; W]; 4];
-        for ((((x, a), b), c), d) in below.iter().zip(a).zip(b).zip(c).zip(d) {
-            for lane in 0..W {
-                sums[0][lane] += a * x[lane];
-                sums[1][lane] += b * x[lane];
-                sums[2][lane] += c * x[lane];
-                sums[3][lane] += d * x[lane];
+    #[inline(always)]
+    fn subtract_group<const N: usize>(
+        &self,
+        entries: [&[f64]; N],
+        x: &[[S::f64s; V]],
+        targets: &mut [[S::f64s; V]; N],
+    ) {
+        let simd = self.0;
+        let entries = entries.map(|entries| &entries[..x.len()]);
+        let mut sums = [[simd.splat_f64s(0.0); V]; N];
+        for (i, x) in x.iter().enumerate() {
+            for (sum, entries) in sums.iter_mut().zip(&entries) {
+                let entry = simd.splat_f64s(entries[i]);
+                for v in 0..V {
+                    sum[v] = simd.mul_add_f64s(entry, x[v], sum[v]);
+                }
             }
         }
-        for (target, sum) in target.iter_mut().zip(&sums) {
-            for lane in 0..W {
-                target[lane] -= sum[lane];
+        for (target, sum) in targets.iter_mut().zip(&sums) {
+            for v in 0..V {
+                target[v] = simd.sub_f64s(target[v], sum[v]);
             }
         }
     }
-    for (k, target) in rest.iter_mut().enumerate() {
-        let column = &columns.get(first + 4 * n_quads + k)[bottom.clone()];
-        let mut sum = [0.0; W];
-        for (x, entry) in below.iter().zip(column) {
-            for lane in 0..W {
-                sum[lane] += entry * x[lane];
-            }
-        }
-        for lane in 0..W {
-            target[lane] -= sum[lane];
-        }
-    }
-}
 
-/// Solves the transposed triangle from its last row up.
-#[inline(always)]
-fn solve_transposed_triangle<const W: usize>(columns: &Columns<'_>, diagonal: Diagonal<'_>, top: &mut [Row<W>]) {
-    for j in (0..top.len()).rev() {
-        let column = columns.get(j);
-        let (upper, lower) = top.split_at_mut(j + 1);
-        // Two sums, so that one addition need not wait for the other.
-        let mut sums = [[0.0; W]; 2];
-        let (pairs, rest) = lower.as_chunks::<2>();
-        let (entry_pairs, entry_rest) = column[j + 1..j + 1 + lower.len()].as_chunks::<2>();
-        for (x, entry) in pairs.iter().zip(entry_pairs) {
-            for lane in 0..W {
-                sums[0][lane] += entry[0] * x[0][lane];
-                sums[1][lane] += entry[1] * x[1][lane];
+    /// Solves the triangle strip by strip.
+    #[inline(always)]
+    fn solve_triangle<const W: usize>(&self, columns: &Columns<'_>, diagonal: Diagonal<'_>, top: &mut [Row<W>]) {
+        for start in (0..top.len()).step_by(STRIP) {
+            if start % PANEL == 0 {
+                diagonal.permute(start, top);
             }
-        }
-        for (x, entry) in rest.iter().zip(entry_rest) {
-            for lane in 0..W {
-                sums[0][lane] += entry * x[lane];
+            let end = (start + STRIP).min(top.len());
+            for j in start..end {
+                let column = columns.get(j);
+                let (solved, rest) = top[..end].split_at_mut(j + 1);
+                let inverse = diagonal.inverse(column, j);
+                solved[j].iter_mut().for_each(|x| *x *= inverse);
+                self.subtract_rows(columns, (j + 1, j), &solved[j..], rest);
             }
-        }
-        let inverse = diagonal.inverse(column, j);
-        for lane in 0..W {
-            upper[j][lane] = (upper[j][lane] - (sums[0][lane] + sums[1][lane])) * inverse;
-        }
-        if j % PANEL == 0 {
-            diagonal.restore(j, top);
+            let (strip, rest) = top.split_at_mut(end);
+            self.subtract_rows(columns, (end, start), &strip[start..], rest);
         }
     }
-}
 
-#[inline(always)]
-fn subtract<const W: usize>(row: &mut Row<W>, entry: f64, pivot: &Row<W>) {
-    for lane in 0..W {
-        row[lane] -= entry * pivot[lane];
+    /// Solves the transposed triangle from its last strip up.
+    #[inline(always)]
+    fn solve_transposed_triangle<const W: usize>(
+        &self,
+        columns: &Columns<'_>,
+        diagonal: Diagonal<'_>,
+        top: &mut [Row<W>],
+    ) {
+        for start in (0..top.len()).step_by(STRIP).rev() {
+            let end = (start + STRIP).min(top.len());
+            let (strip, below) = top.split_at_mut(end);
+            self.subtract_columns(columns, (end, start), below, &mut strip[start..]);
+            for j in (start..end).rev() {
+                let (target, below) = top[..end].split_at_mut(j + 1);
+                self.subtract_columns(columns, (j + 1, j), below, &mut target[j..]);
+                let inverse = diagonal.inverse(columns.get(j), j);
+                target[j].iter_mut().for_each(|x| *x *= inverse);
+            }
+            if start % PANEL == 0 {
+                diagonal.restore(start, top);
+            }
+        }
     }
 }

@@ -132,7 +132,6 @@ impl<'a> Factor<'a> {
                 let top = node.steps.start - first..node.steps.end - first;
                 block.forward(&mut own[top.clone()], &mut update);
                 block.divide(&mut own[top]);
-                update.iter_mut().flatten().for_each(|value| *value = -*value);
                 add(&update, node.local, &mut own, &mut out);
             }
             *lock(&outer[t]) = out;

@@ -12,7 +12,7 @@ use supel::basis::{
     Basis, ConstraintModes, DynamicColumns, constraint_modes, fixed_interface_columns, mode_acceleration_columns,
 };
 use supel::error::Error;
-use supel::factor::{Analysis, Cholesky, Pencil};
+use supel::factor::{Analysis, Cholesky};
 use supel::input::{Direction, Dof, Input, MatrixInput, Nodes};
 use supel::job::{Coupling, Eigensolver, InterfaceJob, NodeSelection, Origin};
 use supel::model::Model;

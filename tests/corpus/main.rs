@@ -14,7 +14,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 use supel::error::Result;
-use supel::factor::{Analysis, Pencil, count_below};
+use supel::factor::{Analysis, count_below};
 use supel::input::{Input, MatrixInput, read};
 use supel::job::{Eigensolver, ModelJob};
 use supel::model::Model;

@@ -1,6 +1,6 @@
 //! The Sturm count against dense spectra, with the interface held and free, at shifts all over the spectrum.
 
-use supel::factor::{Analysis, Pencil, count_below};
+use supel::factor::{Analysis, count_below};
 use supel::job::{Coupling, InterfaceJob, NodeSelection, Origin};
 use supel::partition::Partition;
 use supel_models::*;

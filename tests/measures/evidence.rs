@@ -1,7 +1,7 @@
 //! The evidence of a generated model, as `supel::reduce` gathers it.
 
 use supel::basis::{Basis, constraint_modes};
-use supel::factor::{Analysis, Cholesky, Pencil};
+use supel::factor::{Analysis, Cholesky};
 use supel::input::Input;
 use supel::job::{Eigensolver, InterfaceJob, Method, ModeSelection, ReductionJob};
 use supel::model::Model;

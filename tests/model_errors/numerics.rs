@@ -2,7 +2,7 @@
 
 use faer::MatMut;
 use supel::error::{Error, ErrorClass};
-use supel::factor::{Analysis, Pencil, count_below};
+use supel::factor::{Analysis, count_below};
 use supel::job::Eigensolver;
 use supel::modes::{ModalProblem, ModeRequest, SEED, ShiftInvert, Wanted, elastic_modes};
 use supel_models as models;

@@ -1,7 +1,7 @@
 //! The checker checked: each measure of preservation fails on a reduced model that was damaged for it.
 
 use faer::Scale;
-use supel::factor::{Analysis, Pencil};
+use supel::factor::Analysis;
 use supel::job::{Job, Method};
 use supel::modes::Retained;
 use supel::reduction::Reduction;

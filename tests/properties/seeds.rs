@@ -3,7 +3,7 @@
 use faer::Mat;
 use proptest::prelude::*;
 use supel::basis::{Basis, constraint_modes};
-use supel::factor::{Analysis, Cholesky, Pencil};
+use supel::factor::{Analysis, Cholesky};
 use supel::job::{Eigensolver, Method, ModeSelection, ReductionJob};
 use supel::modes::{Component, ModeSource, Retained, SEED, Search};
 use supel::partition::Partition;
