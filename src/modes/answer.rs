@@ -4,9 +4,11 @@ use faer::Mat;
 
 use super::eigenproblem::{Eigenpairs, Interval, Wanted, is_above};
 use super::lanczos::{Basis, MAX_RESTARTS};
+use super::orthogonalisation::gram_schmidt;
 use super::ritz::Ritz;
 use crate::dense;
 use crate::error::{Error, Result};
+use crate::sparse::product;
 
 /// What an iteration looks for.
 #[derive(Clone, Copy)]
@@ -53,24 +55,48 @@ impl Basis<'_> {
         }
     }
 
-    /// x = V s + W B s / θ: the step of inverse iteration that the last block gives for nothing.
+    /// x = V s + W B s / θ: the step of inverse iteration that the last block gives for nothing; an exhausted space has no such
+    /// block, and the step costs a solve.
     pub(super) fn extract(&self, ritz: &Ritz, taken: &[usize]) -> Eigenpairs {
         let sigma = self.problem.operator.shift();
         let s = Mat::from_fn(ritz.s.nrows(), taken.len(), |i, j| ritz.s[(i, taken[j])]);
-        let mut vectors = dense::product(self.v(), s.as_ref());
-        let mut correction = dense::product(self.coupling.as_ref(), s.as_ref());
-        for (j, pair) in taken.iter().enumerate() {
-            correction.as_mut().col_mut(j).iter_mut().for_each(|value| *value /= ritz.theta[*pair]);
+        let over_theta = |block: &mut Mat<f64>| {
+            for (j, pair) in taken.iter().enumerate() {
+                block.as_mut().col_mut(j).iter_mut().for_each(|value| *value /= ritz.theta[*pair]);
+            }
+        };
+        let (mut vectors, mut work) = (dense::product(self.v(), s.as_ref()), self.work);
+        if self.is_exhausted() {
+            work.solves += taken.len();
+            vectors = self.after_a_solve(&vectors, over_theta);
+        } else {
+            let mut correction = dense::product(self.coupling.as_ref(), s.as_ref());
+            over_theta(&mut correction);
+            let next = self.vectors.as_ref().subcols(self.size, self.n_next());
+            dense::add_product(vectors.as_mut(), 1.0, next, correction.as_ref());
         }
-        let next = self.vectors.as_ref().subcols(self.size, self.n_next());
-        dense::add_product(vectors.as_mut(), 1.0, next, correction.as_ref());
         self.problem.deflate(vectors.as_mut());
         let beyond = taken.len();
         Eigenpairs {
             values: taken.iter().map(|j| ritz.lambda(*j, sigma)).collect(),
             vectors,
             next: (beyond < ritz.n_finite()).then(|| ritz.lambda(beyond, sigma)),
-            work: self.work,
+            work,
         }
+    }
+
+    /// X = OP X / θ, which takes out what M hardly sees: orthonormalising a whole space blows it up from rounding. Errors of OP
+    /// lie along the low modes, and Gram-Schmidt in the order of θ takes them out; against the high ones nothing is owed.
+    fn after_a_solve(&self, vectors: &Mat<f64>, over_theta: impl Fn(&mut Mat<f64>)) -> Mat<f64> {
+        let mut image = product(self.problem.mass, vectors.as_ref());
+        self.problem.equilibrate(image.as_mut());
+        self.problem.operator.solve_in_place(image.as_mut());
+        self.problem.deflate(image.as_mut());
+        over_theta(&mut image);
+        for _ in 0..2 {
+            let mut momenta = product(self.problem.mass, image.as_ref());
+            gram_schmidt(&mut image, &mut momenta, 0.0, &mut vec![false; vectors.ncols()]);
+        }
+        image
     }
 }

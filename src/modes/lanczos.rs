@@ -145,7 +145,7 @@ impl<'a> Basis<'a> {
         self.size + self.n_next() <= self.capacity
     }
 
-    fn is_exhausted(&self) -> bool {
+    pub(super) fn is_exhausted(&self) -> bool {
         self.n_next() == 0
     }
 

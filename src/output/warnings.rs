@@ -1,6 +1,7 @@
 //! Warnings: what the user should know although no check failed.
 
 use super::{Results, omega};
+use crate::modes::Boundary;
 use crate::report::Warning;
 use crate::rigid::{Loose, RigidSource};
 
@@ -61,27 +62,34 @@ fn grey(results: &Results<'_>, motions: &[Loose]) -> String {
         )
     });
     format!(
-        "{} motions cost so little energy that the data hardly tell them from mechanisms: {}; they are kept as elastic",
+        "{} motions cost so little energy that double precision hardly tells them from mechanisms: {}; they are kept as elastic",
         motions.len(),
         each.collect::<Vec<_>>().join("; ")
     )
 }
 
-/// Modes whose frequency the digits of the data leave less certain than a modal test.
+/// Modes whose frequency the digits of the data leave less certain than a modal test; where the modes are those of the held
+/// interface, the soft motions of the free one too.
 pub(super) fn data_precision(results: &Results<'_>) -> Option<Warning> {
-    let modes = &results.evidence.retained.modes;
+    let retained = results.evidence.retained;
+    let modes = &retained.modes;
     let unit = results.evidence.partition.scaling.eigenvalue_unit();
-    let uncertain: Vec<String> = modes
-        .errors
-        .iter()
-        .zip(&modes.lambda)
-        .enumerate()
-        .filter(|(_, (error, _))| 0.5 * error.relative_bar > WANTED)
-        .map(|(mode, (error, lambda))| {
-            let hertz = omega(*lambda, unit) / std::f64::consts::TAU;
-            format!("mode {} at {hertz:.4e} Hz to {:.1e} of itself", mode + 1, 0.5 * error.relative_bar)
-        })
-        .collect();
+    let shown = |what: String, lambda: f64, bar: f64| {
+        let hertz = omega(lambda, unit) / std::f64::consts::TAU;
+        (0.5 * bar > WANTED).then(|| format!("{what} at {hertz:.4e} Hz to {:.1e} of itself", 0.5 * bar))
+    };
+    let soft: &[Loose] = match retained.boundary {
+        Boundary::FixedInterface => &results.loose.uncertain,
+        Boundary::FreeInterface => &[],
+    };
+    let of_free = soft.iter().map(|motion| {
+        let what = format!("motion of the free interface, largest at {},", motion.nodes.join(", "));
+        shown(what, motion.lambda, motion.bar / motion.lambda)
+    });
+    let of_modes = modes.errors.iter().zip(&modes.lambda).enumerate();
+    let of_modes =
+        of_modes.map(|(mode, (error, lambda))| shown(format!("mode {}", mode + 1), *lambda, error.relative_bar));
+    let uncertain: Vec<String> = of_free.chain(of_modes).flatten().collect();
     let first = uncertain.first()?;
     let [stiffness, mass] = &results.input.matrices;
     Some(Warning {

@@ -1,10 +1,12 @@
 //! Rigid-body modes from the matrices alone, by inverse iteration on K − σM.
 
+use faer::Mat;
+
 use super::{RigidBodyModes, RigidEnergy, RigidSource, absolute_energy, largest_residual};
 use crate::dense;
 use crate::error::Result;
-use crate::factor::{Analysis, Pencil};
-use crate::modes::{ModalProblem, shifted};
+use crate::factor::{Analysis, Pencil, SolveOperator};
+use crate::modes::{ModalProblem, Shifted, gram_schmidt, shifted};
 use crate::partition::Partition;
 use crate::sparse::product;
 
@@ -29,7 +31,7 @@ pub(super) fn zero_modes(partition: &Partition) -> Result<(RigidBodyModes, Optio
         precision: partition.precision,
     };
     let found = shifted(&analysis, problem, &|step| partition.name_of(step))?;
-    let orthonormal = found.lowest.shapes.as_ref().subcols(0, found.n_zero).to_owned();
+    let orthonormal = without_elastic_rounding(partition, &found);
     let forces = product(&partition.stiffness, orthonormal.as_ref());
     let magnitudes = absolute_energy(&partition.stiffness, orthonormal.as_ref());
     let mut energy = RigidEnergy {
@@ -55,4 +57,19 @@ pub(super) fn zero_modes(partition: &Partition) -> Result<(RigidBodyModes, Optio
     };
     let first_elastic = found.lowest.lambda.get(found.n_zero).copied().or(found.lowest.next);
     Ok((rigid, first_elastic, found.n_factorisations))
+}
+
+/// The zero modes after a step of inverse iteration, which takes what rounding of the eigensolver left of an elastic motion
+/// λ down to σ/(λ + σ) of itself: forces are λ times the motion, and the stiffest ones would be all that is left of KQ.
+fn without_elastic_rounding(partition: &Partition, found: &Shifted<'_>) -> Mat<f64> {
+    let mut zero = found.lowest.shapes.as_ref().subcols(0, found.n_zero).to_owned();
+    let mut momenta = product(&partition.mass, zero.as_ref());
+    zero.copy_from(&momenta);
+    found.factor.solve_in_place(zero.as_mut());
+    // Twice is enough for orthogonality to rounding; modes this near to orthonormal depend on none of the others.
+    for _ in 0..2 {
+        momenta = product(&partition.mass, zero.as_ref());
+        gram_schmidt(&mut zero, &mut momenta, 0.0, &mut vec![false; found.n_zero]);
+    }
+    zero
 }

@@ -22,8 +22,11 @@ const SOFT: f64 = 1e-6;
 /// zeros stay below; at ten bars an eigenvalue is known to a tenth. (A thousand bars would call zero what is known to a
 /// thousandth.)
 const ZERO_WITHIN_BARS: f64 = 10.0;
-/// Rayleigh quotients up to this many bars are known to four digits at best: nobody can be sure what was meant.
-const GREY_WITHIN_BARS: f64 = 1e4;
+/// Rayleigh quotients up to this many bars are known to four digits at best.
+const KNOWN_BEYOND_BARS: f64 = 1e4;
+/// Rayleigh quotients up to this many ε times their terms may be zeros of whoever made K in double precision: a projection leaves
+/// thousands of roundings that its own terms do not show. Rounding to fewer digits afterwards adds its bar to that and no more.
+const ROUNDINGS_OF_THE_PRODUCER: f64 = 1e4;
 /// Modal mass of a motion of unit length, in the scales of the dofs, relative to the largest mass of a dof in them, below
 /// which the motion has no mass: the square of its rounding, with a factor of a hundred million.
 const NO_MASS: f64 = 1e-24;
@@ -44,8 +47,10 @@ pub struct Loose {
 pub struct LooseMotions {
     /// Without energy as far as the data tell.
     pub mechanisms: Vec<Loose>,
-    /// With little more energy than the data can tell from none; they are kept as elastic.
+    /// With little more energy than arithmetic can tell from none; they are kept as elastic.
     pub grey: Vec<Loose>,
+    /// No mechanisms, but known to four digits at best: the data have too few.
+    pub uncertain: Vec<Loose>,
 }
 
 /// Adds the motions of mechanisms to the rigid-body modes.
@@ -78,13 +83,16 @@ pub fn with_mechanisms(
             found.mechanisms.push(loose());
         } else if lambda < 0.0 {
             return Err(Error::NegativeRigidEnergy { energy: lambda, noise: bar });
-        } else if lambda <= GREY_WITHIN_BARS * bar {
+        } else if lambda <= ROUNDINGS_OF_THE_PRODUCER * f64::EPSILON * terms {
             found.grey.push(loose());
+        } else if lambda <= KNOWN_BEYOND_BARS * bar {
+            found.uncertain.push(loose());
         }
     }
     refuse_foreign_coordinates(&rigid, &found)?;
     let zero = Mat::from_fn(motions.nrows(), zero.len(), |i, j| motions[(i, zero[j])]);
-    let rigid = RigidBodyModes { n_grey: found.grey.len(), ..joined(partition, rigid, zero.as_ref()) };
+    let n_grey = found.grey.len() + found.uncertain.len();
+    let rigid = RigidBodyModes { n_grey, ..joined(partition, rigid, zero.as_ref()) };
     Ok((rigid, found))
 }
 

@@ -1,9 +1,12 @@
 //! How far rigid-body motion is from straining the component, direction by direction.
 
+use faer::MatRef;
+
 use super::Evidence;
 use super::directions::Directions;
-use super::spectrum::Spectrum;
+use super::spectrum::{Spectrum, lowest_eigenpairs};
 use crate::dense;
+use crate::error::Result;
 use crate::modes::Equilibrated;
 use crate::rigid::absolute_product;
 use crate::sparse::product;
@@ -32,7 +35,7 @@ pub enum Restraint {
     Free,
     /// A weak spring holds what should be free.
     Grounded,
-    /// It is held in earnest.
+    /// It is held in earnest, or no motion of the component as a whole.
     Held,
 }
 
@@ -43,8 +46,16 @@ const HELD_ABOVE: f64 = 1e-2;
 /// How far roundings of one sign may exceed their typical sum.
 const NOISE_FACTOR: f64 = 10.0;
 
+/// Largest ratio of the Rayleigh quotient of a motion to the eigenvalue of its number where the component moves as a whole. With
+/// the stiffness k_e on a spring k the quotient is k/m and the eigenvalue k k_e / ((k + k_e) m), so that the ratio is 1 + k/k_e:
+/// beyond two the component gives way more than what holds it, as a clamped one does whatever mass it carries.
+const AS_A_WHOLE: f64 = 2.0;
+
 /// All directions.
-pub(super) fn groundings(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Vec<Grounding> {
+///
+/// # Errors
+/// A dense eigenproblem that does not converge.
+pub(super) fn groundings(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result<Vec<Grounding>> {
     let directions = Directions::of(evidence);
     let partition = evidence.partition;
     let (forces, terms) = (
@@ -56,37 +67,63 @@ pub(super) fn groundings(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Vec<Gr
     // Where K lets fewer motions pass than there are directions, some are held.
     let all_free = directions.count() <= evidence.rigid.count();
     let precision = partition.precision.stiffness + f64::EPSILON;
-    (0..directions.count())
-        .map(|j| {
-            let (u, force) = (dense::column(directions.motions.as_ref(), j), dense::column(forces.as_ref(), j));
-            let terms = dense::column(terms.as_ref(), j);
-            let of = |energy: f64| energy.abs() / (first * directions.masses[j]);
-            let energy_ratio = of(dense::dot(u, force));
-            let size: f64 = u.iter().zip(terms).map(|(u, terms)| u.abs() * terms).sum();
-            let noise = NOISE_FACTOR * partition.cancellation * precision * of(size);
-            let (mut largest, mut at, mut of_terms) = (0.0, None, 0.0f64);
-            for (row, d) in scale.iter().enumerate() {
-                of_terms = of_terms.max(d * terms[row]);
-                if dense::worse(d * force[row].abs(), largest) {
-                    (largest, at) = (d * force[row].abs(), Some(row));
-                }
+    let quotients = ritz_values(evidence, &directions, forces.as_ref(), first)?;
+    // The least quotient that is not below that of a direction belongs to the motion that makes it up.
+    let moves_as_a_whole = |quotient: f64| {
+        let at = quotients.partition_point(|value| *value < (1.0 - SAME) * quotient).min(quotients.len() - 1);
+        quotients[at] <= AS_A_WHOLE * spectrum.eigenvalue(at)
+    };
+    let found = (0..directions.count()).map(|j| {
+        let (u, force) = (dense::column(directions.motions.as_ref(), j), dense::column(forces.as_ref(), j));
+        let terms = dense::column(terms.as_ref(), j);
+        let of = |energy: f64| energy.abs() / (first * directions.masses[j]);
+        let energy_ratio = of(dense::dot(u, force));
+        let size: f64 = u.iter().zip(terms).map(|(u, terms)| u.abs() * terms).sum();
+        let noise = NOISE_FACTOR * partition.cancellation * precision * of(size);
+        let (mut largest, mut at, mut of_terms) = (0.0, None, 0.0f64);
+        for (row, d) in scale.iter().enumerate() {
+            of_terms = of_terms.max(d * terms[row]);
+            if dense::worse(d * force[row].abs(), largest) {
+                (largest, at) = (d * force[row].abs(), Some(row));
             }
-            let least = if all_free { noise.max(GROUNDED_ABOVE) } else { noise };
-            let restraint = if energy_ratio <= least {
-                Restraint::Free
-            } else if all_free || energy_ratio < HELD_ABOVE {
-                Restraint::Grounded
-            } else {
-                Restraint::Held
-            };
-            Grounding {
-                direction: directions.names[j].clone(),
-                energy_ratio,
-                noise,
-                force_ratio: if of_terms > 0.0 { largest / of_terms } else { 0.0 },
-                worst: at.map(|row| partition.name_of(row)),
-                restraint,
-            }
-        })
-        .collect()
+        }
+        let least = if all_free { noise.max(GROUNDED_ABOVE) } else { noise };
+        let restraint = if energy_ratio <= least {
+            Restraint::Free
+        } else if all_free || energy_ratio < HELD_ABOVE && moves_as_a_whole(dense::dot(u, force) / directions.masses[j])
+        {
+            Restraint::Grounded
+        } else {
+            Restraint::Held
+        };
+        Grounding {
+            direction: directions.names[j].clone(),
+            energy_ratio,
+            noise,
+            force_ratio: if of_terms > 0.0 { largest / of_terms } else { 0.0 },
+            worst: at.map(|row| partition.name_of(row)),
+            restraint,
+        }
+    });
+    Ok(found.collect())
+}
+
+/// How far rounding may move a quotient apart from itself.
+const SAME: f64 = 1e-9;
+
+/// The Rayleigh quotients of the pencil on the space of the directions, ascending; one at least.
+fn ritz_values(
+    evidence: &Evidence<'_>,
+    directions: &Directions,
+    forces: MatRef<'_, f64>,
+    first: f64,
+) -> Result<Vec<f64>> {
+    let motions = directions.motions.as_ref();
+    let mut energies = dense::gram(motions, forces);
+    let mut masses = dense::gram(motions, product(&evidence.partition.mass, motions).as_ref());
+    dense::symmetrise(&mut energies);
+    dense::symmetrise(&mut masses);
+    let values = lowest_eigenpairs(energies.as_ref(), masses.as_ref(), first, 0)?.0;
+    // Without a definite pencil nothing is known of the motions: zero is never too large beside an eigenvalue.
+    Ok(if values.is_empty() { vec![0.0] } else { values })
 }

@@ -100,7 +100,7 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     let rigid_body = RigidBody {
         routes: rigid_body::mass_routes(evidence, &spectrum)?,
         eigenvalues: spectrum.rigid().to_vec(),
-        grounding: grounding::groundings(evidence, &spectrum),
+        grounding: grounding::groundings(evidence, &spectrum)?,
         effective_mass: loads::effective_masses(evidence)?,
     };
     let pairs = eigenpairs::Pairs::of(evidence);

@@ -1,5 +1,7 @@
 //! The reduced pencil: M-13, M-14, M-25.
 
+use faer::MatRef;
+
 use super::check::{Check, Limits};
 use super::conditioning::independence;
 use super::spectrum::{Spectrum, zero_level};
@@ -7,6 +9,7 @@ use super::{Evidence, coordinate_name, data_noise, reduced_norms};
 use crate::dense;
 use crate::modes::{Boundary, Modes, REPEATED_WITHIN};
 use crate::rigid::absolute_energy;
+use crate::sparse::SparseMatrix;
 
 /// How large the terms are that the reduced stiffness is summed from: rounding of an entry is ε times these.
 pub(super) struct Terms {
@@ -16,6 +19,8 @@ pub(super) struct Terms {
     dynamic: f64,
     /// The largest of all, relative to the largest entry of K̂.
     largest: f64,
+    /// max (|Ψ|ᵀ|M||Ψ|)_ii relative to the largest entry of M̂: modes that M nearly lets pass are of large terms.
+    mass: f64,
 }
 
 /// Roundings of one sign may exceed their typical sum by this.
@@ -41,11 +46,27 @@ impl Terms {
         }
         let size = k.norm_max();
         let largest = if size > 0.0 { largest / size } else { 1.0 };
-        Self { interface: evidence.constraint.cancellation, dynamic, largest }
+        let (psi_s, psi_d) = (evidence.basis.constraint_modes.as_ref(), evidence.basis.dynamic_modes.as_ref());
+        // The mass of the interface itself adds to these, and leaving it out excuses less.
+        let terms = [psi_s, psi_d].map(|columns| largest_terms(evidence.internal.1, columns));
+        let mass = &evidence.reduction.mass;
+        Self {
+            interface: evidence.constraint.cancellation,
+            dynamic,
+            largest,
+            mass: terms[0].max(terms[1]) / mass.norm_max().max(f64::MIN_POSITIVE),
+        }
     }
 }
 
-/// Columns of Ψ_D multiplied at a time.
+/// max |x|ᵀ|A||x| of the columns: a product xᵀAy is rounded by ε times the root of that of x and of y.
+pub(super) fn largest_terms(matrix: &SparseMatrix, columns: MatRef<'_, f64>) -> f64 {
+    let starts = (0..columns.ncols()).step_by(PANEL);
+    let panels = starts.map(|start| columns.subcols(start, PANEL.min(columns.ncols() - start)));
+    panels.flat_map(|panel| absolute_energy(matrix, panel)).fold(0.0, f64::max)
+}
+
+/// Columns of Ψ multiplied at a time.
 const PANEL: usize = 32;
 
 /// M-13, equation (29).
@@ -177,7 +198,8 @@ pub(super) fn frequency_difference(evidence: &Evidence<'_>, spectrum: &Spectrum)
 pub(super) fn symmetry(evidence: &Evidence<'_>, terms: &Terms) -> Check {
     const FAIL: f64 = 1e-6;
     let measured = evidence.reduction.measured;
-    let arithmetic = NOISE_FACTOR * f64::EPSILON * terms.largest;
+    // Both triangles are rounded by ε times the terms of an entry, (|Ψ|ᵀ|A||Ψ|)_ij ≤ √(t_i t_j) with t those of the diagonal.
+    let arithmetic = NOISE_FACTOR * f64::EPSILON * terms.largest.max(terms.mass);
     // Capped as the level of zero is.
     let limits = Limits { engineering: 1e-12, arithmetic, data: 0.0 }.capped(1e-4, 0.0);
     Check {

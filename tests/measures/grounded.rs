@@ -2,6 +2,7 @@
 
 use supel::job::Method;
 use supel::verification::{Findings, Restraint, verify};
+use supel_models::model::Assembler;
 use supel_models::transform::{grounded, supported};
 use supel_models::{Material, Model, brick};
 
@@ -37,6 +38,21 @@ fn a_weak_spring_to_the_ground_is_found_and_named() {
             assert!(grounded.iter().all(|direction| direction.worst.as_deref() == Some("node 79 uz")), "{grounded:?}");
         }
     }
+}
+
+/// A clamped beam with a heavy mass at its end: moved as a whole it has little of the energy of the first mode beyond six, because
+/// of its mass, and none of its modes moves it as a whole.
+#[test]
+fn a_heavy_mass_on_a_clamped_beam_is_no_weak_spring() {
+    let beam = brick([8, 1, 1], [8.0, 1.0, 1.0], &Material::UNIT);
+    let tip: Vec<u32> = (0..beam.n as u32).filter(|row| beam.dofs[*row as usize].0 % 9 == 0).collect();
+    let mut mass = Assembler::default();
+    mass.extend(beam.mass.iter().copied());
+    tip.iter().for_each(|row| mass.add(*row, *row, 1e4));
+    let clamped = supported(&Model { mass: mass.finish(), ..beam }, |(label, _)| label % 9 == 1);
+    let found = findings(&clamped, &[5]).rigid_body.grounding;
+    assert!(found.iter().any(|direction| direction.energy_ratio < 1e-2), "{found:?}");
+    assert!(found.iter().all(|direction| direction.restraint == Restraint::Held), "{found:?}");
 }
 
 /// A component that is really held is not grounded by accident.
