@@ -13,7 +13,7 @@ use crate::sparse::product;
 pub struct Grounding {
     /// `translation x`, `rotation z`.
     pub direction: String,
-    /// uᵀKu / (λ uᵀMu), λ the first eigenvalue beyond all directions.
+    /// uᵀKu / (λ uᵀMu), λ the first eigenvalue beyond all directions, or the highest elastic one.
     pub energy_ratio: f64,
     /// What rounding and the digits of K can make of it.
     pub noise: f64,
@@ -52,7 +52,8 @@ pub(super) fn groundings(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Vec<Gr
         absolute_product(&partition.stiffness, directions.motions.as_ref()),
     );
     let scale = Equilibrated::of(&partition.stiffness, &partition.mass).scale;
-    let first = spectrum.eigenvalue(directions.count().max(evidence.rigid.count()));
+    // Where no elastic mode is known, one in scaled units: the largest K_ii over the largest M_ii.
+    let first = spectrum.scale(directions.count().max(evidence.rigid.count())).unwrap_or(1.0);
     // Where K lets fewer motions pass than there are directions, some are held.
     let all_free = directions.count() <= evidence.rigid.count();
     let precision = partition.precision.stiffness + f64::EPSILON;
