@@ -52,7 +52,8 @@ pub(super) fn quotients(
         let stiffness = without(&supported.stiffness, &beside, &mass_beside);
         let spectral = Spectral::of(stiffness.as_ref(), supported.mass.as_ref(), *first)?;
         let lambda = spectral.eigenvalues().split_off(beside.ncols().min(spectral.eigenvalues().len()));
-        let n_new = lambda.iter().take_while(|value| **value <= SPREAD * lambda[0]).count();
+        // Rounding may leave the first one of a near-mechanism below zero.
+        let n_new = lambda.iter().take_while(|value| **value <= SPREAD * lambda[0].abs()).count();
         let n_new = n_new.min(reference.lambda.len() - found.len());
         if n_new == 0 {
             break;
