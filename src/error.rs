@@ -1017,6 +1017,14 @@ pub enum Error {
         /// The dof it moves most.
         dof: String,
     },
+    /// Free modes of a component that can move as a rigid body without moving mass.
+    #[error(
+        "a rigid-body motion moves no mass while the interface is free – it is largest at {dof} – expected mass in every rigid-body motion, without which free modes are not defined – give the nodes rotary inertia, or keep fixed-interface modes (method = \"craig-bampton\")"
+    )]
+    MasslessFreeMotion {
+        /// The dof it moves most.
+        dof: String,
+    },
     /// A small dense eigenproblem did not converge.
     #[error(
         "a dense eigenproblem of order {n} did not converge – its matrix holds values that are not finite – check the magnitudes of the input"

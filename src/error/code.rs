@@ -141,6 +141,7 @@ codes! {
     CoordinatesDoNotFit => "E-COORD", InputData;
     NegativeRigidEnergy => "E-NEG-RIGID", ModelPhysics;
     MasslessRigidMotion => "E-RIGID-MASS", ModelPhysics;
+    MasslessFreeMotion => "E-FREE-MASSLESS", ModelPhysics;
     DenseEigen => "E-DENSE-EIGEN", NumericalLimit;
     MasslessMechanism => "E-MASSLESS-MECHANISM", ModelPhysics;
     InterfaceTooLarge => "E-INTERFACE-SIZE", InputData;

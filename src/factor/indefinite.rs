@@ -30,7 +30,7 @@ pub(super) struct Indefinite<'a> {
 pub(super) struct Signs {
     /// Negative eigenvalues of B.
     pub(super) negative: usize,
-    /// Largest pivot over largest entry of the scaled matrix.
+    /// Bound of the largest entry of |L||B||Lᵀ| over the largest entry of the scaled matrix.
     pub(super) growth: f64,
     /// Smallest pivot over largest entry of the scaled matrix.
     pub(super) smallest: f64,
@@ -52,10 +52,10 @@ impl<'a> Indefinite<'a> {
 
     /// Signs of the pivots of B.
     pub(super) fn signs(&self) -> Result<Signs> {
-        let mut signs = Signs { negative: 0, growth: 0.0, smallest: f64::INFINITY };
+        let mut signs =
+            Signs { negative: 0, growth: self.numbers.largest_product / self.largest, smallest: f64::INFINITY };
         let mut pivots = self.numbers.pivots().enumerate();
         while let Some((step, (d, coupling))) = pivots.next() {
-            signs.growth = signs.growth.max(d.abs()).max(coupling.abs());
             if !d.is_finite() || !coupling.is_finite() || (d == 0.0 && coupling == 0.0) {
                 return Err(Error::SturmPivot { step });
             }
@@ -69,7 +69,6 @@ impl<'a> Indefinite<'a> {
             if !determinant.is_finite() || determinant == 0.0 {
                 return Err(Error::SturmPivot { step });
             }
-            signs.growth = signs.growth.max(next.abs());
             let largest = d.abs().max(next.abs()).max(coupling.abs());
             signs.smallest = signs.smallest.min(determinant.abs() / largest);
             // One of each sign unless the determinant is positive; then both have the sign of the trace.
@@ -78,7 +77,6 @@ impl<'a> Indefinite<'a> {
         if self.analysis.n() == 0 {
             return Ok(Signs { negative: 0, growth: 1.0, smallest: 1.0 });
         }
-        signs.growth /= self.largest;
         signs.smallest /= self.largest;
         Ok(signs)
     }

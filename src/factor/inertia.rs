@@ -62,6 +62,15 @@ pub fn count_below(partition: &Partition, analysis: &Analysis, sigma: f64) -> Re
     Ok(count)
 }
 
+/// The counts below σ with S(σ), n_B × n_B, what elimination of the internal dofs leaves of K − σM.
+///
+/// # Errors
+/// As [`count_below`].
+pub fn condensed(partition: &Partition, analysis: &Analysis, sigma: f64) -> Result<(InertiaCount, Mat<f64>)> {
+    let (factor, _, count) = counted(partition, analysis, sigma, Keep::Pivots)?;
+    Ok((count, factor.schur()))
+}
+
 /// K − σM factored, S(σ) decomposed, and the counts.
 fn counted<'a>(
     partition: &Partition,

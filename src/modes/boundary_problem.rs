@@ -1,6 +1,6 @@
 //! The eigenproblem of a component under one boundary condition: its matrices, its operators and its counts.
 
-use faer::{Mat, MatMut};
+use faer::{Mat, MatMut, MatRef};
 
 use super::eigenproblem::Interval;
 use super::operator::{Factored, FreeAtZero, ShiftInvert};
@@ -79,7 +79,7 @@ impl<'a> BoundaryProblem<'a> {
     /// it does not; and says how many factorisations that took.
     ///
     /// # Errors
-    /// A mechanism; those of [`shifted`]; those of `solve`.
+    /// A mechanism; a rigid-body motion without mass; those of [`shifted`]; those of `solve`.
     pub(super) fn with_lowest_operator<T>(
         &self,
         solve: impl FnOnce(&dyn ShiftInvert) -> Result<T>,
@@ -89,6 +89,7 @@ impl<'a> BoundaryProblem<'a> {
             return Ok((solve(&Factored::new(factor, 0.0))?, 0));
         }
         let problem = self.modal();
+        massive(partition, rigid.massless())?;
         if self.component.is_modal() {
             return by_shift(partition, problem, |shifted| solve(&Factored::new(&shifted.factor, shifted.sigma)));
         }
@@ -103,12 +104,22 @@ impl<'a> BoundaryProblem<'a> {
     /// Factors K − σM inside the spectrum.
     ///
     /// # Errors
-    /// σ lies on an eigenvalue; no memory for the factor.
+    /// σ lies on an eigenvalue; a rigid-body motion of a free component has no mass; no memory for the factor.
     pub fn factor_at(&self, sigma: f64) -> Result<ShiftedFactor<'a>> {
         let Component { partition, analysis, .. } = self.component;
+        self.refuse_massless()?;
         let factor = ShiftedFactor::new(partition, analysis, sigma)?;
         self.refuse_on_eigenvalue(factor.count)?;
         Ok(factor)
+    }
+
+    /// A motion without stiffness and mass makes K − σM singular at every σ.
+    fn refuse_massless(&self) -> Result<()> {
+        let Component { partition, rigid, .. } = self.component;
+        match self.boundary {
+            Boundary::FreeInterface => massive(partition, rigid.massless()),
+            Boundary::FixedInterface => Ok(()),
+        }
     }
 
     fn refuse_on_eigenvalue(&self, count: InertiaCount) -> Result<()> {
@@ -124,6 +135,7 @@ impl<'a> BoundaryProblem<'a> {
     /// # Errors
     /// As [`Self::factor_at`].
     pub fn count_below(&self, sigma: f64) -> Result<ElasticCount> {
+        self.refuse_massless()?;
         let count = count_below(self.component.partition, self.component.analysis, sigma)?;
         self.refuse_on_eigenvalue(count)?;
         self.elastic(count)
@@ -167,6 +179,18 @@ impl<'a> BoundaryProblem<'a> {
         }
         Err(last.err().unwrap_or(Error::SturmPivot { step: 0 }))
     }
+}
+
+/// Refuses free modes where a rigid-body motion moves no mass: K − σM is singular along it at every σ, and any λ is an
+/// eigenvalue.
+pub(crate) fn massive(partition: &Partition, massless: MatRef<'_, f64>) -> Result<()> {
+    if massless.ncols() == 0 {
+        return Ok(());
+    }
+    let stiffness = diagonal(&partition.stiffness);
+    let size = |i: &usize| massless[(*i, 0)].abs() * stiffness[*i].max(0.0).sqrt();
+    let largest = (0..massless.nrows()).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0);
+    Err(Error::MasslessFreeMotion { dof: partition.name_of(largest) })
 }
 
 /// (K − σM)⁻¹ with σ inside the spectrum.

@@ -101,7 +101,8 @@ pub const EXPLANATIONS: [Explanation; 26] = [
         "M-06",
         Proof::Certified,
         "How many frequencies lie in the interval is counted from the signs of a factorisation, without computing a single \
-         mode, and compared with the modes found. Equal counts prove that none was missed.",
+         mode, and compared with the modes found. Equal counts prove that none was missed. One more factorisation counts the \
+         modes under every other boundary that is compared.",
         "A mode was missed and the run is not to be used. Please report it; another --eigensolver may help.",
     ),
     line(

@@ -32,7 +32,7 @@ pub use inspection::inspection;
 pub use junit::{JunitWarnings, junit};
 pub use page::Paint;
 pub use preservation::{
-    BoundaryComparison, FrequencyPair, HighestFrequency, InterfaceStatics, Preservation, PreservedMode,
+    BoundaryComparison, BoundaryCount, FrequencyPair, HighestFrequency, InterfaceStatics, Preservation, PreservedMode,
     ResponseComparison, ResponseSample, SizeError,
 };
 pub use rigid_body::{EffectiveMass, Grounding, MassRoute, RigidBodyEvidence};

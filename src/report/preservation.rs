@@ -52,6 +52,19 @@ pub struct BoundaryComparison {
     pub frequencies: Vec<FrequencyPair>,
     /// The largest relative difference within the band.
     pub worst_in_band: f64,
+    /// The Sturm count of the full model under this boundary, where one was made.
+    pub count: Option<BoundaryCount>,
+}
+
+/// How many frequencies the full model has under a boundary, and how many of them were found; rigid-body motion included.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct BoundaryCount {
+    /// The frequency below which was counted.
+    pub below_hz: f64,
+    /// Counted from the signs of a factorisation.
+    pub n_counted: usize,
+    /// Found by the eigensolver.
+    pub n_found: usize,
 }
 
 /// One frequency in both models.

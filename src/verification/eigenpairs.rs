@@ -161,7 +161,8 @@ pub(super) fn orthogonality(evidence: &Evidence<'_>) -> Check {
     let (mass, all, n_r) = match evidence.retained.boundary {
         Boundary::FixedInterface => (evidence.internal.1, shapes.clone(), 0),
         Boundary::FreeInterface => {
-            let rigid = &evidence.rigid.orthonormal;
+            // Motions without mass have no length in it.
+            let rigid = evidence.rigid.massive();
             let n_r = rigid.ncols();
             let join = Mat::from_fn(shapes.nrows(), n_r + shapes.ncols(), |i, j| {
                 if j < n_r { rigid[(i, j)] } else { shapes[(i, j - n_r)] }

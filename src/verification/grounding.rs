@@ -16,7 +16,7 @@ use crate::sparse::product;
 pub struct Grounding {
     /// `translation x`, `rotation z`.
     pub direction: String,
-    /// uᵀKu / (λ uᵀMu), λ the first eigenvalue beyond all directions.
+    /// uᵀKu / (λ uᵀMu), λ the first eigenvalue beyond all directions, or the highest elastic one.
     pub energy_ratio: f64,
     /// What rounding and the digits of K can make of it.
     pub noise: f64,
@@ -63,7 +63,8 @@ pub(super) fn groundings(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result
         absolute_product(&partition.stiffness, directions.motions.as_ref()),
     );
     let scale = Equilibrated::of(&partition.stiffness, &partition.mass).scale;
-    let first = spectrum.eigenvalue(directions.count().max(evidence.rigid.count()));
+    // Where no elastic mode is known, one in scaled units: the largest K_ii over the largest M_ii.
+    let first = spectrum.scale(directions.count().max(evidence.rigid.count())).unwrap_or(1.0);
     // Where K lets fewer motions pass than there are directions, some are held.
     let all_free = directions.count() <= evidence.rigid.count();
     let precision = partition.precision.stiffness + f64::EPSILON;
@@ -71,7 +72,7 @@ pub(super) fn groundings(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result
     // The least quotient that is not below that of a direction belongs to the motion that makes it up.
     let moves_as_a_whole = |quotient: f64| {
         let at = quotients.partition_point(|value| *value < (1.0 - SAME) * quotient).min(quotients.len() - 1);
-        quotients[at] <= AS_A_WHOLE * spectrum.eigenvalue(at)
+        spectrum.number(at).is_none_or(|lambda| quotients[at] <= AS_A_WHOLE * lambda)
     };
     let found = (0..directions.count()).map(|j| {
         let (u, force) = (dense::column(directions.motions.as_ref(), j), dense::column(forces.as_ref(), j));

@@ -5,7 +5,7 @@ use faer::MatRef;
 use super::check::{Check, Limits};
 use super::grounding::{Grounding, Restraint};
 use super::residual::Worst;
-use super::spectrum::{Spectrum, zero_level};
+use super::spectrum::{NOT_FREE, Spectrum, zero_level};
 use super::{Evidence, coordinate_name, reduced_norms, rigid_name};
 use crate::dense;
 use crate::rigid::scales;
@@ -13,10 +13,25 @@ use crate::rigid::scales;
 /// How far roundings of one sign may exceed their typical sum.
 const NOISE_FACTOR: f64 = 10.0;
 
-/// M-05, energy.
+/// M-05, energy; shown, not judged, where no elastic mode is known to compare it with.
 pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[Grounding]) -> Check {
     let energy = evidence.rigid.energy;
-    let first = spectrum.first_elastic();
+    let worst = strained(grounding, |direction| direction.energy_ratio);
+    let check = Check {
+        id: "M-05",
+        name: "rigid-body motion costs no energy",
+        equation: "max qᵀKq / λ of the first elastic mode",
+        value: energy.largest_quotient,
+        limits: Limits::NONE,
+        fail_above: f64::INFINITY,
+        worst,
+    };
+    let Some(first) = spectrum.first_elastic() else {
+        return Check {
+            equation: "max qᵀKq over max K_ii / max M_ii; no elastic mode is known to compare it with",
+            ..check
+        };
+    };
     let precision = evidence.partition.precision.stiffness;
     let noise = NOISE_FACTOR * evidence.partition.cancellation * energy.noise / first;
     let share = f64::EPSILON / (f64::EPSILON + precision);
@@ -25,16 +40,9 @@ pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[
         Limits { engineering: 1e-8, arithmetic: noise * share, data: noise * (1.0 - share) }.capped(1e-2, 1e-2);
     // Energy that the digits of K explain is a warning, up to a quarter of the first elastic frequency.
     let explained = (noise * (1.0 - share)).min(1.0 / 16.0);
-    Check {
-        id: "M-05",
-        name: "rigid-body motion costs no energy",
-        equation: "max qᵀKq / λ of the first elastic mode",
-        value: energy.largest_quotient / first,
-        limits,
-        // An energy of 10⁻⁴ is a rigid-body frequency of a hundredth of the first elastic one: the model is grounded.
-        fail_above: limits.value().max(1e-4).max(explained),
-        worst: strained(grounding, |direction| direction.energy_ratio),
-    }
+    // An energy of 10⁻⁴ is a rigid-body frequency of a hundredth of the first elastic one: the model is grounded.
+    let fail_above = limits.value().max(1e-4).max(explained);
+    Check { value: energy.largest_quotient / first, limits, fail_above, ..check }
 }
 
 /// M-05, residual.
@@ -136,7 +144,7 @@ pub(super) fn null_space(evidence: &Evidence<'_>) -> Check {
         equation: "max ‖K̂Û‖ / (‖K‖ ‖Û‖), in the scales of the uncondensed stiffness",
         value: worst.0,
         limits,
-        fail_above: limits.value().max(1e-8),
+        fail_above: limits.value().max(NOT_FREE),
         worst: worst.1,
     }
 }

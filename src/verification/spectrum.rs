@@ -16,10 +16,12 @@ pub(super) struct Spectrum {
     pub(super) zero_shapes: Mat<f64>,
     /// Those under the boundary of the retained modes, zero modes left out.
     pub(super) same_boundary: Vec<f64>,
-    /// Zero modes of K̂.
+    /// Zero modes of K̂: rigid-body motions that cost it nothing, and others.
     pub(super) n_zero: usize,
-    /// Those that have mass, and with it a place in the spectrum.
+    /// Those there should be that have mass, and with it a place in the spectrum.
     n_zero_of_pencil: usize,
+    /// The first elastic eigenvalue of the full model under the boundary of the retained modes, where one is known.
+    of_full: Option<f64>,
     /// The smallest eigenvalue of K̂ in the scales of its coordinates.
     pub(super) lowest_stiffness: f64,
     /// The coordinate that takes the largest part in it.
@@ -39,9 +41,10 @@ impl Spectrum {
         let (masses, mass_vectors) = dense::symmetric_eigen(equilibrated(m, m).as_ref())?;
         let n_r = evidence.rigid.count();
         let (k_held, n_pencil) = (with_massless_lifted(evidence), n_r - evidence.rigid.n_massless);
-        let lifted = lifted_eigenvalues(evidence)?;
+        let (rigid_energies, lifted) = lifted_eigenvalues(evidence)?;
         let zero = zero_level(evidence).value();
-        let n_zero = n_r + lifted.iter().filter(|value| **value <= zero).count();
+        let n_others = lifted.iter().filter(|value| **value <= zero).count();
+        let n_free = rigid_energies.iter().filter(|value| **value <= zero.max(NOT_FREE)).count();
         let (free, zero_shapes) = lowest_eigenpairs(k_held.as_ref(), m, lambda, n_pencil)?;
         let same_boundary = match evidence.retained.boundary {
             Boundary::FreeInterface => free.get(n_pencil..).unwrap_or_default().to_vec(),
@@ -55,18 +58,33 @@ impl Spectrum {
             zero_shapes,
             lowest_elastic: lifted.first().copied().unwrap_or(1.0),
             same_boundary,
-            n_zero,
-            n_zero_of_pencil: n_zero - evidence.rigid.n_massless,
+            n_zero: n_free + n_others,
+            n_zero_of_pencil: n_pencil + n_others,
+            of_full: evidence.retained.modes.lambda.first().copied().or(evidence.retained.modes.next),
             lowest_stiffness: scaled_stiffness.first().copied().unwrap_or(0.0),
             softest: largest_component(vectors.as_ref()),
             lowest_mass: (masses.first().copied().unwrap_or(0.0), largest_component(mass_vectors.as_ref())),
         })
     }
 
-    /// The eigenvalue of a number, from zero: infinite where there are not so many.
-    pub(super) fn eigenvalue(&self, index: usize) -> f64 {
-        let beyond = if self.free.is_empty() { f64::NAN } else { f64::INFINITY };
-        self.free.get(index).copied().unwrap_or(beyond)
+    /// The eigenvalue of a number, from zero, where there are so many.
+    pub(super) fn number(&self, index: usize) -> Option<f64> {
+        self.free.get(index).copied()
+    }
+
+    /// What the energy of a motion is compared with: the eigenvalue of the reduced model of this number, from zero, or the
+    /// highest elastic one where there are not so many; not a number where the reduced pencil is too far from definite to have
+    /// a spectrum.
+    ///
+    /// Without any elastic eigenvalue, what the full model shows of itself serves: the first eigenvalue with the interface held.
+    /// As many interface dofs as rigid-body motions then hold the component, and that is not above the first elastic one
+    /// (Cauchy). None where that is not known either.
+    pub(super) fn scale(&self, index: usize) -> Option<f64> {
+        if self.free.is_empty() {
+            return Some(f64::NAN);
+        }
+        let elastic = self.free.get(self.n_zero_of_pencil..).unwrap_or_default();
+        self.free.get(index.max(self.n_zero_of_pencil)).or(elastic.last()).copied().or(self.of_full)
     }
 
     /// The lowest eigenvalues, one for each rigid-body mode.
@@ -74,12 +92,14 @@ impl Spectrum {
         &self.free[..self.zero_shapes.ncols()]
     }
 
-    /// The first eigenvalue of the free reduced model that is no zero mode: infinite where all are, not a number where the
-    /// reduced pencil is too far from definite to have a spectrum.
-    pub(super) fn first_elastic(&self) -> f64 {
-        self.eigenvalue(self.n_zero_of_pencil)
+    /// The scale of the first elastic eigenvalue.
+    pub(super) fn first_elastic(&self) -> Option<f64> {
+        self.scale(self.n_zero_of_pencil)
     }
 }
+
+/// Energy of a rigid-body motion in K̂, in the scales of its coordinates, above which it is no zero mode: M-12 fails there.
+pub(super) const NOT_FREE: f64 = 1e-8;
 
 /// Size below which an eigenvalue of K̂ in the scales of its coordinates is zero: rounding of its r terms before they
 /// cancel, or the precision of the data.
@@ -96,18 +116,22 @@ pub(in crate::verification) fn zero_level(evidence: &Evidence<'_>) -> Limits {
     .capped(1e-4, 1e-2)
 }
 
-/// Eigenvalues of K̂ in the scales of its coordinates, ascending, with its rigid-body modes lifted to order one.
-fn lifted_eigenvalues(evidence: &Evidence<'_>) -> Result<Vec<f64>> {
+/// Eigenvalues of K̂ in the scales of its coordinates, ascending: in the space of its rigid-body modes, and of all of it with
+/// these lifted to order one.
+fn lifted_eigenvalues(evidence: &Evidence<'_>) -> Result<(Vec<f64>, Vec<f64>)> {
     let (k, u) = (&evidence.reduction.stiffness, &evidence.reduction.rigid_body_modes);
     let scales = coordinate_scales(evidence);
     let mut lifted = scaled_by(k.as_ref(), &scales);
+    let mut energies = Vec::new();
     if u.ncols() > 0 {
         let scaled = Mat::from_fn(u.nrows(), u.ncols(), |i, j| u[(i, j)] / scales[i]);
         let z = scaled.qr().compute_thin_Q();
+        let own = dense::gram(z.as_ref(), dense::product(lifted.as_ref(), z.as_ref()).as_ref());
+        (energies, _) = dense::symmetric_eigen(own.as_ref())?;
         dense::add_product(lifted.as_mut(), 1.0, z.as_ref(), z.transpose());
         dense::symmetrise(&mut lifted);
     }
-    Ok(dense::symmetric_eigen(lifted.as_ref())?.0)
+    Ok((energies, dense::symmetric_eigen(lifted.as_ref())?.0))
 }
 
 /// K̂ with a unit stiffness against the rigid-body motions without mass, in the scales of its coordinates: the pencil would be

@@ -15,3 +15,4 @@ mod facts;
 mod faults;
 mod grounded;
 mod healthy;
+mod scales;

@@ -40,6 +40,11 @@ fn assert_agrees(found: &BoundaryComparison, [full, reduced]: &[Vec<f64>; 2], n_
         worst = worst.max(pair.relative_difference.abs());
     }
     assert_eq!(found.worst_in_band, worst);
+    // Zero modes are rounding of either sign, and no number is below it.
+    let count = found.count.expect("counted");
+    let below = n_zero + full[n_zero..].iter().filter(|hz| **hz < count.below_hz).count();
+    assert!(count.below_hz > band_end, "{count:?}");
+    assert_eq!((count.n_counted, count.n_found), (below, below), "{}", found.boundary);
 }
 
 /// Free, each interface held, each loaded: by default and as the scene says.

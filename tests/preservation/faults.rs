@@ -2,7 +2,7 @@
 
 use faer::Scale;
 use supel::factor::Analysis;
-use supel::job::{Job, Method};
+use supel::job::{Certify, Job, Method};
 use supel::modes::Retained;
 use supel::reduction::Reduction;
 use supel::verification::check::{Check, Verdict};
@@ -25,15 +25,22 @@ superelement = "x.supel"
 
 /// The comparison of a block whose reduced matrices and modes may have been damaged.
 fn compared(damage: impl Fn(&mut Reduction, &mut Retained)) -> Compared {
-    let interfaces = [rigid_group("XMIN"), direct("tip", &[45])];
-    with_model(&block(), &interfaces, (Method::Herting, 6), |evidence| {
+    with_block(|evidence, job| {
         let (mut reduction, mut retained) = (evidence.reduction.clone(), evidence.retained.clone());
         damage(&mut reduction, &mut retained);
-        let analysis = Analysis::of(evidence.partition).expect("memory");
-        let job = Job::parse(JOB, "job.toml".as_ref()).expect("a job");
-        let damaged = Evidence { reduction: &reduction, retained: &retained, ..evidence };
-        preservation(&damaged, &analysis, &job).expect("compared")
+        compare(&Evidence { reduction: &reduction, retained: &retained, ..evidence }, &job)
     })
+}
+
+fn with_block<T>(look: impl Fn(Evidence<'_>, Job) -> T) -> T {
+    let interfaces = [rigid_group("XMIN"), direct("tip", &[45])];
+    let job = Job::parse(JOB, "job.toml".as_ref()).expect("a job");
+    with_model(&block(), &interfaces, (Method::Herting, 6), |evidence| look(evidence, job.clone()))
+}
+
+fn compare(evidence: &Evidence<'_>, job: &Job) -> Compared {
+    let analysis = Analysis::of(evidence.partition).expect("memory");
+    preservation(evidence, &analysis, job).expect("compared")
 }
 
 fn check<'a>(compared: &'a Compared, id: &str) -> &'a Check {
@@ -44,11 +51,54 @@ fn check<'a>(compared: &'a Compared, id: &str) -> &'a Check {
 fn a_sound_reduction_passes() {
     let compared = compared(|_, _| {});
     let ids: Vec<&str> = compared.checks.iter().map(|check| check.id).collect();
-    assert_eq!(ids, ["M-15", "M-17", "M-20", "M-21", "M-24"]);
+    assert_eq!(ids, ["M-15", "M-17", "M-20", "M-21", "M-06", "M-24"]);
     for check in &compared.checks {
         let expected = if check.id == "M-20" { Verdict::Info } else { Verdict::Pass };
         assert_eq!(check.verdict(), expected, "{check:?}");
     }
+}
+
+/// A mode that a search missed is found again from another start, because the count knows of it.
+#[test]
+fn a_mode_that_is_missing_under_a_boundary_is_looked_for_again() {
+    let sound = compared(|_, _| {});
+    // The free component takes the retained modes for its answer.
+    let lacking = compared(|_, retained| retained.modes = retained.modes.without(1));
+    let (found, expected) = (&lacking.report.boundaries[0], &sound.report.boundaries[0]);
+    assert_eq!((found.boundary.as_str(), found.frequencies.len()), ("free", expected.frequencies.len()));
+    let count = found.count.expect("counted");
+    assert_eq!((count.n_found, check(&lacking, "M-06").verdict()), (count.n_counted, Verdict::Pass));
+    for (found, expected) in found.frequencies.iter().zip(&expected.frequencies) {
+        // Rayleigh quotients of the same modes from two searches, some thousand roundings of terms that cancel.
+        assert!((found.full_hz / expected.full_hz - 1.0).abs() < 1e-12, "{found:?} for {expected:?}");
+    }
+}
+
+/// Half the stiffness inside counts more modes than there are, from whatever start they are looked for.
+#[test]
+fn a_count_that_is_not_met_fails() {
+    let compared = with_block(|evidence, job| {
+        let mut soft = evidence.internal.0.clone();
+        soft.data_mut().iter_mut().for_each(|value| *value *= 0.01);
+        compare(&Evidence { internal: (&soft, evidence.internal.1), ..evidence }, &job)
+    });
+    let missing = check(&compared, "M-06");
+    assert_eq!(missing.verdict(), Verdict::Fail, "{missing:?}");
+    let count = compared.report.boundaries.iter().filter_map(|comparison| comparison.count);
+    assert!(count.into_iter().any(|count| count.n_counted > count.n_found));
+}
+
+/// A job that asks for no count gets none.
+#[test]
+fn nothing_is_counted_where_nothing_is_certified() {
+    let compared = with_block(|evidence, mut job| {
+        job.run.certify = Certify::None;
+        compare(&evidence, &job)
+    });
+    assert!(compared.checks.iter().all(|check| check.id != "M-06"));
+    assert!(
+        compared.report.boundaries.len() == 5 && compared.report.boundaries.iter().all(|line| line.count.is_none())
+    );
 }
 
 #[test]

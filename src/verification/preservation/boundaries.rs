@@ -1,22 +1,25 @@
 //! Frequencies of the reduced against the full model under the boundaries of the scene: M-24.
 
-use faer::{Mat, MatRef};
+use faer::Mat;
 
-use super::super::Evidence;
 use super::super::check::{Check, Limits};
+use super::super::{Evidence, data_noise};
 use super::full::Supported;
 use super::interfaces::{Inertia, Interface};
-use super::pencil::Spectral;
+use super::reduced::{Quotient, quotients};
 use crate::dense;
 use crate::error::Result;
-use crate::factor::SolveOperator;
 use crate::job::Support;
-use crate::modes::{Boundary as ModeBoundary, ModeError};
-use crate::report::table::quantity;
-use crate::report::{BoundaryComparison, FrequencyPair};
+use crate::modes::{Boundary as ModeBoundary, ModeError, SEED};
+use crate::report::table::{quantity, scientific};
+use crate::report::{BoundaryComparison, BoundaryCount, FrequencyPair};
 
 /// How far roundings of one sign may exceed their typical sum.
 const ROUNDINGS: f64 = 10.0;
+/// Backward error of a pair beyond which it is nobody's, unless the digits of the data explain it: half the digits are gone.
+const NOT_SOLVED: f64 = 1e-8;
+/// What arithmetic and data may excuse: past two digits the comparison says nothing.
+const MOST_EXCUSED: f64 = 1e-2;
 
 /// What a support does to the interface dofs.
 #[derive(Clone, Debug)]
@@ -84,18 +87,6 @@ impl Boundary {
             ModeBoundary::FixedInterface => self.held.iter().all(|held| *held),
         }
     }
-
-    /// Eigenvalues of a reduced pencil under this boundary, ascending, zero modes included.
-    pub(super) fn of_reduced(&self, k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Result<Vec<f64>> {
-        let n_b = self.held.len();
-        let kept: Vec<usize> = (0..k.nrows()).filter(|i| *i >= n_b || !self.held[*i]).collect();
-        let part = |a: MatRef<'_, f64>| Mat::from_fn(kept.len(), kept.len(), |i, j| a[(kept[i], kept[j])]);
-        let mut mass = part(m);
-        for (new, old) in kept.iter().enumerate().take_while(|(_, old)| **old < n_b) {
-            mass[(new, new)] += self.load[*old];
-        }
-        Ok(Spectral::of(part(k).as_ref(), mass.as_ref(), alpha)?.eigenvalues())
-    }
 }
 
 /// The full model's answer under one boundary.
@@ -104,23 +95,23 @@ pub(super) struct Reference {
     pub(super) boundary: Boundary,
     /// Elastic eigenvalues up to the end of the band, ascending.
     pub(super) lambda: Vec<f64>,
-    /// Relative rounding of each: that of the terms of xᵀKx, and that of K̂, whose terms cancel from the size of K.
-    bars: Vec<f64>,
-    /// Zero modes that the support leaves.
-    pub(super) n_zero: usize,
+    /// What is known of the error of each.
+    errors: Vec<ModeError>,
+    /// The next eigenvalue above, where there is one.
+    pub(super) next: Option<f64>,
+    /// The rigid-body motions that the support lets pass, at the interface dofs that are not held; orthonormal in the mass of
+    /// the component with its load.
+    passing: Mat<f64>,
+    /// The Sturm count, where one was made.
+    pub(super) count: Option<BoundaryCount>,
 }
 
 impl Reference {
-    /// The full model up to `limit`; the retained modes where they are the answer already.
+    /// The full model up to `limit`; the retained modes where they are the answer already and `seed` is the first.
     ///
     /// # Errors
     /// The eigensolver does not converge; no memory.
-    pub(super) fn new(
-        evidence: &Evidence<'_>,
-        factor: &dyn SolveOperator,
-        boundary: Boundary,
-        limit: f64,
-    ) -> Result<Self> {
+    pub(super) fn new(evidence: &Evidence<'_>, boundary: Boundary, limit: f64, seed: u64) -> Result<Self> {
         let modes = &evidence.retained.modes;
         let is_covered = match (modes.next, modes.searched_to) {
             (Some(next), _) => next > limit,
@@ -128,21 +119,50 @@ impl Reference {
             (None, None) => true,
         };
         let supported = Supported::new(evidence, &boundary)?;
-        let found = if boundary.is_own(evidence) && is_covered {
+        let found = if boundary.is_own(evidence) && is_covered && seed == SEED {
             modes
         } else {
-            &supported.modes_up_to(evidence, factor, limit)?
+            &supported.modes_up_to(evidence, limit, seed)?
         };
         let n_found = found.lambda.iter().take_while(|lambda| **lambda <= limit).count();
-        let bar = |(lambda, error): (&f64, &ModeError)| {
-            f64::EPSILON * error.cancellation + error.rounding_floor / lambda.abs()
-        };
-        let bars = found.lambda[..n_found].iter().zip(&found.errors).map(bar).collect();
-        Ok(Self { boundary, lambda: found.lambda[..n_found].to_vec(), bars, n_zero: supported.n_rigid() })
+        Ok(Self {
+            boundary,
+            lambda: found.lambda[..n_found].to_vec(),
+            errors: found.errors[..n_found].to_vec(),
+            next: found.lambda.get(n_found).copied().or(found.next),
+            passing: supported.passing(),
+            count: None,
+        })
+    }
+
+    /// Rigid-body motions that the support lets pass.
+    pub(super) fn n_zero(&self) -> usize {
+        self.passing.ncols()
+    }
+
+    /// The same motions in the coordinates of a reduced model without the dofs that are held, n × n_zero.
+    pub(super) fn passing_coordinates(&self, n: usize) -> Mat<f64> {
+        let motions = &self.passing;
+        Mat::from_fn(n, motions.ncols(), |i, j| if i < motions.nrows() { motions[(i, j)] } else { 0.0 })
+    }
+
+    /// Why the full model was not solved under this boundary well enough to be compared with; the retained modes have M-01
+    /// to say so.
+    pub(super) fn unsound(&self, evidence: &Evidence<'_>) -> Option<String> {
+        let precision = evidence.partition.precision;
+        let most = NOT_SOLVED.max(ROUNDINGS * precision.stiffness.max(precision.mass));
+        let backward = dense::worst(self.errors.iter().map(|error| error.backward));
+        (!self.boundary.is_own(evidence) && dense::worse(backward, most))
+            .then(|| format!("the full model leaves a residual of {} there", scientific(backward, 2)))
+    }
+
+    /// What rounding moves an eigenvalue by, in scaled units: that of the mode it moves most.
+    pub(super) fn rounding_floor(&self) -> f64 {
+        dense::worst(self.errors.iter().map(|error| error.rounding_floor))
     }
 
     /// Largest relative difference of a frequency in the band, given the eigenvalues of a reduced model.
-    pub(super) fn worst_difference(&self, evidence: &Evidence<'_>, reduced: &[f64], band_hz: [f64; 2]) -> f64 {
+    pub(super) fn worst_difference(&self, evidence: &Evidence<'_>, reduced: &[Quotient], band_hz: [f64; 2]) -> f64 {
         self.pairs(evidence, reduced, band_hz)
             .iter()
             .filter(|pair| pair.in_band)
@@ -150,11 +170,10 @@ impl Reference {
             .fold(0.0, |worst, difference| if dense::worse(difference, worst) { difference } else { worst })
     }
 
-    fn pairs(&self, evidence: &Evidence<'_>, reduced: &[f64], band_hz: [f64; 2]) -> Vec<FrequencyPair> {
+    fn pairs(&self, evidence: &Evidence<'_>, reduced: &[Quotient], band_hz: [f64; 2]) -> Vec<FrequencyPair> {
         let pair = |(j, full): (usize, &f64)| {
             let full_hz = super::hertz(evidence, *full);
-            let reduced_hz =
-                reduced.get(self.n_zero + j).map_or(f64::INFINITY, |lambda| super::hertz(evidence, *lambda));
+            let reduced_hz = reduced.get(j).map_or(f64::INFINITY, |quotient| super::hertz(evidence, quotient.lambda));
             FrequencyPair {
                 full_hz,
                 reduced_hz,
@@ -167,30 +186,40 @@ impl Reference {
 
     pub(super) fn comparison(&self, evidence: &Evidence<'_>, band_hz: [f64; 2]) -> Result<BoundaryComparison> {
         let (k, m) = (evidence.reduction.stiffness.as_ref(), evidence.reduction.mass.as_ref());
-        let reduced = self.boundary.of_reduced(k, m, super::shift(evidence))?;
+        let reduced = quotients(evidence, self, k, m)?;
         Ok(BoundaryComparison {
             boundary: self.boundary.name.clone(),
             description: self.boundary.description.clone(),
             frequencies: self.pairs(evidence, &reduced, band_hz),
             worst_in_band: self.worst_difference(evidence, &reduced, band_hz),
+            count: self.count,
         })
     }
 }
 
 /// M-24: a reduced model is the full one with constraints; none of its eigenvalues lies below.
+///
+/// What may still be missing is bounded term by term. Each of the two Rayleigh quotients has the rounding of its own terms,
+/// and of the entries of K̂, whose terms cancel from the size of K. The quotient of the full model lies above its eigenvalue
+/// by what its residual leaves in doubt, and K̂ lost the block K̂_Bη, which (29) says is zero and the digits of K do not.
 pub(super) fn monotonicity(evidence: &Evidence<'_>, references: &[Reference]) -> Result<Option<Check>> {
     let (k, m) = (evidence.reduction.stiffness.as_ref(), evidence.reduction.mass.as_ref());
     // How far below, the limit of that mode, and which it is.
     let mut worst: (f64, Limits, Option<String>) = (0.0, Limits { engineering: 1e-9, ..Limits::default() }, None);
     for reference in references {
-        let reduced = reference.boundary.of_reduced(k, m, super::shift(evidence))?;
-        for (j, (full, bar)) in reference.lambda.iter().zip(&reference.bars).enumerate() {
-            let Some(reduced) = reduced.get(reference.n_zero + j) else { break };
-            let below = (1.0 - reduced / full).max(0.0);
-            // The full model is solved beside its rigid-body motions q. Where the digits leave them an energy ε = qᵀKq, they
-            // couple with a mode by |qᵀKx| ≤ √(ελ), and leaving them out raises λ by up to |qᵀKx|²/λ = ε each.
-            let data = reference.n_zero as f64 * evidence.rigid.energy.largest_quotient / full;
-            let limits = Limits { engineering: 1e-9, arithmetic: ROUNDINGS * bar, data };
+        let quotients = quotients(evidence, reference, k, m)?;
+        for (j, (reduced, (full, error))) in
+            quotients.iter().zip(reference.lambda.iter().zip(&reference.errors)).enumerate()
+        {
+            let below = (1.0 - reduced.lambda / full).max(0.0);
+            let terms = f64::EPSILON * error.cancellation + error.rounding_floor / full.abs();
+            let rounding = ROUNDINGS * (terms + reduced.rounding);
+            let left = error.residual_bar + reduced.uncoupled;
+            let (arithmetic, data) = match data_noise(evidence.partition) > 0.0 {
+                true => (rounding, left),
+                false => (rounding + left, 0.0),
+            };
+            let limits = Limits { engineering: 1e-9, arithmetic, data }.capped(MOST_EXCUSED, MOST_EXCUSED);
             if dense::worse(below / limits.value(), worst.0 / worst.1.value()) {
                 worst = (below, limits, Some(format!("{}, mode {}", reference.boundary.name, j + 1)));
             }

@@ -9,10 +9,10 @@ use super::super::Evidence;
 use super::boundaries::Boundary;
 use crate::dense;
 use crate::error::Result;
-use crate::factor::{Analysis, Pencil, SolveOperator};
+use crate::factor::{Analysis, Pencil};
 use crate::job::Eigensolver;
 use crate::model::diagonal;
-use crate::modes::{Factored, FreeAtZero, ModalProblem, ModeRequest, Modes, SEED, Wanted, elastic_modes, shifted};
+use crate::modes::{Factored, FreeAtZero, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes, massive, shifted};
 use crate::rigid::{RigidBodyModes, RigidEnergy};
 use crate::sparse::{SparseMatrix, product};
 
@@ -36,7 +36,7 @@ impl Supported {
     /// Takes away the held dofs and adds the load.
     ///
     /// # Errors
-    /// A dense eigenproblem that does not converge.
+    /// A rigid-body motion without mass that the support lets pass; a dense eigenproblem that does not converge.
     pub(super) fn new(evidence: &Evidence<'_>, boundary: &Boundary) -> Result<Self> {
         let partition = evidence.partition;
         let n_i = partition.n_internal;
@@ -48,24 +48,25 @@ impl Supported {
         Ok(Self { stiffness: restricted(&partition.stiffness, &kept, &vec![0.0; load.len()]), mass, free, rigid })
     }
 
-    /// Rigid-body motions that the support lets pass.
-    pub(super) fn n_rigid(&self) -> usize {
-        self.rigid.count()
+    /// The rigid-body motions that the support lets pass, at the interface dofs that are not held.
+    pub(super) fn passing(&self) -> Mat<f64> {
+        let motions = self.rigid.orthonormal.as_ref();
+        motions.subrows(motions.nrows() - self.free.len(), self.free.len()).to_owned()
     }
 
-    /// The elastic modes up to a λ.
+    /// The elastic modes up to a λ, from the start vectors of a seed.
     ///
     /// # Errors
     /// The eigensolver does not converge; no memory.
-    pub(super) fn modes_up_to(&self, evidence: &Evidence<'_>, factor: &dyn SolveOperator, limit: f64) -> Result<Modes> {
-        let request = ModeRequest { wanted: Wanted::UpTo(limit), eigensolver: Eigensolver::Lanczos, seed: SEED };
+    pub(super) fn modes_up_to(&self, evidence: &Evidence<'_>, limit: f64, seed: u64) -> Result<Modes> {
+        let request = ModeRequest { wanted: Wanted::UpTo(limit), eigensolver: Eigensolver::Lanczos, seed };
         let problem = ModalProblem {
             stiffness: &self.stiffness,
             mass: &self.mass,
             rigid: Some(&self.rigid),
             precision: evidence.partition.precision,
         };
-        let modes = self.by_factor(evidence, factor, problem, request)?;
+        let modes = self.by_factor(evidence, problem, request)?;
         if modes.errors.iter().all(|error| error.backward <= HOLDS_UP) {
             return Ok(modes);
         }
@@ -74,17 +75,11 @@ impl Supported {
         elastic_modes(problem, &Factored::new(&shifted.factor, shifted.sigma), request)
     }
 
-    fn by_factor(
-        &self,
-        evidence: &Evidence<'_>,
-        factor: &dyn SolveOperator,
-        problem: ModalProblem<'_>,
-        request: ModeRequest,
-    ) -> Result<Modes> {
+    fn by_factor(&self, evidence: &Evidence<'_>, problem: ModalProblem<'_>, request: ModeRequest) -> Result<Modes> {
+        let (factor, constraint) = (evidence.factor, evidence.constraint);
         if self.free.is_empty() {
             return elastic_modes(problem, &Factored::new(factor, 0.0), request);
         }
-        let constraint = evidence.constraint;
         let (n_i, n_f) = (evidence.partition.n_internal, self.free.len());
         let psi_s = Mat::from_fn(n_i, n_f, |i, j| constraint.modes[(i, self.free[j])]);
         let schur = Mat::from_fn(n_f, n_f, |i, j| constraint.stiffness[(self.free[i], self.free[j])]);
@@ -125,11 +120,12 @@ fn passing_motions(
     kept: &[usize],
     mass: &SparseMatrix,
 ) -> Result<RigidBodyModes> {
-    let (q, n_i) = (evidence.rigid.massive(), evidence.partition.n_internal);
+    let n_i = evidence.partition.n_internal;
     let stiffness = diagonal(&evidence.partition.stiffness);
     let held: Vec<usize> = (0..boundary.held.len()).filter(|dof| boundary.held[*dof]).map(|dof| n_i + dof).collect();
-    let passing = passing(q, &held, &stiffness)?;
-    let motions = dense::product(q, passing.as_ref());
+    let that_pass = |q: MatRef<'_, f64>| Ok(dense::product(q, passing(q, &held, &stiffness)?.as_ref()));
+    massive(evidence.partition, that_pass(evidence.rigid.massless())?.as_ref())?;
+    let motions = that_pass(evidence.rigid.massive())?;
     let mut motions = Mat::from_fn(kept.len(), motions.ncols(), |i, j| motions[(kept[i], j)]);
     // The second pass takes up the rounding of the first.
     for _ in 0..2 {
@@ -160,9 +156,10 @@ fn passing(q: MatRef<'_, f64>, held: &[usize], stiffness: &[f64]) -> Result<Mat<
     if held.is_empty() || n_r == 0 {
         return Ok(Mat::identity(n_r, n_r));
     }
-    let at_held = Mat::from_fn(held.len().max(n_r), n_r, |i, j| {
-        held.get(i).map_or(0.0, |dof| q[(*dof, j)] * stiffness[*dof].max(0.0).sqrt())
-    });
+    // A free particle has no stiffness and is held all the same.
+    let weight = |dof: usize| if stiffness[dof] > 0.0 { stiffness[dof].sqrt() } else { 1.0 };
+    let at_held =
+        Mat::from_fn(held.len().max(n_r), n_r, |i, j| held.get(i).map_or(0.0, |dof| q[(*dof, j)] * weight(*dof)));
     let (singular, v) = dense::right_singular(at_held.as_ref())?;
     let rank = singular.iter().filter(|value| **value > PASSES * singular[0]).count();
     Ok(v.as_ref().subcols(rank, n_r - rank).to_owned())

@@ -3,6 +3,7 @@
 //! ```text
 //! mac          retained modes as eigenpairs of both models             (34) (35), M-15
 //! boundaries   frequencies with interfaces held, free, loaded           M-24
+//! counts       how many the full model has of them                      M-06
 //! statics      stiffness of each interface by direct solves             M-17
 //! response     frequency response of all pairs of interface dofs        M-20, M-21
 //! sizes        the same errors of a smaller basis
@@ -11,12 +12,14 @@
 //! K_II, which is there already, only speeds it up. What would be dear and nobody asked for is left out by name.
 
 mod boundaries;
+mod counts;
 mod extended;
 mod full;
 mod interfaces;
 mod mac;
 mod pencil;
 mod policy;
+mod reduced;
 mod response;
 mod samples;
 mod sizes;
@@ -27,9 +30,11 @@ use super::check::Check;
 use crate::error::{Error, Result};
 use crate::factor::Analysis;
 use crate::job::Job;
+use crate::modes::SEED;
 use crate::report::Preservation;
 
 use boundaries::{Boundary, Reference};
+use counts::Condensed;
 use interfaces::Interface;
 use pencil::Spectral;
 
@@ -40,7 +45,7 @@ pub use policy::Plan;
 pub struct Compared {
     /// Reduced beside full.
     pub report: Preservation,
-    /// M-15, M-17, M-20, M-21 and M-24, as far as they were made.
+    /// M-06, M-15, M-17, M-20, M-21 and M-24, as far as they were made.
     pub checks: Vec<Check>,
 }
 
@@ -61,7 +66,7 @@ pub fn preservation(evidence: &Evidence<'_>, analysis: &Analysis, job: &Job) -> 
     compared.report.statics = statics::statics(evidence, evidence.factor, &interfaces, notes);
     compared.checks.extend(statics::check(evidence, &compared.report.statics));
     if let Some(band_hz) = plan.band_hz {
-        let references = compared.references(evidence, &interfaces, &plan)?;
+        let references = compared.references(evidence, analysis, &interfaces, &plan)?;
         compared.dynamics(evidence, (&plan, band_hz), &references)?;
     }
     Ok(compared)
@@ -94,16 +99,61 @@ impl Compared {
         Ok(())
     }
 
-    /// The full model under each boundary of the plan.
-    fn references(&mut self, evidence: &Evidence<'_>, interfaces: &[Interface], plan: &Plan) -> Result<Vec<Reference>> {
+    /// The full model under each boundary of the plan, counted where counts are made.
+    fn references(
+        &mut self,
+        evidence: &Evidence<'_>,
+        analysis: &Analysis,
+        interfaces: &[Interface],
+        plan: &Plan,
+    ) -> Result<Vec<Reference>> {
         let mut references = Vec::new();
         let limit = plan.band_hz.map_or(0.0, |[_, high]| eigenvalue(evidence, high));
         for support in &plan.supports {
             let boundary = Boundary::new(evidence, interfaces, support);
             let what = format!("frequencies with boundary {support}");
-            references.extend(self.kept(&what, Reference::new(evidence, evidence.factor, boundary, limit))?);
+            let Some(reference) = self.kept(&what, Reference::new(evidence, boundary, limit, SEED))? else { continue };
+            match reference.unsound(evidence) {
+                Some(why) => self.report.not_compared.push(format!("{what}: {why}")),
+                None => references.push(reference),
+            }
+        }
+        if plan.counts && !references.is_empty() {
+            self.count(evidence, analysis, &mut references, limit)?;
         }
         Ok(references)
+    }
+
+    /// Counts the modes of every reference; where one is missing it is looked for from another start.
+    fn count(
+        &mut self,
+        evidence: &Evidence<'_>,
+        analysis: &Analysis,
+        references: &mut [Reference],
+        limit: f64,
+    ) -> Result<()> {
+        const WHAT: &str = "number of modes under other boundaries";
+        let condensed = Condensed::new(evidence, analysis, references, limit);
+        let Some(condensed) = self.kept(WHAT, condensed)? else { return Ok(()) };
+        let Some(condensed) = condensed else {
+            self.report.not_compared.push(format!("{WHAT}: every shift above the band lies on an eigenvalue"));
+            return Ok(());
+        };
+        for reference in references {
+            reference.count = condensed.count(evidence, reference)?;
+            if reference.count.is_some_and(|count| count.n_counted != count.n_found) {
+                let again = Reference::new(evidence, reference.boundary.clone(), limit, SEED + 1);
+                if let Some(again) = self.kept(&format!("modes with boundary {}", reference.boundary.name), again)? {
+                    *reference = again;
+                    reference.count = condensed.count(evidence, reference)?;
+                }
+            }
+            if reference.count.is_none() {
+                let name = &reference.boundary.name;
+                self.report.not_compared.push(format!("number of modes with boundary {name}: rounding decides it"));
+            }
+        }
+        Ok(())
     }
 
     fn dynamics(
@@ -128,6 +178,7 @@ impl Compared {
         }
         let monotonicity = boundaries::monotonicity(evidence, references);
         let monotonicity = self.kept("monotonicity of the frequencies", monotonicity)?.flatten();
+        self.checks.extend(counts::check(references));
         self.checks.extend(monotonicity);
         let full = response.as_ref().map(|response| &response.full);
         let sizes = sizes::size_errors(evidence, references, full, band_hz);

@@ -29,7 +29,7 @@ impl Spectral {
     /// The spectral form of a pencil; α should be near the lowest elastic eigenvalue.
     ///
     /// # Errors
-    /// [`Error::DenseEigen`] where K + αM is not definite or holds values that are not numbers.
+    /// [`Error::DenseEigen`] where K + αM is not definite, M is negative, or either holds values that are not numbers.
     pub(super) fn of(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Result<Self> {
         let n = k.nrows();
         let shifted = Mat::from_fn(n, n, |i, j| k[(i, j)] + alpha * m[(i, j)]);
@@ -43,6 +43,12 @@ impl Spectral {
         dense::symmetrise(&mut c);
         let (mut theta, q) = dense::symmetric_eigen(c.as_ref())?;
         theta.reverse();
+        // Rounding leaves a θ of zero a little below; one further below than the largest is above belongs to no mass.
+        if let (Some(most), Some(least)) = (theta.first(), theta.last())
+            && *least < -most.abs()
+        {
+            return Err(Error::DenseEigen { n });
+        }
         let mut shapes = Mat::from_fn(n, n, |i, j| q[(i, n - 1 - j)]);
         solve_upper_triangular_in_place(factor.L().transpose(), shapes.as_mut(), Par::Seq);
         for j in 0..n {

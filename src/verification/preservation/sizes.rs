@@ -3,6 +3,7 @@
 use super::super::Evidence;
 use super::boundaries::Reference;
 use super::pencil::Spectral;
+use super::reduced::quotients;
 use super::response::FullResponse;
 use crate::basis::DynamicCoordinate;
 use crate::dense;
@@ -44,17 +45,16 @@ fn size_error(
     let n = evidence.partition.n_interface() + n_columns(evidence, n_modes);
     let (k, m) = (&evidence.reduction.stiffness, &evidence.reduction.mass);
     let (k, m) = (k.submatrix(0, 0, n, n), m.submatrix(0, 0, n, n));
-    let shift = super::shift(evidence);
     let mut frequency_error = 0.0;
     for reference in references {
-        let reduced = reference.boundary.of_reduced(k, m, shift)?;
+        let reduced = quotients(evidence, reference, k, m)?;
         let error = reference.worst_difference(evidence, &reduced, band_hz);
         if dense::worse(error, frequency_error) {
             frequency_error = error;
         }
     }
     let response_error_db = match response {
-        Some(full) => Some(full.worst_decibel(evidence, &Spectral::of(k, m, shift)?)),
+        Some(full) => Some(full.worst_decibel(evidence, &Spectral::of(k, m, super::shift(evidence))?)),
         None => None,
     };
     Ok(SizeError { n_modes, n_reduced: n, frequency_error, response_error_db })

@@ -21,7 +21,7 @@ fn c_13_bars_follow_the_digits_of_the_text() {
                 case.refused(&["negative eigenvalues", "lacks digits"]);
                 continue;
             }
-            let outcome = case.accepted_but_for("M-24");
+            let outcome = case.accepted();
             assert_eq!(outcome.report.body.model.stiffness.digits as usize, digits);
             assert_eq!(n_rigid(&outcome), 6, "{digits} digits");
             let found = eigenvalues(&outcome);

@@ -77,21 +77,20 @@ fn c_02_units_of_dofs_and_lengths() {
     // The last node's six dofs.
     let tip = [rows("tip", &[18, 19, 20, 21, 22, 23])];
     for method in METHODS {
-        let reference = Case::new(&anonymous(at(1.0)), &tip).method(method).accepted_but_for("M-24");
+        let reference = Case::new(&anonymous(at(1.0)), &tip).method(method).accepted();
         let lambda = eigenvalues(&reference);
         for factor in [1e3, 1e-3, 57.3] {
             let model = at(1.0);
             let factors: Vec<f64> =
                 model.dofs.iter().map(|(_, direction)| if *direction < 3 { 1.0 } else { factor }).collect();
-            let outcome =
-                Case::new(&anonymous(dof_scaled(&model, &factors)), &tip).method(method).accepted_but_for("M-24");
+            let outcome = Case::new(&anonymous(dof_scaled(&model, &factors)), &tip).method(method).accepted();
             assert!(worst_ratio(&eigenvalues(&outcome), &lambda) <= 1e-11, "{method}, {factor}");
             // M-02: backward error dof by dof.
             let componentwise = checks(&outcome, "M-02")[0].value;
             assert!(componentwise <= 1e-11, "{method}, {factor}: {componentwise:e}");
         }
         for size in [1e-6, 1e-3, 1e3, 1e6] {
-            let outcome = Case::new(&anonymous(at(size)), &tip).method(method).accepted_but_for("M-24");
+            let outcome = Case::new(&anonymous(at(size)), &tip).method(method).accepted();
             // E and ρ fixed: frequencies go with one over the length.
             let back: Vec<f64> = eigenvalues(&outcome).iter().map(|found| found * size * size).collect();
             assert!(worst_ratio(&back, &lambda) <= 1e-11, "{method}, {size:e}");

@@ -5,10 +5,9 @@ use supel_models::transform::{join, supported, translated};
 use supel_models::{Material, Model, brick};
 
 use super::{CORNERS, block};
-use supel::verification::check::Verdict;
 
 use crate::chain::direct;
-use crate::program::{Case, METHODS, eigensolvers, eigenvalues, lines, message_of, n_rigid, warnings, worst_ratio};
+use crate::program::{Case, METHODS, eigensolvers, eigenvalues, message_of, n_rigid, warnings, worst_ratio};
 
 /// Two beams that share the edge x = 2, y = 1: a hinge about z. The first has the labels 1 to 12.
 fn hinged() -> Model {
@@ -117,11 +116,8 @@ fn s_06_near_mechanism_is_told_and_never_flips() {
         let mut seen = Vec::new();
         for p in 2..=16 {
             let case = Case::new(&sprung(10f64.powi(-p)), &interfaces).method(method);
-            // The softer the spring, the more of a solve with K_II goes into its motion: from 10⁻⁷ on the residuals of
-            // Herting's modes may stay above what M-01, M-14 and M-24 let pass. The run is refused then, by name.
-            let outcome = case.run().expect("a reduction");
-            let failed = lines(&outcome, Verdict::Fail);
-            assert!(failed.is_empty() || (method == "herting" && p >= 7), "{method}, 10^-{p}: {failed:?}");
+            // The softer the spring, the more of a solve with K_II goes into its motion; the other modes are found beside it.
+            let outcome = case.accepted();
             let codes: Vec<_> = warnings(&outcome);
             let zone = match (codes.contains(&"W-MECHANISM"), codes.contains(&"W-GREY")) {
                 (false, false) => 0,

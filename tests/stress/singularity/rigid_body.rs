@@ -152,6 +152,22 @@ fn s_10_rotation_without_inertia_is_kept_out_of_inertia_relief() {
     // The inertia about the axis is what is left: nothing.
     let inertia = outcome.report.body.model.mass_properties.inertia.expect("mass properties");
     assert!(inertia[0][0].abs() <= 1e-12 * inertia[1][1], "{inertia:?}");
+    // Held at its ends it has modes to compare with; free, and loaded where it does not turn, it has none that are defined.
+    let preservation = &outcome.report.body.preservation;
+    let compared: Vec<&str> = preservation.boundaries.iter().map(|line| line.boundary.as_str()).collect();
+    assert_eq!(compared, ["fix:ends"]);
+    for name in ["free", "mass:ends"] {
+        let named = preservation.not_compared.iter().find(|note| note.contains(&format!("boundary {name}: ")));
+        assert!(named.is_some_and(|note| note.contains("moves no mass")), "{:?}", preservation.not_compared);
+    }
+    // Herting's method keeps free modes.
+    for eigensolver in eigensolvers() {
+        for modes in ["{ count = 3 }", "{ up_to_hz = 0.02 }"] {
+            let case = Case { modes: modes.into(), ..Case::new(&straight, &[direct("ends", &[1, 6])]) };
+            let error = case.by(eigensolver).refused(&["moves no mass", "rx", "rotary inertia", "craig-bampton"]);
+            assert!(matches!(error, Error::MasslessFreeMotion { .. }), "{error}");
+        }
+    }
 }
 
 #[test]
