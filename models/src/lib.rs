@@ -9,6 +9,7 @@ pub mod bar;
 pub mod bracket;
 pub mod dense;
 pub mod element;
+mod files;
 pub mod frame;
 pub mod hexahedra;
 pub mod known;
