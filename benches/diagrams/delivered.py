@@ -67,10 +67,10 @@ def scipy(settings, folder, reference, error_of):
 
 
 def front(points):
-    """The points that no other beats in both."""
+    """The points that no other beats in both; rounding does not make an error smaller."""
     best = []
     for seconds, error in sorted(points):
-        if not best or error < best[-1][1]:
+        if not best or error < 0.999 * best[-1][1]:
             best.append((seconds, error))
     return best
 

@@ -1,6 +1,7 @@
 """Result files: CSV and SVG that say where they came from."""
 
 import csv
+import textwrap
 
 import matplotlib
 
@@ -32,8 +33,10 @@ def axes(title, x, y, n=1):
 
 
 def save(figure, path, origin):
-    text = "\n".join(f"{name}: {text}" for name, text in origin)
-    figure.tight_layout(rect=(0, 0.04 + 0.018 * len(origin), 1, 1))
+    characters = int(22 * figure.get_figwidth())
+    lines = [line for name, text in origin for line in textwrap.wrap(f"{name}: {text}", characters)]
+    text = "\n".join(lines)
+    figure.tight_layout(rect=(0, 0.04 + 0.018 * len(lines), 1, 1))
     figure.text(0.01, 0.01, text, fontsize=5, family="monospace", va="bottom")
     figure.savefig(path, metadata={"Date": None, "Description": text})
     plt.close(figure)

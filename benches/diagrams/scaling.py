@@ -55,6 +55,8 @@ def draw(settings, family, sizes):
     for number, stage in enumerate(stages):
         y = [max(row.get(stage, 0.0), 1e-4) for row in all_threads]
         left.plot(n, y, "o-", markersize=3, linewidth=0.9, color=f"C{number % 10}", label=stage, alpha=0.6 + 0.4 * (number < 10))
+    # Room for the legend above the curves.
+    left.set_ylim(top=20 * left.get_ylim()[1])
     slope(left, n, all_threads[0].get("factor", 1e-3), [row["flops"] for row in all_threads], "flops of the factor")
     middle.set_title("whole job")
     for threads in (1, settings.threads):
@@ -67,7 +69,8 @@ def draw(settings, family, sizes):
     right.set(title=f"memory and factor, {settings.threads} threads", ylabel="MiB")
     right.plot(n, [row["peak_mib"] for row in all_threads], "o-", label="peak memory")
     right.plot(n, [8 * row["factor_nonzeros"] / 2**20 for row in all_threads], "s-", label="largest factor")
-    for ax in (left, middle, right):
+    left.legend(fontsize=6, ncols=3, loc="upper left")
+    for ax in (middle, right):
         ax.legend(fontsize=6)
     figure.save(fig, settings.out / f"{name}.svg", settings.origin)
 
