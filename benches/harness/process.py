@@ -41,6 +41,8 @@ def run(command, folder, threads, timeout):
             return Run(timeout, 0.0, f"not done after {timeout:.0f} s")
         result = json.load(counted)
     last = ([line.strip() for line in output.splitlines() if line.strip()] or [""])[-1][:160]
+    if last.startswith("ModuleNotFoundError"):
+        last = f"absent: {last}"
     says = {0: "", DECLINED: last}
     failure = says.get(result["code"], f"exit code {result['code']}: {last}")
     return Run(result["seconds"], result["peak_mib"], failure)

@@ -6,6 +6,7 @@ condenses the stiffness on the nodes of the faces; it has no mass, no modes and 
 
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -47,6 +48,8 @@ def frequencies(text):
 def main():
     step = {"frequency": frequency, "substructure": substructure}[sys.argv.pop(1)]
     arguments = reduction.parsed(__doc__)
+    if not shutil.which("ccx"):
+        reduction.decline("absent: ccx is not installed")
     mesh = pathlib.Path(arguments.folder).resolve() / "model.inp"
     if not mesh.exists():
         reduction.decline("the part is no solid")
