@@ -1,8 +1,10 @@
-"""The benchmark job in SciPy with its own direct solver, SuperLU, in symmetric mode."""
+"""The job of a part in SciPy with its own direct solver, SuperLU in symmetric mode, and ARPACK."""
+
+import sys
 
 import scipy.sparse.linalg as spla
 
-import herting
+import reduction
 
 
 def factorise(a):
@@ -14,4 +16,4 @@ def factorise(a):
 
 
 if __name__ == "__main__":
-    herting.main("SuperLU", factorise)
+    reduction.main(sys.modules[__name__])

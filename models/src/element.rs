@@ -100,13 +100,13 @@ pub fn quadrilateral(corners: &[[f64; 2]; 4], material: &Material, thickness: f6
 }
 
 /// Lamé's λ and µ.
-fn lame_constants(material: &Material) -> (f64, f64) {
+pub(crate) fn lame_constants(material: &Material) -> (f64, f64) {
     let Material { young, poisson, .. } = *material;
     (young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)), young / (2.0 * (1.0 + poisson)))
 }
 
 /// Energy density coupling of two shape functions: λ aᵢbⱼ + µ aⱼbᵢ + µ (a·b) δᵢⱼ.
-fn elastic_block<const D: usize>(a: &[f64; D], b: &[f64; D], lame: f64, shear: f64) -> [[f64; D]; D] {
+pub(crate) fn elastic_block<const D: usize>(a: &[f64; D], b: &[f64; D], lame: f64, shear: f64) -> [[f64; D]; D] {
     let product: f64 = a.iter().zip(b).map(|(x, y)| x * y).sum();
     std::array::from_fn(|i| {
         std::array::from_fn(|j| {
@@ -117,7 +117,7 @@ fn elastic_block<const D: usize>(a: &[f64; D], b: &[f64; D], lame: f64, shear: f
 }
 
 /// Adds a weighted node block to the element stiffness.
-fn add_block<const D: usize, const N: usize>(
+pub(crate) fn add_block<const D: usize, const N: usize>(
     element: &mut ElementMatrices<N>,
     (a, b): (usize, usize),
     block: &[[f64; D]; D],
@@ -131,7 +131,7 @@ fn add_block<const D: usize, const N: usize>(
 }
 
 /// Inverse and determinant of the Jacobian.
-fn invert3(m: &[[f64; 3]; 3]) -> ([[f64; 3]; 3], f64) {
+pub(crate) fn invert3(m: &[[f64; 3]; 3]) -> ([[f64; 3]; 3], f64) {
     let cofactor = |i: usize, j: usize| {
         let (r, s) = ((i + 1) % 3, (i + 2) % 3);
         let (u, v) = ((j + 1) % 3, (j + 2) % 3);

@@ -2,13 +2,14 @@
 //!
 //! Every model is computed, none is read: the same arguments give the same bits on every machine that rounds as
 //! IEEE 754 says. Families with a closed-form spectrum ([`mod@bar`], [`spring`], [`ring`], [`mod@known`]) come with it; the
-//! solids ([`brick`], [`hexahedra`]), membranes ([`mod@membrane`]) and frames ([`mod@frame`]) carry their rigid-body modes to
-//! rounding. [`transform`] turns one model into another: joined, scaled, rounded.
+//! solids ([`brick`], [`hexahedra`], [`tetrahedra`]), membranes ([`mod@membrane`]) and frames ([`mod@frame`]) carry their rigid-body modes to
+//! rounding. [`mod@part`] makes three of them in any size for benchmarks. [`transform`] turns one model into another: joined, scaled, rounded.
 
 pub mod bar;
 pub mod bracket;
 pub mod dense;
 pub mod element;
+mod files;
 pub mod frame;
 pub mod hexahedra;
 pub mod known;
@@ -16,7 +17,10 @@ pub mod known;
 pub mod med;
 pub mod membrane;
 pub mod model;
+pub mod part;
 pub mod random;
+pub mod tetrahedra;
+pub mod tetrahedron;
 pub mod transform;
 pub mod write;
 
@@ -28,4 +32,6 @@ pub use hexahedra::{HexMesh, brick};
 pub use known::known;
 pub use membrane::membrane;
 pub use model::{Assembler, Material, Model};
+pub use part::{Family, Part};
 pub use random::{SplitMix64, fnv1a};
+pub use tetrahedra::TetMesh;

@@ -49,18 +49,15 @@ impl Material {
 impl Model {
     /// A model of nodes labelled 1, 2, … that all have the same directions, rows in node order.
     pub fn node_major(nodes: Vec<[f64; 3]>, directions: &[u8], stiffness: Assembler, mass: Assembler) -> Self {
+        Self::of_entries(nodes, directions, stiffness.finish(), mass.finish())
+    }
+
+    /// The same of matrices that are assembled.
+    pub fn of_entries(nodes: Vec<[f64; 3]>, directions: &[u8], stiffness: Vec<Entry>, mass: Vec<Entry>) -> Self {
         let labels: Vec<i64> = (1..).take(nodes.len()).collect();
         let dofs: Vec<(i64, u8)> =
             labels.iter().flat_map(|&node| directions.iter().map(move |&direction| (node, direction))).collect();
-        Self {
-            n: dofs.len(),
-            stiffness: stiffness.finish(),
-            mass: mass.finish(),
-            nodes,
-            labels,
-            dofs,
-            groups: BTreeMap::new(),
-        }
+        Self { n: dofs.len(), stiffness, mass, nodes, labels, dofs, groups: BTreeMap::new() }
     }
 
     /// Adds the group of the nodes whose position satisfies a condition.

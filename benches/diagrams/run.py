@@ -1,0 +1,59 @@
+"""Makes the diagrams of run time against error, as SVG and CSV, by one command.
+
+    benches/diagrams/run.py [A C D E] [--family bulky] [--dofs 10000] [--threads 2]
+
+A eigen stage against eigenvalue error; C whole job against the delivered frequency response; D error over eps * kappa;
+E growth with n. Needs a release build of supel; parts are generated and kept in --work, Python packages come into an
+environment of its own (PEERS_VENV). Without options a short run on small parts; the documents' series is
+`--dofs 89000` for A and C, and `E --dofs 10000 --dofs 30000 --dofs 89000 --dofs 297000 --dofs 878000 --repeats 5`.
+"""
+
+import argparse
+import pathlib
+import shutil
+import sys
+
+BENCHES = pathlib.Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(BENCHES), str(BENCHES / "peers")]
+from harness import environment, machine
+
+environment.enter()
+
+from diagrams import accuracy, delivered, eigen, scaling
+
+FAMILIES = ("bulky", "slender", "lattice")
+LETTERS = ("A", "C", "D", "E")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("letters", nargs="*", choices=[[], *LETTERS], help="default: all")
+    parser.add_argument("--family", action="append", choices=FAMILIES, help="default: all")
+    parser.add_argument("--dofs", action="append", type=int, help="default: 10000; for E 2500, 5000, 10000")
+    parser.add_argument("--method", choices=["craig-bampton", "herting"], default="herting", help="of A and E")
+    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--repeats", type=int, default=1, help="of E; medians are drawn")
+    parser.add_argument("--timeout", type=float, default=3600.0, help="seconds for one process")
+    parser.add_argument("--supel", default=str(machine.ROOT / "target/release/supel"))
+    parser.add_argument("--work", type=pathlib.Path, default=machine.ROOT / "target/parts", help="where parts are kept")
+    parser.add_argument("--out", type=pathlib.Path, default=BENCHES / "results")
+    settings = parser.parse_args()
+    if not shutil.which(settings.supel):
+        sys.exit(f"{settings.supel} is missing: cargo build --release")
+    settings.supel = str(pathlib.Path(shutil.which(settings.supel)).resolve())
+    settings.origin = machine.origin(settings.supel)
+    letters, families = settings.letters or LETTERS, settings.family or FAMILIES
+    for family in families:
+        for dofs in settings.dofs or [10000]:
+            if "A" in letters:
+                eigen.draw(settings, family, dofs)
+            if "C" in letters:
+                delivered.draw(settings, family, dofs)
+        if "E" in letters:
+            scaling.draw(settings, family, settings.dofs or [2500, 5000, 10000])
+    if "D" in letters:
+        accuracy.draw(settings)
+
+
+if __name__ == "__main__":
+    main()
