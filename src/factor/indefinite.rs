@@ -1,5 +1,6 @@
 //! L B Lᵀ of a symmetric indefinite matrix K − σM.
 
+mod backward_error;
 mod whole;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -37,7 +38,7 @@ pub(super) struct Indefinite<'a> {
 pub(super) struct Signs {
     /// Negative eigenvalues of B.
     pub(super) negative: usize,
-    /// Largest pivot over largest entry of the scaled matrix.
+    /// Bound of the largest entry of |L||B||Lᵀ| over the largest entry of the scaled matrix.
     pub(super) growth: f64,
     /// Smallest pivot over largest entry of the scaled matrix.
     pub(super) smallest: f64,
@@ -85,44 +86,60 @@ impl<'a> Indefinite<'a> {
         SupernodalIntranodeLbltRef::new(&self.analysis.symbolic, &self.values, &self.subdiagonal, permutation)
     }
 
-    /// Signs of the pivots of B.
-    pub(super) fn signs(&self) -> Result<Signs> {
+    /// The diagonal of B; what stands below it is `subdiagonal`.
+    fn diagonal(&self) -> Vec<f64> {
         let factor = self.as_ref();
-        let mut signs = Signs { negative: 0, growth: 0.0, smallest: f64::INFINITY };
+        let nodes = (0..self.analysis.symbolic.n_supernodes()).map(|s| factor.supernode(s));
+        nodes.flat_map(|node| (0..node.val().ncols()).map(move |j| node.val()[(j, j)])).collect()
+    }
+
+    /// Row, column and value of the entries of L by columns, the unit diagonal first; rows are numbered as the pivots came.
+    fn visit(&self, mut with: impl FnMut(usize, usize, f64)) {
+        let factor = self.as_ref();
         for s in 0..self.analysis.symbolic.n_supernodes() {
             let node = factor.supernode(s);
-            let (size, start) = (node.val().ncols(), node.start());
-            let mut j = 0;
-            while j < size {
-                let (d, below) = (node.val()[(j, j)], self.subdiagonal[start + j]);
-                signs.growth = signs.growth.max(d.abs()).max(below.abs());
-                if !d.is_finite() || !below.is_finite() || (d == 0.0 && below == 0.0) {
-                    return Err(Error::SturmPivot { step: start + j });
-                }
-                if below == 0.0 {
-                    signs.negative += usize::from(d < 0.0);
-                    signs.smallest = signs.smallest.min(d.abs());
-                    j += 1;
-                } else {
-                    let next = node.val()[(j + 1, j + 1)];
-                    let determinant = d * next - below * below;
-                    if !determinant.is_finite() || determinant == 0.0 {
-                        return Err(Error::SturmPivot { step: start + j });
-                    }
-                    let largest = d.abs().max(next.abs()).max(below.abs());
-                    signs.smallest = signs.smallest.min(determinant.abs() / largest);
-                    // One of each sign unless the determinant is positive; then both have the sign of the trace.
-                    signs.negative += if determinant < 0.0 { 1 } else { 2 * usize::from(d < 0.0) };
-                    j += 2;
+            let (start, size, pattern) = (node.start(), node.val().ncols(), node.pattern());
+            for j in 0..size {
+                with(start + j, start + j, 1.0);
+                for i in j + 1..node.val().nrows() {
+                    let row = if i < size { start + i } else { self.inverse[pattern[i - size]] };
+                    with(row, start + j, node.val()[(i, j)]);
                 }
             }
         }
+    }
+
+    /// Signs of the pivots of B.
+    pub(super) fn signs(&self) -> Result<Signs> {
         if self.analysis.n == 0 {
             return Ok(Signs { negative: 0, growth: 1.0, smallest: 1.0 });
         }
-        signs.growth /= self.largest;
-        signs.smallest /= self.largest;
-        Ok(signs)
+        let pivots = self.diagonal();
+        let (mut negative, mut smallest) = (0, f64::INFINITY);
+        let mut j = 0;
+        while j < pivots.len() {
+            let (d, below) = (pivots[j], self.subdiagonal[j]);
+            if !d.is_finite() || !below.is_finite() || (d == 0.0 && below == 0.0) {
+                return Err(Error::SturmPivot { step: j });
+            }
+            if below == 0.0 {
+                negative += usize::from(d < 0.0);
+                smallest = smallest.min(d.abs());
+                j += 1;
+            } else {
+                let next = pivots[j + 1];
+                let determinant = d * next - below * below;
+                if !determinant.is_finite() || determinant == 0.0 {
+                    return Err(Error::SturmPivot { step: j });
+                }
+                smallest = smallest.min(determinant.abs() / d.abs().max(next.abs()).max(below.abs()));
+                // One of each sign unless the determinant is positive; then both have the sign of the trace.
+                negative += if determinant < 0.0 { 1 } else { 2 * usize::from(d < 0.0) };
+                j += 2;
+            }
+        }
+        let growth = self.largest_product(&pivots) / self.largest;
+        Ok(Signs { negative, growth, smallest: smallest / self.largest })
     }
 
     /// (K − σM)_II⁻¹ applied to a block.
