@@ -66,7 +66,7 @@ pub(super) fn fill(
         lower = (end.inertia.sigma, end.n_elastic);
     }
     if let [inner @ .., last] = ends {
-        let last = filling.to_the_end_of_a_cluster(*last)?;
+        let last = filling.end_beyond_cluster(*last)?;
         filling.modes.counts.extend_from_slice(inner);
         filling.modes.counts.push(last);
     }
@@ -121,7 +121,7 @@ impl Filling<'_> {
     }
 
     /// Moves an end up while a mode lies so near below it that its cluster may go on above.
-    fn to_the_end_of_a_cluster(&mut self, mut end: ElasticCount) -> Result<ElasticCount> {
+    fn end_beyond_cluster(&mut self, mut end: ElasticCount) -> Result<ElasticCount> {
         /// Doublings that take a shift from the gap of a cluster beyond any spectrum of doubles.
         const DOUBLINGS: i32 = 64;
         let mut sigma = end.inertia.sigma;

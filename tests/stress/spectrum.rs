@@ -222,7 +222,7 @@ fn e_06_many_modes() {
 }
 
 /// k = 2000 of n = 100,000.
-#[ignore = "takes minutes and some gigabytes: cargo test --release --test stress e_06 -- --ignored --nocapture"]
+#[ignore = "takes five minutes of a core and 4 GB: cargo test --release --test stress e_06 -- --ignored --nocapture"]
 #[test]
 fn e_06_two_thousand_modes_of_a_hundred_thousand_dofs() {
     let (n, k) = (100_000, 2000);

@@ -64,8 +64,7 @@ fn roundings_of_pivots(pivots: &[f64], below: &[f64]) -> Option<usize> {
     let mut worst = 2;
     for (j, e) in below.iter().enumerate().filter(|(_, e)| **e != 0.0) {
         let q = ((pivots[j] / e) * (pivots[j + 1] / e)).abs();
-        // What is not a number is below nothing.
-        if !(q < 1.0) {
+        if q.is_nan() || q >= 1.0 {
             return None;
         }
         worst = worst.max(((9.0 + 5.0 * q / (1.0 - q)) * (3.0 + q) / (1.0 - q)).ceil() as usize);
