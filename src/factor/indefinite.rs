@@ -1,10 +1,11 @@
 //! L B Lᵀ of a symmetric indefinite matrix K − σM.
 
+mod backward_error;
 mod whole;
 
 use faer::{Mat, MatMut};
 
-use super::elimination::Kind;
+use super::elimination::{Kind, PANEL};
 use super::matrix::Shifted;
 use super::multifrontal::{Keep, Numbers, eliminate};
 use super::substitution::Factor;
@@ -50,18 +51,50 @@ impl<'a> Indefinite<'a> {
         Ok(Self { analysis, scale, largest, numbers })
     }
 
+    /// The diagonal of B.
+    fn diagonal(&self) -> Vec<f64> {
+        self.numbers.pivots().map(|(d, _)| d).collect()
+    }
+
+    /// What stands below the diagonal of B: not zero where a pivot of two rows begins.
+    fn subdiagonal(&self) -> Vec<f64> {
+        self.numbers.pivots().map(|(_, coupling)| coupling).collect()
+    }
+
+    /// Row, column and value of the entries of L by columns, the unit diagonal first; rows are numbered as the pivots came.
+    fn visit(&self, mut with: impl FnMut(usize, usize, f64)) {
+        let places = self.numbers.places_of_pivots(self.analysis);
+        for (node, numbers) in self.numbers.supernodes(self.analysis) {
+            let (start, size) = (node.steps.start, node.steps.len());
+            for j in 0..size {
+                with(start + j, start + j, 1.0);
+                let end_of_panel = size.min(j - j % PANEL + PANEL);
+                for (i, value) in dense::column(numbers.trapezoid, j).iter().enumerate().skip(j + 1) {
+                    let row = match i {
+                        _ if i < end_of_panel => start + i,
+                        _ if i < size => places[start + i],
+                        _ => places[node.below[i - size] as usize],
+                    };
+                    with(row, start + j, *value);
+                }
+            }
+        }
+    }
+
     /// Signs of the pivots of B.
     pub(super) fn signs(&self) -> Result<Signs> {
-        let mut signs =
-            Signs { negative: 0, growth: self.numbers.largest_product / self.largest, smallest: f64::INFINITY };
+        if self.analysis.n() == 0 {
+            return Ok(Signs { negative: 0, growth: 1.0, smallest: 1.0 });
+        }
+        let (mut negative, mut smallest) = (0, f64::INFINITY);
         let mut pivots = self.numbers.pivots().enumerate();
         while let Some((step, (d, coupling))) = pivots.next() {
             if !d.is_finite() || !coupling.is_finite() || (d == 0.0 && coupling == 0.0) {
                 return Err(Error::SturmPivot { step });
             }
             if coupling == 0.0 {
-                signs.negative += usize::from(d < 0.0);
-                signs.smallest = signs.smallest.min(d.abs());
+                negative += usize::from(d < 0.0);
+                smallest = smallest.min(d.abs());
                 continue;
             }
             let Some((_, (next, _))) = pivots.next() else { return Err(Error::SturmPivot { step }) };
@@ -69,16 +102,12 @@ impl<'a> Indefinite<'a> {
             if !determinant.is_finite() || determinant == 0.0 {
                 return Err(Error::SturmPivot { step });
             }
-            let largest = d.abs().max(next.abs()).max(coupling.abs());
-            signs.smallest = signs.smallest.min(determinant.abs() / largest);
+            smallest = smallest.min(determinant.abs() / d.abs().max(next.abs()).max(coupling.abs()));
             // One of each sign unless the determinant is positive; then both have the sign of the trace.
-            signs.negative += if determinant < 0.0 { 1 } else { 2 * usize::from(d < 0.0) };
+            negative += if determinant < 0.0 { 1 } else { 2 * usize::from(d < 0.0) };
         }
-        if self.analysis.n() == 0 {
-            return Ok(Signs { negative: 0, growth: 1.0, smallest: 1.0 });
-        }
-        signs.smallest /= self.largest;
-        Ok(signs)
+        let growth = self.numbers.largest_product / self.largest;
+        Ok(Signs { negative, growth, smallest: smallest / self.largest })
     }
 
     /// S(σ), n_B × n_B: what elimination left of the border, without the scales.

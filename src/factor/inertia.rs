@@ -23,7 +23,7 @@ pub struct InertiaCount {
     pub clamped: usize,
     /// Below it with the interface free.
     pub free: usize,
-    /// Largest pivot over largest entry: near one, the signs can be trusted.
+    /// Bound of the largest entry of |L||B||Lᵀ| over the largest entry of the scaled matrix: near one, the signs can be trusted.
     pub growth: f64,
     /// Smallest pivot over largest entry: near rounding, σ lies on an eigenvalue with the interface held.
     pub pivot_gap: f64,
@@ -109,11 +109,34 @@ fn counted<'a>(
 /// # Errors
 /// As [`count_below`].
 pub fn count_negative(analysis: &Analysis, stiffness: &SparseMatrix) -> Result<usize> {
-    let n = stiffness.rows();
-    let diagonal = crate::model::diagonal(stiffness).into_iter().map(f64::abs).collect();
+    below_share_of_diagonal(analysis, stiffness, -PIVOT_GAP)
+}
+
+/// The rank of a semidefinite M beyond rounding of its entries, which have a relative `precision`: the eigenvalues relative to
+/// its diagonal above what that moves them by, a share of the largest row sum.
+///
+/// # Errors
+/// As [`count_below`].
+pub fn rank(analysis: &Analysis, mass: &SparseMatrix, precision: f64) -> Result<usize> {
+    let diagonal = crate::model::diagonal(mass);
+    // A row of a semidefinite matrix without a diagonal is empty.
+    let scale: Vec<f64> = diagonal.iter().map(|d| if *d > 0.0 { 1.0 / d.sqrt() } else { 0.0 }).collect();
+    let row_sums = mass
+        .outer_iterator()
+        .enumerate()
+        .map(|(row, view)| scale[row] * view.iter().map(|(col, value)| value.abs() * scale[col]).sum::<f64>());
+    let moved = PIVOT_GAP + precision * row_sums.fold(0.0, f64::max);
+    Ok(mass.rows() - below_share_of_diagonal(analysis, mass, moved)?)
+}
+
+/// Eigenvalues of A relative to its diagonal below a share; empty rows count as zero.
+fn below_share_of_diagonal(analysis: &Analysis, matrix: &SparseMatrix, share: f64) -> Result<usize> {
+    let n = matrix.rows();
+    let or_one = |d: f64| if d == 0.0 { 1.0 } else { d.abs() };
+    let diagonal = crate::model::diagonal(matrix).into_iter().map(or_one).collect();
     let diagonal = SparseMatrix::new((n, n), (0..=n).collect(), (0..n as u32).collect(), diagonal);
-    let pencil = Pencil { stiffness, mass: &diagonal };
-    Ok(Indefinite::new(analysis, pencil, -PIVOT_GAP, Keep::Pivots)?.signs()?.negative)
+    let pencil = Pencil { stiffness: matrix, mass: &diagonal };
+    Ok(Indefinite::new(analysis, pencil, share, Keep::Pivots)?.signs()?.negative)
 }
 
 /// K − σM factored, σ inside the spectrum: counts, and solves with the interface held or free.

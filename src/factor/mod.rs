@@ -28,7 +28,7 @@ use crate::sparse::SparseMatrix;
 pub use analysis::Analysis;
 pub use cholesky::Cholesky;
 pub use indefinite::{WholeCount, whole_count};
-pub use inertia::{InertiaCount, ShiftedFactor, condensed, count_below, count_negative};
+pub use inertia::{InertiaCount, ShiftedFactor, condensed, count_below, count_negative, rank};
 pub use memory::refuse_beyond_memory;
 pub use rounding::forming_error;
 pub use solve::SolveOperator;

@@ -16,7 +16,7 @@ use faer::{Mat, MatMut, MatRef};
 
 use super::Analysis;
 use super::analysis::{Supernode, Task};
-use super::elimination::{self, Kind, Pivots, add_products, eliminate_columns, outer_product};
+use super::elimination::{self, Kind, PANEL, Pivots, add_products, eliminate_columns, outer_product};
 use super::matrix::Shifted;
 use assembly::{Places, Rest, RestStack, rest_len};
 
@@ -89,6 +89,20 @@ impl Numbers {
         analysis.tasks().0.iter().enumerate().flat_map(move |(t, task)| {
             task.supernodes.clone().map(move |s| (analysis.supernode(s), self.supernode(analysis, t, s)))
         })
+    }
+
+    /// Where each step of an indefinite factor comes among the pivots; the border stays where it is.
+    pub(super) fn places_of_pivots(&self, analysis: &Analysis) -> Vec<usize> {
+        let mut places: Vec<usize> = (0..analysis.step().len()).collect();
+        for (node, numbers) in self.supernodes(analysis) {
+            for (panel, order) in numbers.order.chunks(PANEL).enumerate() {
+                let first = node.steps.start + panel * PANEL;
+                for (place, column) in order.iter().enumerate() {
+                    places[first + *column as usize] = first + place;
+                }
+            }
+        }
+        places
     }
 
     /// Diagonal and couplings of B, by steps.

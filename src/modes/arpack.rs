@@ -9,24 +9,24 @@
 //! found in sweeps: each deflates what the ones before have found, and the search ends when the largest θ of a sweep
 //! lies beyond the wanted ones. Infinite eigenvalues have θ = 0 and are never returned.
 //!
-//! # Safety
-//! The only unsafe calls are `dsaupd_c` and `dseupd_c`. [`Sweep`] owns every array they read or write, at the lengths
-//! their documentation asks for (resid n, V n · ncv, workd 3n, workl ncv² + 8 ncv, iparam and ipntr 11, d and select
-//! ncv), none of which changes length between the calls. ARPACK keeps state between calls in static variables: the lock
-//! [`STATE`] lets one search run at a time in the whole process.
-#![allow(unsafe_code)]
+//! ARPACK keeps state between calls in static variables: the lock [`STATE`] lets one search run at a time in the whole
+//! process.
 
-use std::ffi::{c_char, c_int};
+mod sweep;
+
 use std::sync::{Mutex, PoisonError};
 
 use faer::{Mat, MatMut, MatRef};
 
-use super::eigenproblem::{EigenWork, Eigenpairs, Problem, Wanted, are_clustered, is_above, mass_norm};
+use super::eigenproblem::{EigenWork, Eigenpairs, Interval, Problem, Wanted, are_clustered, is_above, mass_norm};
+use super::finite::rows_with_mass;
 use super::random::SplitMix64;
 use super::ritz::{RESIDUAL_FLOOR, ROUNDING, TOLERANCE};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::sparse::product;
+
+use sweep::{Call, Request, Sweep};
 
 static STATE: Mutex<()> = Mutex::new(());
 
@@ -39,25 +39,36 @@ const TARGET: f64 = TOLERANCE * ARPACK_FLOOR / (RESIDUAL_FLOOR * f64::EPSILON);
 const SPARE: usize = 4;
 /// Modes asked for first in a band; what has been found is doubled after that.
 const FIRST_IN_BAND: usize = 16;
-/// Columns of V at least: a narrower basis needs many restarts to tell close eigenvalues apart.
-const MIN_BASIS: usize = 40;
-/// Restarts after which a sweep fails with status 1.
-const MAX_RESTARTS: c_int = 300;
 /// ARPACK's status for a start vector without use.
 const BAD_START: i32 = -9;
+/// ARPACK's status for a basis that could not be built to its full width.
+const NO_BASIS: i32 = -9999;
 
 /// Finds the wanted eigenpairs, with the meaning of [`super::lanczos::lanczos`].
 ///
 /// # Errors
 /// [`Error::Arpack`] with ARPACK's own status.
 pub(super) fn arpack(problem: Problem<'_>, wanted: Wanted, seed: u64) -> Result<Eigenpairs> {
+    alone(|| Search::new(problem, seed).run(wanted))
+}
+
+/// Finds the eigenpairs between two shifts, with the meaning of [`super::lanczos::lanczos_between`].
+///
+/// # Errors
+/// [`Error::Arpack`] with ARPACK's own status.
+pub(super) fn arpack_between(problem: Problem<'_>, interval: Interval, seed: u64) -> Result<Eigenpairs> {
+    alone(|| Search::new(problem, seed).run_between(interval))
+}
+
+/// Runs a search while no other runs.
+fn alone(search: impl FnOnce() -> Result<Eigenpairs> + Send) -> Result<Eigenpairs> {
     // A thread that waits inside a parallel product takes up other work, possibly another search, which would wait for
     // the lock for ever. Threads of its own have no other work.
     let threads = rayon::ThreadPoolBuilder::new().num_threads(rayon::current_num_threads()).build();
     let threads = threads.map_err(|_| Error::OutOfMemory { what: "the threads of ARPACK" })?;
     threads.install(|| {
         let _alone = STATE.lock().unwrap_or_else(PoisonError::into_inner);
-        Search::new(problem, seed).run(wanted)
+        search()
     })
 }
 
@@ -81,11 +92,10 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(problem: Problem<'a>, seed: u64) -> Self {
         let [q, mass_q] = problem.deflated;
-        let rows_with_mass = problem.mass.outer_iterator().filter(|row| row.data().iter().any(|value| *value != 0.0));
         Self {
             problem,
             random: SplitMix64::new(seed),
-            n_finite: rows_with_mass.count().saturating_sub(q.ncols()),
+            n_finite: rows_with_mass(problem.mass).saturating_sub(q.ncols()),
             taken: q.to_owned(),
             mass_taken: mass_q.to_owned(),
             theta: Vec::new(),
@@ -110,6 +120,35 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// Sweeps until the interval is full or the nearest pair of a sweep lies beyond both of its ends.
+    fn run_between(mut self, interval: Interval) -> Result<Eigenpairs> {
+        let sigma = self.problem.operator.shift();
+        let reach = (interval.to - sigma).max(sigma - interval.from);
+        loop {
+            let n_found = self.theta.len();
+            let lambda: Vec<f64> = self.theta.iter().map(|theta| sigma + 1.0 / theta).collect();
+            let inside: Vec<usize> = (0..n_found).filter(|j| interval.holds(lambda[*j])).collect();
+            if inside.len() < interval.count {
+                self.sweep(interval.count - inside.len() + SPARE)?;
+            }
+            // What is still missing then lies no nearer to the shift than the nearest pair of the sweep.
+            if !self.theta[n_found..].iter().any(|theta| 1.0 / theta.abs() <= reach) {
+                return Ok(Eigenpairs {
+                    values: inside.iter().map(|j| lambda[*j]).collect(),
+                    vectors: self.vectors(&inside),
+                    next: None,
+                    work: self.work,
+                });
+            }
+        }
+    }
+
+    /// The modes with these numbers in the order they were found.
+    fn vectors(&self, modes: &[usize]) -> Mat<f64> {
+        let n_deflated = self.problem.deflated[0].ncols();
+        Mat::from_fn(self.taken.nrows(), modes.len(), |i, j| self.taken[(i, n_deflated + modes[j])])
+    }
+
     /// The problem with everything taken out that has been found.
     fn remaining(&self) -> Problem<'_> {
         Problem { deflated: [self.taken.as_ref(), self.mass_taken.as_ref()], ..self.problem }
@@ -125,18 +164,19 @@ impl<'a> Search<'a> {
         problem.deflate(block);
     }
 
-    /// A random vector after one application of OP, at unit length, and how long OP makes it; none where only rounding
-    /// is left.
+    /// A random vector after one application of OP, at unit length, and how long OP makes it, negative where it turns it
+    /// round; none where only rounding is left.
     fn start(&mut self) -> Result<Option<(Mat<f64>, f64)>> {
         let mass = self.problem.mass;
         let mut vector = Mat::zeros(mass.rows(), 1);
         self.random.fill(vector.as_mut());
         self.remaining().deflate(vector.as_mut());
-        let mut length = mass_norm(mass, &vector);
-        let largest = self.theta.iter().copied().fold(0.0, f64::max);
+        let (mut length, mut sign) = (mass_norm(mass, &vector), 1.0);
+        let largest = self.theta.iter().fold(0.0, |max: f64, theta| max.max(theta.abs()));
         for _ in 0..2 {
             vector.as_mut().col_mut(0).iter_mut().for_each(|value| *value /= length);
-            let mut image = product(mass, vector.as_ref());
+            let momentum = product(mass, vector.as_ref());
+            let mut image = momentum.clone();
             self.apply(image.as_mut());
             let stretched = mass_norm(mass, &image);
             if !stretched.is_finite() {
@@ -145,10 +185,11 @@ impl<'a> Search<'a> {
             if stretched <= ROUNDING * f64::EPSILON * largest {
                 return Ok(None);
             }
+            sign = dense::gram(momentum.as_ref(), image.as_ref())[(0, 0)].signum();
             (vector, length) = (image, stretched);
         }
         vector.as_mut().col_mut(0).iter_mut().for_each(|value| *value /= length);
-        Ok(Some((vector, length)))
+        Ok(Some((vector, sign * length)))
     }
 
     /// Finds up to `n_asked` more modes, at least one unless none is left.
@@ -160,7 +201,7 @@ impl<'a> Search<'a> {
         let Some((start, stretch)) = self.start()? else {
             return Ok(());
         };
-        let scale = *self.scale.get_or_insert_with(|| 2f64.powi((TARGET / stretch).log2().round() as i32));
+        let scale = *self.scale.get_or_insert_with(|| 2f64.powi((TARGET / stretch.abs()).log2().round() as i32));
         if room == 1 {
             // The last direction left is the mode; ARPACK wants two.
             self.take(start.as_ref(), &[stretch]);
@@ -168,6 +209,23 @@ impl<'a> Search<'a> {
         }
         // Half of what is left, so that restarts keep room to clear the basis of rounding.
         let mut sweep = Sweep::new(start, n_asked.min(room / 2), room)?;
+        match self.drive(&mut sweep, scale) {
+            // Rows with mass are more than M has rank, and the basis has come to its end before.
+            Err(Error::Arpack { status: NO_BASIS, .. }) if (1..room).contains(&sweep.n_vectors()) => {
+                self.n_finite = self.theta.len() + sweep.n_vectors();
+                return self.sweep(n_asked);
+            }
+            driven => driven?,
+        }
+        self.work.restarts += sweep.n_restarts();
+        let (reciprocals, vectors) = sweep.eigenpairs()?;
+        let theta: Vec<f64> = reciprocals.iter().map(|reciprocal| 1.0 / (reciprocal * scale)).collect();
+        self.take(vectors.as_ref(), &theta);
+        Ok(())
+    }
+
+    /// Answers the requests of a run until it is done.
+    fn drive(&mut self, sweep: &mut Sweep, scale: f64) -> Result<()> {
         while let Some(Call { request, source, target }) = sweep.next()? {
             let source = Mat::from_fn(source.len(), 1, |i, _| source[i]);
             let mut result = match request {
@@ -180,10 +238,6 @@ impl<'a> Search<'a> {
             }
             target.copy_from_slice(dense::column(result.as_ref(), 0));
         }
-        self.work.restarts += sweep.n_restarts();
-        let (reciprocals, vectors) = sweep.eigenpairs()?;
-        let theta: Vec<f64> = reciprocals.iter().map(|reciprocal| 1.0 / (reciprocal * scale)).collect();
-        self.take(vectors.as_ref(), &theta);
         Ok(())
     }
 
@@ -217,167 +271,11 @@ impl<'a> Search<'a> {
         if count > n_complete || (count == lambda.len() && complete_above.is_some()) {
             return None;
         }
-        let n_rigid = self.problem.deflated[0].ncols();
         Some(Eigenpairs {
-            vectors: Mat::from_fn(self.taken.nrows(), count, |i, j| self.taken[(i, n_rigid + order[j])]),
+            vectors: self.vectors(&order[..count]),
             next: lambda.get(count).copied(),
             values: lambda[..count].to_vec(),
             work: self.work,
         })
-    }
-}
-
-/// What ARPACK asks its caller for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Request {
-    /// y = OP x.
-    Operator,
-    /// y = OP x from M x.
-    OperatorOfProduct,
-    /// y = M x.
-    Mass,
-}
-
-/// A request with what it is made of and where its answer goes.
-struct Call<'a> {
-    request: Request,
-    source: Vec<f64>,
-    target: &'a mut [f64],
-}
-
-/// One run of ARPACK by reverse communication, with all its arrays.
-struct Sweep {
-    n: usize,
-    nev: c_int,
-    ncv: c_int,
-    ido: c_int,
-    info: c_int,
-    resid: Vec<f64>,
-    v: Vec<f64>,
-    workd: Vec<f64>,
-    workl: Vec<f64>,
-    iparam: [c_int; 11],
-    ipntr: [c_int; 11],
-}
-
-/// The problem is a pencil, of which the eigenvalues of largest magnitude are wanted.
-const PENCIL: *const c_char = c"G".as_ptr();
-const LARGEST: *const c_char = c"LM".as_ptr();
-
-impl Sweep {
-    /// Prepares the search for `nev` pairs in a space of dimension `room`, of which nev is less.
-    fn new(start: Mat<f64>, nev: usize, room: usize) -> Result<Self> {
-        let n = start.nrows();
-        let ncv = (2 * nev + 1).max(MIN_BASIS).min(room);
-        let length = |value: usize| {
-            c_int::try_from(value).map_err(|_| Error::OutOfMemory { what: "ARPACK, which counts in 32 bits" })
-        };
-        let mut iparam = [0; 11];
-        // Exact shifts, at most so many restarts, blocks of one, mode 3: shift and invert.
-        (iparam[0], iparam[2], iparam[3], iparam[6]) = (1, MAX_RESTARTS, 1, 3);
-        length(n)?;
-        length(ncv * ncv + 8 * ncv)?;
-        Ok(Self {
-            n,
-            nev: length(nev)?,
-            ncv: length(ncv)?,
-            ido: 0,
-            // The start vector is given.
-            info: 1,
-            resid: dense::column(start.as_ref(), 0).to_vec(),
-            v: vec![0.0; n * ncv],
-            workd: vec![0.0; 3 * n],
-            workl: vec![0.0; ncv * ncv + 8 * ncv],
-            iparam,
-            ipntr: [0; 11],
-        })
-    }
-
-    /// Runs ARPACK to its next request; none when it is done.
-    fn next(&mut self) -> Result<Option<Call<'_>>> {
-        // SAFETY: see the head of the file; every pointer is to an array of this object of the length ARPACK expects.
-        unsafe {
-            arpack_sys::dsaupd_c(
-                &raw mut self.ido,
-                PENCIL,
-                self.n as c_int,
-                LARGEST,
-                self.nev,
-                TOLERANCE,
-                self.resid.as_mut_ptr(),
-                self.ncv,
-                self.v.as_mut_ptr(),
-                self.n as c_int,
-                self.iparam.as_mut_ptr(),
-                self.ipntr.as_mut_ptr(),
-                self.workd.as_mut_ptr(),
-                self.workl.as_mut_ptr(),
-                self.workl.len() as c_int,
-                &raw mut self.info,
-            );
-        }
-        let [x, y, mass_x] = [self.ipntr[0], self.ipntr[1], self.ipntr[2]].map(|at| (at as usize).saturating_sub(1));
-        let (request, source) = match self.ido {
-            -1 => (Request::Operator, x),
-            1 => (Request::OperatorOfProduct, mass_x),
-            2 => (Request::Mass, x),
-            _ if self.info == 0 => return Ok(None),
-            _ => return Err(self.failure()),
-        };
-        let source = self.workd[source..source + self.n].to_vec();
-        Ok(Some(Call { request, source, target: &mut self.workd[y..y + self.n] }))
-    }
-
-    fn n_restarts(&self) -> usize {
-        usize::try_from(self.iparam[2]).unwrap_or(0)
-    }
-
-    fn n_converged(&self) -> usize {
-        usize::try_from(self.iparam[4].min(self.nev)).unwrap_or(0)
-    }
-
-    fn failure(&self) -> Error {
-        Error::Arpack { status: self.info, converged: self.n_converged() }
-    }
-
-    /// 1/θ and x of the converged pairs.
-    fn eigenpairs(mut self) -> Result<(Vec<f64>, Mat<f64>)> {
-        let mut select = vec![0; self.ncv as usize];
-        let mut reciprocals = vec![0.0; self.ncv as usize];
-        let basis = self.v.as_mut_ptr();
-        // SAFETY: as above, with the arrays dsaupd left; ARPACK documents that z may be the leading columns of v.
-        unsafe {
-            arpack_sys::dseupd_c(
-                1,
-                c"A".as_ptr(),
-                select.as_mut_ptr(),
-                reciprocals.as_mut_ptr(),
-                basis,
-                self.n as c_int,
-                0.0,
-                PENCIL,
-                self.n as c_int,
-                LARGEST,
-                self.nev,
-                TOLERANCE,
-                self.resid.as_mut_ptr(),
-                self.ncv,
-                basis,
-                self.n as c_int,
-                self.iparam.as_mut_ptr(),
-                self.ipntr.as_mut_ptr(),
-                self.workd.as_mut_ptr(),
-                self.workl.as_mut_ptr(),
-                self.workl.len() as c_int,
-                &raw mut self.info,
-            );
-        }
-        let n_converged = self.n_converged();
-        if self.info != 0 || n_converged == 0 {
-            return Err(self.failure());
-        }
-        reciprocals.truncate(n_converged);
-        let vectors = Mat::from_fn(self.n, n_converged, |i, j| self.v[j * self.n + i]);
-        Ok((reciprocals, vectors))
     }
 }

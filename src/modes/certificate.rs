@@ -9,19 +9,26 @@
 //! vectors are M-orthonormal (M-03) and each is an eigenvector to its residual (M-01).
 //!
 //! # How far a count can be trusted
-//! L B Lᵀ is the factorisation of K − σM + E with ‖E‖ ≤ c ε ρ ‖K − σM‖, ρ the growth of the pivots (Higham 2002, theorem 11.4),
-//! so the signs are those of that matrix. E moves λ_j by xᵀEx ≤ c ρ φ_j with φ_j = ε ‖K‖ ‖x‖² / xᵀMx, all norms equilibrated:
-//! the count is right as long as no eigenvalue lies nearer to σ than c ρ φ. Roundings add up like the root of the depth of
-//! the elimination, which is 10⁴ for the largest meshes: c = [`ROUNDINGS`]. Growth beyond the limit makes a count likely,
-//! not certain, and the report says so.
+//! L B Lᵀ is the factorisation of K − σM + E with ‖E‖ ≤ c ε ρ (‖K‖ + |σ|‖M‖), ρ the growth of |L||B||Lᵀ| over the matrix, which
+//! is measured (Higham 2002, theorem 11.3), so the signs are those of that matrix. E moves λ_j by xᵀEx ≤ c ρ φ_j with
+//! φ_j = ε (‖K‖‖x‖²_K + |σ|‖M‖‖x‖²_M) / xᵀMx, norms equilibrated by the diagonals of K and of M: the count is right as long as no eigenvalue lies nearer to σ than
+//! c ρ φ. Roundings add up like the root of the depth of the elimination, which is 10⁴ for the largest meshes:
+//! c = [`ROUNDINGS`]. Growth beyond the limit makes a count likely, not certain, and the report says so.
+//!
+//! # Where there are no more modes
+//! A search that ends with fewer modes than were asked for is held against the rank of M, which is the number of finite
+//! eigenvalues. Where they differ the count is taken above any spectrum of a mesh with these diagonals instead of just above
+//! the highest mode, and what it finds missing is looked for as any other mode.
 
 use super::boundary_problem::{BoundaryProblem, ElasticCount, median_ratio};
+use super::finite::{above_all, most_finite};
 use super::slices::{ModeSource, fill, missing};
-use super::{Boundary, Modes, SEED};
+use super::{Boundary, Equilibrated, ModeError, Modes, SEED};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::factor::InertiaCount;
 use crate::job::Certify;
+use crate::model::diagonal;
 
 /// Sturm counts against the modes found.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,6 +43,8 @@ pub struct Certificate {
     pub n_found: usize,
     /// The intervals between neighbouring counts, from below zero to the upper end.
     pub intervals: Vec<CountedInterval>,
+    /// Where fewer modes were found than asked for, the finite eigenvalues there are at most, rigid-body modes included.
+    pub n_finite: Option<usize>,
     /// How the modes had to be completed.
     pub mending: Mending,
     /// Factorisations it took.
@@ -103,13 +112,20 @@ pub fn certified(
     if certify == Certify::None {
         return Ok((found, None));
     }
-    let first = certify_modes(problem, &found, edge)?;
+    let certify_modes = |modes: &Modes| {
+        let n_finite = match source.is_exhausted_by(modes) {
+            true => Some(most_finite(problem, modes.count() + problem.n_rigid())?),
+            false => None,
+        };
+        Ok(Certificate { n_finite, ..certify_modes(problem, modes, edge, n_finite)? })
+    };
+    let first = certify_modes(&found)?;
     if first.holds() {
         return Ok((found, Some(first)));
     }
     let mut n_factorisations = first.n_factorisations;
     let again = source.lowest(SEED + 1)?;
-    let second = certify_modes(problem, &again, edge)?;
+    let second = certify_modes(&again)?;
     n_factorisations += second.n_factorisations;
     if second.holds() {
         return Ok((again, Some(Certificate { mending: Mending::Restart, n_factorisations, ..second })));
@@ -122,30 +138,42 @@ pub fn certified(
     ends.push(upper);
     let known = Modes { counts: Vec::new(), ..known };
     let modes = fill(source, problem, known, &ends)?;
+    let upper = modes.counts.last().copied().unwrap_or(upper);
     let third = judge(problem, &modes, upper);
+    let n_finite = last.n_finite.filter(|_| source.is_exhausted_by(&modes));
     match third.holds() {
-        true => Ok((modes, Some(Certificate { mending: Mending::Slices, n_factorisations, ..third }))),
+        true => Ok((modes, Some(Certificate { mending: Mending::Slices, n_factorisations, n_finite, ..third }))),
         false => Err(missing(problem, &modes, upper)),
     }
 }
 
-/// Takes the count at the upper end and compares.
-fn certify_modes(problem: &BoundaryProblem<'_>, modes: &Modes, edge: Option<ElasticCount>) -> Result<Certificate> {
-    let serves = |edge: &ElasticCount| {
-        let sigma = edge.inertia.sigma;
-        let above_all = modes.lambda.last().is_none_or(|last| *last < sigma);
-        above_all && modes.next.is_none_or(|next| sigma < next) && modes.is_clear(sigma)
+/// Takes the count at the upper end and compares: at a count taken before where one serves, above all that can be where modes
+/// are fewer than `n_finite`, otherwise in the gap above the highest mode.
+fn certify_modes(
+    problem: &BoundaryProblem<'_>,
+    modes: &Modes,
+    edge: Option<ElasticCount>,
+    n_finite: Option<usize>,
+) -> Result<Certificate> {
+    let may_be_more = n_finite.is_some_and(|n_finite| modes.count() + problem.n_rigid() < n_finite);
+    let far = may_be_more.then(|| above_all(problem));
+    // Where nothing is known above the modes there is no gap for a better place, and the doubt below decides alone.
+    let serves = |end: &ElasticCount| {
+        let sigma = end.inertia.sigma;
+        let is_above = modes.lambda.last().is_none_or(|last| *last < sigma) && far.is_none_or(|far| far <= sigma);
+        is_above && modes.next.is_none_or(|next| sigma < next && modes.is_clear(sigma))
     };
-    if let Some(edge) = edge.filter(serves) {
-        let certificate = judge(problem, modes, edge);
+    for end in edge.into_iter().chain(modes.counts.last().copied()).filter(serves) {
+        let certificate = judge(problem, modes, end);
         if certificate.doubt() <= 1.0 {
             return Ok(certificate);
         }
     }
     let mut best: Option<Certificate> = None;
     let mut failure = Error::SturmPivot { step: 0 };
-    for (attempt, place) in PLACES.into_iter().enumerate() {
-        match problem.count_below(modes.shift_above(place)) {
+    let places = far.into_iter().chain(PLACES.into_iter().map(|place| modes.shift_above(place)));
+    for (attempt, sigma) in places.enumerate() {
+        match problem.count_below(sigma) {
             Ok(count) => {
                 let certificate = Certificate { n_factorisations: attempt + 1, ..judge(problem, modes, count) };
                 let is_certain = certificate.doubt() <= 1.0;
@@ -168,11 +196,12 @@ fn judge(problem: &BoundaryProblem<'_>, modes: &Modes, upper: ElasticCount) -> C
     let mut ends: Vec<ElasticCount> = modes.counts.clone();
     ends.retain(|end| end.inertia.sigma < upper.inertia.sigma);
     ends.push(upper);
+    let mass_floors = mass_floors(problem, modes);
     let (mut from, mut below, mut lower) = (lower_end(problem), 0, (1.0, f64::INFINITY));
     let mut intervals = Vec::with_capacity(ends.len());
     for end in ends {
         let to = end.inertia.sigma;
-        let limit = growth_limit(problem, modes, to);
+        let limit = growth_limit(problem, modes, &mass_floors, to);
         let rigid = if intervals.is_empty() { n_rigid } else { 0 };
         intervals.push(CountedInterval {
             from,
@@ -191,6 +220,7 @@ fn judge(problem: &BoundaryProblem<'_>, modes: &Modes, upper: ElasticCount) -> C
         n_counted: upper.n_elastic + n_rigid,
         n_found: modes.n_between(f64::NEG_INFINITY, upper.inertia.sigma) + n_rigid,
         intervals,
+        n_finite: None,
         mending: Mending::None,
         n_factorisations: 0,
     }
@@ -202,10 +232,23 @@ fn lower_end(problem: &BoundaryProblem<'_>) -> f64 {
     if problem.n_rigid() == 0 { 0.0 } else { -(energy.largest_quotient.abs() + energy.noise) }
 }
 
+/// The share of M in the floors φ of the modes at a shift of one: ε ‖M‖ Σ M_ii x_i² / xᵀMx, in units of the diagonal of M.
+fn mass_floors(problem: &BoundaryProblem<'_>, modes: &Modes) -> Vec<f64> {
+    let mass = problem.modal().mass;
+    let weights = diagonal(mass);
+    let norm = Equilibrated::of(mass, mass).mass_norm;
+    let of_mode = |j: usize| {
+        let x = dense::column(modes.shapes.as_ref(), j);
+        f64::EPSILON * norm * x.iter().zip(&weights).map(|(x, m)| m * x * x).sum::<f64>()
+    };
+    (0..modes.count()).map(of_mode).collect()
+}
+
 /// The pivot growth up to which no eigenvalue can have crossed σ by rounding of the factorisation.
-fn growth_limit(problem: &BoundaryProblem<'_>, modes: &Modes, sigma: f64) -> f64 {
-    let floors = modes.errors.iter().map(|error| error.rounding_floor);
-    let largest = floors.clone().fold(0.0, f64::max);
+fn growth_limit(problem: &BoundaryProblem<'_>, modes: &Modes, mass_floors: &[f64], sigma: f64) -> f64 {
+    let of_mode = |(error, mass): (&ModeError, &f64)| error.rounding_floor + sigma.abs() * mass;
+    let floors: Vec<f64> = modes.errors.iter().zip(mass_floors).map(of_mode).collect();
+    let largest = floors.iter().copied().fold(0.0, f64::max);
     // Without a mode to tell, rounding moves an eigenvalue by ε of the largest of a mesh of like dofs.
     let floor = if largest > 0.0 { largest } else { f64::EPSILON * median_ratio(problem.modal()) };
     let of_found = modes.lambda.iter().zip(floors).map(|(lambda, floor)| (sigma - lambda).abs() / floor);

@@ -16,6 +16,7 @@ mod cluster;
 mod dense_spectrum;
 mod eigenproblem;
 mod equilibration;
+mod finite;
 mod indefinite;
 mod lanczos;
 mod next_block;
@@ -305,4 +306,16 @@ fn by_arpack(problem: Problem<'_>, request: ModeRequest) -> Result<Eigenpairs> {
 #[cfg(not(feature = "arpack"))]
 fn by_arpack(_: Problem<'_>, _: ModeRequest) -> Result<Eigenpairs> {
     Err(crate::error::Error::EigensolverMissing)
+}
+
+/// Eigenpairs between two shifts, around the shift of the operator.
+fn pairs_between(problem: Problem<'_>, interval: Interval, solver: (Eigensolver, u64)) -> Result<Eigenpairs> {
+    let (eigensolver, seed) = solver;
+    match eigensolver {
+        Eigensolver::Lanczos => lanczos_between(problem, interval, seed),
+        #[cfg(feature = "arpack")]
+        Eigensolver::Arpack => arpack::arpack_between(problem, interval, seed),
+        #[cfg(not(feature = "arpack"))]
+        Eigensolver::Arpack => Err(crate::error::Error::EigensolverMissing),
+    }
 }

@@ -6,8 +6,8 @@
 
 use super::boundary_problem::{BoundaryProblem, ElasticCount, ratios};
 use super::eigenproblem::{EigenWork, Interval, Wanted, are_clustered, is_above};
-use super::slices::search_between;
-use super::slices::{ModeSource, fill};
+use super::finite::above_all;
+use super::slices::{ModeSource, fill, search_between};
 use super::{Boundary, CLUSTER_GAP, Component, ModeRequest, Modes, dense_spectrum, elastic_modes, indefinite};
 use crate::error::{Error, Result};
 use crate::job::{Eigensolver, ModeSelection, ReductionJob};
@@ -24,6 +24,8 @@ pub struct Search<'a> {
     /// The eigenproblem.
     pub problem: BoundaryProblem<'a>,
     wanted: Wanted,
+    /// Modes asked for, were there as many; none for a band.
+    n_asked: Option<usize>,
     eigensolver: Eigensolver,
     /// The count at the end of the band, where a band is asked for and its end is off the eigenvalues.
     edge: Option<ElasticCount>,
@@ -43,7 +45,11 @@ impl<'a> Search<'a> {
             Wanted::UpTo(limit) if limit > 0.0 => edge_of(&problem, limit)?,
             _ => None,
         };
-        Ok(Self { problem, wanted, eigensolver: job.eigensolver, edge })
+        let n_asked = match job.modes {
+            ModeSelection::Count { count } => Some(count),
+            ModeSelection::UpTo { .. } => None,
+        };
+        Ok(Self { problem, wanted, n_asked, eigensolver: job.eigensolver, edge })
     }
 
     /// The count at the end of the band, where a band is asked for.
@@ -82,12 +88,9 @@ impl<'a> Search<'a> {
 
     /// Counts up to one with more than `count` modes below it, but not many more, or with all modes there are.
     fn ends_above(&self, count: usize) -> Result<Vec<ElasticCount>> {
-        /// λ of a mesh is at most this many times the largest K_ii/M_ii: M of an element is within 10² of its diagonal, and a row
-        /// of K has at most 10² entries.
-        const ABOVE_ALL: f64 = 1e4;
         const STEPS: usize = 60;
         let ratios = ratios(self.problem.modal());
-        let top = ABOVE_ALL * ratios.last().copied().unwrap_or(1.0);
+        let top = above_all(&self.problem);
         // λ of plane and solid meshes grows at least linearly in the number of the mode.
         let share = count as f64 / self.problem.modal().mass.rows() as f64;
         let mut sigma = ratios.get(ratios.len() / 2).copied().unwrap_or(1.0) * share;
@@ -139,10 +142,15 @@ pub(super) fn middle(from: f64, to: f64) -> f64 {
 impl ModeSource for Search<'_> {
     fn lowest(&self, seed: u64) -> Result<Modes> {
         let count = self.n_expected().unwrap_or(0);
-        if count <= SLICED_FROM || self.eigensolver == Eigensolver::Arpack {
+        if count <= SLICED_FROM {
             return self.in_one_go(seed);
         }
-        let modes = match dense_spectrum::all_modes(&self.problem, count)? {
+        // The witness finds its modes itself.
+        let all = match self.eigensolver {
+            Eigensolver::Lanczos => dense_spectrum::all_modes(&self.problem, count)?,
+            Eigensolver::Arpack => None,
+        };
+        let modes = match all {
             Some(modes) => modes,
             None => self.in_slices()?,
         };
@@ -150,7 +158,11 @@ impl ModeSource for Search<'_> {
     }
 
     fn between(&self, interval: Interval, known: &Modes, seed: u64) -> Result<Modes> {
-        search_between(&self.problem, interval, known, seed)
+        search_between(&self.problem, interval, known, (self.eigensolver, seed))
+    }
+
+    fn is_exhausted_by(&self, modes: &Modes) -> bool {
+        self.n_asked.is_some_and(|n_asked| modes.count() < n_asked)
     }
 }
 

@@ -5,17 +5,18 @@
 //! ```
 //! An interval with more modes than a search takes at once is cut in two by another count. A search has its shift inside
 //! the interval, the modes known nearby deflated, and is made M-orthogonal to all modes known. An interval in which
-//! modes stay missing is cut further, so that each search has fewer to find, until it is given up by name.
+//! modes stay missing is cut further, so that each search has fewer to find, until it is given up by name. The last end is
+//! moved up where it may lie inside a cluster: clusters stay whole.
 
 use faer::Mat;
 
 use super::boundary_problem::{BoundaryProblem, ElasticCount};
-use super::eigenproblem::{EigenWork, Interval, Problem};
-use super::lanczos::lanczos_between;
+use super::eigenproblem::{EigenWork, Interval, Problem, are_clustered};
 use super::search::middle;
-use super::{Modes, SEED, judged};
+use super::{CLUSTER_GAP, Modes, SEED, judged, pairs_between};
 use crate::dense;
 use crate::error::{Error, Result};
+use crate::job::Eigensolver;
 use crate::sparse::product;
 
 /// Modes searched for at once.
@@ -40,9 +41,15 @@ pub trait ModeSource {
     /// # Errors
     /// The eigensolver fails.
     fn between(&self, interval: Interval, known: &Modes, seed: u64) -> Result<Modes>;
+
+    /// Whether modes are fewer than were asked for, as where a component has no more.
+    fn is_exhausted_by(&self, _modes: &Modes) -> bool {
+        false
+    }
 }
 
-/// Finds what the counts say is missing from the known modes; `ends` are ascending, the lowest interval starts at zero.
+/// Finds what the counts say is missing from the known modes; `ends` are ascending, the lowest interval starts at zero. The
+/// counts of the result end where no cluster is cut.
 ///
 /// # Errors
 /// [`Error::ModesMissing`] where modes stay missing; those of the source and of the counts.
@@ -58,7 +65,11 @@ pub(super) fn fill(
         filling.fill(lower, *end, (CUTS_TO_SIZE, CUTS_TO_FIND))?;
         lower = (end.inertia.sigma, end.n_elastic);
     }
-    filling.modes.counts.extend_from_slice(ends);
+    if let [inner @ .., last] = ends {
+        let last = filling.end_beyond_cluster(*last)?;
+        filling.modes.counts.extend_from_slice(inner);
+        filling.modes.counts.push(last);
+    }
     filling.modes.counts.sort_by(|a, b| a.inertia.sigma.total_cmp(&b.inertia.sigma));
     Ok(filling.modes)
 }
@@ -109,6 +120,30 @@ impl Filling<'_> {
         }
     }
 
+    /// Moves an end up while a mode lies so near below it that its cluster may go on above.
+    fn end_beyond_cluster(&mut self, mut end: ElasticCount) -> Result<ElasticCount> {
+        /// Doublings that take a shift from the gap of a cluster beyond any spectrum of doubles.
+        const DOUBLINGS: i32 = 64;
+        let mut sigma = end.inertia.sigma;
+        for doubling in 1..=DOUBLINGS {
+            let below = self.modes.lambda.iter().copied().filter(|lambda| *lambda < end.inertia.sigma);
+            if !below.reduce(f64::max).is_some_and(|last| are_clustered(last, end.inertia.sigma)) {
+                return Ok(end);
+            }
+            sigma *= 1.0 + 2f64.powi(doubling) * CLUSTER_GAP;
+            self.modes.work.factorisations += 1;
+            match self.problem.count_below(sigma) {
+                Ok(above) => {
+                    self.fill((end.inertia.sigma, end.n_elastic), above, (CUTS_TO_SIZE, CUTS_TO_FIND))?;
+                    end = above;
+                }
+                Err(Error::SturmPivot { .. }) => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Err(Error::SturmPivot { step: 0 })
+    }
+
     /// Whether nothing is missing; more modes than counted cannot be mended.
     fn is_filled(&self, from: f64, to: f64, counted: usize, upper: ElasticCount) -> Result<bool> {
         let found = self.modes.n_between(from, to);
@@ -154,7 +189,7 @@ pub(super) fn missing(problem: &BoundaryProblem<'_>, modes: &Modes, upper: Elast
     }
 }
 
-/// Searches an interval by block Lanczos with a shift inside it.
+/// Searches an interval with a shift inside it, by an eigensolver and from the start vectors of a seed.
 ///
 /// # Errors
 /// Every shift tried lies on an eigenvalue; a dense eigenproblem does not converge.
@@ -162,7 +197,7 @@ pub(super) fn search_between(
     problem: &BoundaryProblem<'_>,
     interval: Interval,
     known: &Modes,
-    seed: u64,
+    solver: (Eigensolver, u64),
 ) -> Result<Modes> {
     let modal = problem.modal();
     let n = modal.mass.rows();
@@ -177,7 +212,7 @@ pub(super) fn search_between(
     let mass_q = dense::beside(rigid.1, product(modal.mass, near.as_ref()).as_ref());
     let (modes, n_factorisations) = problem.with_operator_inside(interval, |operator| {
         let deflated = [q.as_ref(), mass_q.as_ref()];
-        let mut pairs = lanczos_between(Problem { operator, mass: modal.mass, deflated }, interval, seed)?;
+        let mut pairs = pairs_between(Problem { operator, mass: modal.mass, deflated }, interval, solver)?;
         let along = dense::gram(known.shapes.as_ref(), product(modal.mass, pairs.vectors.as_ref()).as_ref());
         dense::add_product(pairs.vectors.as_mut(), -1.0, known.shapes.as_ref(), along.as_ref());
         let whole = Problem { operator, mass: modal.mass, deflated: [rigid.0, rigid.1] };

@@ -205,6 +205,25 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
     warnings
 }
 
+/// Why there are no more modes, and how far that is proved.
+fn reason(results: &Results<'_>) -> String {
+    let Some(certificate) = results.evidence.certificate else {
+        return "that there is no other is not certified".to_owned();
+    };
+    let (n_counted, n_finite) = (certificate.n_counted, certificate.n_finite.unwrap_or(usize::MAX));
+    if n_counted >= n_finite {
+        return format!(
+            "there is no other, since the mass matrix leaves {n_finite} frequencies finite, those of rigid-body motion included"
+        );
+    }
+    let unit = results.evidence.partition.scaling.eigenvalue_unit();
+    format!(
+        "a Sturm count finds no other below {:.3e} Hz; that there is none above is not proved, since the mass matrix may leave \
+         {n_finite} frequencies finite and {n_counted} are known",
+        omega(certificate.count.sigma, unit) / std::f64::consts::TAU
+    )
+}
+
 /// What is to be said of the number of modes.
 fn number_of_modes(results: &Results<'_>) -> Option<Warning> {
     let modes = &results.evidence.retained.modes;
@@ -212,9 +231,7 @@ fn number_of_modes(results: &Results<'_>) -> Option<Warning> {
     match results.job.reduction.modes {
         ModeSelection::Count { count } if found < count => Some(Warning {
             code: "W-FEWER-MODES",
-            message: format!(
-                "{count} modes were asked for; the search ended with {found}: no other has a finite frequency that it can tell"
-            ),
+            message: format!("{count} modes were asked for; the search ended with {found}: {}", reason(results)),
         }),
         ModeSelection::UpTo { up_to_hz } => {
             let limit = modes.searched_to.filter(|limit| *limit > 0.0)?;

@@ -235,7 +235,7 @@ pub enum ModeKind {
 /// What the user should know although no check failed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Warning {
-    /// Stable code, `W-CUT-CLUSTER`.
+    /// Stable code, `W-FEWER-MODES`.
     pub code: &'static str,
     /// One sentence.
     pub message: String,

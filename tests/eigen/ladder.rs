@@ -84,6 +84,44 @@ fn each_rung_of_the_ladder_finds_what_the_one_before_has_lost() {
     }
 }
 
+/// A mode missing below a count and one too many above it: the total is right and the intervals are not.
+#[test]
+fn a_mode_too_many_does_not_hide_one_that_is_missing() {
+    struct Swapping<'a>(&'a Search<'a>);
+    impl ModeSource for Swapping<'_> {
+        fn lowest(&self, seed: u64) -> Result<Modes, Error> {
+            let mut modes = self.0.lowest(seed)?;
+            modes.counts.push(self.0.problem.count_below(0.5 * (modes.lambda[5] + modes.lambda[6]))?);
+            if seed != SEED {
+                return Ok(modes);
+            }
+            let last = modes.count() - 1;
+            let copy = Modes {
+                lambda: vec![modes.lambda[last]],
+                errors: vec![modes.errors[last]],
+                shapes: modes.shapes.as_ref().subcols(last, 1).to_owned(),
+                ..Modes::none(modes.shapes.nrows())
+            };
+            Ok(modes.without(2).joined(copy))
+        }
+
+        fn between(&self, interval: Interval, known: &Modes, seed: u64) -> Result<Modes, Error> {
+            self.0.between(interval, known, seed)
+        }
+    }
+    with_component(&bar(120), &[], |component| {
+        let search = Search::new(component, &held(count(12), Eigensolver::Lanczos))?;
+        let source = Swapping(&search);
+        let found = source.lowest(SEED)?;
+        let (modes, certificate) = certified(&source, &search.problem, found, search.edge(), Certify::Count)?;
+        let certificate = certificate.expect("a count was asked for");
+        assert_eq!((certificate.mending, certificate.intervals.len()), (Mending::Restart, 2));
+        judge(&search, modes, certificate).assert_lambda(&bar_spectrum(120)[..12]);
+        Ok(())
+    })
+    .expect("certified");
+}
+
 #[test]
 fn modes_that_nothing_finds_are_an_error_with_both_numbers() {
     let model = brick([5, 2, 2], [5.0, 2.0, 1.5], &Material::UNIT);

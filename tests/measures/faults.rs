@@ -109,6 +109,7 @@ fn a_mode_that_was_not_found() {
             n_counted: 6,
             n_found: 5,
             intervals: vec![interval],
+            n_finite: None,
             mending: Mending::None,
             n_factorisations: 1,
         };

@@ -24,6 +24,44 @@ const NOT_BUILT: [(&str, &str); 4] = [
     ("MS-08", "added masses"),
 ];
 
+/// What the catalogue asks for beside the outcome that a line has, by the word for it that the program does not know, and why.
+const LEFT_OUT: [(&str, &str, &str); 2] = [
+    (
+        "E-03",
+        "W-CUT-CLUSTER",
+        "clusters are always completed: searches and the dense decomposition extend to the gap, and the count that ends the \
+         last slice is moved up until no mode lies within that gap below it",
+    ),
+    (
+        "E-09",
+        "allow-negative",
+        "a superelement of negative stiffness moves away from rest by itself, whoever simulates it; and with the interface held \
+         K = LLᵀ, which constraint modes, enclosures and every energy norm of the report stand on, does not exist",
+    ),
+];
+
+#[test]
+fn what_is_left_out_is_nowhere_in_the_program() {
+    fn sources(folder: &Path, text: &mut String) {
+        for entry in fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            match path.is_dir() {
+                true => sources(&path, text),
+                false => text.push_str(&fs::read_to_string(&path).unwrap_or_default()),
+            }
+        }
+    }
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut text = String::new();
+    for folder in ["src", "docs", "schemas"] {
+        sources(&root.join(folder), &mut text);
+    }
+    assert!(text.contains("W-FEWER-MODES") && text.contains("allow-unverified"), "the sources were not read");
+    for (line, word, why) in LEFT_OUT {
+        assert!(!text.contains(word), "{line}: {word} is there although {why}");
+    }
+}
+
 /// The names of all tests in a folder and the folders in it.
 fn tests_in(folder: &Path, names: &mut BTreeSet<String>) {
     for entry in fs::read_dir(folder).expect("a folder") {

@@ -1,0 +1,40 @@
+//! How many eigenvalues there are at all: the finite ones, as many as M has rank.
+//!
+//! A search that ends with fewer modes than were asked for has found all there are, or has lost some. A count far above the
+//! spectrum tells below its shift; the rank of M tells without a shift.
+
+use super::boundary_problem::{BoundaryProblem, ratios};
+use crate::error::Result;
+use crate::factor::{Analysis, Pencil, rank};
+use crate::sparse::SparseMatrix;
+
+/// λ of a mesh is at most this many times the largest K_ii/M_ii: M of an element is within 10² of its diagonal, and a row of
+/// K has at most 10² entries.
+const ABOVE_ALL: f64 = 1e4;
+
+/// A shift above the spectrum of any mesh with these diagonals.
+pub(super) fn above_all(problem: &BoundaryProblem<'_>) -> f64 {
+    ABOVE_ALL * ratios(problem.modal()).last().copied().unwrap_or(1.0)
+}
+
+/// Finite eigenvalues there are at most, those of zero modes included, where `n_found` are known.
+///
+/// Rows with mass bound the rank of M in exact arithmetic. Where there are more of them than eigenvalues known, M itself is
+/// counted: of what lies within its rounding nobody can tell whether it is mass.
+///
+/// # Errors
+/// No memory for a factor.
+pub(super) fn most_finite(problem: &BoundaryProblem<'_>, n_found: usize) -> Result<usize> {
+    let modal = problem.modal();
+    let n_rows = rows_with_mass(modal.mass);
+    if n_rows <= n_found {
+        return Ok(n_rows);
+    }
+    let analysis = Analysis::new(Pencil { stiffness: modal.stiffness, mass: modal.mass })?;
+    Ok(rank(&analysis, modal.mass, modal.precision.mass).map_or(n_rows, |rank| rank.min(n_rows)))
+}
+
+/// Rows of M with an entry other than zero.
+pub(super) fn rows_with_mass(mass: &SparseMatrix) -> usize {
+    mass.outer_iterator().filter(|row| row.data().iter().any(|value| *value != 0.0)).count()
+}
