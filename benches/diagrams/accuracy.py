@@ -112,5 +112,5 @@ def draw(settings):
             failed = [row for row in shown if row["failure"]]
             ax.plot([r["kappa"] for r in failed], [r["over_eps_kappa"] for r in failed], "x", color="red", markersize=9)
     ax.axhline(1.0, color="k", linewidth=0.8)
-    ax.legend(fontsize=6)
+    ax.legend(fontsize=6, loc="center left", bbox_to_anchor=(1.01, 0.5))
     figure.save(fig, settings.out / "D-accuracy.svg", settings.origin)

@@ -101,5 +101,5 @@ def draw(settings, family, dofs):
                 ax.plot(row["seconds"], row["error"], "x", color="red", markersize=9)
                 ax.annotate(f"  {row['missed']} missed", (row["seconds"], row["error"]), fontsize=6, va="top")
     ax.plot(*zip(*front([(row["seconds"], row["error"]) for row in shown if not row["missed"]])), "k--", linewidth=0.8, label="Pareto front")
-    ax.legend(fontsize=7)
+    ax.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.01, 0.5))
     figure.save(fig, settings.out / f"{name}.svg", settings.origin)
