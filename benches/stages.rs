@@ -12,7 +12,7 @@ use std::time::Duration;
 use criterion::{BenchmarkId, Criterion, SamplingMode, criterion_group, criterion_main};
 use faer::Mat;
 use supel::basis::{Basis, ConstraintModes, constraint_modes};
-use supel::factor::{Analysis, Cholesky, Pencil, SolveOperator};
+use supel::factor::{Analysis, Cholesky, SolveOperator};
 use supel::job::Job;
 use supel::model::Model;
 use supel::modes::{Component, ModeSource, Retained, SEED, Search, shift_of_factor};
@@ -50,12 +50,8 @@ impl Prepared {
         Self { job, partition, rigid, k_ii, m_ii, sigma }
     }
 
-    fn pencil(&self) -> Pencil<'_> {
-        Pencil { stiffness: &self.k_ii, mass: &self.m_ii }
-    }
-
     fn factor<'a>(&'a self, analysis: &'a Analysis) -> Cholesky<'a> {
-        Cholesky::new(analysis, self.pencil(), self.sigma, &|dof| self.partition.name_of(dof)).expect("definite")
+        Cholesky::new(analysis, self.partition.pencil(), self.sigma, &|dof| self.partition.name_of(dof)).expect("definite")
     }
 
     fn component<'a>(
@@ -101,8 +97,8 @@ fn measure(criterion: &mut Criterion, family: Family, folder: &Path) {
     group.bench_function(id("read"), |b| b.iter(read));
     let model = Model::new(read()).expect("a sound model");
     group.bench_function(id("order"), |b| b.iter(|| Partition::new(&model, &job.interfaces).expect("two faces")));
-    group.bench_function(id("analyse"), |b| b.iter(|| Analysis::new(prepared.pencil()).expect("memory")));
-    let analysis = Analysis::new(prepared.pencil()).expect("memory");
+    group.bench_function(id("analyse"), |b| b.iter(|| Analysis::of(&prepared.partition).expect("memory")));
+    let analysis = Analysis::of(&prepared.partition).expect("memory");
     group.bench_function(id("factor"), |b| b.iter(|| prepared.factor(&analysis)));
     let factor = prepared.factor(&analysis);
     let loads = Mat::from_fn(factor.n(), BLOCK, |i, j| f64::from(u8::from(i % BLOCK == j)));

@@ -120,8 +120,8 @@ impl Analysis {
             tasks,
             stack: 0,
         };
-        analysis.stack = analysis.predicted_stack();
         analysis.number_places();
+        analysis.stack = analysis.predicted_stack();
         Ok(analysis)
     }
 
