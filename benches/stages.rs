@@ -51,7 +51,8 @@ impl Prepared {
     }
 
     fn factor<'a>(&'a self, analysis: &'a Analysis) -> Cholesky<'a> {
-        Cholesky::new(analysis, self.partition.pencil(), self.sigma, &|dof| self.partition.name_of(dof)).expect("definite")
+        Cholesky::new(analysis, self.partition.pencil(), self.sigma, &|dof| self.partition.name_of(dof))
+            .expect("definite")
     }
 
     fn component<'a>(

@@ -1,7 +1,7 @@
 //! The few dense operations the method needs, on faer's kernels.
 //!
-//! Matrix products give the same bits for any number of threads, so they run in parallel. Decompositions of small
-//! matrices run sequentially.
+//! Matrix products are cut into tiles of a fixed size, each done by one thread: the same bits for any number of threads.
+//! Decompositions of small matrices run sequentially.
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
@@ -11,12 +11,10 @@ use crate::error::{Error, Result};
 /// Products smaller than this many multiplications are done by one thread: starting a second one costs more.
 const PARALLEL_ABOVE: usize = 1 << 18;
 
-fn parallelism(multiplications: usize) -> Par {
-    if multiplications > PARALLEL_ABOVE { Par::rayon(0) } else { Par::Seq }
-}
-
 /// Rows of a tile of [`gram`]: fixed, so that the order of the sum never depends on the number of threads.
 const GRAM_ROWS: usize = 4096;
+/// Rows of a tile of [`add_product`].
+const PRODUCT_ROWS: usize = 1024;
 
 /// Xᵀ Y for tall X and Y: tile by tile in parallel, the tiles summed in order.
 pub fn gram(x: MatRef<'_, f64>, y: MatRef<'_, f64>) -> Mat<f64> {
@@ -47,9 +45,20 @@ pub fn product(x: MatRef<'_, f64>, c: MatRef<'_, f64>) -> Mat<f64> {
 }
 
 /// Y ← Y + α X C.
-pub fn add_product(y: MatMut<'_, f64>, alpha: f64, x: MatRef<'_, f64>, c: MatRef<'_, f64>) {
-    let par = parallelism(x.nrows() * x.ncols() * c.ncols());
-    matmul(y, Accum::Add, x, c, alpha, par);
+pub fn add_product(mut y: MatMut<'_, f64>, alpha: f64, x: MatRef<'_, f64>, c: MatRef<'_, f64>) {
+    use rayon::prelude::*;
+    let tile = |first: usize, y: MatMut<'_, f64>| {
+        let x = x.subrows(first, y.nrows());
+        matmul(y, Accum::Add, x, c, alpha, Par::Seq);
+    };
+    let n = y.nrows();
+    if x.nrows() * x.ncols() * c.ncols() > PARALLEL_ABOVE {
+        y.par_row_chunks_mut(PRODUCT_ROWS).enumerate().for_each(|(at, y)| tile(at * PRODUCT_ROWS, y));
+        return;
+    }
+    for first in (0..n).step_by(PRODUCT_ROWS) {
+        tile(first, y.as_mut().subrows_mut(first, PRODUCT_ROWS.min(n - first)));
+    }
 }
 
 /// Eigenvalues in ascending order and orthonormal eigenvectors of a symmetric matrix (lower triangle read).

@@ -19,7 +19,7 @@
 //! | [`model`] | those | symmetric, scaled, checked matrices |
 //! | [`partition`] | the interfaces | K, M on internal and interface dofs, rigid patches applied, in order of elimination |
 //! | [`rigid`] | the partition | U, verified against K; the rank of U_B |
-//! | [`factor`] | K_II | L Lᵀ, solves, counts of eigenvalues |
+//! | [`factor`] | K, the interface last | L Lᵀ of K_II, solves, counts of eigenvalues |
 //! | [`modes`] | the factor | elastic modes with error bars, certified complete |
 //! | [`basis`] | the modes | Ψ = \[I 0; Ψ_S Ψ_D\] |
 //! | [`reduction`] | Ψ | K̂, M̂, Û, M_F |

@@ -176,12 +176,12 @@ impl Analysis {
 
     /// Bytes that one factor takes, with the zeros that supernodes add.
     pub fn factor_bytes(&self) -> u64 {
-        8 * self.n_values() as u64
+        8u64.saturating_mul(self.n_values() as u64)
     }
 
     /// Bytes that elimination needs beside the factor when one thread does it: what waits for its parent.
     pub fn stack_bytes(&self) -> u64 {
-        8 * self.stack as u64
+        8u64.saturating_mul(self.stack as u64)
     }
 
     /// Entries of a factor, with the zeros that supernodes add.

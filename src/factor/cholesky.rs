@@ -35,13 +35,15 @@ impl<'a> Cholesky<'a> {
     pub fn new(analysis: &'a Analysis, pencil: Pencil<'_>, sigma: f64, name: &dyn Fn(usize) -> String) -> Result<Self> {
         let matrix = Shifted { pencil, sigma, scale: None, n_border: analysis.n_border() };
         let not_definite = |step: usize| not_definite(analysis, pencil, name(analysis.given()[step] as usize));
-        let numbers = eliminate(analysis, &matrix, Kind::Definite, Keep::Factor).map_err(|stop| match stop {
+        let mut numbers = eliminate(analysis, &matrix, Kind::Definite, Keep::Factor).map_err(|stop| match stop {
             Stop::NotPositive(step) => not_definite(step),
             Stop::NoMemory => Error::OutOfMemory { what: "the factor" },
         })?;
+        numbers.schur = Mat::zeros(0, 0);
         let (ratio, step) = smallest_pivot(analysis, pencil, sigma, &numbers);
         // Rounding decides the sign of a pivot that should be zero, so a singular matrix may well get this far.
         if ratio.is_nan() || ratio <= SINGULAR {
+            drop(numbers);
             return Err(not_definite(step));
         }
         Ok(Self { analysis, numbers, smallest_pivot_ratio: ratio })

@@ -8,6 +8,7 @@
 //! shared among threads without any sum changing its order. Only lower triangles are read.
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
+use faer::linalg::cholesky::lblt::factor::LbltParams;
 use faer::linalg::cholesky::{lblt, llt};
 use faer::linalg::matmul::{matmul, triangular};
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_unit_lower_triangular_in_place};
@@ -67,7 +68,14 @@ impl<'a> Pivots<'a> {
 /// Memory of the dense kernels for a panel.
 pub(super) fn scratch() -> StackReq {
     llt::factor::cholesky_in_place_scratch::<f64>(PANEL, Par::Seq, Spec::default())
-        .or(lblt::factor::cholesky_in_place_scratch::<usize, f64>(PANEL, Par::Seq, Spec::default()))
+        .or(lblt::factor::cholesky_in_place_scratch::<usize, f64>(PANEL, Par::Seq, one_block()))
+}
+
+/// L B Lᵀ of a panel without blocks inside: in a blocked step faer 0.24 leaves a column that has become zero as it was before.
+fn one_block() -> Spec<LbltParams, f64> {
+    let mut parameters = Spec::<LbltParams, f64>::default();
+    parameters.config.block_size = PANEL;
+    parameters
 }
 
 /// A_11 and A_21 become L_11 and L_21. The column at which a pivot of a definite matrix is not positive is the error.
@@ -211,7 +219,7 @@ fn factor_indefinite(mut top: MatMut<'_, f64>, pivots: &mut Pivots<'_>, memory: 
         &mut inverse,
         Par::Seq,
         MemStack::new(memory),
-        Spec::default(),
+        one_block(),
     );
     for (j, pivot) in pivots.diagonal.iter_mut().enumerate() {
         *pivot = top[(j, j)];

@@ -36,7 +36,7 @@ pub struct InertiaCount {
 /// Below this share an eigenvalue of S(σ) is rounding, and σ too near a free eigenvalue.
 const SCHUR_GAP: f64 = 1e-12;
 /// Below this share of the stiffness before condensation an eigenvalue of S(σ) is what rounding left of the condensation.
-const CONDENSED_GAP: f64 = 100.0 * f64::EPSILON;
+pub const CONDENSED_GAP: f64 = 100.0 * f64::EPSILON;
 /// Below this share a pivot of B is rounding, as in the Cholesky factorisation, and σ too near a clamped eigenvalue.
 const PIVOT_GAP: f64 = 1024.0 * f64::EPSILON;
 
@@ -117,7 +117,11 @@ pub fn count_negative(analysis: &Analysis, stiffness: &SparseMatrix) -> Result<u
 ///
 /// # Errors
 /// As [`count_below`].
+///
+/// # Panics
+/// The analysis has a border.
 pub fn rank(analysis: &Analysis, mass: &SparseMatrix, precision: f64) -> Result<usize> {
+    assert_eq!(analysis.n_border(), 0, "the rank is that of a whole matrix");
     let diagonal = crate::model::diagonal(mass);
     // A row of a semidefinite matrix without a diagonal is empty.
     let scale: Vec<f64> = diagonal.iter().map(|d| if *d > 0.0 { 1.0 / d.sqrt() } else { 0.0 }).collect();

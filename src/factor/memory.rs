@@ -38,7 +38,7 @@ pub fn refuse_beyond_memory(
         (Some(count), _) | (None, ModeSelection::Count { count }) => (count as u64).min(n),
         (None, ModeSelection::UpTo { .. }) => MODES_IN_A_BAND,
     };
-    // The partitioned matrices, their internal blocks, and one triangle with wide indices while a factor is made.
+    // The partitioned matrices, their internal blocks, and the triangle with wide indices that the analysis makes.
     let entries = (partition.stiffness.nnz() + partition.mass.nnz()) as u64;
     let matrices = 3 * ENTRY * entries;
     // A count keeps the pivots alone; a slice keeps the factor of its shift.
@@ -48,7 +48,7 @@ pub fn refuse_beyond_memory(
         Certify::None | Certify::Count if n_modes >= SLICED_FROM as u64 => 2,
         Certify::None | Certify::Count => 1,
     };
-    let factors = n_factors * analysis.factor_bytes() + analysis.stack_bytes();
+    let factors = analysis.factor_bytes().saturating_mul(n_factors).saturating_add(analysis.stack_bytes());
     let vectors = DOUBLE * n * (2 * partition.n_interface() as u64 + 5 * n_modes + 64);
     let needed = matrices.saturating_add(factors).saturating_add(vectors);
     if needed <= available {

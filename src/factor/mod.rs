@@ -1,14 +1,16 @@
-//! Factorisation of K_II and of K − σM, solves, and counts of negative pivots.
+//! Factorisation of K − σM without its interface, solves, and counts of negative pivots.
 //!
 //! ```text
-//! Analysis       order given, elimination tree, supernodes; shared by every factorisation of the same pattern
-//! Cholesky       K = L Lᵀ for a definite matrix: solves on blocks of right-hand sides
+//! Analysis       elimination tree, supernodes, tasks; shared by every factorisation of the same pattern
+//! Cholesky       K − σM = L Lᵀ where it is definite: solves on blocks of right-hand sides, constraint modes
 //! ShiftedFactor  K − σM = L B Lᵀ: how many eigenvalues lie below σ, and solves with it
+//!
+//! multifrontal   fronts, on faer's dense kernels        substitution   forward and backward through the tree
 //! ```
 //!
-//! The matrices arrive in their order of elimination. Everything here runs on faer's supernodal kernels with one
-//! thread for each task, which is what they are fastest with and what makes their bits repeat; callers take
-//! parallelism from independent tasks. Nothing outside this folder knows how a factor is stored.
+//! The interface is a border that is not eliminated: L has its rows, and what is left of its block is the Schur
+//! complement. Subtrees are eliminated side by side and large fronts in tiles, all cut by the work and not by the number
+//! of threads, so that bits repeat. Nothing outside this folder knows how a factor is stored.
 
 mod analysis;
 mod cholesky;
@@ -28,7 +30,7 @@ use crate::sparse::SparseMatrix;
 pub use analysis::Analysis;
 pub use cholesky::Cholesky;
 pub use indefinite::{WholeCount, whole_count};
-pub use inertia::{InertiaCount, ShiftedFactor, condensed, count_below, count_negative, rank};
+pub use inertia::{CONDENSED_GAP, InertiaCount, ShiftedFactor, condensed, count_below, count_negative, rank};
 pub use memory::refuse_beyond_memory;
 pub use rounding::forming_error;
 pub use solve::SolveOperator;

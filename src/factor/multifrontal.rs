@@ -4,8 +4,8 @@
 //! front of s   columns of the matrix + rests of the children
 //! eliminated   columns of L, and a rest for the parent
 //! ```
-//! Inside a task the rests lie on a stack, the children's on top; between tasks they are handed over one by one. What reaches the border
-//! is the Schur complement.
+//! Inside a task the rests lie on a stack, the children's on top; between tasks they are handed over one by one. What reaches
+//! the border is the Schur complement.
 
 mod assembly;
 
@@ -162,8 +162,8 @@ pub(super) fn eliminate(
     let workspaces = Mutex::new(Vec::new());
     tasks.from_leaves(|t| {
         let task = &tasks.0[t];
-        let handed: std::result::Result<Vec<_>, _> = task.children.iter().map(|child| take(&rests[*child])).collect();
-        let done = handed.and_then(|handed| {
+        let handed: Vec<Handed> = task.children.iter().map(|child| take(&rests[*child])).collect();
+        let done = handed.into_iter().collect::<std::result::Result<Vec<_>, _>>().and_then(|handed| {
             let mut workspace = lock(&workspaces).pop().unwrap_or_else(|| Workspace::new(analysis));
             let done = Run { analysis, matrix, kind, task }.numbers(keep, &handed, &mut workspace);
             lock(&workspaces).push(workspace);
@@ -201,6 +201,14 @@ pub(super) fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
 
 fn take(rest: &Mutex<Handed>) -> Handed {
     std::mem::replace(&mut *lock(rest), Ok(Vec::new()))
+}
+
+/// The same memory as zeros, where there is enough.
+fn cleared(values: &mut Vec<f64>, len: usize) -> std::result::Result<&mut [f64], Stop> {
+    values.clear();
+    values.try_reserve_exact(len).map_err(|_| Stop::NoMemory)?;
+    values.resize(len, 0.0);
+    Ok(values)
 }
 
 /// Zeros, where there is memory for them.
@@ -284,13 +292,8 @@ impl Run<'_> {
         tools: &mut Tools,
     ) -> std::result::Result<f64, Stop> {
         let (size, b) = (node.steps.len(), node.below.len());
-        let values = if part.values.is_empty() {
-            tools.trapezoid.clear();
-            tools.trapezoid.resize(node.values.len(), 0.0);
-            tools.trapezoid.as_mut_slice()
-        } else {
-            part.values
-        };
+        let values =
+            if part.values.is_empty() { cleared(&mut tools.trapezoid, node.values.len())? } else { part.values };
         let mut trapezoid = MatMut::from_column_major_slice_mut(values, size + b, size);
         for (at, row) in node.below.iter().enumerate() {
             place[*row as usize] = (size + at) as u32;

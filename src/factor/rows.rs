@@ -184,12 +184,14 @@ impl<const W: usize> WithSimd for Kernel<'_, W> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
+        const { assert!(W >= S::F64_LANES, "a row is narrower than a vector") };
         match W / S::F64_LANES {
             1 => self.with_vectors::<S, 1, 4>(simd),
             2 => self.with_vectors::<S, 2, 4>(simd),
             4 => self.with_vectors::<S, 4, 2>(simd),
             8 => self.with_vectors::<S, 8, 1>(simd),
-            _ => self.with_vectors::<S, 16, 1>(simd),
+            16 => self.with_vectors::<S, 16, 1>(simd),
+            vectors => unreachable!("no kernel for {vectors} vectors to a row"),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Block Lanczos for K x = λ M x, with shift-invert, full M-reorthogonalisation, thick restart and locking.
+//! Block Lanczos for K x = λ M x, with shift-invert, M-orthogonalisation against all of V, thick restart and locking.
 //!
 //! ```text
 //! OP = P (K − σM)⁻¹ Pᵀ M     n × n    symmetric in the M-inner product, P = I − Q QᵀM takes out the rigid-body modes
@@ -6,8 +6,8 @@
 //! T = VᵀM OP V               m × m    Ritz pairs (θ, s): λ = σ + 1/θ, x = V s
 //! OP V = V T + W B           W the next block (n × b), B its coupling (b × m); ‖B s‖ is the residual of a Ritz pair
 //! ```
-//! T is formed from inner products, not from a recurrence, so that a restart needs no special case: the kept Ritz
-//! vectors simply are the basis. A wanted cluster is never cut, and one pair beyond the wanted ones is found too, so
+//! T is formed from inner products, so that after a restart the kept Ritz vectors simply are the basis; the recurrence only says
+//! which of them the first pass of orthogonalisation may leave out. A wanted cluster is never cut, and one pair beyond the wanted ones is found too, so
 //! that a Sturm count can be taken in the gap between them.
 
 use faer::{Mat, MatRef};

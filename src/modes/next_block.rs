@@ -12,11 +12,20 @@ use crate::sparse::product;
 /// along: it loses one digit then.
 const SHRINKS: f64 = 0.1;
 
+/// Passes over V, the last one only where the one before left little of a column.
+const MAX_PASSES: usize = 3;
+/// Share of a unit column that is no rounding, where the first pass was not over all of V: half its digits.
+const LEFT: f64 = 1e-8;
+/// Share of a unit column whose orthogonality is that of rounding: twice is enough.
+const CLEAN: f64 = 0.5;
+
 impl Basis<'_> {
     /// Makes a block M-orthogonal to V and M-orthonormal in itself: block = V C + W B. Stores W and M W.
     ///
     /// By its recurrence OP W couples to the columns from `recent` on alone. The first pass takes those out and normalises,
-    /// however small the columns are; the second, on columns of unit length, takes out what rounding left along all of V.
+    /// however small the columns are; the second, on columns of unit length, takes out what rounding left along all of V. Errors
+    /// of a solve lie along the lowest modes and grow with the condition of K: where they made up most of a column, there is a
+    /// third pass.
     pub(super) fn orthonormalise(&mut self, mut block: Mat<f64>) -> (Mat<f64>, Mat<f64>) {
         let width = block.ncols();
         let mut coefficients = Mat::zeros(self.size, width);
@@ -24,7 +33,12 @@ impl Basis<'_> {
         let mut mass_block = product(self.problem.mass, block.as_ref());
         let floor = self.rounding_floor(&block, &mass_block);
         let mut dependent = vec![false; width];
-        for (from, least) in [(self.recent, floor), (0, 0.5)] {
+        for pass in 0..MAX_PASSES {
+            let (from, least) = match pass {
+                0 => (self.recent, floor),
+                1 if self.recent > 0 => (0, LEFT),
+                _ => (0, CLEAN),
+            };
             let basis = self.v().subcols(from, self.size - from);
             let c = dense::gram(basis, mass_block.as_ref());
             dense::add_product(block.as_mut(), -1.0, basis, c.as_ref());
@@ -33,11 +47,13 @@ impl Basis<'_> {
             self.problem.deflate(block.as_mut());
             mass_block = product(self.problem.mass, block.as_ref());
             let r = gram_schmidt(&mut block, &mut mass_block, least, &mut dependent);
-            if least == floor && shrinks(&r) {
-                self.problem.deflate(block.as_mut());
+            coupling = dense::product(r.as_ref(), coupling.as_ref());
+            if pass > 0 && (0..width).all(|j| dependent[j] || r[(j, j)] > CLEAN) {
+                break;
+            }
+            if shrinks(&r) {
                 mass_block = product(self.problem.mass, block.as_ref());
             }
-            coupling = dense::product(r.as_ref(), coupling.as_ref());
         }
         self.replace_dependent(&mut block, &dependent);
         let kept: Vec<usize> = (0..width).filter(|j| !dependent[*j] || self.holds(block.as_ref(), *j)).collect();

@@ -40,6 +40,9 @@ const WINDOW: std::ops::RangeInclusive<f64> = 1e-2..=10.0;
 const LOOK_AT: usize = 12;
 /// A mode is zero when its Rayleigh quotient stays below this many error bars of itself.
 const ZERO_WITHIN_BARS: f64 = 10.0;
+/// Eigenvalues up to this multiple of one that is rounding are rounding of the same size, and what their modes are is left to
+/// it: each may carry as much as any other.
+const ALIKE: f64 = 10.0;
 /// Share of the highest of the lowest modes below which an eigenvalue is rounding: some fifty ε. A matrix that was projected
 /// itself carries the rounding of terms that have cancelled and that its own entries do not show.
 const PROJECTED: f64 = 1e-14;
@@ -61,10 +64,7 @@ pub fn shifted<'a>(
         let factor = Cholesky::new(analysis, pencil, sigma, name)?;
         let request = ModeRequest { wanted: Wanted::Count(count), eigensolver: Eigensolver::Lanczos, seed: SEED };
         let lowest = elastic_modes(problem, &Factored::new(&factor, sigma), request)?;
-        let zero_modes = lowest.lambda.iter().zip(&lowest.errors);
-        let rounding = PROJECTED * lowest.lambda.last().copied().unwrap_or(0.0);
-        let n_zero =
-            zero_modes.take_while(|(lambda, error)| is_zero(**lambda, error) || **lambda <= rounding.max(0.0)).count();
+        let n_zero = n_zero(&lowest);
         let all_zero = n_zero == lowest.count() && lowest.next.is_some();
         if all_zero && count < problem.mass.rows() {
             count *= 2;
@@ -90,6 +90,18 @@ pub fn shift_of_factor(partition: &Partition, rigid: &RigidBodyModes) -> f64 {
     let precision = partition.precision;
     let problem = ModalProblem { stiffness: &partition.stiffness, mass: &partition.mass, rigid: None, precision };
     -FIRST_SHIFT * median_ratio(problem)
+}
+
+/// Leading modes that are zero within their bars, within rounding of the matrix, or within that of modes they mix with.
+fn n_zero(lowest: &Modes) -> usize {
+    let rounding = PROJECTED * lowest.lambda.last().copied().unwrap_or(0.0);
+    let pairs = || lowest.lambda.iter().zip(&lowest.errors);
+    let is_zero = |(lambda, error): &(&f64, &ModeError)| {
+        let alike = pairs().filter(|(other, _)| other.abs() <= ALIKE * lambda.abs());
+        let floor = alike.fold(0.0f64, |floor, (_, error)| floor.max(error.rounding_floor));
+        is_zero(**lambda, error) || lambda.abs() <= ZERO_WITHIN_BARS * floor || **lambda <= rounding.max(0.0)
+    };
+    pairs().take_while(is_zero).count()
 }
 
 /// Whether an eigenvalue is zero within its bar, which is relative and grows without limit as λ goes to zero, or within

@@ -1,7 +1,6 @@
 //! The order of elimination of the internal dofs.
 //!
-//! Nested dissection runs on the graph of nodes, not of dofs: three to six times smaller, the same separators. The
-//! nodes are then postordered along their elimination tree, without which supernodes break apart.
+//! Nested dissection runs on the graph of nodes, not of dofs: three to six times smaller, the same separators.
 
 use super::metis::{Graph, nested_dissection};
 use super::transformation::{Transformation, TransformationRow};
@@ -13,10 +12,9 @@ pub(super) fn elimination_order(model: &Model, transformation: &Transformation) 
     let nodes = InternalNodes::new(transformation, n_internal);
     let graph = node_graph(model, transformation, &nodes);
     let by_dissection = nested_dissection(&graph).unwrap_or_else(|| (0..nodes.dofs.len() as u32).collect());
-    let by_postorder = postorder(&elimination_tree(&graph, &by_dissection));
     let mut order = Vec::with_capacity(transformation.dofs.len());
-    for step in by_postorder {
-        order.extend_from_slice(&nodes.dofs[by_dissection[step as usize] as usize]);
+    for node in by_dissection {
+        order.extend_from_slice(&nodes.dofs[node as usize]);
     }
     order.extend(n_internal as u32..transformation.dofs.len() as u32);
     order
@@ -87,79 +85,4 @@ fn node_graph(model: &Model, transformation: &Transformation, nodes: &InternalNo
         graph.weights.push(nodes.dofs[node].len() as i32);
     }
     graph
-}
-
-/// The elimination tree of the ordered graph: the parent of each step, `u32::MAX` for a root (Liu 1986).
-fn elimination_tree(graph: &Graph, order: &[u32]) -> Vec<u32> {
-    const NONE: u32 = u32::MAX;
-    let n = order.len();
-    let mut step_of = vec![0u32; n];
-    for (step, node) in order.iter().enumerate() {
-        step_of[*node as usize] = step as u32;
-    }
-    let (mut parent, mut ancestor) = (vec![NONE; n], vec![NONE; n]);
-    for (step, node) in order.iter().enumerate() {
-        let node = *node as usize;
-        let list = graph.starts[node] as usize..graph.starts[node + 1] as usize;
-        for other in &graph.neighbours[list] {
-            let mut at = step_of[*other as usize];
-            while (at as usize) < step {
-                let next = ancestor[at as usize];
-                ancestor[at as usize] = step as u32;
-                if next == NONE {
-                    parent[at as usize] = step as u32;
-                    break;
-                }
-                at = next;
-            }
-        }
-    }
-    parent
-}
-
-/// A postorder of the forest: children before parents, subtrees contiguous.
-fn postorder(parent: &[u32]) -> Vec<u32> {
-    const NONE: u32 = u32::MAX;
-    let n = parent.len();
-    let (mut first_child, mut next_sibling) = (vec![NONE; n], vec![NONE; n]);
-    let mut roots = Vec::new();
-    for step in (0..n).rev() {
-        match parent[step] {
-            NONE => roots.push(step as u32),
-            up => {
-                next_sibling[step] = first_child[up as usize];
-                first_child[up as usize] = step as u32;
-            }
-        }
-    }
-    let mut order = Vec::with_capacity(n);
-    let mut stack = roots;
-    while let Some(step) = stack.last().copied() {
-        let child = first_child[step as usize];
-        if child == NONE {
-            order.push(step);
-            stack.pop();
-        } else {
-            first_child[step as usize] = next_sibling[child as usize];
-            stack.push(child);
-        }
-    }
-    order
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn tree_of_a_path_in_natural_order_is_a_chain() {
-        let graph = Graph { starts: vec![0, 1, 3, 4], neighbours: vec![1, 0, 2, 1], weights: vec![1; 3] };
-        assert_eq!(elimination_tree(&graph, &[0, 1, 2]), [1, 2, u32::MAX]);
-    }
-
-    #[test]
-    fn postorder_visits_children_first_and_subtrees_whole() {
-        // 0 and 2 are leaves of 4, 1 is a leaf of 3, 3 and 4 meet in 5.
-        assert_eq!(postorder(&[4, 3, 4, 5, 5, u32::MAX]), [1, 3, 0, 2, 4, 5]);
-    }
 }

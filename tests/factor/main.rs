@@ -1,5 +1,6 @@
 //! The multifrontal factorisation against faer's own sparse and dense ones.
 
+mod border;
 mod matrices;
 
 use faer::linalg::solvers::Solve;

@@ -8,6 +8,19 @@ pub(crate) fn diagonal(values: &[f64]) -> SparseMatrix {
     SparseMatrix::new((n, n), (0..=n).collect(), (0..n as u32).collect(), values.to_vec())
 }
 
+/// A matrix with given entries at `edges` and on its diagonal.
+pub(crate) fn symmetric(
+    n: usize,
+    edges: &[(u32, u32)],
+    mut beside: impl FnMut(u32, u32) -> f64,
+    diagonal: impl Fn(usize) -> f64,
+) -> SparseMatrix {
+    let mut triplets = Triplets::default();
+    edges.iter().for_each(|(row, col)| triplets.push(*row, *col, beside(*row, *col)));
+    (0..n).for_each(|dof| triplets.push(dof as u32, dof as u32, diagonal(dof)));
+    triplets.assemble(n, Declared::Symmetric, "symmetric".as_ref()).expect("a matrix").0
+}
+
 /// A diagonally dominant matrix with entries of both signs at `edges`.
 pub(crate) fn spd(n: usize, edges: &[(u32, u32)]) -> SparseMatrix {
     let mut random = SplitMix64::new(7);

@@ -17,7 +17,7 @@ const SMALLEST: f64 = 2e6;
 /// Supernodes that one thread eliminates one after the other.
 #[derive(Clone, Debug)]
 pub(in crate::factor) struct Task {
-    /// Its supernodes; the last one is the root of all others.
+    /// Its supernodes; the last one is the root of all others that reach beyond the task.
     pub(in crate::factor) supernodes: Range<usize>,
     /// The task that takes over what is left for later columns; none where only the border is left.
     pub(in crate::factor) parent: Option<usize>,
@@ -48,12 +48,24 @@ impl Tasks {
         let is_whole = |s: usize| below[s] <= largest;
         let mut tasks: Vec<Task> = Vec::new();
         let mut task_of = vec![NONE; n];
+        // Subtrees that reach nothing beyond them, not even the border, may share a task.
+        let is_island = |s: usize| supernodes.parent[s] == NONE && supernodes.n_below[s] == 0;
+        let (mut start_of_islands, mut work_of_islands) = (None, 0.0);
         for s in 0..n {
             let up = supernodes.parent[s];
             if is_whole(s) && up != NONE && is_whole(up as usize) {
                 continue;
             }
-            let start = if is_whole(s) { first_of_subtree[s] } else { s };
+            let mut start = if is_whole(s) { first_of_subtree[s] } else { s };
+            if is_whole(s) && is_island(s) {
+                start = *start_of_islands.get_or_insert(start);
+                work_of_islands += below[s];
+                let follows = (s + 1..n).find(|next| !(is_whole(*next) && supernodes.parent[*next] != NONE));
+                if work_of_islands < SMALLEST && follows.is_some_and(|next| is_whole(next) && is_island(next)) {
+                    continue;
+                }
+            }
+            (start_of_islands, work_of_islands) = (None, 0.0);
             task_of[s] = tasks.len() as u32;
             tasks.push(Task { supernodes: start..s + 1, parent: None, children: Vec::new(), to_parent: Vec::new() });
         }

@@ -13,7 +13,11 @@ impl Cholesky<'_> {
     ///
     /// |A − LLᵀ| ≤ γ_{m+3} |L||Lᵀ| with m the longest row of L, in whatever order sums are taken (Higham 2002, theorem
     /// 10.3), and ‖ |L||Lᵀ| ‖₂ is at most its largest row sum. Underflow adds less than the last bit of the bound.
+    ///
+    /// # Panics
+    /// The factor has a border.
     pub fn backward_error(&self, scale: &[f64]) -> f64 {
+        assert_eq!(self.analysis.n_border(), 0, "the bound is that of a whole matrix");
         let n = self.analysis.n();
         let given = self.analysis.given();
         let (mut columns, mut rows, mut lengths) = (vec![0.0; n], vec![0.0; n], vec![0usize; n]);

@@ -22,6 +22,7 @@ use crate::factor::rounding::{gamma, largest_row_sum};
 impl Indefinite<'_> {
     /// An upper bound of ‖A − LBLᵀ‖₂ of the scaled matrix: its largest row sum.
     pub(super) fn backward_error(&self) -> f64 {
+        assert_eq!(self.analysis.n_border(), 0, "the bound is that of a whole matrix");
         let n = self.analysis.n();
         let (pivots, subdiagonal) = (self.diagonal(), self.subdiagonal());
         let (mut columns, mut lengths) = (vec![0.0; n], vec![0usize; n]);

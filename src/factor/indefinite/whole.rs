@@ -25,6 +25,9 @@ pub struct WholeCount {
 ///
 /// # Errors
 /// Those of [`crate::factor::count_below`].
+///
+/// # Panics
+/// The analysis has a border.
 pub fn whole_count(analysis: &Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<WholeCount> {
     let factor = Indefinite::new(analysis, pencil, sigma, Keep::Factor)?;
     let signs = factor.signs()?;

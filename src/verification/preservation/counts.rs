@@ -14,7 +14,7 @@ use super::super::check::{Check, Limits};
 use super::boundaries::{Boundary, Reference};
 use crate::dense;
 use crate::error::Result;
-use crate::factor::{Analysis, condensed};
+use crate::factor::{Analysis, CONDENSED_GAP, condensed};
 use crate::model::diagonal;
 use crate::report::BoundaryCount;
 
@@ -24,8 +24,6 @@ const PLACES: [f64; 3] = [0.5, 0.25, 0.75];
 const SHARE_OF_GAP: f64 = 1e-3;
 /// A shift keeps this many times what rounding of the factorisation moves an eigenvalue by; [`crate::modes`] derives it.
 const ROUNDINGS: f64 = 100.0;
-/// Below this share of the stiffness before condensation an eigenvalue of S(σ) is what rounding left of the condensation.
-const CONDENSED_GAP: f64 = 100.0 * f64::EPSILON;
 
 /// K − σM condensed to the interface.
 pub(super) struct Condensed {
@@ -127,6 +125,10 @@ pub(super) fn check(references: &[Reference]) -> Option<Check> {
         .iter()
         .filter_map(|reference| reference.count.map(|count| (reference.boundary.name.as_str(), count)))
         .collect();
+    judged(&counts)
+}
+
+fn judged(counts: &[(&str, BoundaryCount)]) -> Option<Check> {
     let difference = |count: &BoundaryCount| count.n_counted.abs_diff(count.n_found);
     let (name, worst) = counts.iter().rev().max_by_key(|(_, count)| difference(count))?;
     Some(Check {
@@ -138,4 +140,21 @@ pub(super) fn check(references: &[Reference]) -> Option<Check> {
         fail_above: 0.0,
         worst: Some(format!("{name}, counted {}, found {}", worst.n_counted, worst.n_found)),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verification::check::Verdict;
+
+    #[test]
+    fn a_count_that_is_not_met_fails_and_names_the_boundary() {
+        let count = |n_found| BoundaryCount { below_hz: 10.0, n_counted: 9, n_found };
+        assert!(judged(&[]).is_none());
+        let met = judged(&[("free", count(9)), ("fix:base", count(9))]).expect("counts");
+        assert_eq!(met.verdict(), Verdict::Pass);
+        let missing = judged(&[("free", count(9)), ("fix:base", count(8))]).expect("counts");
+        assert_eq!((missing.verdict(), missing.value), (Verdict::Fail, 1.0));
+        assert!(missing.worst.expect("a place").contains("fix:base"));
+    }
 }
