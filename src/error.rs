@@ -19,7 +19,6 @@ pub type Result<T, E = Error> = std::result::Result<T, E>;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    // ---- files -----------------------------------------------------------------------------------------------------
     /// A file could not be read.
     #[error("{}: cannot be read: {source}", path.display())]
     Read {
@@ -36,7 +35,6 @@ pub enum Error {
         /// What the system said.
         source: std::io::Error,
     },
-    // ---- text input ------------------------------------------------------------------------------------------------
     /// A path is a folder, a pipe or a device.
     #[error("{}: not a regular file; give the path of a file on disk", path.display())]
     NotAFile {
@@ -438,7 +436,6 @@ pub enum Error {
         /// The feature.
         feature: &'static str,
     },
-    // ---- hdf5 input ------------------------------------------------------------------------------------------------
     /// A file that should be HDF5 is something else.
     #[error("{}: not an HDF5 file – found {found} – expected the HDF5 signature – {advice}", path.display())]
     Hdf5Signature {
@@ -746,7 +743,6 @@ pub enum Error {
         /// The reference as it is written.
         reference: String,
     },
-    // ---- job and command line --------------------------------------------------------------------------------------
     /// The job document is not valid TOML or JSON, or a value in it has the wrong kind.
     #[error("{}{}: {message}", path.display(), At(*line))]
     JobSyntax {
@@ -878,7 +874,6 @@ pub enum Error {
         /// What the system said.
         source: rayon::ThreadPoolBuildError,
     },
-    // ---- model -----------------------------------------------------------------------------------------------------
     /// A matrix is not symmetric.
     #[error(
         "the {matrix} matrix is not symmetric – worst at row {row}, column {col} – found a relative difference of {asymmetry:.1e} – expected below 1e-6 – leave out follower forces, gyroscopic and friction terms; where the file lacks part of a triangle, take the other one with --symmetric lower or upper"
@@ -1033,7 +1028,6 @@ pub enum Error {
         /// Its order.
         n: usize,
     },
-    // ---- partition -------------------------------------------------------------------------------------------------
     /// An interface too large for dense matrices.
     #[error(
         "the interface has {n_interface} dofs – expected at most {limit}, because the reduced matrices are dense – take fewer interface nodes or couple their patches rigidly"
@@ -1158,7 +1152,6 @@ pub enum Error {
         /// The free motion in words.
         motion: String,
     },
-    // ---- factor ----------------------------------------------------------------------------------------------------
     /// A pivot of a matrix that should be definite was not positive.
     #[error(
         "the stiffness with the interface held is not positive definite – elimination stopped at {dof} – expected a positive pivot – the structure has a mechanism there or is unstable"
@@ -1201,7 +1194,6 @@ pub enum Error {
         /// The step of elimination.
         step: usize,
     },
-    // ---- modes -----------------------------------------------------------------------------------------------------
     /// Lanczos did not converge.
     #[error(
         "the eigensolver stalled after {restarts} restarts – found {converged} converged modes – ask for fewer modes or a narrower band"
@@ -1247,7 +1239,6 @@ pub enum Error {
         /// Pairs that had converged.
         converged: usize,
     },
-    // ---- superelement file -----------------------------------------------------------------------------------------
     /// A file is not a superelement, or cannot be made one.
     #[error("{}: {source}", path.display())]
     SuperelementFile {
