@@ -10,6 +10,8 @@ use std::path::{Path, PathBuf};
 
 use supel_runtime::FileError;
 
+use crate::report::table::bytes;
+
 pub use code::{ErrorClass, INTERNAL_CODE, USAGE_CODE};
 
 /// The result of every fallible call of this crate.
@@ -1171,14 +1173,16 @@ pub enum Error {
         boundary: &'static str,
     },
     /// The forecast exceeds the memory there is.
-    #[error("the run needs {} – {} are available – {what} – free memory, raise run.memory_gib, or use a weaker --certify, which needs fewer factors", memory(*needed), memory(*available))]
+    #[error("{}", forecast(*available, *factors, *matrices, *vectors))]
     MemoryForecast {
-        /// Bytes needed at the peak.
-        needed: u64,
         /// Bytes available.
         available: u64,
-        /// What takes them.
-        what: String,
+        /// Bytes of the factors.
+        factors: u64,
+        /// Bytes of the matrices.
+        matrices: u64,
+        /// Bytes of the constraint modes and of the eigensolver's basis.
+        vectors: u64,
     },
     /// An allocation failed.
     #[error("out of memory – {what} could not be allocated – free memory or reduce a smaller model")]
@@ -1291,8 +1295,18 @@ fn listed(names: &[String]) -> String {
     }
 }
 
-/// Bytes in GiB, or in MiB where that is less than one.
-fn memory(bytes: u64) -> String {
-    let mib = bytes as f64 / f64::from(1 << 20);
-    if mib < 1024.0 { format!("{mib:.1} MiB") } else { format!("{:.1} GiB", mib / 1024.0) }
+/// The parts of a forecast, the largest first, and what makes that one smaller.
+fn forecast(available: u64, factors: u64, matrices: u64, vectors: u64) -> String {
+    let mut parts = [
+        (factors, "factors", "use a weaker --certify, which needs fewer factors"),
+        (vectors, "vectors", "keep fewer modes or interface dofs"),
+        (matrices, "matrices", "reduce a smaller model"),
+    ];
+    parts.sort_by_key(|(size, ..)| std::cmp::Reverse(*size));
+    let needed = parts.iter().fold(0, |sum: u64, (size, ..)| sum.saturating_add(*size));
+    let largest_first = parts.map(|(size, name, _)| format!("{name} {}", bytes(size))).join(", ");
+    let (needed, available, advice) = (bytes(needed), bytes(available), parts[0].2);
+    format!(
+        "the run needs {needed} – largest first: {largest_first} – {available} are available – free memory, raise run.memory_gib, or {advice}"
+    )
 }
