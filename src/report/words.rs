@@ -32,14 +32,17 @@ pub(super) fn mode_kind(kind: ModeKind) -> &'static str {
     }
 }
 
-/// A boundary in words: `base held` for `fix:base`, `base loaded` for `mass:base=2.5`; names of others as they stand.
+/// A boundary in words: `base held` for `fix:base`, `base loaded` for `mass:base`, `base loaded by 2.5` for `mass:base=2.5`;
+/// names of others as they stand.
 pub(super) fn boundary(code: &str) -> String {
     if let Some(interface) = code.strip_prefix("fix:") {
         return format!("{interface} held");
     }
     let Some(loaded) = code.strip_prefix("mass:") else { return code.to_owned() };
-    let named = loaded.rsplit_once('=').filter(|(_, mass)| mass.parse::<f64>().is_ok());
-    format!("{} loaded", named.map_or(loaded, |(interface, _)| interface))
+    match loaded.rsplit_once('=').filter(|(_, mass)| mass.parse::<f64>().is_ok()) {
+        Some((interface, mass)) => format!("{interface} loaded by {mass}"),
+        None => format!("{loaded} loaded"),
+    }
 }
 
 /// The lower end of an interval of frequencies; a shift below zero has none.

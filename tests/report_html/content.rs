@@ -87,7 +87,7 @@ fn every_part_of_the_evidence_is_shown() {
         ("modes", "16168.1752"),
         ("figure-frequency-error", "reduced against full"),
         ("figure-mac", "The smallest value on the diagonal is 0.7000 (mode 4)"),
-        ("figure-boundaries", "mass:hub"),
+        ("figure-boundaries", "hub loaded"),
         ("preservation", "uz of node 812"),
         ("response", "driven at hub rx and observed at foot uz of node 812"),
         ("response", "361, each with the full model solved anew"),
@@ -103,6 +103,10 @@ fn every_part_of_the_evidence_is_shown() {
         // The words are compared without regard to blanks that no line breaks.
         let (found, expected) = (found.replace('\u{a0}', " "), expected.replace('\u{a0}', " "));
         assert!(found.contains(&expected), "`{expected}` is not in `{section}`:\n{found}");
+    }
+    for section in ["verdict", "preservation", "response", "size"] {
+        let found = text(by_id(&page, section));
+        assert!(!found.contains("fix:") && !found.contains("mass:hub"), "a code of the job in `{section}`:\n{found}");
     }
     let modes = page.descendants().filter(|node| node.attribute("id") == Some("table-modes"));
     assert_eq!(modes.count(), 1);
