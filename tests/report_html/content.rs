@@ -24,7 +24,7 @@ fn first_page_has_all_that_is_signed_for() {
         &"a".repeat(64),
         &"b".repeat(64),
         "Herting; modes by block Lanczos",
-        "65 coordinates: 9 of the interface, 6 inertia relief, 50 elastic modes",
+        "65 coordinates: 9 interface, 6 inertia relief, 50 elastic modes",
         "50 free-interface modes, 100 Hz to 16168.2 Hz",
         "a Sturm count finds 56 below 16200.25 Hz and all were found",
         "hub held, interface hub was held: frequencies off by at most",
