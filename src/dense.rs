@@ -121,10 +121,19 @@ pub fn worse(error: f64, worst: f64) -> bool {
 
 /// [A B].
 pub fn beside(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
-    let mut both = Mat::zeros(a.nrows(), a.ncols() + b.ncols());
-    both.as_mut().subcols_mut(0, a.ncols()).copy_from(a);
-    both.as_mut().subcols_mut(a.ncols(), b.ncols()).copy_from(b);
-    both
+    concatenated(a.nrows(), [a, b])
+}
+
+/// [A B …] of `n_rows` rows, however many parts there are.
+pub fn concatenated<'a>(n_rows: usize, parts: impl IntoIterator<Item = MatRef<'a, f64>>) -> Mat<f64> {
+    let parts: Vec<_> = parts.into_iter().collect();
+    let mut whole = Mat::zeros(n_rows, parts.iter().map(|part| part.ncols()).sum());
+    let mut at = 0;
+    for part in parts {
+        whole.as_mut().subcols_mut(at, part.ncols()).copy_from(part);
+        at += part.ncols();
+    }
+    whole
 }
 
 /// The worst of some errors; zero where there are none.

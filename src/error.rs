@@ -10,6 +10,8 @@ use std::path::{Path, PathBuf};
 
 use supel_runtime::FileError;
 
+use crate::report::table::bytes;
+
 pub use code::{ErrorClass, INTERNAL_CODE, USAGE_CODE};
 
 /// The result of every fallible call of this crate.
@@ -19,7 +21,6 @@ pub type Result<T, E = Error> = std::result::Result<T, E>;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    // ---- files -----------------------------------------------------------------------------------------------------
     /// A file could not be read.
     #[error("{}: cannot be read: {source}", path.display())]
     Read {
@@ -36,7 +37,6 @@ pub enum Error {
         /// What the system said.
         source: std::io::Error,
     },
-    // ---- text input ------------------------------------------------------------------------------------------------
     /// A path is a folder, a pipe or a device.
     #[error("{}: not a regular file; give the path of a file on disk", path.display())]
     NotAFile {
@@ -438,7 +438,6 @@ pub enum Error {
         /// The feature.
         feature: &'static str,
     },
-    // ---- hdf5 input ------------------------------------------------------------------------------------------------
     /// A file that should be HDF5 is something else.
     #[error("{}: not an HDF5 file – found {found} – expected the HDF5 signature – {advice}", path.display())]
     Hdf5Signature {
@@ -746,7 +745,6 @@ pub enum Error {
         /// The reference as it is written.
         reference: String,
     },
-    // ---- job and command line --------------------------------------------------------------------------------------
     /// The job document is not valid TOML or JSON, or a value in it has the wrong kind.
     #[error("{}{}: {message}", path.display(), At(*line))]
     JobSyntax {
@@ -878,7 +876,6 @@ pub enum Error {
         /// What the system said.
         source: rayon::ThreadPoolBuildError,
     },
-    // ---- model -----------------------------------------------------------------------------------------------------
     /// A matrix is not symmetric.
     #[error(
         "the {matrix} matrix is not symmetric – worst at row {row}, column {col} – found a relative difference of {asymmetry:.1e} – expected below 1e-6 – leave out follower forces, gyroscopic and friction terms; where the file lacks part of a triangle, take the other one with --symmetric lower or upper"
@@ -1033,7 +1030,6 @@ pub enum Error {
         /// Its order.
         n: usize,
     },
-    // ---- partition -------------------------------------------------------------------------------------------------
     /// An interface too large for dense matrices.
     #[error(
         "the interface has {n_interface} dofs – expected at most {limit}, because the reduced matrices are dense – take fewer interface nodes or couple their patches rigidly"
@@ -1158,7 +1154,6 @@ pub enum Error {
         /// The free motion in words.
         motion: String,
     },
-    // ---- factor ----------------------------------------------------------------------------------------------------
     /// A pivot of a matrix that should be definite was not positive.
     #[error(
         "the stiffness with the interface held is not positive definite – elimination stopped at {dof} – expected a positive pivot – the structure has a mechanism there or is unstable"
@@ -1178,14 +1173,16 @@ pub enum Error {
         boundary: &'static str,
     },
     /// The forecast exceeds the memory there is.
-    #[error("the run needs {} – {} are available – {what} – free memory, raise run.memory_gib, or use a weaker --certify, which needs fewer factors", memory(*needed), memory(*available))]
+    #[error("{}", forecast(*available, *factors, *matrices, *vectors))]
     MemoryForecast {
-        /// Bytes needed at the peak.
-        needed: u64,
         /// Bytes available.
         available: u64,
-        /// What takes them.
-        what: String,
+        /// Bytes of the factors.
+        factors: u64,
+        /// Bytes of the matrices.
+        matrices: u64,
+        /// Bytes of the constraint modes and of the eigensolver's basis.
+        vectors: u64,
     },
     /// An allocation failed.
     #[error("out of memory – {what} could not be allocated – free memory or reduce a smaller model")]
@@ -1201,7 +1198,6 @@ pub enum Error {
         /// The step of elimination.
         step: usize,
     },
-    // ---- modes -----------------------------------------------------------------------------------------------------
     /// Lanczos did not converge.
     #[error(
         "the eigensolver stalled after {restarts} restarts – found {converged} converged modes – ask for fewer modes or a narrower band"
@@ -1247,7 +1243,6 @@ pub enum Error {
         /// Pairs that had converged.
         converged: usize,
     },
-    // ---- superelement file -----------------------------------------------------------------------------------------
     /// A file is not a superelement, or cannot be made one.
     #[error("{}: {source}", path.display())]
     SuperelementFile {
@@ -1300,8 +1295,18 @@ fn listed(names: &[String]) -> String {
     }
 }
 
-/// Bytes in GiB, or in MiB where that is less than one.
-fn memory(bytes: u64) -> String {
-    let mib = bytes as f64 / f64::from(1 << 20);
-    if mib < 1024.0 { format!("{mib:.1} MiB") } else { format!("{:.1} GiB", mib / 1024.0) }
+/// The parts of a forecast, the largest first, and what makes that one smaller.
+fn forecast(available: u64, factors: u64, matrices: u64, vectors: u64) -> String {
+    let mut parts = [
+        (factors, "factors", "use a weaker --certify, which needs fewer factors"),
+        (vectors, "vectors", "keep fewer modes or interface dofs"),
+        (matrices, "matrices", "reduce a smaller model"),
+    ];
+    parts.sort_by_key(|(size, ..)| std::cmp::Reverse(*size));
+    let needed = parts.iter().fold(0, |sum: u64, (size, ..)| sum.saturating_add(*size));
+    let largest_first = parts.map(|(size, name, _)| format!("{name} {}", bytes(size))).join(", ");
+    let (needed, available, advice) = (bytes(needed), bytes(available), parts[0].2);
+    format!(
+        "the run needs {needed} – largest first: {largest_first} – {available} are available – free memory, raise run.memory_gib, or {advice}"
+    )
 }

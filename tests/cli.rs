@@ -304,6 +304,26 @@ fn files_that_are_not_there_are_input_output_errors() {
     assert_eq!(ended.err.lines().count(), 1, "the cause is said twice: {}", ended.err);
 }
 
+/// Told before the model is read: the pipeline here would panic.
+#[test]
+fn an_output_without_a_place_is_refused_before_the_run() {
+    let place = Workplace::new();
+    std::fs::create_dir(place.path("folder.html")).expect("made");
+    for (flag, name, said) in [
+        ("--output", "missing/x.supel", "cannot be written"),
+        ("--report", "missing/x.json", "cannot be written"),
+        ("--html", "job.toml/x.html", "cannot be written"),
+        ("--junit", "missing/x.xml", "cannot be written"),
+        ("--html", "folder.html", "not a regular file"),
+    ] {
+        let path = place.path(name).display().to_string();
+        let ended = supel_with(panicking, &["reduce", &place.job(), flag, &path]);
+        assert_eq!(ended.code, ExitCode::Io, "{flag} {name}: {}", ended.err);
+        assert!(ended.err.contains(&path) && ended.err.contains(said), "{flag} {name}: {}", ended.err);
+        assert_eq!(place.files(), ["folder.html", "job.toml"]);
+    }
+}
+
 #[test]
 fn a_damaged_superelement_is_an_input_error() {
     let place = Workplace::new();

@@ -88,10 +88,10 @@ pub(super) struct ReductionFlags {
     /// Keep this many modes, extended to complete clusters
     #[arg(long, value_name = "N")]
     pub(super) modes: Option<usize>,
-    /// Eigensolver
+    /// Eigensolver [default: lanczos]
     #[arg(long, value_enum)]
     pub(super) eigensolver: Option<Eigensolver>,
-    /// How completeness of the modes is certified
+    /// How completeness of the modes is certified [default: count]
     #[arg(long, value_enum)]
     pub(super) certify: Option<Certify>,
 }

@@ -10,11 +10,13 @@ use super::exit_code::ExitCode;
 use super::progress::StageLine;
 use super::{Pipeline, memory, process, rehearsal};
 use crate::error::{Error, Result};
+use crate::job::WriteJob;
 use crate::outcome::{Outcome, Resources};
 use crate::report::{JunitWarnings, Observer, Report, StageClock, html, junit, summary};
 use crate::verification::check::{Check, Limits, Verdict};
 
 pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
+    refuse_unwritable(&command.job.write)?;
     if terminal.program == Program::Supel {
         rehearsal::rehearse(&command.job.model)?;
     }
@@ -39,6 +41,16 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     }
     explain(command, code, terminal);
     Ok(code)
+}
+
+/// Refuses an output that has no place before the model is read, with the error that its writing would end in: an empty
+/// file is written beside each and dropped.
+fn refuse_unwritable(write: &WriteJob) -> Result<()> {
+    let report = write.report_path();
+    let others = [Some(&report), write.html.as_ref(), write.junit.as_ref()];
+    std::iter::once(&write.superelement)
+        .chain(others.into_iter().flatten())
+        .try_for_each(|path| StagedFile::write(path, &[]).map(drop).map_err(|error| Error::from_file(path, error)))
 }
 
 /// Writes the superelement under a temporary name and reads it back; hands it on if it may have its name.

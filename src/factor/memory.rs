@@ -54,8 +54,5 @@ pub fn refuse_beyond_memory(
     if needed <= available {
         return Ok(());
     }
-    let part = |bytes: u64| bytes as f64 / f64::from(1 << 30);
-    let what =
-        format!("factors {:.1}, matrices {:.1}, vectors {:.1} GiB", part(factors), part(matrices), part(vectors));
-    Err(Error::MemoryForecast { needed, available, what })
+    Err(Error::MemoryForecast { available, factors, matrices, vectors })
 }

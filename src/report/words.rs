@@ -1,6 +1,6 @@
 //! The words and figures that the summary and the page have in common.
 
-use super::{ModeKind, table};
+use super::{ModeKind, ReductionReport, table};
 use crate::job::{Coupling, Eigensolver, Method};
 use crate::verification::check::{ActiveLimit, Check};
 
@@ -32,14 +32,29 @@ pub(super) fn mode_kind(kind: ModeKind) -> &'static str {
     }
 }
 
-/// A boundary in words: `base held` for `fix:base`, `base loaded` for `mass:base=2.5`; names of others as they stand.
+/// A boundary in words: `base held` for `fix:base`, `base loaded` for `mass:base`, `base loaded by 2.5` for `mass:base=2.5`;
+/// names of others as they stand.
 pub(super) fn boundary(code: &str) -> String {
     if let Some(interface) = code.strip_prefix("fix:") {
         return format!("{interface} held");
     }
     let Some(loaded) = code.strip_prefix("mass:") else { return code.to_owned() };
-    let named = loaded.rsplit_once('=').filter(|(_, mass)| mass.parse::<f64>().is_ok());
-    format!("{} loaded", named.map_or(loaded, |(interface, _)| interface))
+    match loaded.rsplit_once('=').filter(|(_, mass)| mass.parse::<f64>().is_ok()) {
+        Some((interface, mass)) => format!("{interface} loaded by {mass}"),
+        None => format!("{loaded} loaded"),
+    }
+}
+
+/// What the coordinates of the reduced model are, each part with its number.
+pub(super) fn coordinates(reduction: &ReductionReport) -> Vec<String> {
+    let mut parts = vec![format!("{} interface", table::count(reduction.n_interface as u64))];
+    for (n, what) in [(reduction.n_inertia_relief, "inertia relief"), (reduction.n_rigid_body(), "rigid-body")] {
+        if n > 0 {
+            parts.push(format!("{} {what}", table::count(n as u64)));
+        }
+    }
+    parts.push(table::counted(reduction.n_modes, "elastic mode", "elastic modes"));
+    parts
 }
 
 /// The lower end of an interval of frequencies; a shift below zero has none.

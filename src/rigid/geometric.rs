@@ -61,13 +61,15 @@ pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<
     let n = sites.len();
     let massive = found.iter().map(|body| body.orthonormal.as_ref());
     let massless = || found.iter().map(|body| body.massless.as_ref());
-    let orthonormal = concatenate(n, massive.chain(massless()));
+    let orthonormal = dense::concatenated(n, massive.chain(massless()));
     let modes = match found.as_slice() {
         [body] if body.is_classical => unit_motions(sites, &body.dofs),
         _ => orthonormal.clone(),
     };
     let motions = match found.iter().any(|body| body.motions.is_some()) {
-        true => concatenate(n, found.iter().map(|body| body.motions.as_ref().unwrap_or(&body.orthonormal).as_ref())),
+        true => {
+            dense::concatenated(n, found.iter().map(|body| body.motions.as_ref().unwrap_or(&body.orthonormal).as_ref()))
+        }
         false => modes.clone(),
     };
     let are_classical = found.len() == 1 && motions.ncols() == 6;
@@ -111,17 +113,6 @@ fn dense_numbers(nodes: &[u32]) -> Vec<u32> {
     sorted.sort_unstable();
     sorted.dedup();
     nodes.iter().map(|node| sorted.binary_search(node).unwrap_or_default() as u32).collect()
-}
-
-fn concatenate<'a>(n: usize, parts: impl Iterator<Item = MatRef<'a, f64>>) -> Mat<f64> {
-    let parts: Vec<_> = parts.collect();
-    let mut whole = Mat::zeros(n, parts.iter().map(|part| part.ncols()).sum());
-    let mut at = 0;
-    for part in parts {
-        whole.as_mut().subcols_mut(at, part.ncols()).copy_from(part);
-        at += part.ncols();
-    }
-    whole
 }
 
 struct Body {

@@ -173,20 +173,11 @@ fn refuse_without_energy(partition: &Partition, massless: MatRef<'_, f64>) -> Re
 
 /// U and Q with the motions of mechanisms; those without mass stay the last of Q.
 fn joined(partition: &Partition, rigid: RigidBodyModes, mechanisms: MatRef<'_, f64>) -> RigidBodyModes {
-    let beside = |parts: &[MatRef<'_, f64>]| {
-        let mut whole = Mat::zeros(mechanisms.nrows(), parts.iter().map(|part| part.ncols()).sum());
-        let mut at = 0;
-        for part in parts {
-            whole.as_mut().subcols_mut(at, part.ncols()).copy_from(part);
-            at += part.ncols();
-        }
-        whole
-    };
-    let orthonormal = beside(&[rigid.massive(), mechanisms, rigid.massless()]);
+    let orthonormal = dense::concatenated(mechanisms.nrows(), [rigid.massive(), mechanisms, rigid.massless()]);
     let mut energy = rigid.energy;
     energy.largest_residual = energy.largest_residual.max(largest_residual(&partition.stiffness, mechanisms));
     RigidBodyModes {
-        modes: beside(&[rigid.modes.as_ref(), mechanisms]),
+        modes: dense::beside(rigid.modes.as_ref(), mechanisms),
         mass_orthonormal: product(&partition.mass, orthonormal.as_ref()),
         orthonormal,
         n_mechanisms: rigid.n_mechanisms + mechanisms.ncols(),

@@ -12,6 +12,7 @@ mod enclosure;
 mod grounding;
 mod loads;
 mod mass;
+mod pencil;
 pub mod preservation;
 mod reduced;
 mod residual;

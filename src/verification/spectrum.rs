@@ -1,8 +1,9 @@
 //! The spectrum of the reduced pencil, by dense decompositions of its own.
 
-use faer::{Mat, MatRef, Side};
+use faer::{Mat, MatRef};
 
 use super::check::Limits;
+use super::pencil::Spectral;
 use super::{Evidence, coordinate_scales, data_noise};
 use crate::dense;
 use crate::error::Result;
@@ -185,30 +186,10 @@ pub(super) fn lowest_eigenpairs(
     alpha: f64,
     n_shapes: usize,
 ) -> Result<(Vec<f64>, Mat<f64>)> {
-    let n = k.nrows();
-    let shifted = Mat::from_fn(n, n, |i, j| k[(i, j)] + alpha * m[(i, j)]);
-    let scales: Vec<f64> = (0..n).map(|i| dense::power_of_two_root(shifted[(i, i)])).collect();
-    let Ok(factor) = scaled_by(shifted.as_ref(), &scales).llt(Side::Lower) else {
-        return Ok((Vec::new(), Mat::zeros(n, 0)));
+    let Some(spectral) = Spectral::if_definite(k, m, alpha)? else {
+        return Ok((Vec::new(), Mat::zeros(k.nrows(), 0)));
     };
-    let l = factor.L();
-    let mut c = scaled_by(m, &scales);
-    let par = faer::Par::Seq;
-    faer::linalg::triangular_solve::solve_lower_triangular_in_place(l, c.as_mut(), par);
-    let mut c = c.transpose().to_owned();
-    faer::linalg::triangular_solve::solve_lower_triangular_in_place(l, c.as_mut(), par);
-    dense::symmetrise(&mut c);
-    let (theta, vectors) = dense::symmetric_eigen(c.as_ref())?;
-    let largest = theta.last().copied().unwrap_or(0.0);
-    let lambda: Vec<f64> = theta
-        .iter()
-        .rev()
-        .take_while(|theta| **theta > f64::EPSILON * largest)
-        .map(|theta| 1.0 / theta - alpha)
-        .collect();
-    let n_shapes = n_shapes.min(lambda.len());
-    // x = D L⁻ᵀ z with zᵀz = 1 has xᵀMx = θ.
-    let mut shapes = Mat::from_fn(n, n_shapes, |i, j| vectors[(i, n - 1 - j)] / theta[n - 1 - j].sqrt());
-    faer::linalg::triangular_solve::solve_upper_triangular_in_place(l.transpose(), shapes.as_mut(), par);
-    Ok((lambda, Mat::from_fn(n, n_shapes, |i, j| shapes[(i, j)] * scales[i])))
+    let lambda = spectral.eigenvalues();
+    let shapes: Vec<Vec<f64>> = (0..n_shapes.min(lambda.len())).map(|j| spectral.eigenvector(j)).collect();
+    Ok((lambda, Mat::from_fn(k.nrows(), shapes.len(), |i, j| shapes[j][i])))
 }

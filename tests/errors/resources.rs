@@ -45,7 +45,9 @@ write     = { superelement = "x.supel" }
     let partition = crate::chain::partition(&spring(5, Ends::Fixed), &[]).expect("a chain");
     let resources = Resources { memory_bytes: Some(16 << 30) };
     let error = refuse_beyond_memory(&analysis, &partition, &job, resources, None).expect_err("more than 16 GiB");
-    assert!(matches!(error, Error::MemoryForecast { needed, .. } if needed >= 8 * exact as u64), "{error}");
+    assert!(matches!(error, Error::MemoryForecast { factors, .. } if factors >= 8 * exact as u64), "{error}");
+    let said = error.to_string();
+    assert!(said.contains("– largest first: factors ") && said.ends_with("which needs fewer factors"), "{said}");
     assert_eq!(error.code(), "E-MEM");
 }
 

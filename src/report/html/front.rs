@@ -142,16 +142,8 @@ fn interfaces(reduction: &ReductionReport) -> Vec<String> {
 }
 
 fn coordinates(reduction: &ReductionReport) -> String {
-    let mut parts = vec![format!("{} of the interface", table::count(reduction.n_interface as u64))];
-    if reduction.n_inertia_relief > 0 {
-        parts.push(format!("{} inertia relief", table::count(reduction.n_inertia_relief as u64)));
-    }
-    let n_rigid_body = reduction.n_rigid_body();
-    if n_rigid_body > 0 {
-        parts.push(format!("{} rigid-body", table::count(n_rigid_body as u64)));
-    }
-    parts.push(counted(reduction.n_modes, "elastic mode", "elastic modes"));
-    format!("{}: {}", counted(reduction.n_reduced, "coordinate", "coordinates"), parts.join(", "))
+    let parts = words::coordinates(reduction).join(", ");
+    format!("{}: {parts}", counted(reduction.n_reduced, "coordinate", "coordinates"))
 }
 
 fn modes(reduction: &ReductionReport) -> String {

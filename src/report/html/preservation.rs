@@ -2,7 +2,7 @@
 
 use super::front::{in_words, percent};
 use super::markup::{Cell, Figure, Markup, Table};
-use super::{mode_table, plot};
+use super::{mode_table, plot, words};
 use crate::report::table::{counted, decade, scientific};
 use crate::report::{BoundaryComparison, FrequencyPair, InterfaceStatics, Preservation};
 
@@ -75,7 +75,8 @@ fn shapes(page: &mut Markup, mac: &[Vec<f64>]) {
 }
 
 fn boundaries(page: &mut Markup, boundaries: &[BoundaryComparison]) {
-    let worst = boundaries.iter().map(|line| format!("{} {}", line.boundary, percent(line.worst_in_band)));
+    let worst =
+        boundaries.iter().map(|line| format!("{} {}", words::boundary(&line.boundary), percent(line.worst_in_band)));
     let description = format!("Largest differences within the band: {}.", worst.collect::<Vec<_>>().join(", "));
     page.figure(&Figure {
         id: "figure-boundaries",
@@ -92,7 +93,7 @@ fn boundaries(page: &mut Markup, boundaries: &[BoundaryComparison]) {
         let n_in_band = line.frequencies.iter().filter(|pair| pair.in_band).count();
         let counted = line.count.map(|count| format!("{} of {}", count.n_found, count.n_counted));
         vec![
-            Cell::Head(format!("{}: {}", line.boundary, line.description)),
+            Cell::Head(format!("{}: {}", words::boundary(&line.boundary), line.description)),
             Cell::Number(n_in_band.to_string()),
             Cell::Number(counted.unwrap_or_else(|| "not counted".to_owned())),
             Cell::Number(percent(line.worst_in_band)),
@@ -114,7 +115,9 @@ fn pairs(page: &mut Markup, boundaries: &[BoundaryComparison]) {
         let highest = group.iter().flat_map(|line| &line.frequencies).map(|pair| pair.full_hz).fold(0.0, f64::max);
         let decimals = usize::try_from(DIGITS - 1 - decade(highest)).unwrap_or(0).min(DECIMALS);
         let mut heads = vec!["number".to_owned()];
-        heads.extend(group.iter().flat_map(|line| [format!("{}, Hz", line.boundary), "difference".to_owned()]));
+        heads.extend(
+            group.iter().flat_map(|line| [format!("{}, Hz", words::boundary(&line.boundary)), "difference".to_owned()]),
+        );
         let rows = (0..group.iter().map(listed).max().unwrap_or(0)).map(|number| {
             let mut row = vec![Cell::Head((number + 1).to_string())];
             for line in group {

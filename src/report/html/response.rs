@@ -2,7 +2,7 @@
 
 use super::front::{in_words, percent};
 use super::markup::{Figure, Markup};
-use super::plot;
+use super::{plot, words};
 use crate::report::ResponseComparison;
 use crate::report::table::quantity;
 
@@ -21,7 +21,7 @@ pub(super) fn response(page: &mut Markup, response: Option<&ResponseComparison>)
     );
     page.paragraph(&worst);
     page.facts(&[
-        ("Boundary", vec![response.boundary.clone()]),
+        ("Boundary", vec![words::boundary(&response.boundary)]),
         ("Damping", vec![format!("structural, η = {}: stiffness K (1 + iη)", quantity(response.damping, 4))]),
         (
             "Rotations",

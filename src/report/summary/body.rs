@@ -106,15 +106,7 @@ fn reduced(page: &mut Page, reduction: &ReductionReport) {
         let dofs = table::counted(interface.n_dofs, "dof", "dofs");
         page.entry("interface", &format!("{} · {coupling} · {nodes} · {dofs}", interface.name));
     }
-    let mut parts = vec![format!("{} interface", table::count(reduction.n_interface as u64))];
-    if reduction.n_inertia_relief > 0 {
-        parts.push(format!("{} inertia relief", table::count(reduction.n_inertia_relief as u64)));
-    }
-    let n_rigid_body = reduction.n_rigid_body();
-    if n_rigid_body > 0 {
-        parts.push(format!("{} rigid-body", table::count(n_rigid_body as u64)));
-    }
-    parts.push(table::counted(reduction.n_modes, "elastic mode", "elastic modes"));
+    let parts = words::coordinates(reduction);
     page.entry("coordinates", &format!("{} = {}", table::count(reduction.n_reduced as u64), parts.join(" + ")));
     let dropped: Vec<String> =
         reduction.dropped.iter().map(|dropped| format!("{}: {}", dropped.coordinate, dropped.reason)).collect();

@@ -17,13 +17,13 @@
 use faer::{Mat, c64};
 
 use super::super::Evidence;
-use super::pencil::{Spectral, complex_shift};
 use crate::dense;
 use crate::error::Result;
 use crate::factor::SolveOperator;
 use crate::modes::{Equilibrated, gram_schmidt};
 use crate::reduction::panel_of;
 use crate::sparse::product;
+use crate::verification::pencil::{Spectral, complex_shift};
 
 /// Relative residual that ends the iteration. The error of the response is of the order of its square, times at most the
 /// ratio of the peak to the static response.

@@ -4,13 +4,13 @@ use faer::{Mat, MatRef};
 
 use super::super::check::{Check, Limits};
 use super::super::{Evidence, reduced_norms};
-use super::pencil::Spectral;
 use crate::dense;
 use crate::error::Result;
 use crate::modes::{Boundary, CLUSTER_GAP};
 use crate::reduction::transpose_apply;
 use crate::report::PreservedMode;
 use crate::sparse::product;
+use crate::verification::pencil::Spectral;
 
 /// Modes shown in the matrix of the report; more make a page nobody reads.
 const SHOWN: usize = 48;

@@ -17,7 +17,6 @@ mod extended;
 mod full;
 mod interfaces;
 mod mac;
-mod pencil;
 mod policy;
 mod reduced;
 mod response;
@@ -27,6 +26,7 @@ mod statics;
 
 use super::Evidence;
 use super::check::Check;
+use super::pencil::Spectral;
 use crate::error::{Error, Result};
 use crate::factor::Analysis;
 use crate::job::Job;
@@ -36,7 +36,6 @@ use crate::report::Preservation;
 use boundaries::{Boundary, Reference};
 use counts::Condensed;
 use interfaces::Interface;
-use pencil::Spectral;
 
 pub use policy::Plan;
 

@@ -16,9 +16,9 @@ use faer::{Mat, MatRef};
 
 use super::super::{Evidence, coordinate_scales};
 use super::boundaries::Reference;
-use super::pencil::Spectral;
 use crate::dense;
 use crate::error::Result;
+use crate::verification::pencil::Spectral;
 
 /// Eigenvalues found at once lie within this factor: (ε · 10⁶)² is below rounding.
 const SPREAD: f64 = 1e6;

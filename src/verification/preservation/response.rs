@@ -7,13 +7,13 @@ use super::super::Evidence;
 use super::super::check::{Check, Limits};
 use super::extended::{Extended, Response};
 use super::interfaces::rotation_length;
-use super::pencil::Spectral;
 use super::samples;
 use crate::dense;
 use crate::error::Result;
 use crate::factor::SolveOperator;
 use crate::report::table::quantity;
 use crate::report::{ResponseComparison, ResponseSample};
+use crate::verification::pencil::Spectral;
 
 /// A pair that responds this much less than its two driving points do is judged by them: symmetry uncouples such pairs,
 /// and what is left of them is rounding. A thousandth is 60 dB, the dynamic range of a good measurement.

@@ -3,8 +3,8 @@
 use faer::Mat;
 
 use super::super::Evidence;
-use super::pencil::Spectral;
 use crate::error::Result;
+use crate::verification::pencil::Spectral;
 
 /// Points of the logarithmic grid.
 const GRID: usize = 24;

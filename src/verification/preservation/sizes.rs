@@ -2,13 +2,13 @@
 
 use super::super::Evidence;
 use super::boundaries::Reference;
-use super::pencil::Spectral;
 use super::reduced::quotients;
 use super::response::FullResponse;
 use crate::basis::DynamicCoordinate;
 use crate::dense;
 use crate::error::Result;
 use crate::report::{HighestFrequency, SizeError};
+use crate::verification::pencil::Spectral;
 
 /// Points of the curve.
 const POINTS: usize = 9;

@@ -4,7 +4,7 @@ use plotters::prelude::*;
 
 use super::axis::Axis;
 use super::chart::{Drawn, FAINT, GRID, LETTER, Margins, SERIES, axes, draw, end_labels, text};
-use crate::report::BoundaryComparison;
+use crate::report::{BoundaryComparison, words};
 use plotters::style::text_anchor::{HPos, VPos};
 
 /// One line for each boundary, named at its end; the shaded part lies beyond the band.
@@ -36,7 +36,7 @@ pub(in crate::report::html) fn boundaries(comparisons: &[BoundaryComparison]) ->
                 .collect();
             chart.draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)))?;
             chart.draw_series(points.iter().map(|point| Circle::new(*point, 6, colour.filled())))?;
-            labels.extend(points.last().map(|(_, end)| (*end, comparison.boundary.clone(), colour)));
+            labels.extend(points.last().map(|(_, end)| (*end, words::boundary(&comparison.boundary), colour)));
         }
         end_labels(area, &chart, x.high, &labels)
     })

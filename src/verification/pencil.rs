@@ -11,6 +11,7 @@
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::{Mat, MatRef, Par, Side, c64};
 
+use super::spectrum::scaled_by;
 use crate::dense;
 use crate::error::{Error, Result};
 
@@ -32,29 +33,33 @@ impl Spectral {
     /// [`Error::DenseEigen`] where K + αM is not definite, M is negative, or either holds values that are not numbers.
     pub(super) fn of(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Result<Self> {
         let n = k.nrows();
+        let spectral = Self::if_definite(k, m, alpha)?.ok_or(Error::DenseEigen { n })?;
+        // Rounding leaves a θ of zero a little below; one further below than the largest is above belongs to no mass.
+        match (spectral.theta.first(), spectral.theta.last()) {
+            (Some(most), Some(least)) if *least < -most.abs() => Err(Error::DenseEigen { n }),
+            _ => Ok(spectral),
+        }
+    }
+
+    /// The same whatever M is; none where K + αM is not definite.
+    pub(super) fn if_definite(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Result<Option<Self>> {
+        let n = k.nrows();
         let shifted = Mat::from_fn(n, n, |i, j| k[(i, j)] + alpha * m[(i, j)]);
         let scale: Vec<f64> = (0..n).map(|i| dense::power_of_two_root(shifted[(i, i)])).collect();
-        let scaled = |a: MatRef<'_, f64>| Mat::from_fn(n, n, |i, j| a[(i, j)] * scale[i] * scale[j]);
-        let factor = scaled(shifted.as_ref()).llt(Side::Lower).map_err(|_| Error::DenseEigen { n })?;
-        let mut c = scaled(m);
+        let Ok(factor) = scaled_by(shifted.as_ref(), &scale).llt(Side::Lower) else { return Ok(None) };
+        let mut c = scaled_by(m, &scale);
         solve_lower_triangular_in_place(factor.L(), c.as_mut(), Par::Seq);
         let mut c = c.transpose().to_owned();
         solve_lower_triangular_in_place(factor.L(), c.as_mut(), Par::Seq);
         dense::symmetrise(&mut c);
         let (mut theta, q) = dense::symmetric_eigen(c.as_ref())?;
         theta.reverse();
-        // Rounding leaves a θ of zero a little below; one further below than the largest is above belongs to no mass.
-        if let (Some(most), Some(least)) = (theta.first(), theta.last())
-            && *least < -most.abs()
-        {
-            return Err(Error::DenseEigen { n });
-        }
         let mut shapes = Mat::from_fn(n, n, |i, j| q[(i, n - 1 - j)]);
         solve_upper_triangular_in_place(factor.L().transpose(), shapes.as_mut(), Par::Seq);
         for j in 0..n {
             dense::column_mut(shapes.as_mut(), j).iter_mut().zip(&scale).for_each(|(value, d)| *value *= d);
         }
-        Ok(Self { alpha, theta, shapes })
+        Ok(Some(Self { alpha, theta, shapes }))
     }
 
     /// r.
