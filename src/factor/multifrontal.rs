@@ -160,7 +160,7 @@ pub(super) fn eliminate(
     let numbers: Vec<OnceLock<TaskNumbers>> = tasks.0.iter().map(|_| OnceLock::new()).collect();
     let rests: Vec<Mutex<Handed>> = tasks.0.iter().map(|_| Mutex::new(Ok(Vec::new()))).collect();
     let workspaces = Mutex::new(Vec::new());
-    tasks.from_leaves(|t| {
+    tasks.leaves_first(|t| {
         let task = &tasks.0[t];
         let handed: Vec<Handed> = task.children.iter().map(|child| take(&rests[*child])).collect();
         let done = handed.into_iter().collect::<std::result::Result<Vec<_>, _>>().and_then(|handed| {

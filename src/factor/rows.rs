@@ -66,8 +66,9 @@ impl<'a> Block<'a> {
                     j += 1;
                 }
                 Inverse::Two(inverse) => {
-                    for lane in 0..W {
-                        [top[j][lane], top[j + 1][lane]] = inverse.times([top[j][lane], top[j + 1][lane]]);
+                    let [first, second] = [top[j], top[j + 1]];
+                    for (lane, (x, y)) in first.into_iter().zip(second).enumerate() {
+                        [top[j][lane], top[j + 1][lane]] = inverse.times([x, y]);
                     }
                     j += 2;
                 }

@@ -116,7 +116,7 @@ impl<'a> Factor<'a> {
         let tasks = &self.analysis.tasks().0;
         let own = self.by_task(rows);
         let outer: Vec<Mutex<Vec<Row<W>>>> = tasks.iter().map(|_| Mutex::new(Vec::new())).collect();
-        self.analysis.tasks().from_leaves(|t| {
+        self.analysis.tasks().leaves_first(|t| {
             let task = &tasks[t];
             let mut own = lock(&own[t]);
             let mut out = vec![[0.0; W]; task.to_parent.len()];
@@ -146,7 +146,7 @@ impl<'a> Factor<'a> {
         let tasks = &self.analysis.tasks().0;
         let own = self.by_task(rows);
         let outer: Vec<Mutex<Vec<Row<W>>>> = tasks.iter().map(|_| Mutex::new(Vec::new())).collect();
-        self.analysis.tasks().from_roots(|t| {
+        self.analysis.tasks().roots_first(|t| {
             let task = &tasks[t];
             let out = match task.parent {
                 Some(up) => fetched(&task.to_parent, &lock(&own[up]), &lock(&outer[up])),
@@ -166,7 +166,7 @@ impl<'a> Factor<'a> {
     }
 
     /// The rows of each task's own steps.
-    fn by_task<'b, const W: usize>(self, mut rows: &'b mut [Row<W>]) -> Vec<Mutex<&'b mut [Row<W>]>> {
+    fn by_task<const W: usize>(self, mut rows: &mut [Row<W>]) -> Vec<Mutex<&mut [Row<W>]>> {
         let tasks = self.analysis.tasks().0.iter();
         let split =
             |task| rows.split_off_mut(..self.analysis.steps_of(task).len()).expect("the tasks make up the steps");

@@ -82,7 +82,7 @@ impl Tasks {
     }
 
     /// Runs every task after its children, side by side where there are threads.
-    pub(in crate::factor) fn from_leaves(&self, work: impl Fn(usize) + Sync) {
+    pub(in crate::factor) fn leaves_first(&self, work: impl Fn(usize) + Sync) {
         if rayon::current_num_threads() == 1 {
             return (0..self.0.len()).for_each(work);
         }
@@ -107,7 +107,7 @@ impl Tasks {
     }
 
     /// Runs every task after its parent, side by side where there are threads.
-    pub(in crate::factor) fn from_roots(&self, work: impl Fn(usize) + Sync) {
+    pub(in crate::factor) fn roots_first(&self, work: impl Fn(usize) + Sync) {
         if rayon::current_num_threads() == 1 {
             return (0..self.0.len()).rev().for_each(work);
         }

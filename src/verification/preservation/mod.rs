@@ -29,7 +29,7 @@ use super::check::Check;
 use super::pencil::Spectral;
 use crate::error::{Error, Result};
 use crate::factor::Analysis;
-use crate::job::Job;
+use crate::job::{Certify, Job};
 use crate::modes::SEED;
 use crate::report::Preservation;
 
@@ -117,7 +117,7 @@ impl Compared {
                 None => references.push(reference),
             }
         }
-        if plan.counts && !references.is_empty() {
+        if plan.certify != Certify::None && !references.is_empty() {
             self.count(evidence, analysis, &mut references, limit)?;
         }
         Ok(references)

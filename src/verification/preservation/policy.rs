@@ -23,8 +23,8 @@ pub struct Plan {
     pub eta: f64,
     /// Supports under which frequencies are compared.
     pub supports: Vec<Support>,
-    /// Whether the modes under these supports are counted.
-    pub counts: bool,
+    /// How far the modes under these supports are certified.
+    pub certify: Certify,
     /// Whether the frequency response is compared.
     pub response: bool,
     /// What is not compared, and why.
@@ -35,7 +35,7 @@ impl Plan {
     /// Whatever the scene states is compared at any cost, the defaults only while they are cheap.
     ///
     /// A support costs an eigensolution with the factor that is already there: 3k + 64 solves of 4 nnz(L) operations each.
-    /// Counting the modes of all of them costs one factorisation and 2 n_B solves.
+    /// Counting the modes of all of them costs one factorisation.
     /// The response costs six blocks of n_B such solves, 24 n r n_B operations for the residuals in each, and 2 n (2r + n_B)²
     /// for those of all samples, r being the order of the basis it ends with.
     pub fn new(evidence: &Evidence<'_>, analysis: &Analysis, job: &Job) -> Self {
@@ -45,7 +45,7 @@ impl Plan {
             band_hz: scene.band_hz.or_else(|| default_band(evidence, job)),
             eta: 2.0 * scene.damping.unwrap_or_default().ratio,
             supports: scene.boundaries.clone().unwrap_or_else(|| default_supports(evidence)),
-            counts: job.run.certify != Certify::None,
+            certify: job.run.certify,
             response: true,
             not_compared: Vec::new(),
         };
@@ -63,7 +63,7 @@ impl Plan {
         // Whoever asks for more than a count asks for the whole comparison.
         let is_full = !matches!(job.run.certify, Certify::None | Certify::Count);
         let is_asked = is_full || scene.boundaries.is_some();
-        let of_supports = cost.support * cost.n_new_supports + if plan.counts { cost.count } else { 0.0 };
+        let of_supports = cost.support * cost.n_new_supports + if job.run.certify == Certify::None { 0.0 } else { cost.count };
         if !is_asked && !plan.supports.is_empty() && of_supports > UNASKED_FLOPS {
             plan.not_compared.push(format!("frequencies under other boundaries: {dear}"));
             plan.supports.clear();
@@ -96,7 +96,7 @@ impl Cost {
         Self {
             support: (3.0 * n_modes + SOLVES_BESIDE) * solve,
             n_new_supports: default_supports(evidence).len().saturating_sub(1) as f64,
-            count: analysis.flops + 2.0 * n_b * solve,
+            count: analysis.flops,
             response: RESPONSE_BLOCKS * n_b * solve + residuals,
         }
     }
