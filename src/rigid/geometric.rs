@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use faer::{Mat, MatRef};
 
-use super::{Misfit, RigidBodyModes, RigidEnergy, RigidSource, absolute_energy, absolute_product, largest_residual};
+use super::{Misfit, RigidBodyModes, RigidEnergy, RigidSource, absolute_energy, largest_residual};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::model::Bodies;
 use crate::partition::{Partition, Site};
-use crate::sparse::product;
+use crate::sparse::{absolute_product, product};
 
 /// Singular values of a body's six unit motions, relative to the largest, below which the motion moves no dof (rotation
 /// of a straight row of translations about its own axis): a thousand times rounding, far below any real thickness.

@@ -19,7 +19,7 @@ use faer::{Mat, MatRef};
 use crate::dense;
 use crate::error::Result;
 use crate::partition::Partition;
-use crate::sparse::{SparseMatrix, product};
+use crate::sparse::{SparseMatrix, absolute_product, product};
 
 pub use algebraic::from_matrices;
 pub use mechanism::{Loose, LooseMotions, with_mechanisms};
@@ -145,25 +145,6 @@ pub fn rigid_body_modes(partition: &Partition) -> Result<(RigidBodyModes, usize)
 pub fn from_coordinates(partition: &Partition) -> Result<Option<RigidBodyModes>> {
     let found = partition.sites().map(|sites| geometric::rigid_body_modes(partition, &sites)).transpose()?;
     Ok(found.filter(|found| found.misfit.is_none()).map(|found| found.rigid))
-}
-
-/// |A||X|, n × k: what rounding of A is measured by.
-pub(crate) fn absolute_product(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> Mat<f64> {
-    use rayon::prelude::*;
-    const ROWS_PER_TASK: usize = 2048;
-    let mut product = Mat::zeros(matrix.rows(), x.ncols());
-    product.as_mut().par_row_chunks_mut(ROWS_PER_TASK).enumerate().for_each(|(task, mut rows)| {
-        for i in 0..rows.nrows() {
-            let Some(view) = matrix.outer_view(task * ROWS_PER_TASK + i) else {
-                continue;
-            };
-            for j in 0..x.ncols() {
-                let column = dense::column(x, j);
-                rows[(i, j)] = view.iter().map(|(col, value)| value.abs() * column[col].abs()).sum();
-            }
-        }
-    });
-    product
 }
 
 /// |x|ᵀ|A||x| for each column.

@@ -8,7 +8,7 @@
 mod assembly;
 mod product;
 
-pub use product::{multiply, product};
+pub use product::{absolute_product, multiply, product};
 
 /// A symmetric sparse matrix in compressed rows, both triangles stored, indices sorted, no duplicates.
 pub type SparseMatrix = sprs::CsMatI<f64, u32, usize>;

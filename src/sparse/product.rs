@@ -19,7 +19,24 @@ const TILE_ROWS: usize = 512;
 ///
 /// # Panics
 /// Where the shapes differ.
-pub fn multiply(matrix: &SparseMatrix, x: MatRef<'_, f64>, mut y: MatMut<'_, f64>) {
+pub fn multiply(matrix: &SparseMatrix, x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
+    multiply_entries(matrix, x, y, |entry| entry);
+}
+
+/// |A| |X| as a new matrix, n × k: how large the terms of A X are.
+pub fn absolute_product(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> Mat<f64> {
+    let mut y = Mat::zeros(matrix.rows(), x.ncols());
+    multiply_entries(matrix, x, y.as_mut(), f64::abs);
+    y
+}
+
+/// The product of what `entry` makes of the entries of both.
+fn multiply_entries(
+    matrix: &SparseMatrix,
+    x: MatRef<'_, f64>,
+    mut y: MatMut<'_, f64>,
+    entry: impl Fn(f64) -> f64 + Sync + Copy,
+) {
     let n = matrix.rows();
     assert!(x.nrows() == matrix.cols(), "matrix of {} columns times block of {} rows", matrix.cols(), x.nrows());
     assert!(y.nrows() == n && y.ncols() == x.ncols(), "product {n} x {}, block {:?}", x.ncols(), y.shape());
@@ -30,10 +47,10 @@ pub fn multiply(matrix: &SparseMatrix, x: MatRef<'_, f64>, mut y: MatMut<'_, f64
         let width = left.min(8);
         let (x, y) = (x.subcols(col, width), y.rb_mut().subcols_mut(col, width));
         match width {
-            1 => multiply_group::<1>(matrix, x, y, &mut Vec::new()),
-            2 => multiply_group::<2>(matrix, x, y, &mut Vec::new()),
-            3 | 4 => multiply_group::<4>(matrix, x, y, &mut Vec::new()),
-            _ => multiply_group::<8>(matrix, x, y, &mut packed),
+            1 => multiply_group::<1>(matrix, x, y, &mut Vec::new(), entry),
+            2 => multiply_group::<2>(matrix, x, y, &mut Vec::new(), entry),
+            3 | 4 => multiply_group::<4>(matrix, x, y, &mut Vec::new(), entry),
+            _ => multiply_group::<8>(matrix, x, y, &mut packed, entry),
         }
         col += width;
     }
@@ -54,8 +71,9 @@ fn multiply_group<const W: usize>(
     x: MatRef<'_, f64>,
     y: MatMut<'_, f64>,
     packed: &mut Vec<Group<W>>,
+    entry: impl Fn(f64) -> f64 + Sync + Copy,
 ) {
-    pack(x, packed);
+    pack(x, packed, entry);
     let packed = packed.as_slice();
     let (indptr, indices, data) = (matrix.indptr(), matrix.indices(), matrix.data());
     let pointers = indptr.raw_storage();
@@ -67,6 +85,7 @@ fn multiply_group<const W: usize>(
             // Summed in a local, which stays in registers.
             let mut row_sum = [0.0; W];
             for (&col, &value) in indices[start..end].iter().zip(&data[start..end]) {
+                let value = entry(value);
                 for (sum, x) in row_sum.iter_mut().zip(&packed[col as usize]) {
                     *sum += value * x;
                 }
@@ -81,15 +100,15 @@ fn multiply_group<const W: usize>(
     });
 }
 
-/// Copies a block of at most W columns into rows of W, zeros on the right.
-fn pack<const W: usize>(x: MatRef<'_, f64>, packed: &mut Vec<Group<W>>) {
+/// Copies what `entry` makes of a block of at most W columns into rows of W, zeros on the right.
+fn pack<const W: usize>(x: MatRef<'_, f64>, packed: &mut Vec<Group<W>>, entry: impl Fn(f64) -> f64 + Sync + Copy) {
     packed.clear();
     packed.resize(x.nrows(), [0.0; W]);
     packed.par_chunks_mut(TILE_ROWS).enumerate().for_each(|(tile, rows)| {
         let x = x.subrows(tile * TILE_ROWS, rows.len());
         for (col, x) in x.col_iter().enumerate() {
             for (row, x) in rows.iter_mut().zip(x.iter()) {
-                row[col] = *x;
+                row[col] = entry(*x);
             }
         }
     });

@@ -8,8 +8,7 @@ use super::spectrum::{Spectrum, lowest_eigenpairs};
 use crate::dense;
 use crate::error::Result;
 use crate::modes::Equilibrated;
-use crate::rigid::absolute_product;
-use crate::sparse::product;
+use crate::sparse::{absolute_product, product};
 
 /// One direction.
 #[derive(Clone, Debug, PartialEq)]

@@ -134,7 +134,7 @@ pub(super) fn effective_masses(evidence: &Evidence<'_>) -> Result<Option<Effecti
 /// None where it is not.
 fn interior_masses(evidence: &Evidence<'_>, gamma: MatRef<'_, f64>, start: MatRef<'_, f64>) -> Option<Vec<f64>> {
     // Shares are read to three digits; the square of this is what the total is off by.
-    const ENOUGH: f64 = 1e-6;
+    const ENOUGH: f64 = 1e-4;
     const MAX_STEPS: usize = 500;
     let mass = evidence.internal.1;
     let inverse: Vec<f64> = diagonal(mass).into_iter().map(|m| if m > 0.0 { 1.0 / m } else { 0.0 }).collect();

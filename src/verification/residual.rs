@@ -11,8 +11,7 @@ use faer::{Mat, MatRef};
 use super::Evidence;
 use crate::dense;
 use crate::modes::Equilibrated;
-use crate::rigid::absolute_product;
-use crate::sparse::SparseMatrix;
+use crate::sparse::{SparseMatrix, absolute_product};
 
 /// Share of its own norm below which the terms of a row are at rest: a pair may leave 10⁻¹³ of a row's norm (M-01), which a
 /// row of smaller terms than this could not keep within 10⁻¹¹ of them (M-02).

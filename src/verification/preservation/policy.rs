@@ -63,7 +63,8 @@ impl Plan {
         // Whoever asks for more than a count asks for the whole comparison.
         let is_full = !matches!(job.run.certify, Certify::None | Certify::Count);
         let is_asked = is_full || scene.boundaries.is_some();
-        let of_supports = cost.support * cost.n_new_supports + if job.run.certify == Certify::None { 0.0 } else { cost.count };
+        let of_supports =
+            cost.support * cost.n_new_supports + if job.run.certify == Certify::None { 0.0 } else { cost.count };
         if !is_asked && !plan.supports.is_empty() && of_supports > UNASKED_FLOPS {
             plan.not_compared.push(format!("frequencies under other boundaries: {dear}"));
             plan.supports.clear();
