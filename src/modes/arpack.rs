@@ -43,6 +43,8 @@ const FIRST_IN_BAND: usize = 16;
 const BAD_START: i32 = -9;
 /// ARPACK's status for a basis that could not be built to its full width.
 const NO_BASIS: i32 = -9999;
+/// ARPACK's status for a restart that found no direction to leave out.
+const NO_SHIFTS: i32 = 3;
 
 /// Finds the wanted eigenpairs, with the meaning of [`super::lanczos::lanczos`].
 ///
@@ -213,6 +215,11 @@ impl<'a> Search<'a> {
             // Rows with mass are more than M has rank, and the basis has come to its end before.
             Err(Error::Arpack { status: NO_BASIS, .. }) if (1..room).contains(&sweep.n_vectors()) => {
                 self.n_finite = self.theta.len() + sweep.n_vectors();
+                return self.sweep(n_asked);
+            }
+            // The whole of what seems to be left is the basis, and less than that has mass.
+            Err(Error::Arpack { status: NO_SHIFTS, .. }) if n_asked >= room / 2 => {
+                self.n_finite -= 1;
                 return self.sweep(n_asked);
             }
             driven => driven?,
