@@ -17,8 +17,6 @@ mod ordering;
 mod region;
 mod transformation;
 
-use faer::Mat;
-
 use crate::error::{Error, Result};
 use crate::factor::Pencil;
 use crate::job::InterfaceJob;
@@ -126,27 +124,6 @@ impl Partition {
     /// M_II as a matrix of its own.
     pub fn internal_mass(&self) -> SparseMatrix {
         leading_block(&self.mass, self.n_internal)
-    }
-
-    /// The interface columns of K − σM as a dense block, n' × n_B.
-    pub fn interface_columns(&self, sigma: f64) -> Mat<f64> {
-        let n_i = self.n_internal;
-        let mut block = Mat::zeros(self.n_dofs(), self.n_interface());
-        for (matrix, factor) in [(&self.stiffness, 1.0), (&self.mass, -sigma)] {
-            if factor == 0.0 {
-                continue;
-            }
-            for j in 0..self.n_interface() {
-                // The matrix is symmetric: its rows are its columns.
-                let Some(view) = matrix.outer_view(n_i + j) else {
-                    continue;
-                };
-                for (row, value) in view.iter() {
-                    block[(row, j)] += factor * value;
-                }
-            }
-        }
-        block
     }
 }
 
