@@ -79,6 +79,10 @@ impl SolveOperator for Cholesky<'_> {
     fn solve_in_place(&self, block: MatMut<'_, f64>) {
         Factor::definite(self.analysis, &self.numbers).solve_in_place(block);
     }
+
+    fn bytes(&self) -> u64 {
+        self.analysis.factor_bytes()
+    }
 }
 
 /// Why there is no Cholesky factor: negative eigenvalues of K where a count finds any, otherwise a mechanism at `dof`.

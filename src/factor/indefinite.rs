@@ -116,6 +116,11 @@ impl<'a> Indefinite<'a> {
         Mat::from_fn(border.len(), border.len(), |i, j| self.numbers.schur[(i, j)] / (border[i] * border[j]))
     }
 
+    /// Bytes of the factor, all of which a solve reads.
+    pub(super) fn bytes(&self) -> u64 {
+        self.analysis.factor_bytes()
+    }
+
     /// X ← (K − σM)_II⁻¹ X, n rows.
     pub(super) fn solve_held(&self, mut block: MatMut<'_, f64>) {
         self.scale_rows(block.as_mut(), |d| d);

@@ -144,7 +144,6 @@ fn below_share_of_diagonal(analysis: &Analysis, matrix: &SparseMatrix, share: f6
 }
 
 /// K − σM factored, σ inside the spectrum: counts, and solves with the interface held or free.
-#[allow(missing_debug_implementations)]
 pub struct ShiftedFactor<'a> {
     factor: Indefinite<'a>,
     schur: Schur,
@@ -169,6 +168,11 @@ impl<'a> ShiftedFactor<'a> {
     pub fn new(partition: &Partition, analysis: &'a Analysis, sigma: f64) -> Result<Self> {
         let (factor, schur, count) = counted(partition, analysis, sigma, Keep::Factor)?;
         Ok(Self { factor, schur, count })
+    }
+
+    /// Bytes of the factor, all of which a solve reads.
+    pub fn bytes(&self) -> u64 {
+        self.factor.bytes()
     }
 
     /// F ← (K − σM)_II⁻¹ F, the interface held: n_I rows.

@@ -9,4 +9,7 @@ pub trait SolveOperator: Sync {
 
     /// Replaces an n × k block of right-hand sides by the solutions.
     fn solve_in_place(&self, block: MatMut<'_, f64>);
+
+    /// Bytes of the factor, all of which a solve reads.
+    fn bytes(&self) -> u64;
 }

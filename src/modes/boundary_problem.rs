@@ -194,7 +194,6 @@ pub(crate) fn massive(partition: &Partition, massless: MatRef<'_, f64>) -> Resul
 }
 
 /// (K − σM)⁻¹ with σ inside the spectrum.
-#[allow(missing_debug_implementations)]
 pub struct AtShift<'a> {
     /// The factor.
     pub factor: &'a ShiftedFactor<'a>,
@@ -218,6 +217,10 @@ impl ShiftInvert for AtShift<'_> {
             Boundary::FixedInterface => self.factor.solve_held(block),
             Boundary::FreeInterface => self.factor.solve_free(block),
         }
+    }
+
+    fn bytes(&self) -> u64 {
+        self.factor.bytes()
     }
 }
 

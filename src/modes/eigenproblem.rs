@@ -8,7 +8,6 @@ use crate::sparse::{SparseMatrix, product};
 
 /// The eigenproblem: K enters through its shift-invert operator.
 #[derive(Clone, Copy)]
-#[allow(missing_debug_implementations)]
 pub struct Problem<'a> {
     /// (K − σM)⁻¹.
     pub operator: &'a dyn ShiftInvert,

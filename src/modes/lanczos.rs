@@ -13,6 +13,7 @@
 use faer::{Mat, MatRef};
 
 use super::answer::Goal;
+use super::block_width::block_width;
 use super::eigenproblem::{CLUSTER_GAP, EigenWork, Eigenpairs, Interval, Problem, Wanted, is_above};
 use super::orthogonalisation::combine_in_place;
 use super::random::SplitMix64;
@@ -23,11 +24,8 @@ use crate::sparse::product;
 
 /// Restarts after which an iteration that has not converged never will.
 pub(super) const MAX_RESTARTS: usize = 60;
-/// Right-hand sides per block on large models: a block of eight costs a fifth per vector of eight single solves.
-const WIDE_BLOCK: usize = 8;
-/// On small models the factor stays in the cache and a narrow block wastes fewer vectors.
-const NARROW_BLOCK: usize = 4;
-const WIDE_FROM: usize = 50_000;
+/// Modes expected in a band before they are counted.
+const EXPECTED_IN_BAND: usize = 16;
 /// The share of the basis by which it grows before convergence is looked at again; less than a block for sixty columns.
 const STEPS_BETWEEN_LOOKS: usize = 16;
 
@@ -99,11 +97,11 @@ pub(super) struct Basis<'a> {
 impl<'a> Basis<'a> {
     fn start(problem: Problem<'a>, goal: Goal, seed: u64) -> Self {
         let n = problem.operator.n();
-        let block = if n >= WIDE_FROM { WIDE_BLOCK } else { NARROW_BLOCK }.min(n);
         let expected = match goal {
             Goal::Lowest(Wanted::Count(count)) | Goal::Between(Interval { count, .. }) => count,
-            Goal::Lowest(Wanted::UpTo(_)) => 2 * WIDE_BLOCK,
+            Goal::Lowest(Wanted::UpTo(_)) => EXPECTED_IN_BAND,
         };
+        let block = block_width(n, problem.operator.bytes(), expected);
         let capacity = capacity_for(expected, block, n);
         let mut basis = Self {
             problem,

@@ -10,6 +10,7 @@
 mod answer;
 #[cfg(feature = "arpack")]
 mod arpack;
+mod block_width;
 mod boundary_problem;
 mod certificate;
 mod cluster;

@@ -20,10 +20,14 @@ pub trait ShiftInvert: Sync {
 
     /// Replaces forces by displacements; on a free component the forces are self-equilibrated.
     fn solve_in_place(&self, block: MatMut<'_, f64>);
+
+    /// Bytes that one application reads; they decide how many right-hand sides it is given at once. Few unless said otherwise.
+    fn bytes(&self) -> u64 {
+        0
+    }
 }
 
 /// A factor of K − σM used as it is.
-#[allow(missing_debug_implementations)]
 pub struct Factored<'a> {
     factor: &'a dyn SolveOperator,
     sigma: f64,
@@ -48,6 +52,10 @@ impl ShiftInvert for Factored<'_> {
     fn solve_in_place(&self, block: MatMut<'_, f64>) {
         self.factor.solve_in_place(block);
     }
+
+    fn bytes(&self) -> u64 {
+        self.factor.bytes()
+    }
 }
 
 /// K⁺ of a free component from the factor of K_II alone, at shift zero.
@@ -59,7 +67,6 @@ impl ShiftInvert for Factored<'_> {
 /// ```
 /// For a self-equilibrated load x is the elastic displacement up to a rigid-body motion, which deflation removes. The
 /// factor that makes the constraint modes thus serves the free-free modes too.
-#[allow(missing_debug_implementations)]
 pub struct FreeAtZero<'a> {
     factor: &'a dyn SolveOperator,
     stiffness: &'a SparseMatrix,
@@ -151,5 +158,9 @@ impl ShiftInvert for FreeAtZero<'_> {
         let x_b = self.schur.solve(loads.as_ref());
         dense::add_product(block.as_mut().subrows_mut(0, n_i), 1.0, self.constraint_modes, x_b.as_ref());
         block.subrows_mut(n_i, n_b).copy_from(&x_b);
+    }
+
+    fn bytes(&self) -> u64 {
+        self.factor.bytes()
     }
 }
