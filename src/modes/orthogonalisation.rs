@@ -27,11 +27,10 @@ pub fn gram_schmidt(block: &mut Mat<f64>, mass_block: &mut Mat<f64>, least: f64,
             dense::column_mut(side.as_mut(), j).iter_mut().for_each(|value| *value /= length);
         }
         for l in j + 1..width {
-            let c = dense::dot(dense::column(mass_block.as_ref(), j), dense::column(block.as_ref(), l));
-            r[(j, l)] = c;
+            r[(j, l)] = dense::dot(dense::column(mass_block.as_ref(), j), dense::column(block.as_ref(), l));
             for side in [&mut *block, &mut *mass_block] {
-                let unit = dense::column(side.as_ref(), j).to_vec();
-                dense::add_scaled(dense::column_mut(side.as_mut(), l), -c, &unit);
+                let (unit, rest) = side.as_mut().split_at_col_mut(l);
+                dense::add_scaled(dense::column_mut(rest, 0), -r[(j, l)], dense::column(unit.as_ref(), j));
             }
         }
     }

@@ -7,6 +7,7 @@
 
 use faer::prelude::ReborrowMut;
 use faer::{Mat, MatMut, MatRef};
+use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
 use super::SparseMatrix;
@@ -80,24 +81,52 @@ fn multiply_group<const W: usize>(
     y.par_row_chunks_mut(TILE_ROWS).enumerate().for_each(|(tile, mut y)| {
         let first = tile * TILE_ROWS;
         let mut sums = [[0.0; W]; TILE_ROWS];
-        for (row, sum) in (first..).zip(&mut sums[..y.nrows()]) {
-            let (start, end) = (pointers[row], pointers[row + 1]);
-            // Summed in a local, which stays in registers.
-            let mut row_sum = [0.0; W];
-            for (&col, &value) in indices[start..end].iter().zip(&data[start..end]) {
-                let value = entry(value);
-                for (sum, x) in row_sum.iter_mut().zip(&packed[col as usize]) {
-                    *sum += value * x;
-                }
-            }
-            *sum = row_sum;
-        }
+        Arch::new().dispatch(RowSums {
+            pointers: &pointers[first..],
+            indices,
+            data,
+            packed,
+            entry,
+            sums: &mut sums[..y.nrows()],
+        });
         for (col, y) in y.as_mut().col_iter_mut().enumerate() {
             for (y, sum) in y.iter_mut().zip(&sums) {
                 *y = sum[col];
             }
         }
     });
+}
+
+/// The sums of a tile of rows.
+struct RowSums<'a, const W: usize, E> {
+    /// Of the first row on.
+    pointers: &'a [usize],
+    indices: &'a [u32],
+    data: &'a [f64],
+    packed: &'a [Group<W>],
+    entry: E,
+    sums: &'a mut [Group<W>],
+}
+
+impl<const W: usize, E: Fn(f64) -> f64> WithSimd for RowSums<'_, W, E> {
+    type Output = ();
+
+    /// In the widest vectors that the processor has; a product and a sum are rounded one by one all the same.
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        for (bounds, sum) in self.pointers.windows(2).zip(self.sums) {
+            let row = bounds[0]..bounds[1];
+            // Summed in a local, which stays in registers.
+            let mut row_sum = [0.0; W];
+            for (&col, &value) in self.indices[row.clone()].iter().zip(&self.data[row]) {
+                let value = (self.entry)(value);
+                for (sum, x) in row_sum.iter_mut().zip(&self.packed[col as usize]) {
+                    *sum += value * x;
+                }
+            }
+            *sum = row_sum;
+        }
+    }
 }
 
 /// Copies what `entry` makes of a block of at most W columns into rows of W, zeros on the right.

@@ -97,15 +97,17 @@ pub struct RigidBody {
 /// A dense eigenproblem that does not converge.
 pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     let spectrum = spectrum::Spectrum::of(evidence)?;
-    let condition = conditioning::internal_condition(evidence);
+    // Solves of one right-hand side and conjugate gradients leave a thread idle, which the products with the modes use.
+    let ((condition, effective_mass), (pairs, terms)) = rayon::join(
+        || (conditioning::internal_condition(evidence), loads::effective_masses(evidence)),
+        || (eigenpairs::Pairs::of(evidence), reduced::Terms::of(evidence)),
+    );
     let rigid_body = RigidBody {
         routes: rigid_body::mass_routes(evidence, &spectrum)?,
         eigenvalues: spectrum.rigid().to_vec(),
         grounding: grounding::groundings(evidence, &spectrum)?,
-        effective_mass: loads::effective_masses(evidence)?,
+        effective_mass: effective_mass?,
     };
-    let pairs = eigenpairs::Pairs::of(evidence);
-    let terms = reduced::Terms::of(evidence);
     let mut checks = vec![
         eigenpairs::backward_error(evidence, &pairs),
         eigenpairs::componentwise_error(evidence, &pairs),
