@@ -25,6 +25,7 @@ environment.enter()
 import numpy as np
 
 from harness import machine, part, process, superelement
+from harness.floor import ceilings, floor
 from harness.reference import Reference, judge
 
 FAMILIES = ("bulky", "slender", "lattice")
@@ -154,6 +155,15 @@ def write(out, name, table, title, origin):
     print(text)
 
 
+def own_floor(folder, rates):
+    """A line on how near supel is to what this machine allows."""
+    report = json.loads((folder / "part.report.json").read_text())["run"]
+    seconds = floor(folder, report["work"], rates)
+    took = sum(stage["seconds"] for stage in report["stages"])
+    rated = f"products {rates[0] / 1e9:.0f} GFLOP/s, reading {rates[1] / 1e9:.0f} GB/s"
+    return f"{seconds:.2f} s by the counters of the last run, which took {took:.2f} s; {rated}"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--family", action="append", choices=FAMILIES, help="default: all")
@@ -182,6 +192,8 @@ def main():
             n = part.facts(folder)["n"]
             title = f"{family}, {n} dofs, {arguments.method}, {arguments.modes} modes, {arguments.threads} threads"
             name = f"peers-{family}-{n}-{arguments.method}-{arguments.threads}"
+            if not chosen[0].failure():
+                origin.append(("floor of supel's run", own_floor(folder, ceilings(arguments.threads))))
             write(arguments.out, name, list(rows(chosen, expected)), title, origin)
 
 
