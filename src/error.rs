@@ -1173,7 +1173,7 @@ pub enum Error {
         boundary: &'static str,
     },
     /// The forecast exceeds the memory there is.
-    #[error("{}", forecast(*available, *factors, *matrices, *vectors))]
+    #[error("{}", forecast(*available, [*factors, *matrices, *vectors], *in_single))]
     MemoryForecast {
         /// Bytes available.
         available: u64,
@@ -1183,12 +1183,28 @@ pub enum Error {
         matrices: u64,
         /// Bytes of the constraint modes and of the eigensolver's basis.
         vectors: u64,
+        /// Bytes in all with the factor in single precision, where those are available.
+        in_single: Option<u64>,
     },
     /// An allocation failed.
     #[error("out of memory – {what} could not be allocated – free memory or reduce a smaller model")]
     OutOfMemory {
         /// What was to be allocated.
         what: &'static str,
+    },
+    /// Conjugate gradients did not bring a solve down to rounding.
+    #[error(
+        "a solve with the factor kept in single precision stays inaccurate – right-hand side {column} of its block, residual {residual:.1e} of its terms in the worst row after {steps} steps of conjugate gradients – expected {aim:.1e} – use precision = \"double\""
+    )]
+    NotRefined {
+        /// The right-hand side, from zero.
+        column: usize,
+        /// max |b − Ax| / (|A||x| + |b|).
+        residual: f64,
+        /// What was aimed at.
+        aim: f64,
+        /// Steps that were taken.
+        steps: usize,
     },
     /// A pivot of a Sturm count is zero or not a number.
     #[error(
@@ -1296,7 +1312,7 @@ fn listed(names: &[String]) -> String {
 }
 
 /// The parts of a forecast, the largest first, and what makes that one smaller.
-fn forecast(available: u64, factors: u64, matrices: u64, vectors: u64) -> String {
+fn forecast(available: u64, [factors, matrices, vectors]: [u64; 3], in_single: Option<u64>) -> String {
     let mut parts = [
         (factors, "factors", "use a weaker --certify, which needs fewer factors"),
         (vectors, "vectors", "keep fewer modes or interface dofs"),
@@ -1305,7 +1321,11 @@ fn forecast(available: u64, factors: u64, matrices: u64, vectors: u64) -> String
     parts.sort_by_key(|(size, ..)| std::cmp::Reverse(*size));
     let needed = parts.iter().fold(0, |sum: u64, (size, ..)| sum.saturating_add(*size));
     let largest_first = parts.map(|(size, name, _)| format!("{name} {}", bytes(size))).join(", ");
-    let (needed, available, advice) = (bytes(needed), bytes(available), parts[0].2);
+    let (needed, available) = (bytes(needed), bytes(available));
+    let advice = match in_single {
+        Some(needed) => format!("set run.precision = \"mixed\", which needs {}", bytes(needed)),
+        None => parts[0].2.to_owned(),
+    };
     format!(
         "the run needs {needed} – largest first: {largest_first} – {available} are available – free memory, raise run.memory_gib, or {advice}"
     )

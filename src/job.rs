@@ -235,6 +235,25 @@ pub enum Certify {
     Full,
 }
 
+/// How the entries of the factor are kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Precision {
+    /// In double precision.
+    #[default]
+    Double,
+    /// In single precision, half the memory; conjugate gradients bring every solve to double precision.
+    Mixed,
+    /// In double precision where it fits into the memory, in single where it does not, with a warning.
+    Auto,
+}
+
+impl Precision {
+    fn is_double(&self) -> bool {
+        *self == Self::Double
+    }
+}
+
 /// How the run is done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -245,6 +264,9 @@ pub struct RunJob {
     /// Memory the run may use, in GiB; what the machine has free where absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub memory_gib: Option<f64>,
+    /// How the factor is kept.
+    #[serde(default, skip_serializing_if = "Precision::is_double")]
+    pub precision: Precision,
 }
 
 /// What is written and where.

@@ -85,12 +85,13 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
 
     observer.stage("factor");
     let analysis = Analysis::of(&partition)?;
-    factor::refuse_beyond_memory(&analysis, &partition, job, resources, None)?;
+    let storage = factor::storage_within_memory(&analysis, &partition, job, resources)?;
     let sigma = modes::shift_of_factor(&partition, &rigid);
-    let factor = Cholesky::new(&analysis, partition.pencil(), sigma, &|dof| partition.name_of(dof))?;
+    let factor = Cholesky::kept(&analysis, (partition.pencil(), sigma), storage, &|dof| partition.name_of(dof))?;
 
     observer.stage("constraint modes");
     let constraint = basis::constraint_modes(&partition, &factor, &rigid);
+    factor.refinement()?;
     let (rigid, loose) = rigid::with_mechanisms(&partition, &constraint, rigid)?;
 
     observer.stage("modes");
@@ -98,8 +99,8 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let internal = (&k_ii, &m_ii);
     let component = Component::new(&partition, internal, &analysis, &factor, &rigid, &constraint);
     let search = modes::Search::new(component, &job.reduction)?;
-    factor::refuse_beyond_memory(&analysis, &partition, job, resources, search.n_expected())?;
-    let found = search.lowest(modes::SEED)?;
+    factor::refuse_beyond_memory(&analysis, &partition, job, resources, (storage, search.n_expected()))?;
+    let found = factor.vouched(search.lowest(modes::SEED))?;
 
     observer.stage("certificate");
     let (found, certificate) = modes::certified(&search, &search.problem, found, search.edge(), job.run.certify)?;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use supel::cli::{ExitCode, Pipeline, Terminal, run};
 use supel::error::{Error, Result};
-use supel::job::{Coupling, Job, Method, ModeSelection, NodeSelection};
+use supel::job::{Coupling, Job, Method, ModeSelection, NodeSelection, Precision};
 use supel::outcome::{Outcome, Resources};
 use supel::report::Observer;
 use supel_runtime::Superelement;
@@ -206,6 +206,8 @@ fn flags_alone_make_a_job() {
         "none",
         "--memory-gib",
         "2",
+        "--precision",
+        "mixed",
     ]);
     let here = std::env::current_dir().expect("folder");
     assert_eq!(job.model.stiffness, here.join("K.mtx.gz"));
@@ -216,6 +218,7 @@ fn flags_alone_make_a_job() {
     assert_eq!(job.interfaces[2].coupling, Coupling::Rigid);
     assert_eq!(job.reduction.modes, ModeSelection::UpTo { up_to_hz: 500.0 });
     assert_eq!(job.run.memory_gib, Some(2.0));
+    assert_eq!(job.run.precision, Precision::Mixed);
     assert_eq!(job.write.superelement, here.join("x.supel"));
 }
 

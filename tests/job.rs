@@ -371,6 +371,8 @@ fn changed_jobs() -> Vec<Value> {
         with("/scene", json!({ "gravity": true })),
         with("/run", json!({ "certify": "full" })),
         with("/run", json!({ "certify": "count", "memory_gib": 0.5 })),
+        with("/run", json!({ "precision": "auto" })),
+        with("/run", json!({ "precision": "single" })),
         with("/write/superelement", "x.json".into()),
         with("/write/report", "x.json".into()),
         with("/write/html", "x.html".into()),

@@ -8,8 +8,8 @@ use super::flags::{
 use super::process;
 use crate::error::{Error, Result};
 use crate::job::{
-    Certify, Coupling, Duplicates, InterfaceJob, Job, ModeSelection, ModelJob, NodeSelection, Origin, ReductionJob,
-    RunJob, WriteJob,
+    Certify, Coupling, Duplicates, InterfaceJob, Job, ModeSelection, ModelJob, NodeSelection, Origin, Precision,
+    ReductionJob, RunJob, WriteJob,
 };
 
 /// One command, ready to run.
@@ -131,6 +131,7 @@ fn build_reduce(flags: ReduceFlags) -> Result<ReduceCommand> {
     }
     job.run.certify = reduction.certify.map_or(job.run.certify, Certify::from);
     job.run.memory_gib = run.memory_gib.or(job.run.memory_gib);
+    job.run.precision = run.precision.map_or(job.run.precision, Precision::from);
     job.validate()?;
     let n_threads = run.threads.map_or_else(process::available_threads, usize::from);
     // Paths of the document are absolute already; those of flags are relative to where the command was typed.

@@ -136,6 +136,9 @@ pub(super) struct RunFlags {
     /// Memory the run may use, in GiB [default: what is free]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub(super) memory_gib: Option<f64>,
+    /// How the factor is kept: mixed takes half the memory and more time [default: double]
+    #[arg(long, value_name = "HOW")]
+    pub(super) precision: Option<Precision>,
 }
 
 #[derive(Debug, Args)]
@@ -204,6 +207,14 @@ pub(super) enum Certify {
     Full,
 }
 
+/// How a factor is kept, as it is typed.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum Precision {
+    Double,
+    Mixed,
+    Auto,
+}
+
 impl From<Triangle> for input::Triangle {
     fn from(triangle: Triangle) -> Self {
         match triangle {
@@ -227,6 +238,16 @@ impl From<Eigensolver> for job::Eigensolver {
         match eigensolver {
             Eigensolver::Lanczos => Self::Lanczos,
             Eigensolver::Arpack => Self::Arpack,
+        }
+    }
+}
+
+impl From<Precision> for job::Precision {
+    fn from(precision: Precision) -> Self {
+        match precision {
+            Precision::Double => Self::Double,
+            Precision::Mixed => Self::Mixed,
+            Precision::Auto => Self::Auto,
         }
     }
 }

@@ -160,6 +160,7 @@ codes! {
     IndefiniteStiffness => "E-NEGATIVE-STIFFNESS", ModelPhysics;
     MemoryForecast => "E-MEM", Resources;
     OutOfMemory => "E-OUT-OF-MEMORY", Resources;
+    NotRefined => "E-NOT-REFINED", NumericalLimit;
     SturmPivot => "E-STURM-PIVOT", NumericalLimit;
     LanczosStalled => "E-STALLED", NumericalLimit;
     Mechanism => "E-MECHANISM", ModelPhysics;

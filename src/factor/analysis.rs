@@ -12,7 +12,7 @@ mod tasks;
 
 use std::ops::Range;
 
-use super::Pencil;
+use super::{Pencil, Storage};
 use crate::error::{Error, Result};
 use crate::partition::Partition;
 use crate::sparse::SparseMatrix;
@@ -175,8 +175,12 @@ impl Analysis {
     }
 
     /// Bytes that one factor takes, with the zeros that supernodes add.
-    pub fn factor_bytes(&self) -> u64 {
-        8u64.saturating_mul(self.n_values() as u64)
+    pub fn factor_bytes(&self, storage: Storage) -> u64 {
+        let bytes = match storage {
+            Storage::Double => 8u64,
+            Storage::Single => 4,
+        };
+        bytes.saturating_mul(self.n_values() as u64)
     }
 
     /// Bytes that elimination needs beside the factor when one thread does it: what waits for its parent.

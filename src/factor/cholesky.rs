@@ -5,11 +5,14 @@ mod backward_error;
 use faer::{Mat, MatMut, MatRef};
 
 use super::elimination::Kind;
+use super::entry::Entry;
 use super::inertia::count_negative;
 use super::matrix::Shifted;
 use super::multifrontal::{Keep, Numbers, Stop, eliminate};
+use super::refined::{Refined, Refinement};
 use super::substitution::Factor;
-use super::{Analysis, Pencil, SolveOperator};
+use super::{Analysis, Pencil, SolveOperator, Storage};
+use crate::dense;
 use crate::error::{Error, Result};
 use crate::model::diagonal;
 
@@ -21,9 +24,16 @@ const SINGULAR: f64 = 1024.0 * f64::EPSILON;
 #[derive(Debug)]
 pub struct Cholesky<'a> {
     analysis: &'a Analysis,
-    numbers: Numbers,
+    kept: Kept<'a>,
     /// Smallest ratio of a pivot to the diagonal entry it came from: how much of a dof's stiffness elimination left.
     pub smallest_pivot_ratio: f64,
+}
+
+/// How L is kept.
+#[derive(Debug)]
+enum Kept<'a> {
+    Double(Numbers<f64>),
+    Single(Refined<'a>),
 }
 
 impl<'a> Cholesky<'a> {
@@ -34,35 +44,102 @@ impl<'a> Cholesky<'a> {
     /// [`Error::IndefiniteStiffness`] with the number of negative eigenvalues of K; no memory.
     pub fn new(analysis: &'a Analysis, pencil: Pencil<'_>, sigma: f64, name: &dyn Fn(usize) -> String) -> Result<Self> {
         let matrix = Shifted { pencil, sigma, scale: None, n_border: analysis.n_border() };
-        let not_definite = |step: usize| not_definite(analysis, pencil, name(analysis.given()[step] as usize));
-        let mut numbers = eliminate(analysis, &matrix, Kind::Definite, Keep::Factor).map_err(|stop| match stop {
-            Stop::NotPositive(step) => not_definite(step),
-            Stop::NoMemory => Error::OutOfMemory { what: "the factor" },
-        })?;
-        numbers.schur = Mat::zeros(0, 0);
-        let (ratio, step) = smallest_pivot(analysis, pencil, sigma, &numbers);
-        // Rounding decides the sign of a pivot that should be zero, so a singular matrix may well get this far.
-        if ratio.is_nan() || ratio <= SINGULAR {
-            drop(numbers);
-            return Err(not_definite(step));
+        let (numbers, smallest_pivot_ratio) = factored(analysis, &matrix, name)?;
+        Ok(Self { analysis, kept: Kept::Double(numbers), smallest_pivot_ratio })
+    }
+
+    /// The same with the entries of L kept as `storage` says. In single precision they take half the memory: elimination still
+    /// computes in double precision and refuses what [`Cholesky::new`] refuses, and solves take some steps of conjugate gradients
+    /// with the matrix itself, which bring their residuals to rounding of double precision.
+    ///
+    /// # Errors
+    /// As [`Cholesky::new`].
+    pub fn kept(
+        analysis: &'a Analysis,
+        (pencil, sigma): (Pencil<'a>, f64),
+        storage: Storage,
+        name: &dyn Fn(usize) -> String,
+    ) -> Result<Self> {
+        if storage == Storage::Double {
+            return Self::new(analysis, pencil, sigma, name);
         }
-        Ok(Self { analysis, numbers, smallest_pivot_ratio: ratio })
+        let diagonals = diagonal(pencil.stiffness).into_iter().zip(diagonal(pencil.mass));
+        // Entries of L are then at most one or two, and pivots at least a root of what is refused: far from the ends of the range.
+        let scale: Vec<f64> = diagonals.map(|(k, m)| dense::power_of_two_root((k - sigma * m).abs())).collect();
+        let matrix = Shifted { pencil, sigma, scale: Some(&scale), n_border: analysis.n_border() };
+        let (numbers, smallest_pivot_ratio) = factored(analysis, &matrix, name)?;
+        let kept = Kept::Single(Refined::new(analysis, (pencil, sigma), scale, numbers));
+        Ok(Self { analysis, kept, smallest_pivot_ratio })
     }
 }
 
 impl Cholesky<'_> {
     /// −A_II⁻¹ A_IB X_B, n × k: how the eliminated dofs follow motions of the border, n_B × k, that nothing else loads.
     pub fn follow_border(&self, border: MatRef<'_, f64>) -> Mat<f64> {
-        Factor::definite(self.analysis, &self.numbers).follow_border(border)
+        match &self.kept {
+            Kept::Double(numbers) => Factor::definite(self.analysis, numbers).follow_border(border),
+            Kept::Single(refined) => refined.follow_border(border),
+        }
+    }
+
+    /// How L is kept.
+    pub fn storage(&self) -> Storage {
+        match self.kept {
+            Kept::Double(_) => Storage::Double,
+            Kept::Single(_) => Storage::Single,
+        }
+    }
+
+    /// A result of solves with this factor.
+    ///
+    /// # Errors
+    /// [`Error::NotRefined`] where a solve did not come down to rounding, which explains whatever else went wrong.
+    pub fn vouched<T>(&self, result: Result<T>) -> Result<T> {
+        self.refinement()?;
+        result
+    }
+
+    /// What refinement took where L is kept in single precision; to be asked after the last solve.
+    ///
+    /// # Errors
+    /// [`Error::NotRefined`] where a solve did not come down to rounding: no result of this factor can be used.
+    pub fn refinement(&self) -> Result<Option<Refinement>> {
+        match &self.kept {
+            Kept::Double(_) => Ok(None),
+            Kept::Single(refined) => refined.work().map(Some),
+        }
     }
 }
 
+/// L of D (K − σM) D, and the smallest ratio of a pivot to its diagonal entry.
+fn factored<T: Entry>(
+    analysis: &Analysis,
+    matrix: &Shifted<'_>,
+    name: &dyn Fn(usize) -> String,
+) -> Result<(Numbers<T>, f64)> {
+    let not_definite = |step: usize| not_definite(analysis, matrix.pencil, name(analysis.given()[step] as usize));
+    let mut numbers = eliminate(analysis, matrix, Kind::Definite, Keep::Factor).map_err(|stop| match stop {
+        Stop::NotPositive(step) => not_definite(step),
+        Stop::NoMemory => Error::OutOfMemory { what: "the factor" },
+    })?;
+    numbers.schur = Mat::zeros(0, 0);
+    let (ratio, step) = smallest_pivot(analysis, matrix, &numbers);
+    // Rounding decides the sign of a pivot that should be zero, so a singular matrix may well get this far.
+    if ratio.is_nan() || ratio <= SINGULAR {
+        drop(numbers);
+        return Err(not_definite(step));
+    }
+    Ok((numbers, ratio))
+}
+
 /// The smallest ratio of a pivot to its diagonal entry, and the step of elimination it is met at.
-fn smallest_pivot(analysis: &Analysis, pencil: Pencil<'_>, sigma: f64, numbers: &Numbers) -> (f64, usize) {
-    let (stiffness, mass) = (diagonal(pencil.stiffness), diagonal(pencil.mass));
+fn smallest_pivot<T: Entry>(analysis: &Analysis, matrix: &Shifted<'_>, numbers: &Numbers<T>) -> (f64, usize) {
+    let (stiffness, mass) = (diagonal(matrix.pencil.stiffness), diagonal(matrix.pencil.mass));
     let mut smallest = (1.0f64, 0);
     for ((step, dof), (pivot, _)) in analysis.given().iter().enumerate().zip(numbers.pivots()) {
-        let ratio = pivot / (stiffness[*dof as usize] - sigma * mass[*dof as usize]);
+        let dof = *dof as usize;
+        let scale = matrix.scale.map_or(1.0, |scale| scale[dof] * scale[dof]);
+        let ratio = pivot / (scale * (stiffness[dof] - matrix.sigma * mass[dof]));
         // A ratio that is not a number is kept, and refused.
         if ratio.is_nan() || ratio < smallest.0 {
             smallest = (ratio, step);
@@ -77,7 +154,10 @@ impl SolveOperator for Cholesky<'_> {
     }
 
     fn solve_in_place(&self, block: MatMut<'_, f64>) {
-        Factor::definite(self.analysis, &self.numbers).solve_in_place(block);
+        match &self.kept {
+            Kept::Double(numbers) => Factor::definite(self.analysis, numbers).solve_in_place(block),
+            Kept::Single(refined) => refined.solve_in_place(block),
+        }
     }
 
     fn bytes(&self) -> u64 {

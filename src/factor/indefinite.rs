@@ -24,7 +24,7 @@ pub(super) struct Indefinite<'a> {
     analysis: &'a Analysis,
     scale: Vec<f64>,
     largest: f64,
-    numbers: Numbers,
+    numbers: Numbers<f64>,
 }
 
 /// Signs of the pivots of B and what they can be trusted with.
@@ -140,7 +140,7 @@ impl<'a> Indefinite<'a> {
         self.scale_rows(block, |d| d);
     }
 
-    fn factor(&self) -> Factor<'_> {
+    fn factor(&self) -> Factor<'_, f64> {
         Factor::indefinite(self.analysis, &self.numbers)
     }
 

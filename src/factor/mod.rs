@@ -15,11 +15,13 @@
 mod analysis;
 mod cholesky;
 mod elimination;
+mod entry;
 mod indefinite;
 mod inertia;
 mod matrix;
 mod memory;
 mod multifrontal;
+mod refined;
 mod rounding;
 mod rows;
 mod solve;
@@ -31,9 +33,19 @@ pub use analysis::Analysis;
 pub use cholesky::Cholesky;
 pub use indefinite::{WholeCount, whole_count};
 pub use inertia::{CONDENSED_GAP, InertiaCount, ShiftedFactor, condensed, count_below, count_negative, rank};
-pub use memory::refuse_beyond_memory;
+pub use memory::{refuse_beyond_memory, storage_within_memory};
+pub use refined::Refinement;
 pub use rounding::forming_error;
 pub use solve::SolveOperator;
+
+/// How the entries of a Cholesky factor are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    /// As they are computed, in eight bytes.
+    Double,
+    /// Rounded to four bytes; conjugate gradients make solves as accurate as in double precision.
+    Single,
+}
 
 /// A symmetric pencil in its order of elimination: K and M of one size, whose combinations K − σM are factored.
 #[derive(Clone, Copy, Debug)]

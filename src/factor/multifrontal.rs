@@ -17,6 +17,7 @@ use faer::{Mat, MatMut, MatRef};
 use super::Analysis;
 use super::analysis::{Supernode, Task};
 use super::elimination::{self, Kind, PANEL, Pivots, add_products, eliminate_columns, outer_product};
+use super::entry::{Entry, Room};
 use super::matrix::Shifted;
 use assembly::{Places, Rest, RestStack, rest_len};
 
@@ -29,11 +30,11 @@ pub(super) enum Keep {
     Pivots,
 }
 
-/// The numbers of a factor.
+/// The numbers of a factor whose entries are kept as T.
 #[derive(Debug)]
-pub(super) struct Numbers {
+pub(super) struct Numbers<T> {
     /// Those of each task.
-    tasks: Vec<TaskNumbers>,
+    tasks: Vec<TaskNumbers<T>>,
     /// What elimination left of the border, both triangles.
     pub(super) schur: Mat<f64>,
     /// A bound of the largest entry of |L||B||Lᵀ| of an indefinite matrix: the largest of its diagonal with the row sums of |B|
@@ -43,9 +44,9 @@ pub(super) struct Numbers {
 
 /// The numbers that one task computes.
 #[derive(Debug, Default)]
-struct TaskNumbers {
+struct TaskNumbers<T> {
     /// Entries of L by supernodes; none where only the pivots are kept.
-    values: Vec<f64>,
+    values: Vec<T>,
     diagonal: Vec<f64>,
     subdiagonal: Vec<f64>,
     order: Vec<u32>,
@@ -54,9 +55,9 @@ struct TaskNumbers {
 
 /// The numbers of one supernode.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Eliminated<'a> {
+pub(super) struct Eliminated<'a, T> {
     /// L_11 and L_21.
-    pub(super) trapezoid: MatRef<'a, f64>,
+    pub(super) trapezoid: MatRef<'a, T>,
     /// Diagonal of B; of a definite matrix the squares of the diagonal of L.
     pub(super) diagonal: &'a [f64],
     /// Couplings of pivots of order two.
@@ -65,9 +66,9 @@ pub(super) struct Eliminated<'a> {
     pub(super) order: &'a [u32],
 }
 
-impl Numbers {
+impl<T: Entry> Numbers<T> {
     /// Supernode `s` of task `t`; the factor was kept.
-    pub(super) fn supernode<'a>(&'a self, analysis: &Analysis, t: usize, s: usize) -> Eliminated<'a> {
+    pub(super) fn supernode<'a>(&'a self, analysis: &Analysis, t: usize, s: usize) -> Eliminated<'a, T> {
         let (numbers, task) = (&self.tasks[t], &analysis.tasks().0[t]);
         let node = analysis.supernode(s);
         let (size, start) = (node.steps.len(), node.steps.start - analysis.steps_of(task).start);
@@ -85,7 +86,7 @@ impl Numbers {
     pub(super) fn supernodes<'a>(
         &'a self,
         analysis: &'a Analysis,
-    ) -> impl Iterator<Item = (Supernode<'a>, Eliminated<'a>)> {
+    ) -> impl Iterator<Item = (Supernode<'a>, Eliminated<'a, T>)> {
         analysis.tasks().0.iter().enumerate().flat_map(move |(t, task)| {
             task.supernodes.clone().map(move |s| (analysis.supernode(s), self.supernode(analysis, t, s)))
         })
@@ -121,8 +122,8 @@ pub(super) enum Stop {
 }
 
 /// The part of a factor that is still to be computed.
-struct Part<'a> {
-    values: &'a mut [f64],
+struct Part<'a, T> {
+    values: &'a mut [T],
     pivots: Pivots<'a>,
 }
 
@@ -150,14 +151,14 @@ impl Workspace {
 }
 
 /// Eliminates all but the border of `matrix`.
-pub(super) fn eliminate(
+pub(super) fn eliminate<T: Entry>(
     analysis: &Analysis,
     matrix: &Shifted<'_>,
     kind: Kind,
     keep: Keep,
-) -> std::result::Result<Numbers, Stop> {
+) -> std::result::Result<Numbers<T>, Stop> {
     let tasks = analysis.tasks();
-    let numbers: Vec<OnceLock<TaskNumbers>> = tasks.0.iter().map(|_| OnceLock::new()).collect();
+    let numbers: Vec<OnceLock<TaskNumbers<T>>> = tasks.0.iter().map(|_| OnceLock::new()).collect();
     let rests: Vec<Mutex<Handed>> = tasks.0.iter().map(|_| Mutex::new(Ok(Vec::new()))).collect();
     let workspaces = Mutex::new(Vec::new());
     tasks.leaves_first(|t| {
@@ -187,7 +188,8 @@ pub(super) fn eliminate(
             schur[(i, j)] = schur[(j, i)];
         }
     }
-    let tasks: Vec<TaskNumbers> = numbers.into_iter().map(|numbers| numbers.into_inner().unwrap_or_default()).collect();
+    let tasks: Vec<TaskNumbers<T>> =
+        numbers.into_iter().map(|numbers| numbers.into_inner().unwrap_or_default()).collect();
     let largest_product = crate::dense::worst(tasks.iter().map(|task| task.largest_product));
     stop.map_or(Ok(Numbers { tasks, schur, largest_product }), Err)
 }
@@ -212,10 +214,10 @@ fn cleared(values: &mut Vec<f64>, len: usize) -> std::result::Result<&mut [f64],
 }
 
 /// Zeros, where there is memory for them.
-fn zeros(len: usize) -> std::result::Result<Vec<f64>, Stop> {
+fn zeros<T: Entry>(len: usize) -> std::result::Result<Vec<T>, Stop> {
     let mut values = Vec::new();
     values.try_reserve_exact(len).map_err(|_| Stop::NoMemory)?;
-    values.resize(len, 0.0);
+    values.resize(len, T::of(0.0));
     Ok(values)
 }
 
@@ -229,12 +231,12 @@ struct Run<'a> {
 
 impl Run<'_> {
     /// The numbers of the task, and what it leaves to its parent.
-    fn numbers(
+    fn numbers<T: Entry>(
         &self,
         keep: Keep,
         handed: &[Vec<f64>],
         workspace: &mut Workspace,
-    ) -> std::result::Result<(TaskNumbers, Vec<f64>), Stop> {
+    ) -> std::result::Result<(TaskNumbers<T>, Vec<f64>), Stop> {
         let n_steps = self.analysis.steps_of(self.task).len();
         let n_values = if keep == Keep::Factor { self.analysis.values_of(self.task).len() } else { 0 };
         let mut numbers = TaskNumbers {
@@ -256,9 +258,9 @@ impl Run<'_> {
     }
 
     /// Eliminates the columns of the task; gives what it leaves to its parent, and the largest product.
-    fn eliminate(
+    fn eliminate<T: Entry>(
         &self,
-        mut part: Part<'_>,
+        mut part: Part<'_, T>,
         handed: &[Vec<f64>],
         workspace: &mut Workspace,
     ) -> std::result::Result<(Vec<f64>, f64), Stop> {
@@ -283,17 +285,17 @@ impl Run<'_> {
     }
 
     /// Assembles and eliminates one front; `rest` is what its parent will take over. Gives the largest product of its rows.
-    fn eliminate_supernode(
+    fn eliminate_supernode<T: Entry>(
         &self,
         node: &Supernode<'_>,
         children: &[Rest<'_>],
-        (mut part, rest): (Part<'_>, &mut [f64]),
+        (mut part, rest): (Part<'_, T>, &mut [f64]),
         place: &mut [u32],
         tools: &mut Tools,
     ) -> std::result::Result<f64, Stop> {
         let (size, b) = (node.steps.len(), node.below.len());
-        let values =
-            if part.values.is_empty() { cleared(&mut tools.trapezoid, node.values.len())? } else { part.values };
+        let Room { here, rounded } = T::room(part.values);
+        let values = if here.is_empty() { cleared(&mut tools.trapezoid, node.values.len())? } else { here };
         let mut trapezoid = MatMut::from_column_major_slice_mut(values, size + b, size);
         for (at, row) in node.below.iter().enumerate() {
             place[*row as usize] = (size + at) as u32;
@@ -310,6 +312,9 @@ impl Run<'_> {
         outer_product(self.kind, trapezoid.as_ref().subrows(size, b), &part.pivots, rest.as_mut());
         for (child, places) in children.iter().zip(&places) {
             places.add_rest(child.values, rest.as_mut());
+        }
+        for (entries, values) in rounded.chunks_mut(size + b).zip(trapezoid.as_ref().col_iter()) {
+            entries.iter_mut().zip(values.iter()).for_each(|(entry, value)| *entry = T::of(*value));
         }
         if self.kind == Kind::Definite {
             return Ok(0.0);
@@ -329,9 +334,9 @@ impl Run<'_> {
     }
 }
 
-impl<'a> Part<'a> {
+impl<'a, T> Part<'a, T> {
     /// Splits off the part of the next supernode.
-    fn take(&mut self, node: &Supernode<'_>) -> Part<'a> {
+    fn take(&mut self, node: &Supernode<'_>) -> Part<'a, T> {
         let n_values = if self.values.is_empty() { 0 } else { node.values.len() };
         let n_steps = node.steps.len();
         Part { values: split(&mut self.values, n_values), pivots: self.pivots.split_off(n_steps) }

@@ -16,6 +16,7 @@ use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
 use super::elimination::{Inverse, Kind, PANEL};
+use super::entry::Entry;
 use super::multifrontal::Eliminated;
 
 /// Columns of the triangle that are solved one by one before the rest is updated.
@@ -30,14 +31,14 @@ const PARALLEL_ABOVE: usize = 1 << 16;
 pub(super) type Row<const W: usize> = [f64; W];
 
 /// One supernode of a factor.
-pub(super) struct Block<'a> {
-    numbers: Eliminated<'a>,
-    columns: Columns<'a>,
+pub(super) struct Block<'a, T> {
+    numbers: Eliminated<'a, T>,
+    columns: Columns<'a, T>,
     kind: Kind,
 }
 
-impl<'a> Block<'a> {
-    pub(super) fn new(numbers: Eliminated<'a>, kind: Kind) -> Self {
+impl<'a, T: Entry> Block<'a, T> {
+    pub(super) fn new(numbers: Eliminated<'a, T>, kind: Kind) -> Self {
         Self { columns: Columns(numbers.trapezoid), numbers, kind }
     }
 
@@ -104,9 +105,9 @@ enum Diagonal<'a> {
 
 impl Diagonal<'_> {
     #[inline(always)]
-    fn inverse(self, column: &[f64], j: usize) -> f64 {
+    fn inverse<T: Entry>(self, column: &[T], j: usize) -> f64 {
         match self {
-            Self::OfTriangle => 1.0 / column[j],
+            Self::OfTriangle => 1.0 / column[j].into(),
             Self::Ones { .. } => 1.0,
         }
     }
@@ -147,18 +148,18 @@ fn for_chunks<const W: usize>(depth: usize, rows: &mut [Row<W>], work: impl Fn(u
 }
 
 /// The inner loops, compiled for the vector unit that the machine turns out to have.
-enum Kernel<'a, const W: usize> {
+enum Kernel<'a, T, const W: usize> {
     /// Solves the triangle on top.
-    Triangle { columns: &'a Columns<'a>, diagonal: Diagonal<'a>, top: &'a mut [Row<W>] },
+    Triangle { columns: &'a Columns<'a, T>, diagonal: Diagonal<'a>, top: &'a mut [Row<W>] },
     /// Subtracts from rows what the trapezoid makes of the solved top.
-    Rows { columns: &'a Columns<'a>, first: usize, top: &'a [Row<W>], rows: &'a mut [Row<W>] },
+    Rows { columns: &'a Columns<'a, T>, first: usize, top: &'a [Row<W>], rows: &'a mut [Row<W>] },
     /// Takes the rows below into rows of the top.
-    Columns { columns: &'a Columns<'a>, first: usize, size: usize, below: &'a [Row<W>], targets: &'a mut [Row<W>] },
+    Columns { columns: &'a Columns<'a, T>, first: usize, size: usize, below: &'a [Row<W>], targets: &'a mut [Row<W>] },
     /// Solves the transposed triangle.
-    TransposedTriangle { columns: &'a Columns<'a>, diagonal: Diagonal<'a>, top: &'a mut [Row<W>] },
+    TransposedTriangle { columns: &'a Columns<'a, T>, diagonal: Diagonal<'a>, top: &'a mut [Row<W>] },
 }
 
-impl<const W: usize> Kernel<'_, W> {
+impl<T: Entry, const W: usize> Kernel<'_, T, W> {
     fn run(self) {
         Arch::new().dispatch(self);
     }
@@ -180,7 +181,7 @@ impl<const W: usize> Kernel<'_, W> {
     }
 }
 
-impl<const W: usize> WithSimd for Kernel<'_, W> {
+impl<T: Entry, const W: usize> WithSimd for Kernel<'_, T, W> {
     type Output = ();
 
     #[inline(always)]
@@ -198,12 +199,12 @@ impl<const W: usize> WithSimd for Kernel<'_, W> {
 }
 
 /// The columns of a trapezoid.
-struct Columns<'a>(MatRef<'a, f64>);
+struct Columns<'a, T>(MatRef<'a, T>);
 
-impl<'a> Columns<'a> {
+impl<'a, T> Columns<'a, T> {
     #[inline(always)]
-    fn get(&self, j: usize) -> &'a [f64] {
-        crate::dense::column(self.0, j)
+    fn get(&self, j: usize) -> &'a [T] {
+        self.0.col(j).try_as_col_major().expect("stored by columns").as_slice()
     }
 }
 
@@ -224,9 +225,9 @@ impl<S: Simd, const V: usize, const C: usize> Unit<S, V, C> {
     /// `rows` − A X, where A begins at row and column `at` of the trapezoid. Four columns are read side by side, each in the
     /// order of memory.
     #[inline(always)]
-    fn subtract_rows<const W: usize>(
+    fn subtract_rows<T: Entry, const W: usize>(
         &self,
-        columns: &Columns<'_>,
+        columns: &Columns<'_, T>,
         at: (usize, usize),
         x: &[Row<W>],
         rows: &mut [Row<W>],
@@ -236,9 +237,9 @@ impl<S: Simd, const V: usize, const C: usize> Unit<S, V, C> {
         let range = at.0..at.0 + rows.len();
         let (quads, single) = x.as_chunks::<4>();
         for (quad, x) in quads.iter().enumerate() {
-            let [a, b, c, d]: [&[f64]; 4] = std::array::from_fn(|k| &columns.get(at.1 + 4 * quad + k)[range.clone()]);
+            let [a, b, c, d]: [&[T]; 4] = std::array::from_fn(|k| &columns.get(at.1 + 4 * quad + k)[range.clone()]);
             for ((((row, a), b), c), d) in rows.iter_mut().zip(a).zip(b).zip(c).zip(d) {
-                let entries = [a, b, c, d].map(|entry| simd.splat_f64s(-entry));
+                let entries = [a, b, c, d].map(|entry| simd.splat_f64s(-(*entry).into()));
                 for v in 0..V {
                     row[v] = entries.iter().zip(x).fold(row[v], |sum, (entry, x)| simd.mul_add_f64s(*entry, x[v], sum));
                 }
@@ -246,7 +247,7 @@ impl<S: Simd, const V: usize, const C: usize> Unit<S, V, C> {
         }
         for (k, x) in single.iter().enumerate() {
             for (row, entry) in rows.iter_mut().zip(&columns.get(at.1 + 4 * quads.len() + k)[range.clone()]) {
-                let entry = simd.splat_f64s(-entry);
+                let entry = simd.splat_f64s(-(*entry).into());
                 for v in 0..V {
                     row[v] = simd.mul_add_f64s(entry, x[v], row[v]);
                 }
@@ -256,9 +257,9 @@ impl<S: Simd, const V: usize, const C: usize> Unit<S, V, C> {
 
     /// `targets` − Aᵀ X, where A begins at row and column `at` of the trapezoid.
     #[inline(always)]
-    fn subtract_columns<const W: usize>(
+    fn subtract_columns<T: Entry, const W: usize>(
         &self,
-        columns: &Columns<'_>,
+        columns: &Columns<'_, T>,
         at: (usize, usize),
         x: &[Row<W>],
         targets: &mut [Row<W>],
@@ -269,18 +270,18 @@ impl<S: Simd, const V: usize, const C: usize> Unit<S, V, C> {
         let n_grouped = C * groups.len();
         for (group, targets) in groups.iter_mut().enumerate() {
             let entries = std::array::from_fn(|k| &columns.get(at.1 + C * group + k)[rows.clone()]);
-            self.subtract_group::<C>(entries, x, targets);
+            self.subtract_group(entries, x, targets);
         }
         for (k, target) in single.iter_mut().enumerate() {
             let entries = [&columns.get(at.1 + n_grouped + k)[rows.clone()]];
-            self.subtract_group::<1>(entries, x, std::array::from_mut(target));
+            self.subtract_group(entries, x, std::array::from_mut(target));
         }
     }
 
     #[inline(always)]
-    fn subtract_group<const N: usize>(
+    fn subtract_group<T: Entry, const N: usize>(
         &self,
-        entries: [&[f64]; N],
+        entries: [&[T]; N],
         x: &[[S::f64s; V]],
         targets: &mut [[S::f64s; V]; N],
     ) {
@@ -289,7 +290,7 @@ impl<S: Simd, const V: usize, const C: usize> Unit<S, V, C> {
         let mut sums = [[simd.splat_f64s(0.0); V]; N];
         for (i, x) in x.iter().enumerate() {
             for (sum, entries) in sums.iter_mut().zip(&entries) {
-                let entry = simd.splat_f64s(entries[i]);
+                let entry = simd.splat_f64s(entries[i].into());
                 for v in 0..V {
                     sum[v] = simd.mul_add_f64s(entry, x[v], sum[v]);
                 }
@@ -304,7 +305,12 @@ impl<S: Simd, const V: usize, const C: usize> Unit<S, V, C> {
 
     /// Solves the triangle strip by strip.
     #[inline(always)]
-    fn solve_triangle<const W: usize>(&self, columns: &Columns<'_>, diagonal: Diagonal<'_>, top: &mut [Row<W>]) {
+    fn solve_triangle<T: Entry, const W: usize>(
+        &self,
+        columns: &Columns<'_, T>,
+        diagonal: Diagonal<'_>,
+        top: &mut [Row<W>],
+    ) {
         for start in (0..top.len()).step_by(STRIP) {
             if start % PANEL == 0 {
                 diagonal.permute(start, top);
@@ -324,9 +330,9 @@ impl<S: Simd, const V: usize, const C: usize> Unit<S, V, C> {
 
     /// Solves the transposed triangle from its last strip up.
     #[inline(always)]
-    fn solve_transposed_triangle<const W: usize>(
+    fn solve_transposed_triangle<T: Entry, const W: usize>(
         &self,
-        columns: &Columns<'_>,
+        columns: &Columns<'_, T>,
         diagonal: Diagonal<'_>,
         top: &mut [Row<W>],
     ) {

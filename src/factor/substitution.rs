@@ -17,6 +17,7 @@ use rayon::prelude::*;
 
 use super::Analysis;
 use super::elimination::Kind;
+use super::entry::Entry;
 use super::multifrontal::{Numbers, lock};
 use super::rows::{Block, Row};
 
@@ -24,19 +25,26 @@ use super::rows::{Block, Row};
 const PACK_ROWS: usize = 1024;
 
 /// A factor as the solves see it.
-#[derive(Clone, Copy)]
-pub(super) struct Factor<'a> {
+pub(super) struct Factor<'a, T> {
     analysis: &'a Analysis,
-    numbers: &'a Numbers,
+    numbers: &'a Numbers<T>,
     kind: Kind,
 }
 
-impl<'a> Factor<'a> {
-    pub(super) fn definite(analysis: &'a Analysis, numbers: &'a Numbers) -> Self {
+impl<T> Clone for Factor<'_, T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Factor<'_, T> {}
+
+impl<'a, T: Entry> Factor<'a, T> {
+    pub(super) fn definite(analysis: &'a Analysis, numbers: &'a Numbers<T>) -> Self {
         Self { analysis, numbers, kind: Kind::Definite }
     }
 
-    pub(super) fn indefinite(analysis: &'a Analysis, numbers: &'a Numbers) -> Self {
+    pub(super) fn indefinite(analysis: &'a Analysis, numbers: &'a Numbers<T>) -> Self {
         Self { analysis, numbers, kind: Kind::Indefinite }
     }
 
@@ -54,6 +62,11 @@ impl<'a> Factor<'a> {
                 _ => self.solve_tile::<16>(tile),
             }
         }
+    }
+
+    /// The same for at most eight columns.
+    pub(super) fn solve_eight(self, block: MatMut<'_, f64>) {
+        self.solve_tile::<8>(block);
     }
 
     /// −A_II⁻¹ A_IB X_B for motions of the border, n_B rows: the backward half alone.

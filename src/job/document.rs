@@ -25,7 +25,7 @@ const KEYS: &[(&str, &[&str])] = &[
     ("reduction.modes", &["count", "up_to_hz"]),
     ("scene", &["band_hz", "boundaries", "damping"]),
     ("scene.damping", &["ratio"]),
-    ("run", &["certify", "memory_gib"]),
+    ("run", &["certify", "memory_gib", "precision"]),
     ("write", &["superelement", "report", "html", "junit"]),
 ];
 

@@ -114,8 +114,9 @@ impl Results<'_> {
 /// The superelement and its report.
 ///
 /// # Errors
-/// A result that the file format refuses, such as a value that is not finite.
+/// A result that the file format refuses, such as a value that is not finite; a solve that did not come down to rounding.
 pub fn output(results: &Results<'_>) -> Result<(Superelement, Report)> {
+    results.evidence.factor.refinement()?;
     let body = report::body(results);
     let superelement = superelement::superelement(results, body.verdict())?;
     let run = crate::report::RunFacts { work: results.work(), ..Default::default() };

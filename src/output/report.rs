@@ -32,6 +32,7 @@ fn model(results: &Results<'_>) -> ModelReport {
     let [stiffness, mass] = &results.input.matrices;
     let mut notes = results.input.notes.clone();
     notes.extend(model.findings.iter().map(ToString::to_string));
+    notes.extend(warnings::refinement(results));
     ModelReport {
         n_dofs: model.n_dofs(),
         n_nodes: model.dofs.as_ref().map(|dofs| dofs.iter().map(|dof| dof.node).collect::<BTreeSet<_>>().len()),
@@ -185,6 +186,7 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
     }
     warnings.extend(warnings::of_motions(results));
     warnings.extend(warnings::data_precision(results));
+    warnings.extend(warnings::mixed_precision(results));
     if results.job.model.expect.is_some() && !evidence.rigid.is_classical {
         warnings.push(Warning {
             code: "W-EXPECT-UNCHECKED",

@@ -1,6 +1,8 @@
 //! Warnings: what the user should know although no check failed.
 
 use super::{Results, omega};
+use crate::factor::Refinement;
+use crate::job::Precision;
 use crate::modes::Boundary;
 use crate::report::Warning;
 use crate::rigid::{Loose, RigidSource};
@@ -66,6 +68,26 @@ fn grey(results: &Results<'_>, motions: &[Loose]) -> String {
         motions.len(),
         each.collect::<Vec<_>>().join("; ")
     )
+}
+
+/// What it took to solve with a factor in single precision; none where it is in double.
+pub(super) fn refinement(results: &Results<'_>) -> Option<String> {
+    let Refinement { n_solves, n_steps, most_steps } = results.evidence.factor.refinement().ok()??;
+    let mean = n_steps as f64 / n_solves.max(1) as f64;
+    Some(format!(
+        "the factor was kept in single precision: conjugate gradients brought {n_solves} solves to rounding of double precision, \
+         in {mean:.1} steps on average and {most_steps} at most"
+    ))
+}
+
+/// A factor in single precision that nobody asked for.
+pub(super) fn mixed_precision(results: &Results<'_>) -> Option<Warning> {
+    let was_chosen = results.job.run.precision == Precision::Auto;
+    let refinement = refinement(results).filter(|_| was_chosen)?;
+    Some(Warning {
+        code: "W-MIXED-PRECISION",
+        message: format!("in double precision the run would not have fitted into memory; {refinement}"),
+    })
 }
 
 /// Modes whose frequency the digits of the data leave less certain than a modal test; where the modes are those of the held

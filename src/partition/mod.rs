@@ -13,6 +13,7 @@ mod congruence;
 mod held;
 mod interface;
 mod metis;
+mod minimum_degree;
 mod ordering;
 mod region;
 mod transformation;

@@ -3,11 +3,15 @@
 use std::process::Command;
 
 use supel::error::Error;
-use supel::factor::{Analysis, Cholesky, Pencil, refuse_beyond_memory};
-use supel::job::Job;
+use supel::factor::{Analysis, Cholesky, Pencil, Storage, refuse_beyond_memory};
+use supel::job::{Job, Precision};
+use supel::model::Model;
 use supel::outcome::Resources;
+use supel::partition::Partition;
 use supel::sparse::SparseMatrix;
-use supel_models::{Ends, spring};
+use supel_models::{Ends, Material, brick, spring};
+
+use crate::place::Place;
 
 /// A star whose centre is eliminated first, so that its factor is full: n(n + 1)/2 entries from 3n − 2.
 fn star(n: usize) -> SparseMatrix {
@@ -35,7 +39,7 @@ fn i_26_a_factor_beyond_32_bits_is_counted_and_refused() {
     let exact = n * (n + 1) / 2;
     assert!(exact > 1 << 31);
     assert_eq!(analysis.nnz_factor, exact as f64);
-    assert!(analysis.factor_bytes() >= 8 * exact as u64);
+    assert!(analysis.factor_bytes(Storage::Double) >= 8 * exact as u64);
     let text = r#"
 model     = { stiffness = "K.mtx", mass = "M.mtx" }
 reduction = { method = "craig-bampton", modes = { count = 1 } }
@@ -44,7 +48,8 @@ write     = { superelement = "x.supel" }
     let job = Job::parse(text, "job.toml".as_ref()).expect("a job");
     let partition = crate::chain::partition(&spring(5, Ends::Fixed), &[]).expect("a chain");
     let resources = Resources { memory_bytes: Some(16 << 30) };
-    let error = refuse_beyond_memory(&analysis, &partition, &job, resources, None).expect_err("more than 16 GiB");
+    let in_double = (Storage::Double, None);
+    let error = refuse_beyond_memory(&analysis, &partition, &job, resources, in_double).expect_err("more than 16 GiB");
     assert!(matches!(error, Error::MemoryForecast { factors, .. } if factors >= 8 * exact as u64), "{error}");
     let said = error.to_string();
     assert!(said.contains("– largest first: factors ") && said.ends_with("which needs fewer factors"), "{said}");
@@ -95,4 +100,71 @@ fn threads_that_cannot_be_started() {
     let said = String::from_utf8_lossy(&ended.stderr);
     assert_eq!(ended.status.code(), Some(6), "{said}");
     assert!(said.starts_with("supel: error[E-THREADS]: 2 threads"), "{said}");
+}
+
+/// The jobs of the test below, their memory what lies between the forecasts for both precisions.
+fn limited_job(place: &Place) -> Job {
+    let path = place.path("job.toml");
+    let text = r#"
+model     = { stiffness = "K.mtx", mass = "M.mtx", dofs = "dofs.txt", nodes = "nodes.csv" }
+interface = [{ name = "foot", nodes = { within = { box = { min = [0, 0, 0], max = [0, 1, 1] } } }, coupling = "rigid" }]
+reduction = { method = "herting", modes = { count = 6 } }
+write     = { superelement = "x.supel" }
+"#;
+    place.write("job.toml", text.as_bytes());
+    let mut job = Job::read(&path).expect("a job");
+    let model = Model::new(supel::input::read(&job.model).expect("files")).expect("a sound model");
+    let partition = Partition::new(&model, &job.interfaces).expect("a foot");
+    let analysis = Analysis::of(&partition).expect("an analysis");
+    let needed = |storage| {
+        let resources = Resources { memory_bytes: Some(1) };
+        match refuse_beyond_memory(&analysis, &partition, &job, resources, (storage, None)) {
+            Err(Error::MemoryForecast { factors, matrices, vectors, in_single: None, .. }) => {
+                factors + matrices + vectors
+            }
+            other => panic!("a byte is enough: {other:?}"),
+        }
+    };
+    let (double, single) = (needed(Storage::Double), needed(Storage::Single));
+    assert!(single < double);
+    job.run.memory_gib = Some((single + double) as f64 / 2.0 / f64::from(1 << 30));
+    job
+}
+
+/// The same frequencies within their bars and the same verdicts, or a refusal that says what to do, and never silently.
+#[test]
+fn a_job_that_fits_in_mixed_precision_alone() {
+    let place = Place::with(&brick([10, 9, 8], [1.0, 0.9, 0.8], &Material::STEEL_SI));
+    let limited = limited_job(&place);
+    let run = |precision, memory_gib| {
+        let mut job = limited.clone();
+        (job.run.precision, job.run.memory_gib) = (precision, memory_gib);
+        supel::reduce(&job, Resources::default(), &mut ()).map(|outcome| outcome.report.body)
+    };
+    let error = run(Precision::Double, limited.run.memory_gib).expect_err("too large");
+    assert!(matches!(error, Error::MemoryForecast { in_single: Some(_), .. }), "{error}");
+    assert!(error.to_string().contains("set run.precision = \"mixed\", which needs "), "{error}");
+
+    let double = run(Precision::Double, None).expect("unlimited");
+    let mixed = run(Precision::Mixed, limited.run.memory_gib).expect("small enough");
+    let auto = run(Precision::Auto, limited.run.memory_gib).expect("small enough");
+    assert_eq!(run(Precision::Auto, None).expect("unlimited"), double, "double precision where there is memory");
+    assert!(mixed.warnings.is_empty(), "{:?}", mixed.warnings);
+    let codes: Vec<&str> = auto.warnings.iter().map(|warning| warning.code).collect();
+    assert_eq!(codes, ["W-MIXED-PRECISION"]);
+    for body in [&mixed, &auto] {
+        assert!(
+            body.model.notes.iter().any(|note| note.contains("kept in single precision")),
+            "{:?}",
+            body.model.notes
+        );
+        for (check, expected) in body.checks.iter().zip(&double.checks) {
+            assert_eq!((check.id, check.verdict()), (expected.id, expected.verdict()));
+        }
+        for (mode, expected) in body.reduction.modes.iter().zip(&double.reduction.modes) {
+            let difference = (mode.frequency_hz - expected.frequency_hz).abs();
+            assert!(difference <= mode.error_bar_hz + expected.error_bar_hz, "{mode:?} {expected:?}");
+        }
+    }
+    assert_eq!(mixed.reduction.modes, auto.reduction.modes, "whoever chose it");
 }

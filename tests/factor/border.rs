@@ -2,7 +2,7 @@
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef, Side};
-use supel::factor::{Analysis, Cholesky, ShiftedFactor, condensed, count_below};
+use supel::factor::{Analysis, Cholesky, ShiftedFactor, Storage, condensed, count_below};
 use supel::input::{Input, MatrixInput};
 use supel::job::{Coupling, InterfaceJob, NodeSelection, Origin};
 use supel::model::Model;
@@ -100,14 +100,21 @@ fn constraint_modes_are_those_of_dense_algebra() {
     for (name, partition) in partitions() {
         let (n_i, n_b) = (partition.n_internal, partition.n_interface());
         let analysis = Analysis::of(&partition).expect("memory");
-        let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| dof.to_string()).expect("definite");
-        let modes = factor.follow_border(Mat::<f64>::identity(n_b, n_b).as_ref());
+        let modes = [Storage::Double, Storage::Single].map(|storage| {
+            let factor = Cholesky::kept(&analysis, (partition.pencil(), 0.0), storage, &|dof| dof.to_string());
+            let factor = factor.expect("definite");
+            let modes = factor.follow_border(Mat::<f64>::identity(n_b, n_b).as_ref());
+            assert!(factor.refinement().is_ok(), "{name}");
+            modes
+        });
         let k = dense(&partition.stiffness);
         let expected = k.as_ref().submatrix(0, 0, n_i, n_i).llt(Side::Lower).expect("definite");
         let expected = expected.solve(k.as_ref().submatrix(0, n_i, n_i, n_b));
         // Diagonally dominant matrices: the condition is below 1e4 in scales that make the diagonal one.
-        let error = (&modes + &expected).norm_max();
-        assert!(error <= 1e4 * f64::EPSILON * expected.norm_max(), "{name}: {error:e}");
+        for modes in modes {
+            let error = (&modes + &expected).norm_max();
+            assert!(error <= 1e4 * f64::EPSILON * expected.norm_max(), "{name}: {error:e}");
+        }
     }
 }
 

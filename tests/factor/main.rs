@@ -2,6 +2,7 @@
 
 mod border;
 mod matrices;
+mod single;
 
 use faer::linalg::solvers::Solve;
 use faer::sparse::{SparseColMat, Triplet};

@@ -1,6 +1,6 @@
 //! How far L Lᵀ can be from the matrix that was factored.
 
-use super::Cholesky;
+use super::{Cholesky, Kept};
 use crate::dense;
 use crate::factor::rounding::{gamma, largest_row_sum};
 
@@ -15,14 +15,15 @@ impl Cholesky<'_> {
     /// 10.3), and ‖ |L||Lᵀ| ‖₂ is at most its largest row sum. Underflow adds less than the last bit of the bound.
     ///
     /// # Panics
-    /// The factor has a border.
+    /// The factor has a border, or is kept in single precision.
     pub fn backward_error(&self, scale: &[f64]) -> f64 {
         assert_eq!(self.analysis.n_border(), 0, "the bound is that of a whole matrix");
+        let Kept::Double(numbers) = &self.kept else { panic!("the bound is that of a factor in double precision") };
         let n = self.analysis.n();
         let given = self.analysis.given();
         let (mut columns, mut rows, mut lengths) = (vec![0.0; n], vec![0.0; n], vec![0usize; n]);
         let visit = |with: &mut dyn FnMut(usize, usize, f64)| {
-            for (node, numbers) in self.numbers.supernodes(self.analysis) {
+            for (node, numbers) in numbers.supernodes(self.analysis) {
                 let size = node.steps.len();
                 for j in 0..size {
                     let column = dense::column(numbers.trapezoid, j);
