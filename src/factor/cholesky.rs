@@ -161,7 +161,11 @@ impl SolveOperator for Cholesky<'_> {
     }
 
     fn bytes(&self) -> u64 {
-        self.analysis.factor_bytes()
+        let storage = match self.kept {
+            Kept::Double(_) => Storage::Double,
+            Kept::Single(_) => Storage::Single,
+        };
+        self.analysis.factor_bytes(storage)
     }
 }
 

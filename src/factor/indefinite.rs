@@ -9,7 +9,7 @@ use super::elimination::{Kind, PANEL};
 use super::matrix::Shifted;
 use super::multifrontal::{Keep, Numbers, eliminate};
 use super::substitution::Factor;
-use super::{Analysis, Pencil};
+use super::{Analysis, Pencil, Storage};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::model::diagonal;
@@ -118,7 +118,7 @@ impl<'a> Indefinite<'a> {
 
     /// Bytes of the factor, all of which a solve reads.
     pub(super) fn bytes(&self) -> u64 {
-        self.analysis.factor_bytes()
+        self.analysis.factor_bytes(Storage::Double)
     }
 
     /// X ← (K − σM)_II⁻¹ X, n rows.
