@@ -11,6 +11,8 @@ const CUT_OFF: f64 = 1.5;
 const UNASKED_FLOPS: f64 = 1e10;
 /// Right-hand sides an eigensolution takes beside three for each mode found.
 const SOLVES_BESIDE: f64 = 64.0;
+/// How much faster operations of dense blocks are than those of a triangular solve, which waits for memory.
+const DENSE_GAIN: f64 = 4.0;
 /// Blocks of n_B right-hand sides that the response converges in.
 const RESPONSE_BLOCKS: f64 = 6.0;
 
@@ -34,8 +36,8 @@ pub struct Plan {
 impl Plan {
     /// Whatever the scene states is compared at any cost, the defaults only while they are cheap.
     ///
-    /// A support costs an eigensolution with the factor that is already there: 3k + 64 solves of 4 nnz(L) operations each.
-    /// Counting the modes of all of them costs one factorisation.
+    /// A support costs an eigensolution with the factor that is already there: s = 3k + 64 solves of 4 nnz(L) operations each, and
+    /// 4 n s² to keep them orthogonal, which count a quarter. Counting the modes of all of them costs one factorisation.
     /// The response costs six blocks of n_B such solves, 24 n r n_B operations for the residuals in each, and 2 n (2r + n_B)²
     /// for those of all samples, r being the order of the basis it ends with.
     pub fn new(evidence: &Evidence<'_>, analysis: &Analysis, job: &Job) -> Self {
@@ -92,10 +94,11 @@ impl Cost {
         let n_b = evidence.partition.n_interface() as f64;
         let n_modes = evidence.retained.modes.count() as f64;
         let solve = 4.0 * analysis.nnz_factor;
+        let n_solves = 3.0 * n_modes + SOLVES_BESIDE;
         let extended = evidence.reduction.n_reduced() as f64 + RESPONSE_BLOCKS * n_b;
         let residuals = n * (RESPONSE_BLOCKS * 24.0 * extended * n_b + 2.0 * (2.0 * extended + n_b).powi(2));
         Self {
-            support: (3.0 * n_modes + SOLVES_BESIDE) * solve,
+            support: n_solves * (solve + 4.0 * n * n_solves / DENSE_GAIN),
             n_new_supports: default_supports(evidence).len().saturating_sub(1) as f64,
             count: analysis.flops,
             response: RESPONSE_BLOCKS * n_b * solve + residuals,
