@@ -66,6 +66,7 @@ mod file;
 mod mass_properties;
 mod matrix;
 mod metadata;
+pub mod motion;
 mod strict_json;
 mod superelement;
 mod validation;
