@@ -58,6 +58,7 @@
 //! ```
 
 mod atomic_file;
+pub mod component;
 mod container;
 mod document;
 mod encoding;

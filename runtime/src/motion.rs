@@ -15,6 +15,7 @@
 mod algebra;
 mod tangent;
 
+pub(crate) use algebra::blocks;
 pub use algebra::{
     IDENTITY_3, IDENTITY_6, Matrix3, Matrix6, Vector3, Vector6, check, cross, dot, hat, join, multiply_3, multiply_6,
     multiply_transposed_3, skew, split, times_3, times_6, transposed_times_3, transposed_times_6,
@@ -133,7 +134,7 @@ impl Motion {
     /// Motion tensor C = [R, ũR; 0, R], which turns material into spatial increments; eq. (52).
     pub fn tensor(&self) -> Matrix6 {
         let coupling = multiply_3(&skew(&self.translation), &self.rotation);
-        algebra::blocks(&self.rotation, &coupling, &[[0.0; 3]; 3], &self.rotation)
+        blocks(&self.rotation, &coupling, &[[0.0; 3]; 3], &self.rotation)
     }
 }
 
