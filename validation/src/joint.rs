@@ -6,7 +6,7 @@
 use supel_runtime::motion::{Motion, Vector3, dot, transposed_times_3};
 
 /// What becomes of one coordinate of a node: translations and rotations about the node's own, turning axes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub enum Support {
     /// It moves.
     Free,

@@ -8,7 +8,7 @@ use crate::Result;
 use crate::claims::{Verdict, claims};
 use crate::examples::Variant;
 use crate::figure::{FIGURES, Figure, Line, drawn};
-use crate::study::{Study, TOLERANCES};
+use crate::study::Study;
 
 const HEAD: &str = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Validation against the paper</title>\n\
 <style>body{font:16px/1.5 sans-serif;color:#1a2129;max-width:1000px;margin:2em auto;padding:0 1em}\n\
@@ -120,7 +120,7 @@ fn iteration_table(html: &mut String, study: &Study) -> std::fmt::Result {
         return Ok(());
     }
     write!(html, "<table><tr><th>Mean iterations per step (most; matrices beyond the first) at tolerance</th>")?;
-    TOLERANCES.iter().try_for_each(|tolerance| write!(html, "<th class=\"n\">{tolerance:.0e}</th>"))?;
+    study.example.tolerances().iter().try_for_each(|tolerance| write!(html, "<th class=\"n\">{tolerance:.0e}</th>"))?;
     writeln!(html, "</tr>")?;
     for model in study.example.models() {
         write!(html, "<tr><td>{}</td>", study.example.label(*model))?;

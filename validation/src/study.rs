@@ -7,8 +7,8 @@ use supel_runtime::component::Measures;
 
 use crate::Result;
 use crate::curve::{Curves, Misfit};
-use crate::examples::{Example, Run, Variant, reduced_parts};
-use crate::integrator::Effort;
+use crate::examples::{Example, Run, Variant, motion_based, reduced_parts};
+use crate::integrator::{Effort, IterationMatrix, Scheme};
 use crate::part::reduced_by_command;
 
 /// What was computed for one example.
@@ -22,12 +22,11 @@ pub struct Study {
     pub runs: Vec<(Variant, Run)>,
     /// Effort of the motion-based variants at other tolerances; none where a run stopped.
     pub efforts: Vec<(Variant, f64, Option<Effort>)>,
+    /// The motion-based variants that stop with an iteration matrix that never changes, and why.
+    pub constant: Vec<(Variant, String)>,
     /// Whether `supel reduce` gave the same superelements as the library, to the last bit; none where it was not tried.
     pub same_by_command: Option<bool>,
 }
-
-/// Tolerances at which iterations are counted.
-pub const TOLERANCES: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
 
 impl Study {
     /// Reduces the parts and runs all variants; files of the parts are left in `folder`.
@@ -40,6 +39,7 @@ impl Study {
             reference: example.reference()?,
             runs: Vec::new(),
             efforts: Vec::new(),
+            constant: Vec::new(),
             same_by_command: program.map(|_| true),
         };
         let mut layouts: Vec<usize> = example.models().iter().map(|model| model.0).collect();
@@ -65,14 +65,15 @@ impl Study {
                 let variant = Variant { layout, n_modes, measures };
                 self.runs.push((variant, self.example.run(parts, &variant, None)?));
             }
-            if self.example.scheme().is_none() {
-                continue;
-            }
-            let variant = Variant { layout, n_modes, measures: Measures::MotionBased };
-            for tolerance in TOLERANCES {
-                let run = self.example.run(parts, &variant, Some(tolerance))?;
+            let Some(own) = self.example.scheme() else { continue };
+            let variant = motion_based(layout, n_modes);
+            for &tolerance in self.example.tolerances() {
+                let run = self.example.run(parts, &variant, Some(Scheme { tolerance, ..own }))?;
                 self.efforts.push((variant, tolerance, run.stopped.is_none().then_some(run.effort)));
             }
+            let constant = Scheme { matrix: IterationMatrix::Constant, ..own };
+            let stopped = self.example.run(parts, &variant, Some(constant))?.stopped;
+            self.constant.extend(stopped.map(|why| (variant, why)));
         }
         Ok(())
     }

@@ -120,7 +120,7 @@ impl System {
 
     /// Numbers of the coordinates that are free to move.
     pub fn free(&self) -> Vec<usize> {
-        (0..self.n()).filter(|i| self.supports[*i] == Support::Free).collect()
+        (0..self.n()).filter(|i| matches!(self.supports[*i], Support::Free)).collect()
     }
 
     /// No node has moved.
