@@ -154,26 +154,29 @@ fn panel_of(area: &Area<'_>, figure: &Figure, lines: &[Line], (x, y): &([f64; 2]
         .light_line_style(TRANSPARENT)
         .axis_style(INK.stroke_width(1))
         .label_style(("sans-serif", LETTER).into_font().color(&INK))
-        .y_label_formatter(&|value| format!("{value:.decimals$}"))
+        .x_label_formatter(&|value| format!("{value}"))
+        // Without the sign of a rounded zero.
+        .y_label_formatter(&|value| format!("{:.decimals$}", if value.abs() < 1e-9 { 0.0 } else { *value }))
         .x_desc(if figure.example == Example::Bend { "load, N" } else { "time, s" })
         .draw()?;
     for (line, colour) in lines.iter().zip(COLOURS) {
         // A wide line under narrow ones: the reference stays visible where the others hide it.
         let width = if colour == INK { 5 } else { 2 };
-        let seen = line.points.iter().filter(|(at, _)| (x[0]..=x[1]).contains(at));
-        let clamped = seen.map(|(at, value)| (*at, value.clamp(y[0], y[1])));
-        chart.draw_series(LineSeries::new(clamped, colour.stroke_width(width)))?;
+        let is_seen = |(at, value): &(f64, f64)| (x[0]..=x[1]).contains(at) && (y[0]..=y[1]).contains(value);
+        for run in line.points.split(|point| !is_seen(point)) {
+            chart.draw_series(LineSeries::new(run.iter().copied(), colour.stroke_width(width)))?;
+        }
     }
     area.draw(&Text::new(figure.quantity.1, (0, 4), words(HPos::Left)))
 }
 
 fn legend(area: &Area<'_>, lines: &[Line]) -> Drawn {
-    let mut left = 480;
+    let mut left = 400;
     for (line, colour) in lines.iter().zip(COLOURS) {
         let width = if colour == INK { 5 } else { 2 };
         area.draw(&PathElement::new([(left, 16), (left + 36, 16)], colour.stroke_width(width)))?;
         area.draw(&Text::new(line.label.clone(), (left + 44, 4), words(HPos::Left)))?;
-        left += 70 + 11 * line.label.chars().count() as i32;
+        left += 64 + 10 * line.label.chars().count() as i32;
     }
     Ok(())
 }

@@ -3,7 +3,8 @@
 
 use supel_runtime::Superelement;
 use validation::curve::Curves;
-use validation::examples::{Example, Run, Variant, classical, motion_based, reduced_parts};
+use validation::examples::{Example, Run, Variant, classical, motion_based, reduced_parts, rotating};
+use validation::integrator::Scheme;
 
 fn parts(example: Example, layout: usize) -> Vec<Superelement> {
     let folder = tempfile::tempdir().expect("folder");
@@ -105,4 +106,15 @@ fn elbow_is_within_the_limits() {
         let (curves, reference) = finished(Example::Elbow, motion_based(strategy, n_modes));
         within(limit, (&curves, &reference), 0, ALWAYS);
     }
+}
+
+#[test]
+fn curves_do_not_depend_on_the_runs_before() {
+    // A component's workspace keeps its floating frame: a mechanism must not see another.
+    let parts = parts(Example::Rotating, 1);
+    let scheme = Scheme { n_steps: 200, ..rotating::SCHEME };
+    let run = |modes| rotating::run(&parts, &motion_based(1, modes), &scheme).expect("accepted");
+    let first = run(3);
+    run(0);
+    assert_eq!(run(3), first);
 }
