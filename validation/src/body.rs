@@ -2,7 +2,7 @@
 
 use supel_runtime::Superelement;
 use supel_runtime::component::{ModalComponent, State, Workspace};
-use supel_runtime::motion::{Motion, Vector3, Vector6, cross, join};
+use supel_runtime::motion::{Motion, Vector3, Vector6, cross, join, times_3};
 
 use crate::Result;
 use crate::system::{Configuration, Forces, Formulation, Matrices};
@@ -19,6 +19,11 @@ pub(crate) struct Body {
     velocities: Vec<f64>,
     accelerations: Vec<f64>,
     workspace: Workspace,
+    mass: f64,
+    /// m x_c of the reference configuration.
+    mass_moment: Vector3,
+    /// M U for the translations, a row for each coordinate of the deformation measure.
+    mass_rows: Vec<Vector3>,
 }
 
 impl Body {
@@ -30,6 +35,7 @@ impl Body {
     ) -> Result<Self> {
         let component = ModalComponent::with_measures(superelement, formulation.frame, formulation.measures)?;
         let (workspace, n_modal, n) = (component.workspace(), component.n_modal(), component.n_coordinates());
+        let rigid = *component.rigid_mass();
         let of_nodes = nodes.iter().flat_map(|node| 6 * node..6 * node + 6);
         let rows = of_nodes.chain(first_amplitude..first_amplitude + n_modal).collect();
         Ok(Self {
@@ -41,6 +47,10 @@ impl Body {
             velocities: vec![0.0; n],
             accelerations: vec![0.0; n],
             workspace,
+            mass: rigid[0][0],
+            // The block of translations and rotations about the origin is −m x̃_c.
+            mass_moment: [rigid[1][5], rigid[2][3], rigid[0][4]],
+            mass_rows: mass_rows(superelement),
         })
     }
 
@@ -70,13 +80,25 @@ impl Body {
         Ok(component.tangents(&State { motions, amplitudes, velocities, accelerations }, workspace)?)
     }
 
-    pub(crate) fn energy(&self) -> [f64; 2] {
-        [self.workspace.kinetic_energy(), self.workspace.strain_energy()]
+    /// Kinetic energy, strain energy and potential −gᵀ(m x_c) of the state last evaluated.
+    pub(crate) fn energies(&self, gravity: &Vector3) -> [f64; 3] {
+        let workspace = &self.workspace;
+        // Moments of mass in the floating frame: of the undeformed component, and of the deformation by a row of MU each.
+        let mut moment = self.mass_moment;
+        for (row, e) in self.mass_rows.iter().zip(workspace.deformation()) {
+            moment = std::array::from_fn(|d| moment[d] + e * row[d]);
+        }
+        let frame = workspace.floating_frame();
+        let turned = times_3(&frame.rotation, &moment);
+        let potential = (0..3).map(|d| -gravity[d] * (turned[d] + self.mass * frame.translation[d])).sum();
+        [workspace.kinetic_energy(), workspace.strain_energy(), potential]
     }
 
-    pub(crate) fn add_forces(&self, positions: &[Vector3], forces: &mut Forces) {
-        let sources = [self.workspace.elastic_forces(), self.workspace.inertial_forces()];
-        for (target, source) in [&mut forces.elastic, &mut forces.inertial].into_iter().zip(sources) {
+    pub(crate) fn add_forces(&mut self, positions: &[Vector3], gravity: &Vector3, forces: &mut Forces) {
+        let weight = self.component.gravity_forces(gravity, &mut self.workspace).to_vec();
+        let sources = [self.workspace.elastic_forces(), self.workspace.inertial_forces(), &weight];
+        let targets = [&mut forces.elastic, &mut forces.inertial, &mut forces.applied];
+        for (target, source) in targets.into_iter().zip(sources) {
             let own = self.at_nodes(positions, source);
             self.rows.iter().zip(own).for_each(|(row, force)| target[*row] += force);
         }
@@ -107,6 +129,22 @@ impl Body {
         }
         own
     }
+}
+
+/// M̂Û of the three translations in the coordinates of the motion-based measure, in which a node's rotation turns the point
+/// at the inertial origin, too: (f; m) becomes (f; m + x × f).
+fn mass_rows(superelement: &Superelement) -> Vec<Vector3> {
+    let tensors = superelement.tensors();
+    let n = superelement.n_coordinates();
+    let entry = |i: usize, d: usize| (0..n).map(|j| tensors.mass[(i, j)] * tensors.rigid_body_modes[(j, d)]).sum();
+    let mut rows: Vec<Vector3> = (0..n).map(|i| std::array::from_fn(|d| entry(i, d))).collect();
+    for (position, node) in tensors.interface_positions.iter().zip(rows.chunks_exact_mut(6)) {
+        for d in 0..3 {
+            let moment = cross(position, &[node[0][d], node[1][d], node[2][d]]);
+            (0..3).for_each(|axis| node[3 + axis][d] += moment[axis]);
+        }
+    }
+    rows
 }
 
 /// S v: the velocity of the point at the inertial origin, from that at the node.

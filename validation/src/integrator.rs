@@ -2,18 +2,17 @@
 //!
 //! ```text
 //! S   n × n   β' M + K of the first configuration, without gyroscopic terms and without the tangent operator of the
-//!             increment; on the free coordinates, positive definite
+//!             increment; factored once
 //! B   m × n   gradients of the joints, renewed once per step because they turn with the nodes
 //! ```
-//! \[S Bᵀ; B 0\] (dq, dλ) = −(r, g) is solved by the Schur complement B S⁻¹ Bᵀ, so that S is factored once.
 //!
 //! Source: Brüls and Cardona's scheme as the corrected section 2.5 of the paper's equations has it.
 
-use faer::linalg::solvers::{Llt, Solve};
-use faer::{Mat, Side};
+use faer::Mat;
 
 use crate::Result;
 use crate::joint::Support;
+use crate::saddle::{Gradients, Saddle};
 use crate::system::{Configuration, System};
 
 /// Step, damping and when a step has converged.
@@ -112,9 +111,7 @@ fn start(system: &mut System) -> Result<Instant> {
         }
     }
     let rest = vec![0.0; n];
-    let forces = system.forces(&at, &rest, &acceleration)?;
-    let applied = system.applied(&at, 0.0);
-    let residual: Vec<f64> = (0..n).map(|i| forces.elastic[i] + forces.inertial[i] - applied[i]).collect();
+    let residual = system.forces(0.0, &at, &rest, &acceleration)?.residual();
     let mass = system.matrices(&at)?.mass;
     let kkt = Saddle::new(&mass, system.free())?;
     let joints = Gradients::new(system, &at);
@@ -194,18 +191,15 @@ impl<'a> Newton<'a> {
         let mut joints = Gradients::new(system, &trial.at);
         let mut bordered = self.kkt.bordered(&joints)?;
         for iteration in 0..=MOST_ITERATIONS {
-            let forces = system.forces(&trial.at, &trial.velocity, &trial.acceleration)?;
-            let applied = system.applied(&trial.at, time);
-            let mut residual = joints.transposed_times(&trial.multipliers);
-            for (i, r) in residual.iter_mut().enumerate() {
-                *r += forces.elastic[i] + forces.inertial[i] - applied[i];
-            }
+            let forces = system.forces(time, &trial.at, &trial.velocity, &trial.acceleration)?;
+            let mut residual = forces.residual();
+            joints.add_reactions(&trial.multipliers, &mut residual);
             let violation: Vec<f64> = system.constraints(&trial.at).iter().map(|row| row.violation).collect();
             let free = &self.kkt.free;
             let size = |v: &[f64]| free.iter().map(|i| v[*i] * v[*i]).sum::<f64>().sqrt();
             let gap = violation.iter().map(|g| (self.constraint_scale * g).powi(2)).sum::<f64>();
             let error = (size(&residual).powi(2) + gap).sqrt();
-            let scale = size(&forces.elastic) + size(&forces.inertial) + size(&applied) + self.scheme.floor;
+            let scale = size(&forces.elastic) + size(&forces.inertial) + size(&forces.applied) + self.scheme.floor;
             if !error.is_finite() {
                 break;
             }
@@ -271,82 +265,5 @@ impl Trial {
     fn finished(self, time: f64) -> Instant {
         let Self { at, velocity, acceleration, algorithmic, multipliers, .. } = self;
         Instant { time, at, velocity, acceleration, algorithmic, multipliers }
-    }
-}
-
-/// Gradients of the joints, m rows of n.
-struct Gradients {
-    rows: Vec<Vec<f64>>,
-    n: usize,
-}
-
-impl Gradients {
-    fn new(system: &System, at: &Configuration) -> Self {
-        let n = system.n();
-        let dense = |gradient: &[(usize, [f64; 3])]| {
-            let mut row = vec![0.0; n];
-            gradient.iter().for_each(|(node, g)| row[6 * node..6 * node + 3].copy_from_slice(g));
-            row
-        };
-        Self { rows: system.constraints(at).iter().map(|row| dense(&row.gradient)).collect(), n }
-    }
-
-    fn times(&self, x: &[f64]) -> Vec<f64> {
-        self.rows.iter().map(|row| row.iter().zip(x).map(|(b, x)| b * x).sum()).collect()
-    }
-
-    fn transposed_times(&self, multipliers: &[f64]) -> Vec<f64> {
-        let mut sum = vec![0.0; self.n];
-        for (row, factor) in self.rows.iter().zip(multipliers) {
-            sum.iter_mut().zip(row).for_each(|(s, b)| *s += factor * b);
-        }
-        sum
-    }
-}
-
-/// [S Bᵀ; B 0] on the free coordinates, by the factor of S.
-struct Saddle {
-    factor: Llt<f64>,
-    free: Vec<usize>,
-    n: usize,
-}
-
-/// B and S⁻¹Bᵀ on the free coordinates, and the factor of B S⁻¹ Bᵀ; none without joints.
-struct Bordered {
-    gradients: Mat<f64>,
-    solved: Mat<f64>,
-    complement: Option<Llt<f64>>,
-}
-
-impl Saddle {
-    fn new(s: &Mat<f64>, free: Vec<usize>) -> Result<Self> {
-        let reduced = Mat::from_fn(free.len(), free.len(), |i, j| s[(free[i], free[j])]);
-        let factor = reduced.llt(Side::Lower).map_err(|_| "the iteration matrix is not positive definite")?;
-        Ok(Self { factor, free, n: s.nrows() })
-    }
-
-    fn bordered(&self, joints: &Gradients) -> Result<Bordered> {
-        let gradients = Mat::from_fn(joints.rows.len(), self.free.len(), |i, j| joints.rows[i][self.free[j]]);
-        let solved = self.factor.solve(gradients.transpose());
-        let complement = (gradients.nrows() > 0).then(|| (&gradients * &solved).llt(Side::Lower));
-        let complement = complement.transpose().map_err(|_| "the joints depend on each other")?;
-        Ok(Bordered { gradients, solved, complement })
-    }
-
-    /// Changes of all coordinates and of the multipliers.
-    fn solve(&self, bordered: &Bordered, residual: &[f64], violation: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let load = Mat::from_fn(self.free.len(), 1, |i, _| -residual[self.free[i]]);
-        let mut change = self.factor.solve(&load);
-        let mut multipliers = vec![0.0; violation.len()];
-        if let Some(complement) = &bordered.complement {
-            let held = &bordered.gradients * &change;
-            let right = Mat::from_fn(violation.len(), 1, |i, _| held[(i, 0)] + violation[i]);
-            let found = complement.solve(&right);
-            change -= &bordered.solved * &found;
-            (0..multipliers.len()).for_each(|i| multipliers[i] = found[(i, 0)]);
-        }
-        let mut full = vec![0.0; self.n];
-        self.free.iter().enumerate().for_each(|(i, row)| full[*row] = change[(i, 0)]);
-        (full, multipliers)
     }
 }

@@ -14,6 +14,8 @@ pub mod integrator;
 pub mod joint;
 pub mod page;
 pub mod part;
+pub mod pendulum;
+mod saddle;
 pub mod selection;
 pub mod statics;
 pub mod study;

@@ -20,8 +20,10 @@ pub struct Part {
     pub name: String,
     /// The model, six dofs a node.
     pub model: Model,
-    /// Labels of the interface nodes, in the order of the component's nodes.
-    pub interface: Vec<i64>,
+    /// Labels of the nodes of each interface, in the order of the component's nodes; several move as a rigid patch.
+    pub interface: Vec<Vec<i64>>,
+    /// Label of the units.
+    pub units: &'static str,
     /// Free-free modes that the superelement keeps, from which the modes of every variant are taken.
     pub n_modes: usize,
 }
@@ -36,7 +38,7 @@ impl Part {
         let file = |name: &str| -> Result<_> { Ok(BufWriter::new(File::create(folder.join(name))?)) };
         for (name, entries) in [("stiffness.mtx", &self.model.stiffness), ("mass.mtx", &self.model.mass)] {
             let mut out = file(name)?;
-            write::matrix_market(&mut out, self.model.n, entries, &format!("{}; N, m, kg, s", self.name))?;
+            write::matrix_market(&mut out, self.model.n, entries, &format!("{}; {}", self.name, self.units))?;
             out.flush()?;
         }
         write::nodes_csv(&mut file("nodes.csv")?, &self.model)?;
@@ -47,12 +49,16 @@ impl Part {
     }
 
     fn job(&self) -> String {
-        let interface = |label: &i64| format!("[[interface]]\nname  = \"node {label}\"\nnodes = [{label}]\n\n");
+        let interface = |(number, labels): (usize, &Vec<i64>)| {
+            let coupling = if labels.len() > 1 { "rigid" } else { "direct" };
+            format!("[[interface]]\nname = \"{}\"\nnodes = {labels:?}\ncoupling = \"{coupling}\"\n\n", number + 1)
+        };
         format!(
             "[model]\nstiffness = \"stiffness.mtx\"\nmass      = \"mass.mtx\"\nnodes     = \"nodes.csv\"\n\
-             dofs      = \"model.dof\"\nunits     = \"m-kg-s\"\n\n{}[reduction]\nmethod = \"herting\"\n\
+             dofs      = \"model.dof\"\nunits     = \"{}\"\n\n{}[reduction]\nmethod = \"herting\"\n\
              modes  = {{ count = {} }}\n\n[write]\nsuperelement = \"part.supel\"\n",
-            self.interface.iter().map(interface).collect::<String>(),
+            self.units,
+            self.interface.iter().enumerate().map(interface).collect::<String>(),
             self.n_modes,
         )
     }

@@ -8,7 +8,7 @@ use faer::Mat;
 use faer::linalg::solvers::Solve;
 
 use crate::Result;
-use crate::system::{Configuration, System};
+use crate::system::{Configuration, Forces, System};
 
 /// Largest turn of a node in one iteration, rad: larger ones leave the region where the iteration converges.
 const LARGEST_TURN: f64 = 0.7;
@@ -41,8 +41,7 @@ fn equilibrium(system: &mut System, at: &mut Configuration, time: f64) -> Result
     let free = system.free();
     let rest = vec![0.0; system.n()];
     for iteration in 0..=MOST_ITERATIONS {
-        let elastic = system.forces(at, &rest, &rest)?.elastic;
-        let applied = system.applied(at, time);
+        let Forces { elastic, applied, .. } = system.forces(time, at, &rest, &rest)?;
         let size = |v: &dyn Fn(usize) -> f64| free.iter().map(|i| v(*i) * v(*i)).sum::<f64>().sqrt();
         let residual = size(&|i| elastic[i] - applied[i]);
         if residual <= TOLERANCE * (size(&|i| elastic[i]) + size(&|i| applied[i])) {

@@ -52,6 +52,8 @@ pub struct System {
     pub joints: Vec<Joint>,
     /// Loads.
     pub loads: Vec<Load>,
+    /// Acceleration of gravity, in inertial axes.
+    pub gravity: Vector3,
 }
 
 /// Where everything is.
@@ -70,6 +72,16 @@ pub struct Forces {
     pub elastic: Vec<f64>,
     /// f_I (84).
     pub inertial: Vec<f64>,
+    /// Loads and gravity.
+    pub applied: Vec<f64>,
+}
+
+impl Forces {
+    /// f_E + f_I − f_ext.
+    pub fn residual(&self) -> Vec<f64> {
+        let sums = self.elastic.iter().zip(&self.inertial).map(|(elastic, inertial)| elastic + inertial);
+        sums.zip(&self.applied).map(|(sum, applied)| sum - applied).collect()
+    }
 }
 
 /// Tangent matrices, n × n.
@@ -110,7 +122,7 @@ impl System {
         }
         let mut supports = supports.concat();
         supports.resize(first_amplitude, Support::Free);
-        Ok(Self { positions, bodies, supports, joints: Vec::new(), loads: Vec::new() })
+        Ok(Self { positions, bodies, supports, joints: Vec::new(), loads: Vec::new(), gravity: [0.0; 3] })
     }
 
     /// Number of coordinates.
@@ -144,18 +156,19 @@ impl System {
         at.motions[node].apply(&self.positions[node])
     }
 
-    /// Elastic and inertial forces at a configuration, velocity and acceleration.
+    /// Forces at a time, configuration, velocity and acceleration.
     ///
     /// # Errors
     /// A deformation that the component cannot express.
-    pub fn forces(&mut self, at: &Configuration, velocity: &[f64], acceleration: &[f64]) -> Result<Forces> {
+    pub fn forces(&mut self, time: f64, at: &Configuration, velocity: &[f64], acceleration: &[f64]) -> Result<Forces> {
         let n = self.n();
-        let mut forces = Forces { elastic: vec![0.0; n], inertial: vec![0.0; n] };
-        let positions = &self.positions;
+        let applied = self.loaded(at, time);
+        let mut forces = Forces { elastic: vec![0.0; n], inertial: vec![0.0; n], applied };
+        let (positions, gravity) = (&self.positions, self.gravity);
         for body in &mut self.bodies {
             body.place(positions, at, velocity, acceleration);
             body.evaluate()?;
-            body.add_forces(positions, &mut forces);
+            body.add_forces(positions, &gravity, &mut forces);
         }
         Ok(forces)
     }
@@ -176,17 +189,15 @@ impl System {
         Ok(matrices)
     }
 
-    /// Kinetic and strain energy at a configuration and velocity.
-    ///
-    /// # Errors
-    /// As [`Self::forces`].
-    pub fn energy(&mut self, at: &Configuration, velocity: &[f64]) -> Result<[f64; 2]> {
-        self.forces(at, velocity, &vec![0.0; velocity.len()])?;
-        Ok(self.bodies.iter().map(Body::energy).fold([0.0; 2], |sum, e| [sum[0] + e[0], sum[1] + e[1]]))
+    /// Kinetic, strain and potential energy in gravity in the state last evaluated; the last is zero with all mass at the
+    /// inertial origin.
+    pub fn energies(&self) -> [f64; 3] {
+        let of = |body: &Body| body.energies(&self.gravity);
+        self.bodies.iter().map(of).fold([0.0; 3], |sum, e| std::array::from_fn(|i| sum[i] + e[i]))
     }
 
-    /// Applied forces at a time.
-    pub fn applied(&self, at: &Configuration, time: f64) -> Vec<f64> {
+    /// Loads at a time, without gravity.
+    fn loaded(&self, at: &Configuration, time: f64) -> Vec<f64> {
         let mut applied = vec![0.0; self.n()];
         for load in &self.loads {
             let (node, factor) = (load.unit.node, (load.history)(time));

@@ -39,7 +39,8 @@ pub fn parts(layout: usize) -> Vec<Part> {
     let part = |number: usize| Part {
         name: format!("bend-{}-of-{layout}", number + 1),
         model: arc(RADIUS, FRAC_PI_4, [share(number), share(number + 1)], elements, &section),
-        interface: vec![1, elements as i64 + 1],
+        interface: vec![vec![1], vec![elements as i64 + 1]],
+        units: "m-kg-s",
         n_modes: 0,
     };
     (0..layout).map(part).collect()

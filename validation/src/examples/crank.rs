@@ -40,7 +40,8 @@ pub fn parts() -> Vec<Part> {
     let part = |name: &str, from: f64, to: f64| Part {
         name: format!("crank-{name}"),
         model: polyline(&[[from, 0.0, 0.0], [to, 0.0, 0.0]], ELEMENTS, &section),
-        interface: vec![1, ELEMENTS as i64 / 2 + 1, ELEMENTS as i64 + 1],
+        interface: vec![vec![1], vec![ELEMENTS as i64 / 2 + 1], vec![ELEMENTS as i64 + 1]],
+        units: "m-kg-s",
         n_modes: 12,
     };
     vec![part("crank", 0.0, 10.0), part("rod", 10.0, 30.0)]

@@ -51,7 +51,8 @@ pub fn parts(strategy: usize) -> Vec<Part> {
     let part = |number: usize, points: &[[f64; 3]]| Part {
         name: format!("elbow-{strategy}-{number}"),
         model: polyline(points, elements, &section),
-        interface: (0..points.len()).map(|point| (point * elements) as i64 + 1).collect(),
+        interface: (0..points.len()).map(|point| vec![(point * elements) as i64 + 1]).collect(),
+        units: "m-kg-s",
         n_modes: 12,
     };
     match strategy {

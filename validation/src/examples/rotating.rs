@@ -39,7 +39,8 @@ pub fn parts(layout: usize) -> Vec<Part> {
     let part = |(number, ends): (usize, &[[f64; 3]])| Part {
         name: format!("rotating-{}-of-{layout}", number + 1),
         model: polyline(ends, elements, &section),
-        interface: vec![1, elements as i64 + 1],
+        interface: vec![vec![1], vec![elements as i64 + 1]],
+        units: "m-kg-s",
         n_modes: 12,
     };
     ends.windows(2).enumerate().map(part).collect()

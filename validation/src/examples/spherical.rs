@@ -37,7 +37,13 @@ pub fn parts() -> Vec<Part> {
         inertia: [13.5, 6.75, 6.75],
     };
     let model = polyline(&[[0.0; 3], [LENGTH, 0.0, 0.0]], ELEMENTS, &section);
-    vec![Part { name: "spherical".into(), model, interface: vec![1, ELEMENTS as i64 + 1], n_modes: 80 }]
+    vec![Part {
+        name: "spherical".into(),
+        model,
+        interface: vec![vec![1], vec![ELEMENTS as i64 + 1]],
+        units: "m-kg-s",
+        n_modes: 80,
+    }]
 }
 
 /// Angular velocity of the root about the inertial z axis, and the place of the tip; modes are clamped at the root.
