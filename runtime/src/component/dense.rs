@@ -94,7 +94,8 @@ pub(crate) fn inverse(a: &Matrix6, smallest: f64) -> Option<Matrix6> {
         left.swap(column, pivot_row);
         right.swap(column, pivot_row);
         let pivot = left[column][column];
-        if !(pivot.abs() >= smallest) {
+        let is_sound = pivot.abs() >= smallest;
+        if !is_sound {
             return None;
         }
         (left[column], right[column]) = (left[column].map(|x| x / pivot), right[column].map(|x| x / pivot));

@@ -25,7 +25,7 @@ impl ModalComponent {
         self.congruence(&matrices.stiffness, ActsOn::Deformation, &projector, scratch, &mut results.stiffness);
         self.congruence(&matrices.mass, ActsOn::Motion, &projector, scratch, &mut results.mass);
         if let Some(damping) = &matrices.damping {
-            self.congruence(damping, self.damping_acts_on, &projector, scratch, &mut results.damping_matrix);
+            self.congruence(damping, self.damping_acts_on, &projector, scratch, &mut results.damping);
         }
     }
 

@@ -82,7 +82,7 @@ fn a_load_on_a_dof_declared_unloaded_is_refused() {
 fn impossible_loads_are_refused() {
     let component = arc();
     let situation = Situation::random(&component, 0.2, 4);
-    let mut forces = vec![0.0; 14];
+    let mut forces = [0.0; 14];
     let mut refusal = |load: DeadLoad, length: usize, nodes: usize| {
         component.add_load(&load, &situation.motions[..nodes], &mut forces[..length]).expect_err("an impossible load")
     };
