@@ -38,6 +38,7 @@ pub use loads::DeadLoad;
 pub use recovery::RecoveredNode;
 pub use workspace::Workspace;
 
+use crate::metadata::InterfaceDof;
 use crate::motion::{Matrix6, Motion, Vector3, Vector6};
 use construction::Matrices;
 use floating_frame::FrameRounding;
@@ -99,6 +100,7 @@ pub struct ModalComponent {
     /// Loads of unit gravity, one row of three for each coordinate.
     gravity: Vec<Vector3>,
     damping_acts_on: ActsOn,
+    unloaded: Vec<InterfaceDof>,
     recovery: Option<RecoveryMap>,
     rigid_motion_residual: f64,
 }

@@ -120,6 +120,7 @@ impl ModalComponent {
             n_modal,
             rigid_mass: dense::block_sum(&momenta, rigid.iter()),
             recovery: tensors.recovery.as_ref().map(|recovery| RecoveryMap::new(recovery, &change)),
+            unloaded: superelement.metadata().validity.unloaded.clone(),
             rigid_motion_residual: residual,
             frame_rounding: FrameRounding::new(&frame, &positions),
             damping_acts_on,

@@ -20,6 +20,6 @@ impl ModalComponent {
             ActsOn::Motion => velocity,
         };
         dense::symmetric_times(damping, rate, product);
-        self.project(product, &[0.0; 6], self.damping_acts_on, &Projector { nodes, q }, &mut results.damping);
+        self.project(product, &[0.0; 6], self.damping_acts_on, &Projector { nodes, q }, &mut results.damping_forces);
     }
 }

@@ -94,7 +94,8 @@ pub(crate) fn inverse(a: &Matrix6, smallest: f64) -> Option<Matrix6> {
         left.swap(column, pivot_row);
         right.swap(column, pivot_row);
         let pivot = left[column][column];
-        if !(pivot.abs() >= smallest) {
+        let is_sound = pivot.abs() >= smallest;
+        if !is_sound {
             return None;
         }
         (left[column], right[column]) = (left[column].map(|x| x / pivot), right[column].map(|x| x / pivot));
@@ -108,11 +109,17 @@ pub(crate) fn inverse(a: &Matrix6, smallest: f64) -> Option<Matrix6> {
     Some(right)
 }
 
-/// S Y for each of the rows of Y: y_i ← S y_i.
+/// Aᵀ.
+#[inline]
+pub(crate) fn transposed(a: &Matrix6) -> Matrix6 {
+    std::array::from_fn(|i| std::array::from_fn(|j| a[j][i]))
+}
+
+/// y_i ← S y_i for each of the rows of Y.
 #[inline]
 pub(crate) fn apply_to_rows(s: &Matrix6, rows: &mut [Vector6]) {
     // Sᵀ once, so that each row is a sum of rows.
-    let transposed: Matrix6 = std::array::from_fn(|i| std::array::from_fn(|j| s[j][i]));
+    let transposed = transposed(s);
     for row in rows {
         *row = transposed_times_6(&transposed, row);
     }
@@ -128,25 +135,14 @@ pub(crate) fn transpose(tall: &[Vector6], wide: &mut [f64]) {
     }
 }
 
-/// y += Σ_c f_c x_c for six rows x_c as long as y.
+/// y += Σ_c f_c x_c for six rows x_c, of which the first `skip` entries are left out.
 #[inline]
-pub(crate) fn add_six(y: &mut [f64], factors: &Vector6, rows: &[f64]) {
-    combine_six(y, factors, rows, 0);
-}
-
-/// y −= Σ_c f_c x_c for six rows x_c, of which the first `skip` entries are left out.
-#[inline]
-pub(crate) fn subtract_six(y: &mut [f64], factors: &Vector6, rows: &[f64], skip: usize) {
-    combine_six(y, &factors.map(|x| -x), rows, skip);
-}
-
-#[inline]
-fn combine_six(y: &mut [f64], f: &Vector6, rows: &[f64], skip: usize) {
-    let length = y.len() + skip;
-    let row = |c: usize| &rows[c * length + skip..(c + 1) * length];
-    let (first, second) = (row(0).iter().zip(row(1)).zip(row(2)), row(3).iter().zip(row(4)).zip(row(5)));
-    for (sum, (((a, b), c), ((d, e), g))) in y.iter_mut().zip(first.zip(second)) {
-        *sum += (f[0] * a + f[1] * b + f[2] * c) + (f[3] * d + f[4] * e + f[5] * g);
+pub(crate) fn add_six(y: &mut [f64], f: &Vector6, rows: &[f64], skip: usize) {
+    let n = y.len();
+    let row = |c: usize| &rows[c * (n + skip) + skip..(c + 1) * (n + skip)][..n];
+    let [x0, x1, x2, x3, x4, x5] = [row(0), row(1), row(2), row(3), row(4), row(5)];
+    for (i, sum) in y.iter_mut().enumerate() {
+        *sum += (f[0] * x0[i] + f[1] * x1[i] + f[2] * x2[i]) + (f[3] * x3[i] + f[4] * x4[i] + f[5] * x5[i]);
     }
 }
 

@@ -119,6 +119,17 @@ pub enum EvaluationError {
         /// Label of the node.
         label: i64,
     },
+    /// A load on a dof of which the file says that none acts.
+    #[error(
+        "load along {} of interface node {node} (from 0), which the superelement was told to be unloaded; reduce it without that statement",
+        list(&[*direction])
+    )]
+    UnloadedDof {
+        /// Number of the node.
+        node: usize,
+        /// Direction, turned with the node.
+        direction: Direction,
+    },
     /// A load on a node that is not there.
     #[error("load on interface node {node} (from 0); the component has {n_nodes}")]
     UnknownNode {

@@ -122,7 +122,7 @@ impl ModalComponent {
         Ok(())
     }
 
-    /// Qᵀ = JᵀY Sᵀ, r × 6.
+    /// Qᵀ = JᵀY Sᵀ, r × 6, and F − U.
     pub(super) fn project_frame(&self, workspace: &mut Workspace) {
         let n_nodal = 6 * self.n_nodes();
         let (blocks, amplitudes) = workspace.q.split_at_mut(n_nodal);
@@ -132,6 +132,9 @@ impl ModalComponent {
             *q = dense::turned_rows(&node.j, y);
         }
         amplitudes.copy_from_slice(frame_amplitudes);
+        for (node, rigid) in workspace.nodes.iter_mut().zip(&self.rigid) {
+            node.excess = std::array::from_fn(|i| dense::plus_scaled(&node.f[i], -1.0, &rigid[i]));
+        }
         dense::apply_to_rows(&workspace.s, &mut workspace.q);
     }
 

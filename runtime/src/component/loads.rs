@@ -1,9 +1,13 @@
 //! Loads on interface nodes that keep their direction in space.
 
 use super::{EvaluationError, ModalComponent};
+use crate::metadata::InterfaceDof;
 use crate::motion::{
     Matrix3, Matrix6, Motion, Vector3, Vector6, blocks, cross, join, multiply_3, skew, transposed_times_3,
 };
+
+/// A load that should have no component along a dof has one of rounding, 1e-16 and the drift of the rotation.
+const ALONG_THE_OTHERS: f64 = 1e-9;
 
 /// A force and a moment on an interface node, constant in inertial axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,8 +46,9 @@ impl ModalComponent {
     ///
     /// # Errors
     ///
-    /// [`EvaluationError::UnknownNode`], [`EvaluationError::WrongLength`], [`EvaluationError::NotRotation`] and
-    /// [`EvaluationError::NotFinite`].
+    /// [`EvaluationError::UnknownNode`], [`EvaluationError::WrongLength`], [`EvaluationError::NotRotation`],
+    /// [`EvaluationError::NotFinite`]; [`EvaluationError::UnloadedDof`] for a load along a dof of which the file says that
+    /// none acts.
     pub fn add_load(&self, load: &DeadLoad, motions: &[Motion], forces: &mut [f64]) -> Result<(), EvaluationError> {
         self.check_load(load, motions, forces.len(), self.n_coordinates())?;
         let f = load.in_node(&motions[load.node], &self.positions[load.node]);
@@ -94,6 +99,23 @@ impl ModalComponent {
                 return Err(EvaluationError::NotFinite { what, index });
             }
         }
-        self.check_motions(motions)
+        self.check_motions(motions)?;
+        self.check_unloaded(load, &motions[load.node])
+    }
+
+    /// The axes of a declared dof turn with its node.
+    fn check_unloaded(&self, load: &DeadLoad, motion: &Motion) -> Result<(), EvaluationError> {
+        let in_node = join(
+            &transposed_times_3(&motion.rotation, &load.force),
+            &transposed_times_3(&motion.rotation, &load.moment),
+        );
+        for &InterfaceDof { node, direction } in self.unloaded.iter().filter(|dof| dof.node == load.node) {
+            let part = direction as usize / 3 * 3;
+            let whole = in_node[part..part + 3].iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+            if in_node[direction as usize].abs() > ALONG_THE_OTHERS * whole {
+                return Err(EvaluationError::UnloadedDof { node, direction });
+            }
+        }
+        Ok(())
     }
 }

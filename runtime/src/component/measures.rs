@@ -23,6 +23,8 @@ pub(super) struct NodeMeasure {
     pub(super) e: Vector6,
     pub(super) j: Matrix6,
     pub(super) f: Matrix6,
+    /// F − U.
+    pub(super) excess: Matrix6,
 }
 
 /// Velocities at one interface node.
@@ -46,12 +48,12 @@ pub(super) struct RateMatrices {
 impl NodeMeasure {
     /// No deformation: J = F = U.
     pub(super) fn undeformed(rigid: &Matrix6) -> Self {
-        Self { motion: Motion::IDENTITY, e: [0.0; 6], j: *rigid, f: *rigid }
+        Self { motion: Motion::IDENTITY, e: [0.0; 6], j: *rigid, f: *rigid, excess: [[0.0; 6]; 6] }
     }
 }
 
 impl Measures {
-    /// Measure of a motion relative to the floating frame of a node at `position`; `None` at half a turn.
+    /// Measure of a motion relative to the floating frame of a node at `position`, without `excess`; `None` at half a turn.
     #[inline]
     pub(super) fn of(self, motion: &Motion, position: &Vector3) -> Option<NodeMeasure> {
         let parameters = motion.parameters()?;
@@ -61,6 +63,7 @@ impl Measures {
                 e: parameters,
                 j: tangent_inverse(&parameters),
                 f: tangent_inverse(&parameters.map(|x| -x)),
+                excess: [[0.0; 6]; 6],
             },
             Self::Classical => classical(motion, position),
         })
@@ -125,6 +128,7 @@ fn classical(motion: &Motion, position: &Vector3) -> NodeMeasure {
         e: join(&d, &axial(r)),
         j: blocks(r, &negative(multiply_3(r, &skew(position))), &ZERO, &node_turn),
         f: blocks(&crate::motion::IDENTITY_3, &negative(skew(&moved)), &ZERO, &frame_turn),
+        excess: [[0.0; 6]; 6],
     }
 }
 

@@ -20,10 +20,10 @@ pub(super) enum ActsOn {
 impl ActsOn {
     /// W of one node.
     #[inline]
-    pub(super) fn carried(self, node: &NodeMeasure, rigid: &Matrix6) -> Matrix6 {
+    pub(super) fn carried(self, node: &NodeMeasure) -> &Matrix6 {
         match self {
-            Self::Deformation => node.f,
-            Self::Motion => std::array::from_fn(|i| std::array::from_fn(|j| node.f[i][j] - rigid[i][j])),
+            Self::Deformation => &node.f,
+            Self::Motion => &node.excess,
         }
     }
 }
@@ -57,9 +57,9 @@ impl ModalComponent {
         let (blocks, amplitudes) = forces.split_at_mut(n_nodal);
         let mut on_frame = *g_f;
         let each = blocks.as_chunks_mut::<6>().0.iter_mut().zip(g.as_chunks::<6>().0);
-        for (((target, g), node), rigid) in each.zip(projector.nodes).zip(&self.rigid) {
+        for ((target, g), node) in each.zip(projector.nodes) {
             *target = transposed_times_6(&node.j, g);
-            on_frame = dense::plus_scaled(&on_frame, 1.0, &transposed_times_6(&on.carried(node, rigid), g));
+            on_frame = dense::plus_scaled(&on_frame, 1.0, &transposed_times_6(on.carried(node), g));
         }
         amplitudes.copy_from_slice(&g[n_nodal..]);
         for (force, q) in forces.iter_mut().zip(projector.q) {

@@ -25,7 +25,7 @@ impl ModalComponent {
         self.congruence(&matrices.stiffness, ActsOn::Deformation, &projector, scratch, &mut results.stiffness);
         self.congruence(&matrices.mass, ActsOn::Motion, &projector, scratch, &mut results.mass);
         if let Some(damping) = &matrices.damping {
-            self.congruence(damping, self.damping_acts_on, &projector, scratch, &mut results.damping_matrix);
+            self.congruence(damping, self.damping_acts_on, &projector, scratch, &mut results.damping);
         }
     }
 
@@ -41,16 +41,14 @@ impl ModalComponent {
             turned.copy_from_slice(row);
             *carried = [0.0; 6];
             let each = row.as_chunks::<6>().0.iter().zip(turned.as_chunks_mut::<6>().0);
-            for ((entries, target), (node, rigid)) in each.zip(projector.nodes.iter().zip(&self.rigid)) {
+            for ((entries, target), node) in each.zip(projector.nodes) {
                 *target = transposed_times_6(&node.j, entries);
-                let w = on.carried(node, rigid);
-                *carried = dense::plus_scaled(carried, 1.0, &transposed_times_6(&w, entries));
+                *carried = dense::plus_scaled(carried, 1.0, &transposed_times_6(on.carried(node), entries));
             }
         }
         // N = WᵀA W, H = JᵀA W.
-        let each = tall[..n_nodal].as_chunks_mut::<6>().0.iter_mut().zip(projector.nodes.iter().zip(&self.rigid));
-        for (rows, (node, rigid)) in each {
-            for (target, row) in n.iter_mut().zip(dense::turned_rows(&on.carried(node, rigid), rows)) {
+        for (rows, node) in tall[..n_nodal].as_chunks_mut::<6>().0.iter_mut().zip(projector.nodes) {
+            for (target, row) in n.iter_mut().zip(dense::turned_rows(on.carried(node), rows)) {
                 *target = dense::plus_scaled(target, 1.0, &row);
             }
             *rows = dense::turned_rows(&node.j, rows);
@@ -63,8 +61,8 @@ impl ModalComponent {
         self.turn_rows(square, projector, result);
         for (i, (q, b)) in projector.q.iter().zip(tall.iter()).enumerate() {
             let row = &mut result[i * r + i..(i + 1) * r];
-            dense::subtract_six(row, b, wide_q, i);
-            dense::subtract_six(row, q, wide_b, i);
+            dense::add_six(row, &b.map(|x| -x), wide_q, i);
+            dense::add_six(row, &q.map(|x| -x), wide_b, i);
         }
         dense::mirror(result, r);
     }
@@ -74,11 +72,9 @@ impl ModalComponent {
         let r = self.n_coordinates();
         let each = x.chunks_exact(6 * r).zip(product.chunks_exact_mut(6 * r)).zip(projector.nodes);
         for ((rows, targets), node) in each {
-            for (a, target) in targets.chunks_exact_mut(r).enumerate() {
-                target.fill(0.0);
-                for (row, block_row) in rows.chunks_exact(r).zip(&node.j) {
-                    dense::add_scaled(target, block_row[a], row);
-                }
+            targets.fill(0.0);
+            for (target, column) in targets.chunks_exact_mut(r).zip(&dense::transposed(&node.j)) {
+                dense::add_six(target, column, rows, 0);
             }
         }
         let n_nodal = 6 * self.n_nodes();
@@ -90,32 +86,27 @@ impl ModalComponent {
         self.momentum_part(workspace);
         self.acceleration_rates(state, workspace);
         let r = self.n_coordinates();
-        let n_nodal = 6 * self.n_nodes();
         let Workspace { nodes, q, results, scratch, .. } = workspace;
         let projector = Projector { nodes, q };
         let Scratch { square, rates, wide: [on_frame, _], .. } = scratch;
         // M Z̄; Z̄ is zero at the modal amplitudes.
         for (row, target) in self.matrices().mass.chunks_exact(r).zip(square.chunks_exact_mut(r)) {
             target.fill(0.0);
-            for (factor, rate) in row[..n_nodal].iter().zip(rates.chunks_exact(r)) {
-                dense::add_scaled(target, *factor, rate);
+            for (factors, rates) in row.as_chunks::<6>().0.iter().zip(rates.chunks_exact(6 * r)) {
+                dense::add_six(target, factors, rates, 0);
             }
         }
         self.turn_rows(square, &projector, &mut results.gyroscopic);
         // (F − U)ᵀM Z̄, six rows.
         on_frame.fill(0.0);
-        let each = square.chunks_exact(6 * r).zip(nodes.iter().zip(&self.rigid));
-        for (rows, (node, rigid)) in each {
-            let w = ActsOn::Motion.carried(node, rigid);
-            for (row, block_row) in rows.chunks_exact(r).zip(&w) {
-                for (target, factor) in on_frame.chunks_exact_mut(r).zip(block_row) {
-                    dense::add_scaled(target, *factor, row);
-                }
+        for (rows, node) in square.chunks_exact(6 * r).zip(nodes.iter()) {
+            for (target, column) in on_frame.chunks_exact_mut(r).zip(&dense::transposed(&node.excess)) {
+                dense::add_six(target, column, rows, 0);
             }
         }
         let each = results.gyroscopic.chunks_exact_mut(r).zip(results.frame_gyroscopic.chunks_exact(r)).zip(q.iter());
         for ((row, frame_row), q) in each {
-            dense::subtract_six(row, q, on_frame, 0);
+            dense::add_six(row, &q.map(|x| -x), on_frame, 0);
             dense::add_scaled(row, 1.0, frame_row);
         }
     }
@@ -134,7 +125,7 @@ impl ModalComponent {
             *rows = dense::turned_rows(&node.j, rows);
         }
         let of_frame: Matrix6 = std::array::from_fn(|i| dense::plus_scaled(&self.rigid_mass[i], -1.0, &carried[i]));
-        let (turning, dragging) = (transposed(&hat(&v_f)), check(&momentum));
+        let (turning, dragging) = (dense::transposed(&hat(&v_f)), check(&momentum));
         for (row, q) in tall.iter_mut().zip(q.iter()) {
             let moved = dense::plus_scaled(row, 1.0, &times_6(&of_frame, q));
             *row = dense::plus_scaled(&times_6(&turning, &moved), 1.0, &times_6(&dragging, q));
@@ -142,7 +133,7 @@ impl ModalComponent {
         dense::transpose(tall, wide);
         results.frame_gyroscopic.fill(0.0);
         for (row, q) in results.frame_gyroscopic.chunks_exact_mut(r).zip(q.iter()) {
-            dense::subtract_six(row, q, wide, 0);
+            dense::add_six(row, &q.map(|x| -x), wide, 0);
         }
     }
 
@@ -160,32 +151,27 @@ impl ModalComponent {
             for (a, row) in target.chunks_exact_mut(r).enumerate() {
                 let on_frame = dense::plus_scaled(&with_f[a], 1.0, &by.frame[a]);
                 row.fill(0.0);
-                dense::subtract_six(row, &on_frame, wide_q, 0);
+                dense::add_six(row, &on_frame.map(|x| -x), wide_q, 0);
                 dense::add_scaled(&mut row[6 * j..6 * j + 6], 1.0, &dense::plus_scaled(&with_j[a], 1.0, &by.node[a]));
             }
         }
         // S YᵀZ, six rows.
         let [sum, turned] = &mut workspace.scratch.wide;
         sum.fill(0.0);
-        for (row, y) in rates.chunks_exact(r).zip(&self.frame) {
-            for (target, factor) in sum.chunks_exact_mut(r).zip(y) {
-                dense::add_scaled(target, *factor, row);
+        for (rows, y) in rates.chunks_exact(6 * r).zip(self.frame.as_chunks::<6>().0) {
+            for (target, column) in sum.chunks_exact_mut(r).zip(&dense::transposed(y)) {
+                dense::add_six(target, column, rows, 0);
             }
         }
         turned.fill(0.0);
         for (target, s) in turned.chunks_exact_mut(r).zip(&workspace.s) {
-            dense::add_six(target, s, sum);
+            dense::add_six(target, s, sum, 0);
         }
-        for (j, target) in rates.chunks_exact_mut(6 * r).enumerate() {
-            let w = ActsOn::Motion.carried(&workspace.nodes[j], &self.rigid[j]);
-            for (row, factors) in target.chunks_exact_mut(r).zip(&w) {
-                dense::subtract_six(row, factors, turned, 0);
+        for (target, node) in rates.chunks_exact_mut(6 * r).zip(&workspace.nodes) {
+            for (row, factors) in target.chunks_exact_mut(r).zip(&node.excess) {
+                dense::add_six(row, &factors.map(|x| -x), turned, 0);
             }
         }
         workspace.scratch.rates = rates;
     }
-}
-
-fn transposed(a: &Matrix6) -> Matrix6 {
-    std::array::from_fn(|i| std::array::from_fn(|j| a[j][i]))
 }

@@ -37,13 +37,13 @@ pub struct Workspace {
 pub(super) struct Results {
     pub(super) elastic: Vec<f64>,
     pub(super) inertial: Vec<f64>,
-    pub(super) damping: Vec<f64>,
+    pub(super) damping_forces: Vec<f64>,
     pub(super) gravity: Vec<f64>,
     pub(super) strain_energy: f64,
     pub(super) kinetic_energy: f64,
     pub(super) stiffness: Vec<f64>,
     pub(super) mass: Vec<f64>,
-    pub(super) damping_matrix: Vec<f64>,
+    pub(super) damping: Vec<f64>,
     pub(super) gyroscopic: Vec<f64>,
     pub(super) frame_gyroscopic: Vec<f64>,
 }
@@ -65,15 +65,14 @@ impl Workspace {
     pub(super) fn new(component: &ModalComponent) -> Self {
         let (k, r) = (component.n_nodes(), component.n_coordinates());
         let (vector, matrix, columns) = (|| vec![0.0; r], || vec![0.0; r * r], || vec![[0.0; 6]; r]);
-        let optional = |size| if component.reference_damping().is_some() { vec![0.0; size] } else { Vec::new() };
         let results = Results {
             elastic: vector(),
             inertial: vector(),
-            damping: vector(),
+            damping_forces: vector(),
             gravity: vector(),
             stiffness: component.reference_stiffness().to_vec(),
             mass: component.reference_mass().to_vec(),
-            damping_matrix: optional(r * r),
+            damping: component.reference_damping().unwrap_or_default().to_vec(),
             gyroscopic: matrix(),
             frame_gyroscopic: matrix(),
             ..Results::default()
@@ -101,9 +100,6 @@ impl Workspace {
             scratch,
         };
         component.project_frame(&mut workspace);
-        if let Some(damping) = component.reference_damping() {
-            workspace.results.damping_matrix.copy_from_slice(damping);
-        }
         workspace
     }
 
@@ -144,7 +140,7 @@ impl Workspace {
 
     /// Damping forces, r; zero where the file has no damping.
     pub fn damping_forces(&self) -> &[f64] {
-        &self.results.damping
+        &self.results.damping_forces
     }
 
     /// Strain energy ½ eᵀK e.
@@ -181,7 +177,7 @@ impl Workspace {
 
     /// Derivative of the damping forces by the velocities, r × r, symmetric; empty where the file has no damping.
     pub fn damping(&self) -> &[f64] {
-        &self.results.damping_matrix
+        &self.results.damping
     }
 
     /// Q x.

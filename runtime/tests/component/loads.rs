@@ -1,7 +1,8 @@
 //! Dead loads on interface nodes.
 
 use supel_runtime::component::{DeadLoad, EvaluationError, FloatingFrame, ModalComponent};
-use supel_runtime::motion::{Motion, Vector3, dot, times_6, transposed_times_3};
+use supel_runtime::motion::{Motion, Vector3, dot, times_3, times_6, transposed_times_3};
+use supel_runtime::{Direction, InterfaceDof, Superelement};
 
 use crate::beam;
 use crate::random::Random;
@@ -59,10 +60,29 @@ fn loads_add_up_at_their_node() {
 }
 
 #[test]
+fn a_load_on_a_dof_declared_unloaded_is_refused() {
+    let (tensors, mut metadata, _) = beam::reduced_parts(&beam::arc_nodes(), &beam::SOFT, &[0, 8], 2);
+    metadata.validity.unloaded = vec![InterfaceDof { node: 1, direction: Direction::Ry }];
+    let superelement = Superelement::new(tensors, metadata).expect("the parts fit");
+    let component = ModalComponent::new(&superelement, FloatingFrame::Rigid).expect("a free body");
+    let situation = Situation::random(&component, 0.1, 5);
+    let (mut forces, mut stiffness) = (vec![0.0; 14], vec![0.0; 14 * 14]);
+    let unloaded = Err(EvaluationError::UnloadedDof { node: 1, direction: Direction::Ry });
+    assert_eq!(component.add_load(&LOAD, &situation.motions, &mut forces), unloaded);
+    assert_eq!(component.add_load_stiffness(&LOAD, &situation.motions, &mut stiffness), unloaded);
+    // Of the other node nothing was said, and forces and moments about the node's other axes are allowed.
+    assert_eq!(component.add_load(&DeadLoad { node: 0, ..LOAD }, &situation.motions, &mut forces), Ok(()));
+    let about_others = times_3(&situation.motions[1].rotation, &[2.0, 0.0, -3.0]);
+    let allowed = DeadLoad { moment: about_others, ..LOAD };
+    assert_eq!(component.add_load(&allowed, &situation.motions, &mut forces), Ok(()));
+    assert_eq!(component.add_load(&DeadLoad { moment: [0.0; 3], ..LOAD }, &situation.motions, &mut forces), Ok(()));
+}
+
+#[test]
 fn impossible_loads_are_refused() {
     let component = arc();
     let situation = Situation::random(&component, 0.2, 4);
-    let mut forces = vec![0.0; 14];
+    let mut forces = [0.0; 14];
     let mut refusal = |load: DeadLoad, length: usize, nodes: usize| {
         component.add_load(&load, &situation.motions[..nodes], &mut forces[..length]).expect_err("an impossible load")
     };
