@@ -1,8 +1,8 @@
 //! One component of a mechanism: what goes in and comes out, in the mechanism's coordinates.
 
 use supel_runtime::Superelement;
-use supel_runtime::component::{ModalComponent, State, Workspace};
-use supel_runtime::motion::{Motion, Vector3, Vector6, cross, join, times_3};
+use supel_runtime::component::{ModalComponent, RecoveredNode, State, Workspace};
+use supel_runtime::motion::{IDENTITY_3, Motion, Vector3, Vector6, cross, join, times_3};
 
 use crate::Result;
 use crate::system::{Configuration, Forces, Formulation, Matrices};
@@ -92,6 +92,18 @@ impl Body {
         let turned = times_3(&frame.rotation, &moment);
         let potential = (0..3).map(|d| -gravity[d] * (turned[d] + self.mass * frame.translation[d])).sum();
         [workspace.kinetic_energy(), workspace.strain_energy(), potential]
+    }
+
+    /// Where the recovered nodes are, in the state last evaluated.
+    pub(crate) fn recovered(&self, positions: &[Vector3]) -> Result<Vec<RecoveredNode>> {
+        let still = RecoveredNode { displacement: [0.0; 3], rotation: IDENTITY_3 };
+        let mut nodes = vec![still; self.component.recovered_labels().len()];
+        self.component.recover(&self.workspace, positions, &mut nodes)?;
+        Ok(nodes)
+    }
+
+    pub(crate) fn floating_frame(&self) -> &Motion {
+        self.workspace.floating_frame()
     }
 
     pub(crate) fn add_forces(&mut self, positions: &[Vector3], gravity: &Vector3, forces: &mut Forces) {

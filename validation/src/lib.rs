@@ -10,7 +10,9 @@ pub mod claims;
 pub mod curve;
 pub mod examples;
 pub mod figure;
+pub mod film;
 pub mod integrator;
+pub mod interior;
 pub mod joint;
 pub mod page;
 pub mod part;
@@ -20,6 +22,8 @@ pub mod selection;
 pub mod statics;
 pub mod study;
 pub mod system;
+#[cfg(feature = "vtkhdf")]
+pub mod vtkhdf;
 
 /// What every step returns; the message is for a person.
 pub type Result<T> = std::result::Result<T, Box<dyn std::error::Error + Send + Sync>>;

@@ -8,9 +8,10 @@ use validation::Result;
 use validation::claims::claims;
 use validation::examples::Example;
 use validation::page::{figures, page};
+use validation::pendulum::Pendulum;
 use validation::study::Study;
 
-const USAGE: &str = "usage: validation all|bend|rotating|spherical|crank|elbow [FOLDER]";
+const USAGE: &str = "usage: validation all|bend|rotating|spherical|crank|elbow|bracket [FOLDER]";
 
 fn main() -> ExitCode {
     match run(&std::env::args().skip(1).collect::<Vec<_>>()) {
@@ -28,8 +29,10 @@ fn run(arguments: &[String]) -> Result<()> {
         [which, folder] => (which, PathBuf::from(folder)),
         _ => return Err(USAGE.into()),
     };
-    let chosen: Vec<Example> = Example::ALL.into_iter().filter(|e| which == "all" || which == e.name()).collect();
-    if chosen.is_empty() {
+    let is_chosen = |name: &str| which == "all" || which == name;
+    let chosen: Vec<Example> = Example::ALL.into_iter().filter(|example| is_chosen(example.name())).collect();
+    let pendulum = is_chosen("bracket").then(|| solid(&folder.join("bracket"))).transpose()?;
+    if chosen.is_empty() && pendulum.is_none() {
         return Err(format!("no example {which}; {USAGE}").into());
     }
     let program = std::env::current_exe()?.with_file_name("supel");
@@ -46,7 +49,7 @@ fn run(arguments: &[String]) -> Result<()> {
         studies.push(study);
     }
     let path = folder.join("index.html");
-    fs::write(&path, page(&studies))?;
+    fs::write(&path, page(&studies, pendulum.as_ref()))?;
     println!("{}", path.display());
     Ok(())
 }
@@ -60,4 +63,26 @@ fn written(study: &Study, folder: &Path) -> Result<()> {
         fs::write(folder.join(name), svg)?;
     }
     Ok(())
+}
+
+/// The bracket on its hinge: curves, film strip and, where HDF5 is built in, the series for ParaView.
+fn solid(folder: &Path) -> Result<Pendulum> {
+    let pendulum = Pendulum::new(folder)?;
+    for (n_modes, swing) in &pendulum.swings {
+        fs::write(folder.join(format!("modes-{n_modes}.csv")), swing.curves.to_csv())?;
+    }
+    fs::write(folder.join("film.svg"), pendulum.film())?;
+    #[cfg(feature = "vtkhdf")]
+    validation::vtkhdf::write(
+        &folder.join("swing.vtkhdf"),
+        &supel_models::bracket_mesh(),
+        &pendulum.swings[1].1.frames,
+    )?;
+    println!("A solid in large rotation");
+    for (n_modes, energy, away, iterations) in pendulum.figures() {
+        println!(
+            "  {n_modes} modes: energy changes by {energy:.1e}, base {away:.1e} from the finest, {iterations:.2} iterations"
+        );
+    }
+    Ok(pendulum)
 }

@@ -9,7 +9,7 @@
 
 use faer::Mat;
 use supel_runtime::Superelement;
-use supel_runtime::component::{DeadLoad, FloatingFrame, Measures};
+use supel_runtime::component::{DeadLoad, FloatingFrame, Measures, RecoveredNode};
 use supel_runtime::motion::{Motion, Vector3};
 
 use crate::Result;
@@ -194,6 +194,16 @@ impl System {
     pub fn energies(&self) -> [f64; 3] {
         let of = |body: &Body| body.energies(&self.gravity);
         self.bodies.iter().map(of).fold([0.0; 3], |sum, e| std::array::from_fn(|i| sum[i] + e[i]))
+    }
+
+    /// Displacements of the nodes inside a body that its superelement recovers, and the body's floating frame, in the state
+    /// last evaluated; `positions` are those of the nodes at the start.
+    ///
+    /// # Errors
+    /// The superelement recovers other nodes than those at `positions`.
+    pub fn interior(&self, body: usize, positions: &[Vector3]) -> Result<(Vec<RecoveredNode>, Motion)> {
+        let body = &self.bodies[body];
+        Ok((body.recovered(positions)?, *body.floating_frame()))
     }
 
     /// Loads at a time, without gravity.

@@ -26,7 +26,7 @@ fn static_example_reaches_every_claim_and_shows_every_figure() {
         assert!(svg.contains("reference") && svg.contains("4 elements"), "{name} lacks its legend");
         assert!(svg.matches("<polyline").count() >= 4, "{name} lacks lines");
     }
-    let html = page(&[study]);
+    let html = page(&[study], None);
     for needed in ["5.1 Static problem", "bend/figure-5b.svg", "load step 8: the iteration does not converge"] {
         assert!(html.contains(needed), "the page lacks {needed}");
     }
