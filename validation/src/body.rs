@@ -151,10 +151,11 @@ fn mass_rows(superelement: &Superelement) -> Vec<Vector3> {
     let entry = |i: usize, d: usize| (0..n).map(|j| tensors.mass[(i, j)] * tensors.rigid_body_modes[(j, d)]).sum();
     let mut rows: Vec<Vector3> = (0..n).map(|i| std::array::from_fn(|d| entry(i, d))).collect();
     for (position, node) in tensors.interface_positions.iter().zip(rows.chunks_exact_mut(6)) {
-        for d in 0..3 {
-            let moment = cross(position, &[node[0][d], node[1][d], node[2][d]]);
-            (0..3).for_each(|axis| node[3 + axis][d] += moment[axis]);
-        }
+        let (forces, moments) = node.split_at_mut(3);
+        (0..3).for_each(|d| {
+            let moment = cross(position, &[forces[0][d], forces[1][d], forces[2][d]]);
+            moments.iter_mut().zip(moment).for_each(|(row, value)| row[d] += value);
+        });
     }
     rows
 }

@@ -90,3 +90,37 @@ impl Joint {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_the_gradients_of_the_violation() {
+        let positions = [[1.0, 2.0, 0.0], [1.0, 2.0, 0.0]];
+        let at = [[0.3, -0.2, 0.1, 0.2, 0.5, -0.4], [-0.1, 0.4, 0.2, -0.3, 0.1, 0.6]].map(|v| Motion::exp(&v));
+        let (joints, size) = ([Joint::Pin([0, 1]), Joint::Slider { node: 1, normal: [0.0, 1.0, 0.0] }], 1e-6);
+        for joint in joints {
+            for (number, row) in joint.rows(&at, &positions).iter().enumerate() {
+                for (node, gradient) in &row.gradient {
+                    for (d, expected) in gradient.iter().enumerate() {
+                        // A step of the node along its own axis d, which turns nothing.
+                        let violation = |step: f64| {
+                            let mut increment = [0.0; 6];
+                            increment[d] = step;
+                            let mut moved = at;
+                            moved[*node] = at[*node].compose(&Motion::exp(&increment));
+                            joint.rows(&moved, &positions)[number].violation
+                        };
+                        let slope = (violation(size) - violation(-size)) / (2.0 * size);
+                        // Linear in the step: rounding of positions of order one over the step.
+                        assert!((slope - expected).abs() < 1e-9, "{joint:?}: {slope} for {expected}");
+                    }
+                }
+            }
+        }
+        // At the start nothing is violated, wherever the nodes are.
+        let rest = [Motion::IDENTITY; 2];
+        assert!(joints.iter().flat_map(|joint| joint.rows(&rest, &positions)).all(|row| row.violation == 0.0));
+    }
+}

@@ -89,7 +89,7 @@ pub fn swing(superelement: &Superelement, scheme: &Scheme, steps_of_frame: usize
     ]);
     let mut failed = None;
     let effort = simulate(&mut system, scheme, |system, now| {
-        if curves.times.len() % steps_of_frame == 0 {
+        if curves.times.len().is_multiple_of(steps_of_frame) {
             match frame(system, &nodes, now.time) {
                 Ok(frame) => frames.push(frame),
                 Err(why) => failed = Some(why),

@@ -57,3 +57,37 @@ fn steps(root: &Group, frames: &[Frame], n_nodes: i64) -> Result<()> {
 fn list<T: H5Type>(group: &Group, name: &str, values: &[T]) -> Result<()> {
     group.new_dataset::<T>().shape(values.len()).create(name)?.write_raw(values)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_share_the_cells_and_have_places_of_their_own() {
+        let mesh = HexMesh::structured([2, 1, 1], |x| x, |_| true);
+        let frame = |time: f64| Frame {
+            time,
+            places: mesh.nodes.iter().map(|x| [x[0] + time, x[1], x[2]]).collect(),
+            deformations: vec![time; mesh.nodes.len()],
+        };
+        let folder = tempfile::tempdir().expect("folder");
+        let path = folder.path().join("swing.vtkhdf");
+        write(&path, &mesh, &[frame(0.0), frame(0.5)]).expect("written");
+
+        let file = File::open(&path).expect("HDF5");
+        let numbers = |name: &str| file.dataset(name).and_then(|set| set.read_raw::<i64>()).expect("a list");
+        let values = |name: &str| file.dataset(name).and_then(|set| set.read_raw::<f64>()).expect("a list");
+        assert_eq!(numbers("VTKHDF/Offsets"), [0, 8, 16]);
+        assert_eq!(numbers("VTKHDF/Connectivity").len(), 16);
+        assert_eq!(numbers("VTKHDF/Steps/CellOffsets"), [0, 0]);
+        let points = values("VTKHDF/Points");
+        assert_eq!(points.len(), 2 * 12 * 3);
+        for (name, of_step) in [("PointOffsets", 12), ("PointDataOffsets/deformation", 12), ("PartOffsets", 0)] {
+            assert_eq!(numbers(&format!("VTKHDF/Steps/{name}")), [0, of_step], "{name}");
+        }
+        // The second step begins where the offset says: its first node has moved by half.
+        assert_eq!(points[3 * 12], points[0] + 0.5);
+        assert_eq!(values("VTKHDF/Steps/Values"), [0.0, 0.5]);
+        assert_eq!(values("VTKHDF/PointData/deformation")[12], 0.5);
+    }
+}

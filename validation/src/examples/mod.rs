@@ -244,9 +244,9 @@ fn recorded(
     quantities: impl Fn(&System, &Instant) -> Vec<f64>,
 ) -> Run {
     let mut curves = Curves::new(names);
-    let mut step = 0;
+    let mut step = 0_usize;
     let outcome = simulate(&mut system, scheme, |system, now| {
-        if step % every == 0 {
+        if step.is_multiple_of(every) {
             curves.push(now.time, quantities(system, now));
         }
         step += 1;
