@@ -98,8 +98,12 @@
 //!
 //! A component cannot be changed and an evaluation allocates nothing: threads share components and have one workspace for
 //! each component, and the results have the same bits for any number of threads.
+//!
+//! Programs in C use the same through `capi/supel.h` (feature `capi`).
 
 mod atomic_file;
+#[cfg(feature = "capi")]
+pub mod capi;
 pub mod component;
 mod container;
 mod document;

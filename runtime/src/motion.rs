@@ -26,6 +26,9 @@ pub use tangent::{
 };
 
 /// A rigid-body motion, x ↦ R x + u.
+///
+/// Its memory is twelve doubles in this order, for programs in other languages.
+#[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
     /// Rotation matrix R, row by row.
