@@ -117,6 +117,7 @@ fn files_that_the_readme_names_exist() {
         "schemas/superelement.schema.json",
         "docs/what-the-report-proves.md",
         "docs/images/report.png",
+        "validation/README.md",
         "schemas/verification.schema.json",
         "LICENSE-MIT",
         "LICENSE-APACHE",

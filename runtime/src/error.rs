@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::metadata::Direction;
+
 /// The result of every fallible call of this crate.
 pub type Result<T, E = FileError> = std::result::Result<T, E>;
 
@@ -337,6 +339,14 @@ pub enum FileError {
         mode: usize,
         /// Angular frequency.
         omega: f64,
+    },
+    /// A dof that is declared unloaded is none of the interface.
+    #[error("`validity.unloaded` names {direction:?} of interface node {node} (from 0), which has no such dof")]
+    UnloadedDof {
+        /// Number of the interface node.
+        node: usize,
+        /// Direction.
+        direction: Direction,
     },
     /// Number of names and of load vectors differ.
     #[error("{names} load names for {vectors} load vectors")]

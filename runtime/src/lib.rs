@@ -1,5 +1,9 @@
-//! The superelement file: a finite element component reduced to its interface and a few modal amplitudes, in one file
-//! that every program can load.
+//! Superelements: the file that holds a finite element component reduced to its interface and a few modal amplitudes, and
+//! the modal component that takes it through large motion.
+//!
+//! [`Superelement`] reads, checks and writes the file; [`component::ModalComponent`] turns it into forces and tangent
+//! matrices for a multibody simulation; [`motion`] has the rigid-body motions both sides speak of. The crate does no
+//! input or output but that of the file.
 //!
 //! # The format
 //!
@@ -56,8 +60,51 @@
 //! println!("{} coordinates, made by {}", bracket.n_coordinates(), bracket.metadata().generator.name);
 //! # Ok::<(), supel_runtime::FileError>(())
 //! ```
+//!
+//! # In a multibody simulation
+//!
+//! The simulation keeps the change of configuration H_j of each interface node, the modal amplitudes, and their material
+//! velocities and accelerations. The component answers with forces: elastic + inertial + damping = external forces. They
+//! do not depend on where the component is, and the tangent matrices hardly change: for small deformation
+//! [`reference_stiffness`](component::ModalComponent::reference_stiffness) and
+//! [`reference_mass`](component::ModalComponent::reference_mass) may be factored once for the whole simulation.
+//!
+//! ```no_run
+//! use supel_runtime::Superelement;
+//! use supel_runtime::component::{DeadLoad, FloatingFrame, ModalComponent, State};
+//! use supel_runtime::motion::Motion;
+//!
+//! let bracket = Superelement::open("bracket.supel".as_ref())?;
+//! let bracket = ModalComponent::new(&bracket, FloatingFrame::MassWeighted)?;
+//! let mut workspace = bracket.workspace();
+//!
+//! // At rest, turned by one radian about the z axis of the inertial frame.
+//! let motions = vec![Motion::exp(&[0.0, 0.0, 0.0, 0.0, 0.0, 1.0]); bracket.n_nodes()];
+//! let amplitudes = vec![0.0; bracket.n_modal()];
+//! let rest = vec![0.0; bracket.n_coordinates()];
+//! let state = State { motions: &motions, amplitudes: &amplitudes, velocities: &rest, accelerations: &rest };
+//! bracket.evaluate(&state, &mut workspace)?;
+//!
+//! let mut external = bracket.gravity_forces(&[0.0, 0.0, -9.81], &mut workspace).to_vec();
+//! let load = DeadLoad { node: 0, force: [0.0, 100.0, 0.0], moment: [0.0; 3] };
+//! bracket.add_load(&load, &motions, &mut external)?;
+//! let (elastic, inertial, damping) =
+//!     (workspace.elastic_forces(), workspace.inertial_forces(), workspace.damping_forces());
+//! let residual: Vec<f64> =
+//!     (0..external.len()).map(|i| elastic[i] + inertial[i] + damping[i] - external[i]).collect();
+//! # let _ = residual;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A component cannot be changed and an evaluation allocates nothing: threads share components and have one workspace for
+//! each component, and the results have the same bits for any number of threads.
+//!
+//! Programs in C use the same through `capi/supel.h` (feature `capi`).
 
 mod atomic_file;
+#[cfg(feature = "capi")]
+pub mod capi;
+pub mod component;
 mod container;
 mod document;
 mod encoding;
@@ -66,6 +113,7 @@ mod file;
 mod mass_properties;
 mod matrix;
 mod metadata;
+pub mod motion;
 mod strict_json;
 mod superelement;
 mod validation;
@@ -77,7 +125,7 @@ pub use file::SealedBytes;
 pub use mass_properties::mass_properties;
 pub use matrix::Matrix;
 pub use metadata::{
-    CheckSummary, Coordinate, Direction, DroppedColumn, Flag, Generator, InterfaceNode, MassProperties, Metadata,
-    Method, ModelSummary, RigidBodyModes, Validity, Verdict, Verification,
+    CheckSummary, Coordinate, Direction, DroppedColumn, Flag, Generator, InterfaceDof, InterfaceNode, MassProperties,
+    Metadata, Method, ModelSummary, RigidBodyModes, Validity, Verdict, Verification,
 };
 pub use superelement::{Precision, RecoveredDof, Recovery, Superelement, Tensors};

@@ -188,6 +188,20 @@ pub struct Validity {
     pub band_hz: Option<[f64; 2]>,
     /// What was taken for granted about the simulation, one sentence each.
     pub assumptions: Vec<String>,
+    /// Interface dofs on which no load may act: the reduction was told that none does. Absent from the file where there are
+    /// none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unloaded: Vec<InterfaceDof>,
+}
+
+/// A degree of freedom of an interface node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct InterfaceDof {
+    /// Number of the interface node, from 0.
+    pub node: usize,
+    /// Direction.
+    pub direction: Direction,
 }
 
 /// A property that a client must know.

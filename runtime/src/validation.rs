@@ -3,7 +3,7 @@
 use crate::document::is_digest;
 use crate::error::{FileError, Result};
 use crate::matrix::Matrix;
-use crate::metadata::{Coordinate, Metadata, Verdict};
+use crate::metadata::{Coordinate, InterfaceDof, Metadata, Verdict};
 use crate::superelement::Tensors;
 
 /// How far RᵀR of an interface frame may be from the identity; a rotation from twelve printed digits passes.
@@ -19,6 +19,7 @@ pub(crate) fn check(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
     check_metadata_numbers(metadata)?;
     check_interface(tensors, metadata)?;
     check_coordinates(metadata)?;
+    check_validity(metadata)?;
     check_modes(tensors, metadata)?;
     for (name, digest) in &metadata.inputs {
         if !is_digest(digest) {
@@ -181,6 +182,16 @@ fn is_rotation(frame: &[[f64; 3]; 3]) -> bool {
     let unit = [a, b, c].into_iter().all(|row| near(dot(row, row), 1.0));
     let orthogonal = [(a, b), (a, c), (b, c)].into_iter().all(|(u, v)| near(dot(u, v), 0.0));
     unit && orthogonal && dot(&cross, c) > 0.0
+}
+
+/// Whatever is declared unloaded must be there.
+fn check_validity(metadata: &Metadata) -> Result<()> {
+    let nodes = &metadata.interface_nodes;
+    let is_there = |dof: &&InterfaceDof| nodes.get(dof.node).is_some_and(|node| node.dofs.contains(&dof.direction));
+    match metadata.validity.unloaded.iter().find(|dof| !is_there(dof)) {
+        Some(&InterfaceDof { node, direction }) => Err(FileError::UnloadedDof { node, direction }),
+        None => Ok(()),
+    }
 }
 
 fn check_coordinates(metadata: &Metadata) -> Result<()> {

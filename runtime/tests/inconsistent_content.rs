@@ -4,7 +4,8 @@
 mod sample;
 
 use supel_runtime::{
-    Coordinate, Direction, FileError, Matrix, Metadata, Precision, Recovery, Superelement, Tensors, Verdict,
+    Coordinate, Direction, FileError, InterfaceDof, Matrix, Metadata, Precision, Recovery, Superelement, Tensors,
+    Verdict,
 };
 
 fn refusal(change: impl FnOnce(&mut Tensors, &mut Metadata)) -> FileError {
@@ -208,6 +209,18 @@ fn names_and_vectors_of_the_loads() {
     assert_refused!(error, FileError::LoadNames { names: 0, vectors: 1 });
     let error = refusal(|tensors, _| tensors.load_vectors = None);
     assert_refused!(error, FileError::LoadNames { names: 1, vectors: 0 });
+}
+
+#[test]
+fn unloaded_dof_that_is_not_there() {
+    let unloaded = |node, direction| vec![InterfaceDof { node, direction }];
+    let error = refusal(|_, metadata| metadata.validity.unloaded = unloaded(1, Direction::Ux));
+    assert_refused!(error, FileError::UnloadedDof { node: 1, direction: Direction::Ux });
+    let error = refusal(|_, metadata| {
+        metadata.interface_nodes[0].dofs.pop();
+        metadata.coordinates[5] = Coordinate::InterfaceRow { row: 5 };
+    });
+    assert_refused!(error, FileError::UnloadedDof { node: 0, direction: Direction::Rz });
 }
 
 #[test]

@@ -140,7 +140,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
         coordinates,
         dropped: dropped.collect(),
         load_names: Vec::new(),
-        validity: file::Validity { band_hz: band(results.job, tensors), assumptions: Vec::new() },
+        validity: file::Validity { band_hz: band(results.job, tensors), ..file::Validity::default() },
         flags: BTreeSet::new(),
         model: file::ModelSummary {
             n_dofs: results.model.n_dofs() as u64,

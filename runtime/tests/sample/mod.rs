@@ -11,9 +11,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 
 use supel_runtime::{
-    CheckSummary, Coordinate, Direction, DroppedColumn, Generator, InterfaceNode, MassProperties, Matrix, Metadata,
-    Method, ModelSummary, Precision, RecoveredDof, Recovery, RigidBodyModes, Superelement, Tensors, Validity, Verdict,
-    Verification, mass_properties,
+    CheckSummary, Coordinate, Direction, DroppedColumn, Generator, InterfaceDof, InterfaceNode, MassProperties, Matrix,
+    Metadata, Method, ModelSummary, Precision, RecoveredDof, Recovery, RigidBodyModes, Superelement, Tensors, Validity,
+    Verdict, Verification, mass_properties,
 };
 
 const POSITION: [f64; 3] = [0.5, -0.25, 2.0];
@@ -107,6 +107,7 @@ pub fn complete_parts() -> (Tensors, Metadata) {
         .collect();
     metadata.validity.band_hz = Some([0.0, 20.0]);
     metadata.validity.assumptions = vec!["gravity is \"uniform\"".into()];
+    metadata.validity.unloaded = vec![InterfaceDof { node: 0, direction: Direction::Rz }];
     metadata.inputs = BTreeMap::from([("mass".into(), "ab".repeat(32)), ("stiffness".into(), "01".repeat(32))]);
     metadata.job = serde_json::json!({ "model": { "stiffness": "k.mtx" }, "scene": { "band_hz": [0.0, 0.1] } });
     metadata.verification = Verification {

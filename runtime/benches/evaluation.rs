@@ -1,0 +1,69 @@
+//! Time of one evaluation of a component with two interface nodes, against the number of modal amplitudes.
+
+#![allow(missing_docs)]
+
+#[path = "../tests/beam/mod.rs"]
+mod beam;
+#[path = "../tests/random/mod.rs"]
+mod random;
+
+use std::hint::black_box;
+
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use random::Random;
+use supel_runtime::Superelement;
+use supel_runtime::component::{FloatingFrame, ModalComponent, State, Workspace};
+use supel_runtime::motion::Motion;
+
+/// A component, and its states in two time steps of which each is evaluated after the other, as in a simulation.
+struct Case {
+    component: ModalComponent,
+    workspace: Workspace,
+    motions: [Vec<Motion>; 2],
+    rest: [Vec<f64>; 3],
+}
+
+impl Case {
+    fn new(n_modal: usize) -> Self {
+        let (tensors, metadata) = beam::random_parts(2, n_modal, 1);
+        let superelement = Superelement::new(tensors, metadata).expect("the parts fit");
+        let component = ModalComponent::new(&superelement, FloatingFrame::MassWeighted).expect("a free body");
+        let mut random = Random(2);
+        let r = component.n_coordinates();
+        let first: Vec<Motion> = (0..2).map(|_| random.motion(0.05)).collect();
+        let second = first.iter().map(|motion| motion.compose(&random.motion(0.005))).collect();
+        let rest = [random.vector(n_modal, 0.05), random.vector(r, 1.0), random.vector(r, 1.0)];
+        Self { workspace: component.workspace(), component, motions: [first, second], rest }
+    }
+
+    fn states(&self) -> [State<'_>; 2] {
+        let [amplitudes, velocities, accelerations] = &self.rest;
+        [0, 1].map(|step| State { motions: &self.motions[step], amplitudes, velocities, accelerations })
+    }
+}
+
+fn evaluation(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("two steps of two nodes");
+    for n_modal in [0, 5, 10, 20, 40, 80] {
+        let case = Case::new(n_modal);
+        let mut workspace = case.workspace.clone();
+        group.bench_function(BenchmarkId::new("forces", n_modal), |bencher| {
+            bencher.iter(|| {
+                for state in &case.states() {
+                    case.component.evaluate(black_box(state), &mut workspace).expect("a small deformation");
+                }
+            });
+        });
+        group.bench_function(BenchmarkId::new("tangents", n_modal), |bencher| {
+            bencher.iter(|| {
+                for state in &case.states() {
+                    case.component.tangents(black_box(state), &mut workspace).expect("a small deformation");
+                }
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, evaluation);
+criterion_main!(benches);

@@ -1,0 +1,260 @@
+//! The component for programs in C and in every language that can call C; feature `capi`, header `capi/supel.h`.
+//!
+//! Objects are opaque. Every function that can fail returns a status and leaves the reason with `supel_last_error`; no
+//! panic crosses the border. Vectors have as many doubles as the component has coordinates, matrices are square, row by
+//! row. A component may be used by several threads at once, a workspace by one at a time.
+//!
+//! This is the only module of the crate with unsafe code. What it must trust is named under *Safety*: that pointers come
+//! from this library or point to as many values as the header says. Pointers are never null where they are used.
+
+#![allow(unsafe_code)]
+
+mod evaluation;
+
+pub use evaluation::*;
+
+use std::cell::RefCell;
+use std::ffi::{CStr, CString, c_char};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+use crate::component::{FloatingFrame, ModalComponent, Workspace};
+use crate::motion::Motion;
+use crate::superelement::Superelement;
+
+/// What a call says.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SupelStatus {
+    /// Done.
+    Ok = 0,
+    /// A pointer is null, or a value is none of those that have a name.
+    Argument = 1,
+    /// The file cannot be read or is no superelement.
+    File = 2,
+    /// The superelement cannot undergo large motion.
+    Component = 3,
+    /// The component cannot be evaluated in this state.
+    State = 4,
+    /// An error of the library.
+    Internal = 5,
+}
+
+/// Floating frame in which the deformation has no momentum.
+pub const SUPEL_MASS_WEIGHTED: u32 = 0;
+
+/// Floating frame in which the deformation measures of the nodes have no mean.
+pub const SUPEL_RIGID: u32 = 1;
+
+/// A rigid-body motion x -> R x + u.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SupelMotion {
+    /// R, row by row.
+    pub rotation: [[f64; 3]; 3],
+    /// u.
+    pub translation: [f64; 3],
+}
+
+/// State of a component; the arrays remain the caller's.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SupelState {
+    /// Changes of configuration of the interface nodes.
+    pub motions: *const SupelMotion,
+    /// Modal amplitudes; may be null if there are none.
+    pub amplitudes: *const f64,
+    /// Material velocities: six for each node, then the rates of the amplitudes.
+    pub velocities: *const f64,
+    /// Material accelerations.
+    pub accelerations: *const f64,
+}
+
+/// A force and a moment on an interface node, constant in inertial axes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SupelDeadLoad {
+    /// Number of the interface node, from 0.
+    pub node: usize,
+    /// Force.
+    pub force: [f64; 3],
+    /// Moment.
+    pub moment: [f64; 3],
+}
+
+/// A superelement in large motion.
+pub struct SupelComponent {
+    component: ModalComponent,
+}
+
+/// Scratch and results of one thread's evaluations of one component.
+pub struct SupelWorkspace {
+    workspace: Workspace,
+    /// Nodes and amplitudes of its component.
+    shape: (usize, usize),
+}
+
+thread_local! {
+    static LAST_ERROR: RefCell<CString> = RefCell::default();
+}
+
+type Outcome = Result<(), (SupelStatus, String)>;
+
+/// Runs `body`, keeps its reason for failing, and lets no panic out.
+fn guarded(body: impl FnOnce() -> Outcome) -> SupelStatus {
+    let outcome = catch_unwind(AssertUnwindSafe(body));
+    let (status, reason) = match outcome {
+        Ok(Ok(())) => return SupelStatus::Ok,
+        Ok(Err(failure)) => failure,
+        Err(_) => (SupelStatus::Internal, "internal error".to_owned()),
+    };
+    // A reason with a zero byte inside, from a file's name, would end there.
+    let reason = CString::new(reason.replace('\0', " ")).unwrap_or_default();
+    LAST_ERROR.with(|last| *last.borrow_mut() = reason);
+    status
+}
+
+fn null(what: &str) -> (SupelStatus, String) {
+    (SupelStatus::Argument, format!("{what} is null"))
+}
+
+fn failed(status: SupelStatus) -> impl Fn(&dyn std::error::Error) -> (SupelStatus, String) {
+    move |error| (status, error.to_string())
+}
+
+// The two are one type in memory: the same fields, in the order of C.
+const _: () = assert!(size_of::<SupelMotion>() == size_of::<Motion>() && size_of::<Motion>() == 96);
+
+/// `n` values at `pointer`, which may be null if there are none.
+///
+/// # Safety
+///
+/// `pointer` points to `n` values that nobody changes as long as the slice is used.
+unsafe fn values<'a, T>(pointer: *const T, n: usize, what: &str) -> Result<&'a [T], (SupelStatus, String)> {
+    match (n, pointer.is_null()) {
+        (0, _) => Ok(&[]),
+        (_, true) => Err(null(what)),
+        // SAFETY: not null, and `n` values long by the promise of the caller.
+        (_, false) => Ok(unsafe { std::slice::from_raw_parts(pointer, n) }),
+    }
+}
+
+/// Reason of the last failure on this thread; valid until the next one.
+#[unsafe(no_mangle)]
+pub extern "C" fn supel_last_error() -> *const c_char {
+    LAST_ERROR.with(|last| last.borrow().as_ptr())
+}
+
+/// Reads a superelement file and makes a component of it, to be freed by `supel_component_free`.
+///
+/// # Safety
+///
+/// `path` is a string that ends with a zero byte, `component` points to a pointer.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn supel_component_open(
+    path: *const c_char,
+    frame: u32,
+    component: *mut *mut SupelComponent,
+) -> SupelStatus {
+    guarded(|| {
+        if path.is_null() || component.is_null() {
+            return Err(null(if path.is_null() { "path" } else { "component" }));
+        }
+        // SAFETY: not null, and a string by the promise of the caller.
+        let path = unsafe { CStr::from_ptr(path) };
+        let path = path.to_str().map_err(|error| failed(SupelStatus::File)(&error))?;
+        let superelement = Superelement::open(Path::new(path)).map_err(|error| failed(SupelStatus::File)(&error))?;
+        let frame = match frame {
+            SUPEL_MASS_WEIGHTED => FloatingFrame::MassWeighted,
+            SUPEL_RIGID => FloatingFrame::Rigid,
+            other => return Err((SupelStatus::Argument, format!("{other} is no floating frame"))),
+        };
+        let made = ModalComponent::new(&superelement, frame).map_err(|error| failed(SupelStatus::Component)(&error))?;
+        // SAFETY: not null, and a place for a pointer by the promise of the caller.
+        unsafe { component.write(Box::into_raw(Box::new(SupelComponent { component: made }))) };
+        Ok(())
+    })
+}
+
+/// Frees a component; null is allowed.
+///
+/// # Safety
+///
+/// `component` comes from `supel_component_open` and is not used afterwards.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn supel_component_free(component: *mut SupelComponent) {
+    if !component.is_null() {
+        // SAFETY: made by `Box::into_raw`, and given up by the caller.
+        drop(unsafe { Box::from_raw(component) });
+    }
+}
+
+/// Number of interface nodes; 0 for null.
+///
+/// # Safety
+///
+/// `component` is null or comes from `supel_component_open`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn supel_n_nodes(component: *const SupelComponent) -> usize {
+    // SAFETY: null or a component by the promise of the caller.
+    unsafe { component.as_ref() }.map_or(0, |component| component.component.n_nodes())
+}
+
+/// Number of modal amplitudes; 0 for null.
+///
+/// # Safety
+///
+/// `component` is null or comes from `supel_component_open`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn supel_n_modal(component: *const SupelComponent) -> usize {
+    // SAFETY: null or a component by the promise of the caller.
+    unsafe { component.as_ref() }.map_or(0, |component| component.component.n_modal())
+}
+
+/// Number of coordinates: six for each node and one for each amplitude; 0 for null.
+///
+/// # Safety
+///
+/// `component` is null or comes from `supel_component_open`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn supel_n_coordinates(component: *const SupelComponent) -> usize {
+    // SAFETY: null or a component by the promise of the caller.
+    unsafe { component.as_ref() }.map_or(0, |component| component.component.n_coordinates())
+}
+
+/// Positions of the interface nodes in the reference configuration, three for each; null for null.
+///
+/// # Safety
+///
+/// `component` is null or comes from `supel_component_open`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn supel_positions(component: *const SupelComponent) -> *const f64 {
+    // SAFETY: null or a component by the promise of the caller.
+    pointer(unsafe { component.as_ref() }.map(|component| component.component.positions().as_flattened()))
+}
+
+/// Stiffness without deformation; null for null.
+///
+/// # Safety
+///
+/// `component` is null or comes from `supel_component_open`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn supel_reference_stiffness(component: *const SupelComponent) -> *const f64 {
+    // SAFETY: null or a component by the promise of the caller.
+    pointer(unsafe { component.as_ref() }.map(|component| component.component.reference_stiffness()))
+}
+
+/// Mass without deformation; null for null.
+///
+/// # Safety
+///
+/// `component` is null or comes from `supel_component_open`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn supel_reference_mass(component: *const SupelComponent) -> *const f64 {
+    // SAFETY: null or a component by the promise of the caller.
+    pointer(unsafe { component.as_ref() }.map(|component| component.component.reference_mass()))
+}
+
+fn pointer(values: Option<&[f64]>) -> *const f64 {
+    values.map_or(std::ptr::null(), <[f64]>::as_ptr)
+}

@@ -1,0 +1,277 @@
+//! From the matrices of a superelement to a component.
+//!
+//! The file's coordinates are q = (displacement and rotation of each node in the inertial frame; η). Those of the component
+//! without deformation are ΔU_j and η', with
+//!
+//! q = A (ΔU; η'), A = [D, 0; N P, I], D_j = [I, −x̃_j; 0, I] (the corrected (92)), P the mean over the nodes.
+//!
+//! N is the part of the geometric rigid-body modes in the modal amplitudes. It is zero for every basis whose interface
+//! nodes carry the rigid-body motion, (24); Rubin's in Herting's variables where the internal stiffness is singular has
+//! rigid-body amplitudes, which must not grow with the motion: η' is what they differ from the mean of the nodes.
+
+use super::dense;
+use super::floating_frame::FrameRounding;
+use super::projection::ActsOn;
+use super::recovery::RecoveryMap;
+use super::{ComponentError, FloatingFrame, Measures, ModalComponent};
+use crate::matrix::Matrix;
+use crate::metadata::{Coordinate, Direction, RigidBodyModes};
+use crate::motion::{IDENTITY_3, IDENTITY_6, Matrix6, Vector3, Vector6, blocks, skew, transposed_times_6};
+use crate::superelement::Superelement;
+
+/// Largest force that a rigid-body motion may make, relative to the sum of the magnitudes of its parts.
+///
+/// Matrices in full precision give 1e-14; ones printed with six digits give 1e-6, and a component of those is free, too.
+/// One that is held by its stiffness gives a number of order one.
+const FREE: f64 = 1e-5;
+
+/// Forces of rigid-body motion below this are rounding, also in matrices that were printed with twelve digits.
+const UNDAMPED: f64 = 1e-10;
+
+/// Smallest pivot of the rigid-body mass scaled to unit diagonal: of a body ten thousand times its size away from the
+/// origin.
+const SMALLEST_PIVOT: f64 = 1e-9;
+
+/// The columns of U.
+const MOTIONS: [&str; 6] = [
+    "translation along x",
+    "translation along y",
+    "translation along z",
+    "rotation about x",
+    "rotation about y",
+    "rotation about z",
+];
+
+/// Reduced matrices, r × r, row by row.
+#[derive(Clone, Debug)]
+pub(super) struct Matrices {
+    pub(super) stiffness: Vec<f64>,
+    pub(super) mass: Vec<f64>,
+    pub(super) damping: Option<Vec<f64>>,
+}
+
+impl ModalComponent {
+    /// A component with motion-based measures of deformation.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`with_measures`](Self::with_measures).
+    pub fn new(superelement: &Superelement, frame: FloatingFrame) -> Result<Self, ComponentError> {
+        Self::with_measures(superelement, frame, Measures::MotionBased)
+    }
+
+    /// A component of `superelement`; costs O(r³).
+    ///
+    /// # Errors
+    ///
+    /// [`ComponentError`]: interface nodes without all six dofs, bare interface rows, no interface node at all; several
+    /// bodies in one superelement or one that is held; a mass that leaves the mass-weighted floating frame undefined.
+    ///
+    /// Source: paper, eq. (92) and the remark after (93); section 2.4 of the corrections.
+    pub fn with_measures(
+        superelement: &Superelement,
+        frame: FloatingFrame,
+        measures: Measures,
+    ) -> Result<Self, ComponentError> {
+        check_interface(superelement)?;
+        let tensors = superelement.tensors();
+        let positions = tensors.interface_positions.clone();
+        let (n_modal, n_nodal) = (superelement.n_modal(), 6 * positions.len());
+        let shifts: Vec<Matrix6> = positions.iter().map(shift).collect();
+        let in_modes = rigid_amplitudes(superelement);
+        let rigid_modes = [shifts.as_flattened(), &in_modes].concat();
+        let (residual, motion) = rigid_force(tensors.stiffness.as_slice(), &rigid_modes);
+        if residual > FREE {
+            return Err(ComponentError::NotFree { motion: MOTIONS[motion], residual, limit: FREE });
+        }
+        let change = change_of_coordinates(&shifts, &in_modes, Measures::MotionBased);
+        let nodal = Matrices::new(superelement, &change);
+        let rigid = vec![IDENTITY_6; positions.len()];
+        let mut frame = match frame {
+            FloatingFrame::MassWeighted => times(&nodal.mass, &with_zeros(&rigid, n_modal)),
+            FloatingFrame::Rigid => with_zeros(&rigid, n_modal),
+        };
+        let scale = normalisation(&frame, &rigid).ok_or(ComponentError::MasslessMotion)?;
+        dense::apply_to_rows(&scale, &mut frame);
+        let (measured, rigid, change) = match measures {
+            Measures::MotionBased => (None, rigid, change),
+            Measures::Classical => {
+                let change = change_of_coordinates(&shifts, &in_modes, measures);
+                // Y of the classical measures is D⁻ᵀY: the same condition to first order.
+                for (rows, shift) in frame[..n_nodal].as_chunks_mut::<6>().0.iter_mut().zip(&shifts) {
+                    *rows = dense::turned_rows(&unshifted(shift), rows);
+                }
+                (Some(Matrices::new(superelement, &change)), shifts, change)
+            }
+        };
+        let matrices = measured.as_ref().unwrap_or(&nodal);
+        let momenta = times(&matrices.mass, &with_zeros(&rigid, n_modal));
+        let gravity = match &tensors.gravity {
+            Some(gravity) => transposed_product(&change, gravity),
+            None => momenta.iter().map(|row| [row[0], row[1], row[2]]).collect(),
+        };
+        let damping = matrices.damping.as_ref();
+        let damping_acts_on = match damping.is_some_and(|c| rigid_force(c, &with_zeros(&rigid, n_modal)).0 > UNDAMPED) {
+            true => ActsOn::Motion,
+            false => ActsOn::Deformation,
+        };
+        Ok(Self {
+            measures,
+            n_modal,
+            rigid_mass: dense::block_sum(&momenta, rigid.iter()),
+            recovery: tensors.recovery.as_ref().map(|recovery| RecoveryMap::new(recovery, &change)),
+            unloaded: superelement.metadata().validity.unloaded.clone(),
+            rigid_motion_residual: residual,
+            frame_rounding: FrameRounding::new(&frame, &positions),
+            damping_acts_on,
+            positions,
+            nodal,
+            measured,
+            rigid,
+            momenta,
+            frame,
+            gravity,
+        })
+    }
+}
+
+impl Matrices {
+    /// AᵀK̂A, AᵀM̂A and AᵀĈA.
+    fn new(superelement: &Superelement, change: &[f64]) -> Self {
+        let tensors = superelement.tensors();
+        Self {
+            stiffness: congruence(&tensors.stiffness, change),
+            mass: congruence(&tensors.mass, change),
+            damping: tensors.damping.as_ref().map(|damping| congruence(damping, change)),
+        }
+    }
+}
+
+fn check_interface(superelement: &Superelement) -> Result<(), ComponentError> {
+    let metadata = superelement.metadata();
+    let is_row = |coordinate: &&Coordinate| matches!(coordinate, Coordinate::InterfaceRow { .. });
+    let count = metadata.coordinates.iter().filter(is_row).count();
+    if count > 0 {
+        return Err(ComponentError::InterfaceRows { count });
+    }
+    if metadata.interface_nodes.is_empty() {
+        return Err(ComponentError::NoInterfaceNodes);
+    }
+    for (node, interface) in metadata.interface_nodes.iter().enumerate() {
+        let missing: Vec<Direction> = Direction::ALL.into_iter().filter(|d| !interface.dofs.contains(d)).collect();
+        if !missing.is_empty() {
+            return Err(ComponentError::MissingDofs { node, name: interface.name.clone(), missing });
+        }
+    }
+    match superelement.n_rigid() {
+        found @ 7.. => Err(ComponentError::Mechanism { found }),
+        _ => Ok(()),
+    }
+}
+
+/// D = [I, −x̃; 0, I].
+fn shift(position: &Vector3) -> Matrix6 {
+    blocks(&IDENTITY_3, &skew(&position.map(|x| -x)), &[[0.0; 3]; 3], &IDENTITY_3)
+}
+
+/// D⁻¹ = [I, x̃; 0, I].
+fn unshifted(shift: &Matrix6) -> Matrix6 {
+    std::array::from_fn(|i| std::array::from_fn(|j| if i == j { 1.0 } else { -shift[i][j] }))
+}
+
+/// N, a row of six for each modal amplitude.
+fn rigid_amplitudes(superelement: &Superelement) -> Vec<Vector6> {
+    let (modes, n_nodal) = (&superelement.tensors().rigid_body_modes, superelement.n_interface());
+    let geometric = superelement.metadata().model.rigid_body_modes == RigidBodyModes::Geometric && modes.cols() == 6;
+    let entry = |i: usize, a: usize| if geometric { modes[(n_nodal + i, a)] } else { 0.0 };
+    (0..superelement.n_modal()).map(|i| std::array::from_fn(|a| entry(i, a))).collect()
+}
+
+/// U of the nodes and zeros for the modal amplitudes, r × 6.
+fn with_zeros(rigid: &[Matrix6], n_modal: usize) -> Vec<Vector6> {
+    [rigid.as_flattened(), &vec![[0.0; 6]; n_modal]].concat()
+}
+
+/// Largest force that a column of U makes, relative to the sum of the magnitudes of its parts, and that column. Each row
+/// is measured in the unit of its diagonal entry.
+fn rigid_force(a: &[f64], u: &[Vector6]) -> (f64, usize) {
+    let r = u.len();
+    let ratio = |column: usize| {
+        let (mut force, mut parts) = (0.0_f64, 0.0_f64);
+        for (i, row) in a.chunks_exact(r).enumerate().filter(|(i, row)| row[*i] > 0.0) {
+            let scale = row[i].sqrt().recip();
+            let terms = || row.iter().zip(u).map(|(entry, motion)| scale * entry * motion[column]);
+            force = force.max(terms().sum::<f64>().abs());
+            parts = parts.max(terms().map(f64::abs).sum());
+        }
+        if parts > 0.0 { force / parts } else { 0.0 }
+    };
+    (0..6)
+        .map(|column| (ratio(column), column))
+        .fold((0.0, 0), |worst, next| if next.0 > worst.0 { next } else { worst })
+}
+
+/// A, r × r; with the classical measures D is the identity and P takes the D⁻¹ of the file's coordinates.
+fn change_of_coordinates(shifts: &[Matrix6], in_modes: &[Vector6], measures: Measures) -> Vec<f64> {
+    let (k, n_nodal) = (shifts.len(), 6 * shifts.len());
+    let r = n_nodal + in_modes.len();
+    let mut change = vec![0.0; r * r];
+    for (i, row) in change.chunks_exact_mut(r).enumerate() {
+        row[i] = 1.0;
+        for (block, shift) in row[..n_nodal].as_chunks_mut::<6>().0.iter_mut().zip(shifts) {
+            let share = |n: &Vector6| n.map(|x| x / k as f64);
+            match measures {
+                Measures::MotionBased if i >= n_nodal => *block = share(&in_modes[i - n_nodal]),
+                Measures::Classical if i >= n_nodal => {
+                    *block = transposed_times_6(&unshifted(shift), &share(&in_modes[i - n_nodal]));
+                }
+                _ => {}
+            }
+        }
+        if measures == Measures::MotionBased && i < n_nodal {
+            row[i / 6 * 6..i / 6 * 6 + 6].copy_from_slice(&shifts[i / 6][i % 6]);
+        }
+    }
+    change
+}
+
+/// AᵀB, as many rows as A has columns; A is mostly zeros.
+fn transposed_times(change: &[f64], b: &[f64], cols: usize) -> Vec<f64> {
+    let r = change.len().isqrt();
+    let mut product = vec![0.0; r * cols];
+    for (factors, row) in change.chunks_exact(r).zip(b.chunks_exact(cols)) {
+        for (target, factor) in product.chunks_exact_mut(cols).zip(factors).filter(|(_, factor)| **factor != 0.0) {
+            dense::add_scaled(target, *factor, row);
+        }
+    }
+    product
+}
+
+/// AᵀKA for symmetric K, symmetric to the bit.
+fn congruence(k: &Matrix, change: &[f64]) -> Vec<f64> {
+    let r = k.rows();
+    // (AᵀK)ᵀ = K A.
+    let half = transposed_times(change, k.as_slice(), r);
+    let turned: Vec<f64> = (0..r * r).map(|i| half[i % r * r + i / r]).collect();
+    let product = transposed_times(change, &turned, r);
+    (0..r * r).map(|i| 0.5 * (product[i] + product[i % r * r + i / r])).collect()
+}
+
+/// AᵀĜ, a row of three for each coordinate.
+fn transposed_product(change: &[f64], gravity: &Matrix) -> Vec<Vector3> {
+    transposed_times(change, gravity.as_slice(), 3).as_chunks::<3>().0.to_vec()
+}
+
+/// M U, a row of six for each coordinate.
+fn times(mass: &[f64], rigid: &[Vector6]) -> Vec<Vector6> {
+    mass.chunks_exact(rigid.len()).map(|row| dense::columns_times(rigid, row)).collect()
+}
+
+/// (YᵀU)⁻¹, found in the scale of its diagonal; `None` where it is singular.
+fn normalisation(frame: &[Vector6], rigid: &[Matrix6]) -> Option<Matrix6> {
+    let product = dense::block_sum(frame, rigid.iter());
+    let scale: Vector6 = std::array::from_fn(|a| product[a][a].sqrt().recip());
+    let scaled =
+        |a: &Matrix6| -> Matrix6 { std::array::from_fn(|i| std::array::from_fn(|j| scale[i] * a[i][j] * scale[j])) };
+    dense::inverse(&scaled(&product), SMALLEST_PIVOT).map(|inverse| scaled(&inverse))
+}

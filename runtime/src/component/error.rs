@@ -1,0 +1,146 @@
+//! Why a superelement makes no component, and why a component cannot be evaluated.
+
+use crate::metadata::Direction;
+
+/// Why a superelement cannot undergo large motion.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ComponentError {
+    /// The superelement is joined to nothing.
+    #[error(
+        "the superelement has no interface node; its motion is that of its interface nodes: reduce it with at least one"
+    )]
+    NoInterfaceNodes,
+    /// Part of the interface are bare rows, of which nobody knows what they displace.
+    #[error(
+        "{count} interface coordinates are rows without a node; large motion needs positions and six dofs: give the nodes' coordinates and reduce again"
+    )]
+    InterfaceRows {
+        /// How many.
+        count: usize,
+    },
+    /// An interface node lacks translations or rotations.
+    #[error(
+        "interface node {node} (from 0, `{name}`) has no {}; large motion needs three translations and three rotations at each interface node: couple it by `rigid` or `average`, which give it six, and reduce again",
+        list(missing)
+    )]
+    MissingDofs {
+        /// Number of the node.
+        node: usize,
+        /// Its name.
+        name: String,
+        /// What it lacks.
+        missing: Vec<Direction>,
+    },
+    /// The superelement has more motions without deformation than a body has.
+    #[error(
+        "the superelement has {found} rigid-body modes, expected 6: its parts move against each other; make a component of each"
+    )]
+    Mechanism {
+        /// Number of rigid-body modes.
+        found: usize,
+    },
+    /// The stiffness resists rigid-body motion.
+    #[error(
+        "a rigid-body {motion} of the component makes forces: {residual:.1e} of those its parts make, at most {limit:.0e} expected; reduce the component unconstrained and fix its interface nodes in the simulation"
+    )]
+    NotFree {
+        /// `translation along x`, …
+        motion: &'static str,
+        /// Largest force relative to the sum of the magnitudes of its parts.
+        residual: f64,
+        /// What is allowed.
+        limit: f64,
+    },
+    /// The mass sees no difference between some rigid-body motions.
+    #[error(
+        "the mass of the component does not resist each rigid-body motion, so that a mass-weighted floating frame is undefined; choose the rigid one"
+    )]
+    MasslessMotion,
+}
+
+/// Why a component could not be evaluated in a given state. The component itself is unharmed; the results in the workspace
+/// are those of no state until the next evaluation succeeds.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum EvaluationError {
+    /// An argument has the wrong length.
+    #[error("{found} {what} given, the component has {expected}")]
+    WrongLength {
+        /// What the argument is.
+        what: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length it needs.
+        expected: usize,
+    },
+    /// An argument is infinite or not a number.
+    #[error("entry {index} (from 0) of the {what} is not finite")]
+    NotFinite {
+        /// What the argument is.
+        what: &'static str,
+        /// Number of its entry.
+        index: usize,
+    },
+    /// The rotation of a node is not a rotation matrix.
+    #[error("the rotation of interface node {node} (from 0) is not a rotation matrix; orthonormalise it")]
+    NotRotation {
+        /// Number of the node.
+        node: usize,
+    },
+    /// A node has turned by half a turn against the floating frame.
+    #[error(
+        "interface node {node} (from 0) has turned by half a turn against the floating frame; the component is valid for small deformation: divide it into several"
+    )]
+    HalfTurn {
+        /// Number of the node.
+        node: usize,
+    },
+    /// The deformation is so large that the floating frame is not determined.
+    #[error(
+        "the floating frame is not determined by the interface nodes: the deformation is too large; divide the component into several"
+    )]
+    FrameSingular,
+    /// The floating frame was not found.
+    #[error(
+        "the floating frame was not found in {iterations} iterations (last correction {correction:.1e}); the deformation is too large: divide the component into several"
+    )]
+    FrameNotConverged {
+        /// Iterations from the last start.
+        iterations: usize,
+        /// Largest entry of the last correction.
+        correction: f64,
+    },
+    /// The file recovers only some of the translations of a node, or only some of its rotations.
+    #[error(
+        "the file recovers only some directions of node {label}; to turn them with the floating frame it needs all three translations, and all three rotations or none"
+    )]
+    IncompleteRecovery {
+        /// Label of the node.
+        label: i64,
+    },
+    /// A load on a dof of which the file says that none acts.
+    #[error(
+        "load along {} of interface node {node} (from 0), which the superelement was told to be unloaded; reduce it without that statement",
+        list(&[*direction])
+    )]
+    UnloadedDof {
+        /// Number of the node.
+        node: usize,
+        /// Direction, turned with the node.
+        direction: Direction,
+    },
+    /// A load on a node that is not there.
+    #[error("load on interface node {node} (from 0); the component has {n_nodes}")]
+    UnknownNode {
+        /// Number of the node.
+        node: usize,
+        /// Number of nodes.
+        n_nodes: usize,
+    },
+}
+
+fn list(directions: &[Direction]) -> String {
+    let names = ["ux", "uy", "uz", "rx", "ry", "rz"];
+    directions.iter().map(|direction| names[*direction as usize]).collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,116 @@
+//! Displacements inside the component, in inertial axes.
+//!
+//! The recovery rows are applied to the deformation, d = Ψ A e, and the floating frame carries the node along:
+//! x = R_F (x₀ + d) + u_F, with the rotation R_F exp(θ̃_d). To first order in the deformation it is the linear recovery.
+
+use std::collections::BTreeMap;
+
+use super::dense;
+use super::{EvaluationError, ModalComponent, Workspace};
+use crate::motion::{Matrix3, Motion, Vector3, join, multiply_3};
+use crate::superelement::Recovery;
+
+/// Recovery rows in the coordinates of the deformation, node by node.
+#[derive(Clone, Debug)]
+pub(super) struct RecoveryMap {
+    /// rows × r.
+    rows: Vec<f64>,
+    labels: Vec<i64>,
+    /// For each node the row of each direction.
+    directions: Vec<[Option<usize>; 6]>,
+}
+
+/// Where a node inside the component has gone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RecoveredNode {
+    /// Displacement, in inertial axes.
+    pub displacement: Vector3,
+    /// Rotation: that of the floating frame where the file recovers no rotation of the node.
+    pub rotation: Matrix3,
+}
+
+impl RecoveryMap {
+    /// Ψ A, and which rows belong to which node, in the order of their first rows.
+    pub(super) fn new(recovery: &Recovery, change: &[f64]) -> Self {
+        let r = recovery.rows().cols();
+        let mut rows = vec![0.0; recovery.rows().as_slice().len()];
+        for (row, target) in recovery.rows().as_slice().chunks_exact(r).zip(rows.chunks_exact_mut(r)) {
+            for (factor, change_row) in row.iter().zip(change.chunks_exact(r)) {
+                dense::add_scaled(target, *factor, change_row);
+            }
+        }
+        let (mut labels, mut directions) = (Vec::new(), Vec::new());
+        let mut places = BTreeMap::new();
+        for (row, dof) in recovery.dofs().iter().enumerate() {
+            let place = *places.entry(dof.node).or_insert_with(|| {
+                labels.push(dof.node);
+                directions.push([None; 6]);
+                labels.len() - 1
+            });
+            directions[place][dof.direction as usize] = Some(row);
+        }
+        Self { rows, labels, directions }
+    }
+}
+
+impl ModalComponent {
+    /// Labels of the nodes that the file recovers, in the order of their first rows; empty where it recovers none.
+    pub fn recovered_labels(&self) -> &[i64] {
+        self.recovery.as_ref().map_or(&[], |recovery| &recovery.labels)
+    }
+
+    /// Displacements and rotations of the recovered nodes in the state last evaluated in `workspace`, in the order of
+    /// [`recovered_labels`](Self::recovered_labels).
+    ///
+    /// `positions` are those of the nodes in the reference configuration, which the file does not hold. It allocates nothing
+    /// and costs O(rows · r).
+    ///
+    /// # Errors
+    ///
+    /// [`EvaluationError::WrongLength`]; [`EvaluationError::IncompleteRecovery`] where the file recovers only some of the
+    /// three translations of a node, or only some of its rotations: they cannot be turned with the floating frame.
+    pub fn recover(
+        &self,
+        workspace: &Workspace,
+        positions: &[Vector3],
+        nodes: &mut [RecoveredNode],
+    ) -> Result<(), EvaluationError> {
+        let expected = self.recovered_labels().len();
+        for (what, found) in [("positions of recovered nodes", positions.len()), ("recovered nodes", nodes.len())] {
+            if found != expected {
+                return Err(EvaluationError::WrongLength { what, found, expected });
+            }
+        }
+        let Some(recovery) = &self.recovery else {
+            return Ok(());
+        };
+        let (frame, e) = (&workspace.floating_frame, workspace.deformation());
+        for ((place, position), node) in positions.iter().enumerate().zip(nodes) {
+            let incomplete = || EvaluationError::IncompleteRecovery { label: recovery.labels[place] };
+            let [d, theta] = recovery.deformation(place, e);
+            let d = d.ok_or_else(incomplete)?;
+            let n_rotations = recovery.directions[place][3..].iter().flatten().count();
+            if theta.is_none() && n_rotations > 0 {
+                return Err(incomplete());
+            }
+            let moved = frame.apply(&std::array::from_fn(|i| position[i] + d[i]));
+            let turn = Motion::exp(&join(&[0.0; 3], &theta.unwrap_or_default())).rotation;
+            node.displacement = std::array::from_fn(|i| moved[i] - position[i]);
+            node.rotation = multiply_3(&frame.rotation, &turn);
+        }
+        Ok(())
+    }
+}
+
+impl RecoveryMap {
+    /// Displacement and rotation of a node in the floating frame, each `None` unless all three are recovered.
+    fn deformation(&self, place: usize, e: &[f64]) -> [Option<Vector3>; 2] {
+        let value = |row: usize| dense::dot(&self.rows[row * e.len()..(row + 1) * e.len()], e);
+        let [x, y, z, rx, ry, rz] = self.directions[place];
+        let three = |rows: [Option<usize>; 3]| match rows {
+            [Some(x), Some(y), Some(z)] => Some([value(x), value(y), value(z)]),
+            _ => None,
+        };
+        [three([x, y, z]), three([rx, ry, rz])]
+    }
+}

@@ -1,0 +1,187 @@
+//! Scratch and results of a component's evaluations, owned by the caller.
+
+use super::ModalComponent;
+use super::dense;
+use super::measures::NodeMeasure;
+use crate::motion::{IDENTITY_6, Matrix6, Motion, Vector6};
+
+/// Scratch and results of the evaluations of one component; made by [`ModalComponent::workspace`].
+///
+/// It keeps the floating frame for the next evaluation to start from. Matrices are r × r, row by row, in the coordinates
+/// of the forces.
+#[derive(Clone, Debug)]
+pub struct Workspace {
+    pub(super) floating_frame: Motion,
+    /// The floating frame seen from node 0, which a rigid-body motion leaves as it is.
+    pub(super) frame_in_node: Motion,
+    /// A floating frame to start from, given by the caller.
+    pub(super) given_frame: Option<Motion>,
+    pub(super) nodes: Vec<NodeMeasure>,
+    /// S = (YᵀF)⁻¹.
+    pub(super) s: Matrix6,
+    /// Qᵀ: six values for each coordinate.
+    pub(super) q: Vec<Vector6>,
+    pub(super) deformation: Vec<f64>,
+    pub(super) deformation_rate: Vec<f64>,
+    pub(super) frame_velocity: Vector6,
+    /// Velocity and acceleration ε = ė + U V_F of the component in its floating frame.
+    pub(super) velocity: Vec<f64>,
+    pub(super) acceleration: Vec<f64>,
+    pub(super) product: Vec<f64>,
+    pub(super) results: Results,
+    pub(super) scratch: Scratch,
+}
+
+/// What the getters hand out.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Results {
+    pub(super) elastic: Vec<f64>,
+    pub(super) inertial: Vec<f64>,
+    pub(super) damping_forces: Vec<f64>,
+    pub(super) gravity: Vec<f64>,
+    pub(super) strain_energy: f64,
+    pub(super) kinetic_energy: f64,
+    pub(super) stiffness: Vec<f64>,
+    pub(super) mass: Vec<f64>,
+    pub(super) damping: Vec<f64>,
+    pub(super) gyroscopic: Vec<f64>,
+    pub(super) frame_gyroscopic: Vec<f64>,
+}
+
+/// Intermediate matrices of the tangents.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Scratch {
+    /// r × r.
+    pub(super) square: Vec<f64>,
+    /// 6k × r.
+    pub(super) rates: Vec<f64>,
+    /// Two 6 × r, row by row.
+    pub(super) wide: [Vec<f64>; 2],
+    /// r × 6.
+    pub(super) tall: Vec<Vector6>,
+}
+
+impl Workspace {
+    pub(super) fn new(component: &ModalComponent) -> Self {
+        let (k, r) = (component.n_nodes(), component.n_coordinates());
+        let (vector, matrix, columns) = (|| vec![0.0; r], || vec![0.0; r * r], || vec![[0.0; 6]; r]);
+        let results = Results {
+            elastic: vector(),
+            inertial: vector(),
+            damping_forces: vector(),
+            gravity: vector(),
+            stiffness: component.reference_stiffness().to_vec(),
+            mass: component.reference_mass().to_vec(),
+            damping: component.reference_damping().unwrap_or_default().to_vec(),
+            gyroscopic: matrix(),
+            frame_gyroscopic: matrix(),
+            ..Results::default()
+        };
+        let scratch = Scratch {
+            square: matrix(),
+            rates: vec![0.0; 6 * k * r],
+            wide: [vec![0.0; 6 * r], vec![0.0; 6 * r]],
+            tall: columns(),
+        };
+        let mut workspace = Self {
+            floating_frame: Motion::IDENTITY,
+            frame_in_node: Motion::IDENTITY,
+            given_frame: None,
+            nodes: component.rigid.iter().map(NodeMeasure::undeformed).collect(),
+            s: IDENTITY_6,
+            q: columns(),
+            deformation: vector(),
+            deformation_rate: vector(),
+            frame_velocity: [0.0; 6],
+            velocity: vector(),
+            acceleration: vector(),
+            product: vector(),
+            results,
+            scratch,
+        };
+        component.project_frame(&mut workspace);
+        workspace
+    }
+
+    /// Starts the next search for the floating frame from `frame`: after a jump of the state, or to repeat a run.
+    pub fn set_floating_frame(&mut self, frame: &Motion) {
+        self.given_frame = Some(*frame);
+    }
+
+    /// Change of configuration of the floating frame H_F, eq. (62).
+    pub fn floating_frame(&self) -> &Motion {
+        &self.floating_frame
+    }
+
+    /// Material velocity of the floating frame V_F = Q v.
+    pub fn frame_velocity(&self) -> &Vector6 {
+        &self.frame_velocity
+    }
+
+    /// Deformation measure e, r: six for each interface node, then the modal amplitudes; eq. (63).
+    pub fn deformation(&self) -> &[f64] {
+        &self.deformation
+    }
+
+    /// Rate of the deformation measure, r; eq. (73b).
+    pub fn deformation_rate(&self) -> &[f64] {
+        &self.deformation_rate
+    }
+
+    /// Elastic forces (J P_⊥)ᵀK e, r; the gradient of the strain energy; eq. (81).
+    pub fn elastic_forces(&self) -> &[f64] {
+        &self.results.elastic
+    }
+
+    /// Inertial forces, r; eq. (85) with J⁻¹.
+    pub fn inertial_forces(&self) -> &[f64] {
+        &self.results.inertial
+    }
+
+    /// Damping forces, r; zero where the file has no damping.
+    pub fn damping_forces(&self) -> &[f64] {
+        &self.results.damping_forces
+    }
+
+    /// Strain energy ½ eᵀK e.
+    pub fn strain_energy(&self) -> f64 {
+        self.results.strain_energy
+    }
+
+    /// Kinetic energy ½ (ė + U V_F)ᵀM (ė + U V_F); eq. (83).
+    pub fn kinetic_energy(&self) -> f64 {
+        self.results.kinetic_energy
+    }
+
+    /// Tangent stiffness (J P_⊥)ᵀK J P_⊥, r × r, symmetric; eq. (82). It lacks the derivative of J P_⊥, which vanishes
+    /// with the deformation.
+    pub fn stiffness(&self) -> &[f64] {
+        &self.results.stiffness
+    }
+
+    /// Mass M_I, r × r, symmetric: the derivative of the inertial forces by the accelerations; eq. (84).
+    pub fn mass(&self) -> &[f64] {
+        &self.results.mass
+    }
+
+    /// Derivative of the inertial forces by the velocities, r × r.
+    pub fn gyroscopic(&self) -> &[f64] {
+        &self.results.gyroscopic
+    }
+
+    /// The part of [`gyroscopic`](Self::gyroscopic) that comes from the momentum of the floating frame, r × r: the paper's
+    /// eq. (87). The rest, from the Coriolis forces, is of the same order.
+    pub fn frame_gyroscopic(&self) -> &[f64] {
+        &self.results.frame_gyroscopic
+    }
+
+    /// Derivative of the damping forces by the velocities, r × r, symmetric; empty where the file has no damping.
+    pub fn damping(&self) -> &[f64] {
+        &self.results.damping
+    }
+
+    /// Q x.
+    pub(super) fn frame_part(&self, x: &[f64]) -> Vector6 {
+        dense::columns_times(&self.q, x)
+    }
+}

@@ -1,0 +1,120 @@
+//! The interface for C: the header is that of the source, and C programs build against it and run.
+
+#[path = "../beam/mod.rs"]
+mod beam;
+#[path = "../random/mod.rs"]
+mod random;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use supel_runtime::Superelement;
+use supel_runtime::component::{DeadLoad, FloatingFrame, ModalComponent, State};
+use supel_runtime::motion::Motion;
+
+fn in_crate(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+}
+
+fn header() -> String {
+    let mut config = cbindgen::Config {
+        language: cbindgen::Language::C,
+        cpp_compat: true,
+        include_guard: Some("SUPEL_H".to_owned()),
+        autogen_warning: Some(
+            "/* Made from src/capi.rs by `SUPEL_WRITE_HEADER=1 cargo test --test capi`. */".to_owned(),
+        ),
+        documentation_style: cbindgen::DocumentationStyle::C99,
+        line_length: 120,
+        no_includes: true,
+        sys_includes: ["stddef.h", "stdint.h"].map(String::from).to_vec(),
+        usize_is_size_t: true,
+        ..cbindgen::Config::default()
+    };
+    config.enumeration.rename_variants = cbindgen::RenameRule::QualifiedScreamingSnakeCase;
+    let sources = ["src/capi.rs", "src/capi/evaluation.rs"];
+    let builder = cbindgen::Builder::new().with_config(config);
+    let bindings = sources.iter().fold(builder, |builder, source| builder.with_src(in_crate(source))).generate();
+    let mut text = Vec::new();
+    bindings.expect("the source can be parsed").write(&mut text);
+    String::from_utf8(text).expect("the source is text")
+}
+
+#[test]
+fn the_header_is_that_of_the_source() {
+    let path = in_crate("capi/supel.h");
+    if std::env::var_os("SUPEL_WRITE_HEADER").is_some() {
+        std::fs::write(&path, header()).expect("the header can be written");
+    }
+    assert_eq!(std::fs::read_to_string(path).expect("the header is there"), header());
+}
+
+/// The static library, built as the header's users build it.
+fn library() -> PathBuf {
+    let arguments = ["rustc", "--offline", "--lib", "--features", "capi", "--crate-type", "staticlib"];
+    let build = Command::new(env!("CARGO"))
+        .args(arguments)
+        .args(["--message-format", "json", "--manifest-path"])
+        .arg(in_crate("Cargo.toml"))
+        .output()
+        .expect("cargo runs");
+    assert!(build.status.success(), "{}", String::from_utf8_lossy(&build.stderr));
+    let messages = String::from_utf8(build.stdout).expect("messages are text");
+    let files = messages
+        .lines()
+        .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
+        .flat_map(|message| message["filenames"].as_array().cloned().unwrap_or_default());
+    let mut archives =
+        files.filter_map(|file| file.as_str().filter(|name| name.ends_with("supel_runtime.a")).map(PathBuf::from));
+    archives.next().expect("an archive")
+}
+
+/// Compiles a C program without warnings and runs it with a superelement file.
+fn run(source: &str, library: &Path, folder: &Path, file: &Path) -> Output {
+    let program = folder.join(Path::new(source).file_stem().expect("a file"));
+    let compiled = Command::new("cc")
+        .args(["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-I"])
+        .args([&in_crate("capi"), &in_crate(source), library])
+        .args(["-lpthread", "-ldl", "-lm", "-o"])
+        .arg(&program)
+        .output()
+        .expect("a C compiler");
+    assert!(compiled.status.success(), "{}", String::from_utf8_lossy(&compiled.stderr));
+    Command::new(program).arg(file).output().expect("the program runs")
+}
+
+#[test]
+fn c_programs_get_the_same_bits_and_reasons() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("arc.supel");
+    beam::arc(3).superelement.write(&file).expect("the file can be written");
+    let library = library();
+
+    let refusals = run("tests/capi/refusals.c", &library, folder.path(), &file);
+    assert!(refusals.status.success(), "{}", String::from_utf8_lossy(&refusals.stderr));
+
+    let example = run("capi/example.c", &library, folder.path(), &file);
+    assert!(example.status.success(), "{}", String::from_utf8_lossy(&example.stderr));
+    let text = String::from_utf8(example.stdout).expect("the program prints text");
+    let printed: Vec<f64> = text.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+    assert_eq!(printed, expected(&file));
+}
+
+/// What the example prints, by the library itself.
+fn expected(file: &Path) -> Vec<f64> {
+    let superelement = Superelement::open(file).expect("a superelement");
+    let component = ModalComponent::new(&superelement, FloatingFrame::MassWeighted).expect("a free body");
+    let (motions, rest) = (vec![Motion::IDENTITY; 2], vec![0.0; component.n_coordinates()]);
+    let mut velocities = rest.clone();
+    (velocities[5], velocities[11]) = (10.0, 10.0);
+    let state = State { motions: &motions, amplitudes: &rest[..3], velocities: &velocities, accelerations: &rest };
+    let mut workspace = component.workspace();
+    component.evaluate(&state, &mut workspace).expect("no deformation");
+    let mut external = component.gravity_forces(&[0.0, 0.0, -9.81], &mut workspace).to_vec();
+    let load = DeadLoad { node: 1, force: [0.0, 100.0, 0.0], moment: [0.0; 3] };
+    component.add_load(&load, &motions, &mut external).expect("a node of the component");
+    let mut values = vec![workspace.kinetic_energy()];
+    let forces = workspace.elastic_forces().iter().zip(workspace.inertial_forces()).zip(&external);
+    values.extend(forces.flat_map(|((elastic, inertial), external)| [*elastic, *inertial, *external]));
+    values
+}

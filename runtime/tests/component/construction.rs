@@ -1,0 +1,196 @@
+//! What a component is made of, and what cannot become one.
+
+use supel_runtime::component::{ComponentError, FloatingFrame, Measures, ModalComponent};
+use supel_runtime::{Coordinate, Direction, Matrix, Metadata, Superelement, Tensors};
+
+use crate::beam;
+use crate::situation::{CHOICES, assert_close, largest};
+
+/// A matrix or its rows and columns left out.
+fn without(a: &Matrix, rows: &[usize], cols: &[usize]) -> Matrix {
+    let kept = |n: usize, out: &[usize]| (0..n).filter(|i| !out.contains(i)).collect::<Vec<_>>();
+    let (rows, cols) = (kept(a.rows(), rows), kept(a.cols(), cols));
+    Matrix::from_fn(rows.len(), cols.len(), |i, j| a[(rows[i], cols[j])])
+}
+
+/// The arc without some of its first coordinates.
+fn arc_without(out: &[usize]) -> (Tensors, Metadata) {
+    let (mut tensors, mut metadata, _) = beam::reduced_parts(&beam::arc_nodes(), &beam::SOFT, &[0, 8], 2);
+    tensors.stiffness = without(&tensors.stiffness, out, out);
+    tensors.mass = without(&tensors.mass, out, out);
+    tensors.rigid_body_modes = without(&tensors.rigid_body_modes, out, &[]);
+    let mut index = 0;
+    metadata.coordinates.retain(|_| {
+        index += 1;
+        !out.contains(&(index - 1))
+    });
+    (tensors, metadata)
+}
+
+fn refusal(parts: (Tensors, Metadata), frame: FloatingFrame) -> ComponentError {
+    let superelement = Superelement::new(parts.0, parts.1).expect("the parts fit");
+    ModalComponent::new(&superelement, frame).expect_err("no component")
+}
+
+#[test]
+fn nodes_that_only_translate_are_refused_with_the_remedy() {
+    let (tensors, mut metadata) = arc_without(&[9, 10, 11]);
+    metadata.interface_nodes[1].dofs.truncate(3);
+    let error = refusal((tensors, metadata), FloatingFrame::MassWeighted);
+    let missing = vec![Direction::Rx, Direction::Ry, Direction::Rz];
+    assert_eq!(error, ComponentError::MissingDofs { node: 1, name: "node 1".into(), missing });
+    let text = error.to_string();
+    assert!(text.contains("no rx, ry, rz") && text.contains("`rigid`") && text.contains("`average`"), "{text}");
+}
+
+#[test]
+fn a_node_without_one_rotation_is_refused() {
+    let (tensors, mut metadata) = arc_without(&[4]);
+    metadata.interface_nodes[0].dofs.remove(4);
+    let error = refusal((tensors, metadata), FloatingFrame::Rigid);
+    assert_eq!(error, ComponentError::MissingDofs { node: 0, name: "node 0".into(), missing: vec![Direction::Ry] });
+}
+
+#[test]
+fn interface_rows_are_refused() {
+    let (mut tensors, mut metadata) = arc_without(&[]);
+    metadata.interface_nodes.pop();
+    tensors.interface_positions.pop();
+    tensors.interface_frames.pop();
+    (6..12).for_each(|i| metadata.coordinates[i] = Coordinate::InterfaceRow { row: i as u64 });
+    assert_eq!(refusal((tensors, metadata), FloatingFrame::Rigid), ComponentError::InterfaceRows { count: 6 });
+}
+
+#[test]
+fn a_modal_model_without_interface_is_refused() {
+    let (mut tensors, mut metadata) = arc_without(&(0..12).collect::<Vec<_>>());
+    metadata.interface_nodes.clear();
+    tensors.interface_positions.clear();
+    tensors.interface_frames.clear();
+    assert_eq!(refusal((tensors, metadata), FloatingFrame::Rigid), ComponentError::NoInterfaceNodes);
+}
+
+#[test]
+fn several_bodies_in_one_are_refused() {
+    let (mut tensors, metadata) = arc_without(&[]);
+    let modes = tensors.rigid_body_modes;
+    tensors.rigid_body_modes = Matrix::from_fn(modes.rows(), 7, |i, j| modes[(i, j % 6)]);
+    tensors.rigid_body_mass = Matrix::from_fn(7, 7, |_, _| 1.0);
+    assert_eq!(refusal((tensors, metadata), FloatingFrame::Rigid), ComponentError::Mechanism { found: 7 });
+}
+
+#[test]
+fn a_component_that_is_held_is_refused() {
+    let (mut tensors, metadata) = arc_without(&[]);
+    let k = tensors.stiffness.clone();
+    tensors.stiffness =
+        Matrix::from_fn(k.rows(), k.cols(), |i, j| k[(i, j)] + if i == 1 && j == 1 { k[(1, 1)] } else { 0.0 });
+    let error = refusal((tensors, metadata), FloatingFrame::Rigid);
+    assert!(matches!(error, ComponentError::NotFree { residual, .. } if residual > 0.1), "{error}");
+}
+
+#[test]
+fn a_component_without_inertia_about_an_axis_needs_the_rigid_floating_frame() {
+    let (mut tensors, metadata) = arc_without(&[]);
+    let m = tensors.mass;
+    // Point masses on the line between the nodes: no inertia about it.
+    tensors.mass = Matrix::from_fn(m.rows(), m.cols(), |i, j| if i == j && i % 6 < 3 && i < 12 { 1.0 } else { 0.0 });
+    let superelement = Superelement::new(tensors, metadata).expect("the parts fit");
+    let error = ModalComponent::new(&superelement, FloatingFrame::MassWeighted).expect_err("no frame");
+    assert_eq!(error, ComponentError::MasslessMotion);
+    assert!(ModalComponent::new(&superelement, FloatingFrame::Rigid).is_ok());
+}
+
+#[test]
+fn rigid_motion_makes_no_force() {
+    // Without internal nodes the matrices are those of the elements; the solution with the internal stiffness, whose
+    // condition number is 1e4, costs a reduced one a few digits.
+    let all: Vec<usize> = (0..9).collect();
+    for (interface, n_modes, tolerance) in [(all.as_slice(), 0, 1e-14), (&[0, 8], 0, 1e-13), (&[0, 8], 5, 1e-13)] {
+        let superelement = beam::reduced(&beam::arc_nodes(), &beam::SOFT, interface, n_modes).superelement;
+        let component = ModalComponent::new(&superelement, FloatingFrame::Rigid).expect("a free body");
+        let (nodes, r) = (interface.len(), 6 * interface.len() + n_modes);
+        assert_eq!((component.n_nodes(), component.n_modal(), component.n_coordinates()), (nodes, n_modes, r));
+        assert!(component.rigid_motion_residual() <= tolerance, "{:.1e}", component.rigid_motion_residual());
+        for (i, row) in component.reference_stiffness().chunks_exact(r).enumerate() {
+            for a in 0..6 {
+                let force: f64 = (0..nodes).map(|j| row[6 * j + a]).sum();
+                assert!(force.abs() <= tolerance * largest(row), "row {i}, motion {a}: {force:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_rigid_mass_is_that_of_the_file() {
+    for (frame, measures) in CHOICES {
+        let superelement = beam::arc(3).superelement;
+        let component = ModalComponent::with_measures(&superelement, frame, measures).expect("a free body");
+        let expected = superelement.tensors().rigid_body_mass.as_slice();
+        assert_close(component.rigid_mass().as_flattened(), expected, 1e-13);
+    }
+}
+
+#[test]
+fn turned_axes_of_the_interface_nodes_change_nothing() {
+    let (mut tensors, metadata) = arc_without(&[]);
+    let make = |tensors: &Tensors| {
+        let superelement = Superelement::new(tensors.clone(), metadata.clone()).expect("the parts fit");
+        ModalComponent::new(&superelement, FloatingFrame::MassWeighted).expect("a free body")
+    };
+    let straight = make(&tensors);
+    tensors.interface_frames[0] = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+    assert_eq!(make(&tensors).reference_stiffness(), straight.reference_stiffness());
+    assert_eq!(make(&tensors).reference_mass(), straight.reference_mass());
+}
+
+/// Rubin's basis where the internal stiffness is singular: rigid-body motion has amplitudes N.
+#[test]
+fn rigid_body_amplitudes_are_taken_out_of_the_motion() {
+    let (tensors, metadata) = arc_without(&[]);
+    let (n_b, r) = (12, tensors.stiffness.rows());
+    let amplitude = |mode: usize, motion: usize| 0.3 + mode as f64 - 0.1 * motion as f64;
+    // η = η_file − N P u_B with P the mean of D⁻¹u over the two nodes.
+    let positions = tensors.interface_positions.clone();
+    let entry = |i: usize, j: usize| {
+        if i == j {
+            return 1.0;
+        }
+        if i < n_b || j >= n_b {
+            return 0.0;
+        }
+        // D⁻¹ is the rigid motion of the opposite position.
+        let back = [positions[j / 6].map(|x| -x)];
+        -(0..6).map(|a| 0.5 * amplitude(i - n_b, a) * beam::rigid_motion(&back, a, j % 6)).sum::<f64>()
+    };
+    let change = Matrix::from_fn(r, r, entry);
+    let congruent = |a: &Matrix| {
+        let product = |i: usize, j: usize| -> f64 {
+            (0..r * r).map(|c| change[(c / r, i)] * a[(c / r, c % r)] * change[(c % r, j)]).sum()
+        };
+        Matrix::from_fn(r, r, |i, j| 0.5 * (product(i, j) + product(j, i)))
+    };
+    let mut turned = tensors.clone();
+    (turned.stiffness, turned.mass) = (congruent(&tensors.stiffness), congruent(&tensors.mass));
+    let modes = &tensors.rigid_body_modes;
+    turned.rigid_body_modes = Matrix::from_fn(r, 6, |i, a| if i < n_b { modes[(i, a)] } else { amplitude(i - n_b, a) });
+    for (frame, measures) in CHOICES {
+        let make = |tensors: &Tensors| {
+            let superelement = Superelement::new(tensors.clone(), metadata.clone()).expect("the parts fit");
+            ModalComponent::with_measures(&superelement, frame, measures).expect("a free body")
+        };
+        let (plain, mixed) = (make(&tensors), make(&turned));
+        assert_close(mixed.reference_stiffness(), plain.reference_stiffness(), 1e-12);
+        assert_close(mixed.reference_mass(), plain.reference_mass(), 1e-12);
+        let situation = crate::situation::Situation::random(&plain, 0.3, 1);
+        let (found, expected) = (situation.evaluated(&mixed), situation.evaluated(&plain));
+        assert_close(found.elastic_forces(), expected.elastic_forces(), 1e-11);
+        assert_close(found.inertial_forces(), expected.inertial_forces(), 1e-11);
+    }
+}
+
+#[test]
+fn measures_are_motion_based_unless_asked_for() {
+    let component = ModalComponent::new(&beam::arc(0).superelement, FloatingFrame::Rigid).expect("a free body");
+    assert_eq!(component.measures(), Measures::MotionBased);
+}

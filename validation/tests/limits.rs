@@ -1,0 +1,120 @@
+//! Each example against the reference of independent codes, within the limits that an independent implementation of the
+//! same method reached (largest error, as a share of the largest value of the reference unless said otherwise).
+
+use supel_runtime::Superelement;
+use validation::curve::Curves;
+use validation::examples::{Example, Run, Variant, classical, motion_based, reduced_parts, rotating};
+use validation::integrator::Scheme;
+
+fn parts(example: Example, layout: usize) -> Vec<Superelement> {
+    let folder = tempfile::tempdir().expect("folder");
+    reduced_parts(&example.parts(layout), folder.path()).expect("verified")
+}
+
+fn run(example: Example, variant: Variant) -> Run {
+    let run = example.run(&parts(example, variant.layout), &variant, None).expect("accepted");
+    println!("{} {}: {:?} {:.2} iterations", example.name(), variant.slug(), run.effort, run.effort.mean());
+    run
+}
+
+fn finished(example: Example, variant: Variant) -> (Curves, Curves) {
+    let run = run(example, variant);
+    assert_eq!(run.stopped, None, "{} {}", example.name(), variant.slug());
+    (run.curves, example.reference().expect("fixture"))
+}
+
+/// Asserts that a column is within a share of the reference's largest value inside a window, and shows how far it is.
+fn within(limit: f64, curves: (&Curves, &Curves), column: usize, window: [f64; 2]) {
+    let misfit = curves.0.misfit(column, (curves.1, column), window);
+    println!("  column {column} in {window:?}: {:.4} / {:.4}, limit {limit}", misfit.max, misfit.rms);
+    assert!(misfit.max <= limit, "{} in {window:?}: {} of {limit}", curves.1.names[column + 1], misfit.max);
+}
+
+const ALWAYS: [f64; 2] = [0.0, f64::INFINITY];
+
+#[test]
+fn bend_has_the_tip_of_the_independent_implementation() {
+    // Its tip under 1 kN with the mid-frame of the nodes, to the 64 chords of the arc.
+    let expected =
+        [(1, [-31.7748, -15.6700, 67.2496]), (2, [-33.0744, -17.5178, 57.4823]), (4, [-32.8872, -18.1088, 59.4329])];
+    for (layout, tip) in expected {
+        let (curves, _) = finished(Example::Bend, motion_based(layout, 0));
+        let last = curves.at(1000.0).expect("the last load");
+        println!("  {last:?}");
+        for (found, expected) in last.iter().zip(tip) {
+            assert!((found - expected).abs() <= 1e-2, "{layout} elements: {last:?} for {tip:?}");
+        }
+    }
+}
+
+#[test]
+fn bend_in_one_element_fails_with_classical_measures() {
+    let run = run(Example::Bend, classical(1, 0));
+    println!("  {:?}", run.stopped);
+    assert!(run.stopped.is_some(), "all loads found an equilibrium");
+    assert!(run.curves.at(700.0).is_some() && run.curves.at(800.0).is_none(), "it fails at the eighth load");
+}
+
+#[test]
+fn rotating_beam_is_within_the_limits() {
+    for (layout, n_modes, limit) in [(1, 0, 0.030), (1, 3, 0.025), (2, 0, 0.003)] {
+        let (curves, reference) = finished(Example::Rotating, motion_based(layout, n_modes));
+        within(limit, (&curves, &reference), 0, ALWAYS);
+    }
+}
+
+#[test]
+fn rotating_beam_is_captured_badly_by_classical_measures() {
+    for n_modes in [0, 3] {
+        let (curves, reference) = finished(Example::Rotating, classical(1, n_modes));
+        let misfit = curves.misfit(0, (&reference, 0), ALWAYS);
+        println!("  {misfit:?}");
+        assert!(misfit.max > 0.2, "classical measures stiffen the beam wrongly: {misfit:?}");
+    }
+}
+
+#[test]
+fn spherical_beam_is_within_the_limits() {
+    for (n_modes, metres, before) in [(0, 1.0, 0.14), (6, 0.08, 0.015), (12, 0.008, 0.032)] {
+        let (curves, reference) = finished(Example::Spherical, motion_based(1, n_modes));
+        let distance = |(own, other): (&Vec<f64>, &Vec<f64>)| {
+            (1..4).map(|axis| (own[axis] - other[axis]).abs()).fold(0.0, f64::max)
+        };
+        let worst = curves.values.iter().zip(&reference.values).map(distance).fold(0.0, f64::max);
+        println!("  tip {worst:.4} m, limit {metres}");
+        within(before, (&curves, &reference), 0, [0.0, 15.0]);
+        assert!(worst <= metres, "{n_modes} modes: tip {worst} m away, {metres} m allowed");
+    }
+}
+
+#[test]
+fn crank_is_within_the_limits() {
+    for (n_modes, after) in [(0, 0.07), (3, 0.09)] {
+        let (curves, reference) = finished(Example::Crank, motion_based(2, n_modes));
+        for column in [0, 1] {
+            within(2e-3, (&curves, &reference), column, [0.0, 5.0]);
+            within(after, (&curves, &reference), column, [5.0, 6.0]);
+        }
+    }
+}
+
+#[test]
+fn elbow_is_within_the_limits() {
+    for (strategy, n_modes, limit) in
+        [(1, 0, 0.31), (2, 0, 0.22), (3, 0, 0.05), (1, 6, 0.36), (2, 6, 0.10), (3, 6, 0.04)]
+    {
+        let (curves, reference) = finished(Example::Elbow, motion_based(strategy, n_modes));
+        within(limit, (&curves, &reference), 0, ALWAYS);
+    }
+}
+
+#[test]
+fn curves_do_not_depend_on_the_runs_before() {
+    // A component's workspace keeps its floating frame: a mechanism must not see another.
+    let parts = parts(Example::Rotating, 1);
+    let scheme = Scheme { n_steps: 200, ..rotating::SCHEME };
+    let run = |modes| rotating::run(&parts, &motion_based(1, modes), &scheme).expect("accepted");
+    let first = run(3);
+    run(0);
+    assert_eq!(run(3), first);
+}
