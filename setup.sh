@@ -101,7 +101,7 @@ run_example() {
 # The profile for tests is optimised and checks arithmetic for overflow, so that no release build is needed here.
 run_tests() {
     say "running the tests"
-    cargo test --workspace --locked --features supel-models/med,validation/vtkhdf
+    cargo test --workspace --locked --features supel-models/med,supel-runtime/capi,validation/vtkhdf
 }
 
 main() {
