@@ -24,6 +24,8 @@ mod samples;
 mod sizes;
 mod statics;
 
+use rayon::prelude::*;
+
 use super::Evidence;
 use super::check::Check;
 use super::pencil::Spectral;
@@ -71,6 +73,10 @@ pub fn preservation(evidence: &Evidence<'_>, analysis: &Analysis, job: &Job) -> 
     Ok(compared)
 }
 
+/// Dofs up to which the boundaries are solved at the same time: one search then has too little work for several threads, and its
+/// vectors take less than 100 MB.
+const TOGETHER_UP_TO: usize = 50_000;
+
 impl Compared {
     /// Keeps a result, or notes what could not be compared; only a lack of memory ends the run.
     fn kept<T>(&mut self, what: &str, result: Result<T>) -> Result<Option<T>> {
@@ -108,10 +114,15 @@ impl Compared {
     ) -> Result<Vec<Reference>> {
         let mut references = Vec::new();
         let limit = plan.band_hz.map_or(0.0, |[_, high]| eigenvalue(evidence, high));
-        for support in &plan.supports {
-            let boundary = Boundary::new(evidence, interfaces, support);
+        let solved = |support| Reference::new(evidence, Boundary::new(evidence, interfaces, support), limit, SEED);
+        let solved: Vec<Result<Reference>> = if evidence.partition.n_dofs() <= TOGETHER_UP_TO {
+            plan.supports.par_iter().map(solved).collect()
+        } else {
+            plan.supports.iter().map(solved).collect()
+        };
+        for (support, solved) in plan.supports.iter().zip(solved) {
             let what = format!("frequencies with boundary {support}");
-            let Some(reference) = self.kept(&what, Reference::new(evidence, boundary, limit, SEED))? else { continue };
+            let Some(reference) = self.kept(&what, solved)? else { continue };
             match reference.unsound(evidence) {
                 Some(why) => self.report.not_compared.push(format!("{what}: {why}")),
                 None => references.push(reference),
