@@ -1,6 +1,6 @@
 """Runs supel and its peers on the very same files with the same number of threads and prints one table for each part.
 
-    benches/peers/table.py [--family bulky] [--dofs 10000] [--method craig-bampton] [--threads 2] [--repeats 3]
+    benches/peers/table.py [--family bulky] [--dofs 10000] [--peer pardiso] [--threads 2] [--repeats 3]
 
 Times are of whole processes, from start to exit, medians of runs taken in turn (A B A B); stages are as each program
 reports them. Peak memory is what the kernel counted. Eigenvalues are compared with an independent reference
@@ -88,7 +88,10 @@ def programs(arguments, folder, reference):
     own += ["--threads", str(arguments.threads)]
     chosen = [Program("supel", "whole job, verified", own, folder / "part.supel", lambda: read_own(folder))]
     shift = str(reference.shift_below())
+    wanted = [word.lower() for word in arguments.peer or [""]]
     for name, words, does in PEERS:
+        if not any(word in name.lower() for word in wanted):
+            continue
         python = arguments.slepc_python if "SLEPc" in name else sys.executable
         result = folder / f"{'-'.join(words)}.json"
         command = [python, str(HERE / words[0]), *words[1:], str(folder), str(result)]
@@ -168,6 +171,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--family", action="append", choices=FAMILIES, help="default: all")
     parser.add_argument("--dofs", action="append", type=int, help="default: 10000")
+    parser.add_argument("--peer", action="append", help="part of a peer's name; default: all")
     parser.add_argument("--method", choices=["craig-bampton", "herting"], default="craig-bampton")
     parser.add_argument("--modes", type=int, default=50)
     parser.add_argument("--threads", type=int, default=2)
