@@ -928,6 +928,18 @@ pub enum Error {
         /// Its size as a power of two.
         exponent: i32,
     },
+    /// Recovered shapes that single precision cannot hold.
+    #[error(
+        "the shapes of `write.recovery` leave the range of single precision – the largest entry is {largest:.1e} – expected between 2^{low} and 2^{high} – set its precision to \"double\", or write the matrices in other units"
+    )]
+    RecoveryRange {
+        /// The largest entry.
+        largest: f64,
+        /// Power of two below which digits would be lost.
+        low: i32,
+        /// Power of two above which it would overflow.
+        high: i32,
+    },
     /// Rows without stiffness and mass.
     #[error(
         "{n_rows} rows have neither stiffness nor mass – the first is row {row}{dof} – expected none – leave unused and constrained dofs out of both matrices, or drop these rows with --drop-empty"
@@ -1042,7 +1054,7 @@ pub enum Error {
     },
     /// Nodes asked for where the model has none.
     #[error(
-        "interface {interface:?} names nodes – the model has no dof map or no nodes – give --dofs and --nodes, or select rows by number"
+        "interface {interface:?} names nodes – the model has no dof map or no nodes – give --dofs and --nodes; an interface may also list rows by number"
     )]
     SelectionNeedsNodes {
         /// The interface.

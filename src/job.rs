@@ -5,6 +5,7 @@
 
 mod document;
 mod interface;
+mod recovery;
 mod scene;
 mod validation;
 
@@ -17,6 +18,7 @@ use crate::input::Triangle;
 
 pub use document::Notation;
 pub use interface::{Coupling, InterfaceJob, NodeSelection, Origin, Region};
+pub use recovery::{RecoveryJob, RecoveryPrecision};
 pub use scene::{DampingJob, SceneJob, Support};
 
 /// A whole job.
@@ -284,6 +286,9 @@ pub struct WriteJob {
     /// The checks as JUnit XML, where they are wanted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub junit: Option<PathBuf>,
+    /// Displacements inside the component that the superelement can recover, where they are wanted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub recovery: Option<RecoveryJob>,
 }
 
 impl WriteJob {

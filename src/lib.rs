@@ -163,7 +163,8 @@ fn prepared(job: &Job, observer: &mut dyn Observer) -> Result<(InputFacts, Model
     let model = Model::new(read)?;
 
     observer.stage("partition");
-    let partition = Partition::new(&model, &job.interfaces)?;
+    let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;
+    let partition = Partition { recovered, ..Partition::new(&model, &job.interfaces)? };
     Ok((facts, model, partition))
 }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 use supel::error::{Error, ErrorClass, Result};
-use supel::job::{Coupling, Job, Method, ModeSelection, NodeSelection, Origin, Region, Support};
+use supel::job::{Coupling, Job, Method, ModeSelection, NodeSelection, Origin, RecoveryPrecision, Region, Support};
 
 const FULL: &str = r#"
 [model]
@@ -50,6 +50,7 @@ superelement = "out/bracket.supel"
 report       = "out/bracket.json"
 html         = "out/bracket.html"
 junit        = "out/bracket.xml"
+recovery     = { nodes = "group:SKIN", precision = "single" }
 "#;
 
 fn small() -> Value {
@@ -105,6 +106,8 @@ fn every_key_of_a_toml_job_is_read() {
     assert_eq!(job.reduction.method, Method::Herting);
     assert_eq!(job.reduction.modes, ModeSelection::UpTo { up_to_hz: 1000.0 });
     assert_eq!(job.run.memory_gib, Some(4.0));
+    let recovery = job.write.recovery.expect("a recovery");
+    assert_eq!((recovery.nodes.group_name(), recovery.precision), (Some("SKIN"), RecoveryPrecision::Single));
 }
 
 #[test]
@@ -385,12 +388,28 @@ fn changed_jobs() -> Vec<Value> {
     ]
 }
 
+/// The small job with nodes to be recovered, some of them allowed and some not.
+fn recoveries() -> Vec<Value> {
+    vec![
+        with("/write/recovery", json!({ "nodes": [4, 7] })),
+        with("/write/recovery", json!({ "nodes": "group:A", "precision": "single" })),
+        with("/write/recovery", json!({ "nodes": { "within": { "sphere": { "center": [0, 0, 0], "radius": 1 } } } })),
+        with("/write/recovery", json!({ "nodes": { "within": { "sphere": { "center": [0, 0, 0], "radius": 0 } } } })),
+        with("/write/recovery", json!({ "nodes": { "rows": [0] } })),
+        with("/write/recovery", json!({ "nodes": [4, 4] })),
+        with("/write/recovery", json!({ "nodes": [] })),
+        with("/write/recovery", json!({ "nodes": "A" })),
+        with("/write/recovery", json!({ "nodes": [4], "precision": "half" })),
+        with("/write/recovery", json!({ "precision": "single" })),
+    ]
+}
+
 /// What the schema refuses supel refuses, and the other way round: editors that know the schema tell the truth.
 #[test]
 fn schema_and_program_agree() {
     let schema = schema();
     let mut n_accepted = 0;
-    for case in changed_jobs() {
+    for case in changed_jobs().into_iter().chain(recoveries()) {
         let found = read(&case);
         assert_eq!(schema.is_valid(&case), found.is_ok(), "{case}: {:?}", found.err().map(|error| error.to_string()));
         n_accepted += usize::from(found.is_ok());

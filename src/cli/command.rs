@@ -198,6 +198,7 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
             report: output.report,
             html: output.html,
             junit: output.junit,
+            recovery: None,
         },
     })
 }

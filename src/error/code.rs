@@ -134,6 +134,7 @@ codes! {
     NoMass => "E-NO-MASS", InputData;
     IndefiniteMass => "E-INDEF-MASS", ModelPhysics;
     UnitRange => "E-RANGE", InputData;
+    RecoveryRange => "E-RECOVERY-RANGE", InputData;
     EmptyRows => "E-EMPTY-ROWS", InputData;
     MultiplierRow => "E-LAGRANGE", InputData;
     NegativeStiffness => "E-NEG-DIAG", ModelPhysics;

@@ -15,6 +15,8 @@ const DOUBLE: u64 = 8;
 const MODES_IN_A_BAND: u64 = 50;
 /// Vectors beside the right-hand sides of a solve by a factor in single precision.
 const REFINEMENT: u64 = 72;
+/// Recovered rows of the basis as numbers, as bytes of their own and as bytes of the file.
+const COPIES: u64 = 3;
 
 /// What a run needs, in bytes.
 #[derive(Clone, Copy, Debug)]
@@ -45,9 +47,9 @@ pub fn storage_within_memory(
 
 /// Refuses a run whose forecast exceeds the memory allowed by the job, or else what the machine offers.
 ///
-/// Counted are the matrices, the factors that are kept, what waits for its parent while one is made, the constraint modes and
-/// the basis of the eigensolver: three vectors for each mode and eight blocks of eight. The number of modes is what a count in
-/// the band has found, once there is one.
+/// Counted are the matrices, the factors that are kept, what waits for its parent while one is made, the constraint modes, the
+/// basis of the eigensolver (three vectors for each mode and eight blocks of eight) and the rows that are recovered. The number
+/// of modes is what a count in the band has found, once there is one.
 ///
 /// # Errors
 /// [`Error::MemoryForecast`].
@@ -95,7 +97,8 @@ impl Forecast {
         let beside = analysis.factor_bytes(Storage::Double).saturating_mul(n_beside);
         let factors = analysis.factor_bytes(storage).saturating_add(beside).saturating_add(analysis.stack_bytes());
         let vectors = 2 * partition.n_interface() as u64 + 5 * n_modes + 64 + refinement;
-        Self { factors, matrices: 3 * ENTRY * entries, vectors: DOUBLE * n * vectors }
+        let recovery = COPIES * partition.recovered.len() as u64 * (partition.n_interface() as u64 + n_modes);
+        Self { factors, matrices: 3 * ENTRY * entries, vectors: DOUBLE * (n * vectors + recovery) }
     }
 
     fn total(self) -> u64 {

@@ -26,7 +26,14 @@ const KEYS: &[(&str, &[&str])] = &[
     ("scene", &["band_hz", "boundaries", "damping"]),
     ("scene.damping", &["ratio"]),
     ("run", &["certify", "memory_gib", "precision"]),
-    ("write", &["superelement", "report", "html", "junit"]),
+    ("write", &["superelement", "report", "html", "junit", "recovery"]),
+    ("write.recovery", &["nodes", "precision"]),
+    ("write.recovery.nodes", &["within"]),
+    ("write.recovery.nodes.within", &["box", "plane", "cylinder", "sphere"]),
+    ("write.recovery.nodes.within.box", &["min", "max"]),
+    ("write.recovery.nodes.within.plane", &["point", "normal", "tolerance"]),
+    ("write.recovery.nodes.within.cylinder", &["from", "to", "radius", "inner_radius"]),
+    ("write.recovery.nodes.within.sphere", &["center", "radius"]),
 ];
 
 /// Above this Jaro-Winkler similarity a known key is offered for an unknown one; below it the offer would be noise.

@@ -24,6 +24,7 @@ pub(super) fn validate(job: &Job) -> Result<()> {
         positive("run.memory_gib", memory)?;
     }
     let write = &job.write;
+    write.recovery.as_ref().map_or(Ok(()), super::recovery::validate)?;
     output("write.superelement", &write.superelement, ".supel")?;
     let others = [
         ("write.report", write.report.as_deref(), ".json"),
@@ -71,7 +72,7 @@ fn interfaces(interfaces: &[InterfaceJob]) -> Result<()> {
     Ok(())
 }
 
-fn selection(interface: &InterfaceJob, place: &str) -> Result<()> {
+pub(super) fn selection(interface: &InterfaceJob, place: &str) -> Result<()> {
     let key = format!("{place}.nodes");
     let repeats = |what: Option<String>| match what {
         Some(what) => Err(Error::InterfaceRepeats { interface: interface.name.clone(), what }),

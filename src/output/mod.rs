@@ -3,6 +3,7 @@
 //! The stages work in scaled units; here, and only here, the powers of two are put back. Modal coordinates are scaled so
 //! that named modes are mass-normalised in the user's units.
 
+mod recovery;
 mod report;
 mod rigid_body;
 mod superelement;

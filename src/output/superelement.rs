@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use faer::{Mat, MatRef};
 use supel_runtime::{self as file, Coordinate, Matrix, Metadata, Superelement, Tensors};
 
+use super::recovery::recovery;
 use super::{Results, omega};
 use crate::basis::DynamicCoordinate;
 use crate::error::{Error, Result};
@@ -17,7 +18,7 @@ use crate::verification::check::{Check, Verdict};
 
 /// Puts the units back and names every coordinate.
 pub(super) fn superelement(results: &Results<'_>, verdict: Verdict) -> Result<Superelement> {
-    let tensors = tensors(results);
+    let tensors = Tensors { recovery: recovery(results)?, ..tensors(results) };
     refuse_out_of_range(&tensors)?;
     let metadata = metadata(results, &tensors, verdict);
     Superelement::new(tensors, metadata).map_err(|error| Error::from_file(&results.job.write.superelement, error))
@@ -110,7 +111,7 @@ fn named_nodes(results: &Results<'_>) -> Vec<file::InterfaceNode> {
     named.collect::<Option<Vec<_>>>().unwrap_or_default()
 }
 
-fn direction_of(direction: crate::input::Direction) -> file::Direction {
+pub(super) fn direction_of(direction: crate::input::Direction) -> file::Direction {
     file::Direction::ALL[direction as usize]
 }
 

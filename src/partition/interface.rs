@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use super::region::contains;
 use crate::error::{Error, Result};
 use crate::input::{Direction, Dof};
-use crate::job::{Coupling, InterfaceJob, NodeSelection, Origin};
+use crate::job::{Coupling, InterfaceJob, NodeSelection, Origin, RecoveryJob};
 use crate::model::Model;
 
 /// One node of the superelement's interface.
@@ -73,6 +73,23 @@ pub(super) fn resolve(model: &Model, interfaces: &[InterfaceJob]) -> Result<Inte
     }
     refuse_shared_rows(model, &resolved)?;
     Ok(Interfaces(resolved))
+}
+
+/// The rows of the model whose displacements a job recovers, node by node in the order of the selection, and which dof each of
+/// them is; none where the job recovers nothing.
+///
+/// # Errors
+/// Nodes that do not exist or have no rows, a group that the mesh does not have, a selection without nodes, a model without a
+/// dof map or (where the selection needs them) nodes.
+pub fn recovered_rows(model: &Model, recovery: Option<&RecoveryJob>) -> Result<Vec<(usize, Dof)>> {
+    let Some(recovery) = recovery else { return Ok(Vec::new()) };
+    let (catalogue, job) = (Catalogue::new(model), recovery.selection());
+    let mut rows = Vec::new();
+    for node in catalogue.select(model, &job)? {
+        let of_node = catalogue.rows_of(&job, node)?.iter();
+        rows.extend(of_node.map(|(direction, row)| (*row, Dof { node, direction: *direction })));
+    }
+    Ok(rows)
 }
 
 /// Rows by number: interface nodes where the rows belong to nodes with coordinates, bare rows otherwise.

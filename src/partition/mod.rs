@@ -20,11 +20,12 @@ mod transformation;
 
 use crate::error::{Error, Result};
 use crate::factor::Pencil;
+use crate::input::Dof;
 use crate::job::InterfaceJob;
 use crate::model::{Finding, Model, Precision, Scaling};
 use crate::sparse::SparseMatrix;
 
-pub use interface::InterfaceNode;
+pub use interface::{InterfaceNode, recovered_rows};
 pub use transformation::{DofOrigin, ReducedDof, Site, Transformation, TransformationRow};
 
 /// Most interface dofs: the two reduced matrices alone take 6.4 GB then, and decomposing them days.
@@ -45,6 +46,8 @@ pub struct Partition {
     pub interface: Vec<InterfaceNode>,
     /// Row of T for each row of the model.
     pub transformation: Transformation,
+    /// Rows of the model whose displacements the superelement recovers; none unless the caller adds them.
+    pub recovered: Vec<(usize, Dof)>,
     /// Powers of two taken out of K and M.
     pub scaling: Scaling,
     /// Relative precision of the data.
@@ -87,6 +90,7 @@ impl Partition {
             dofs: transformation.dofs.clone(),
             interface,
             transformation,
+            recovered: Vec::new(),
             scaling: model.scaling,
             precision: model.precision,
         })

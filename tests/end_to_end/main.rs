@@ -2,6 +2,7 @@
 
 mod failures;
 mod place;
+mod recovery;
 mod results;
 #[cfg(feature = "hdf5")]
 mod same_bytes;

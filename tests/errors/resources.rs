@@ -4,6 +4,7 @@ use std::process::Command;
 
 use supel::error::Error;
 use supel::factor::{Analysis, Cholesky, Pencil, Storage, refuse_beyond_memory};
+use supel::input::{Direction, Dof};
 use supel::job::{Job, Precision};
 use supel::model::Model;
 use supel::outcome::Resources;
@@ -116,17 +117,21 @@ write     = { superelement = "x.supel" }
     let model = Model::new(supel::input::read(&job.model).expect("files")).expect("a sound model");
     let partition = Partition::new(&model, &job.interfaces).expect("a foot");
     let analysis = Analysis::of(&partition).expect("an analysis");
-    let needed = |storage| {
+    let needed = |partition: &Partition, storage| {
         let resources = Resources { memory_bytes: Some(1) };
-        match refuse_beyond_memory(&analysis, &partition, &job, resources, (storage, None)) {
+        match refuse_beyond_memory(&analysis, partition, &job, resources, (storage, None)) {
             Err(Error::MemoryForecast { factors, matrices, vectors, in_single: None, .. }) => {
                 factors + matrices + vectors
             }
             other => panic!("a byte is enough: {other:?}"),
         }
     };
-    let (double, single) = (needed(Storage::Double), needed(Storage::Single));
+    let (double, single) = (needed(&partition, Storage::Double), needed(&partition, Storage::Single));
     assert!(single < double);
+    let dof = Dof { node: 1, direction: Direction::Ux };
+    let recovering = Partition { recovered: vec![(0, dof); 100], ..partition };
+    // Six interface dofs and six modes, in three copies of eight bytes.
+    assert_eq!(needed(&recovering, Storage::Double), double + 100 * 12 * 24);
     job.run.memory_gib = Some((single + double) as f64 / 2.0 / f64::from(1 << 30));
     job
 }

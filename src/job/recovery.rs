@@ -1,0 +1,49 @@
+//! Displacements inside the component: which nodes, and how many digits of their rows of the basis are kept.
+
+use serde::{Deserialize, Serialize};
+
+use super::validation::selection;
+use super::{Coupling, InterfaceJob, NodeSelection, Origin};
+use crate::error::Result;
+
+/// Nodes whose displacements the superelement recovers: their rows of the basis Ψ.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RecoveryJob {
+    /// Which nodes of the model; rows have no name to be recovered by.
+    pub nodes: NodeSelection,
+    /// How the rows are stored.
+    #[serde(default)]
+    pub precision: RecoveryPrecision,
+}
+
+/// How many bytes a number of the recovery takes in the file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum RecoveryPrecision {
+    /// Eight.
+    #[default]
+    Double,
+    /// Four: enough for the deformation, to which the simulation adds the rigid-body motion.
+    Single,
+}
+
+/// The key, by which messages call the selection.
+const KEY: &str = "write.recovery";
+
+impl RecoveryJob {
+    /// The selection in the form that interfaces have.
+    pub fn selection(&self) -> InterfaceJob {
+        InterfaceJob {
+            name: KEY.to_owned(),
+            nodes: self.nodes.clone(),
+            coupling: Coupling::Direct,
+            origin: Origin::Centroid,
+            dofs: None,
+        }
+    }
+}
+
+pub(super) fn validate(recovery: &RecoveryJob) -> Result<()> {
+    selection(&recovery.selection(), KEY)
+}

@@ -1,0 +1,60 @@
+//! Rows of the basis by which displacements inside the component are recovered.
+//!
+//! ```text
+//! T      n × n'              rows of the model from dofs of the partition
+//! Ψ      n' × (n_B + n_η)    the basis
+//! W      m × (n_B + n_η)     the m rows of TΨ asked for: u = W [u_B; η]
+//! ```
+
+use supel_runtime::{Matrix, Precision, RecoveredDof, Recovery};
+
+use super::Results;
+use super::superelement::direction_of;
+use crate::error::{Error, Result};
+use crate::job::RecoveryPrecision;
+
+/// Single precision keeps all its digits, 24 bits, of numbers from 2⁻¹²⁶ to 2¹²⁸. Shapes whose largest entry lies between these
+/// powers of two keep them down to 2⁻²⁶ of that entry, below which the digits are those of its rounding.
+const RANGE_OF_SINGLE: [i32; 2] = [-100, 127];
+
+/// W in the user's units; rows of a rigid patch follow its node.
+///
+/// # Errors
+/// [`Error::RecoveryRange`] where single precision cannot hold the shapes.
+pub(super) fn recovery(results: &Results<'_>) -> Result<Option<Recovery>> {
+    let Some(job) = &results.job.write.recovery else { return Ok(None) };
+    let (partition, basis) = (results.evidence.partition, results.evidence.basis);
+    let (n_i, n_b) = (partition.n_internal, partition.n_interface());
+    let shape = partition.scaling.shape_unit();
+    let psi = |dof: usize, column: usize| match (dof < n_i, column < n_b) {
+        (true, true) => basis.constraint_modes[(dof, column)],
+        (true, false) => shape * basis.dynamic_modes[(dof, column - n_b)],
+        (false, _) => f64::from(u8::from(dof - n_i == column)),
+    };
+    let rows = &partition.recovered;
+    let values = Matrix::from_fn(rows.len(), basis.n_reduced(), |i, column| {
+        let of_row = partition.transformation.rows[rows[i].0].entries();
+        of_row.map(|(dof, factor)| factor * psi(dof as usize, column)).sum()
+    });
+    let precision = match job.precision {
+        RecoveryPrecision::Double => Precision::Double,
+        RecoveryPrecision::Single => {
+            refuse_beyond_single(&values, n_b)?;
+            Precision::Single
+        }
+    };
+    let dofs = rows.iter().map(|(_, dof)| RecoveredDof { node: dof.node, direction: direction_of(dof.direction) });
+    let recovery = Recovery::new(values, dofs.collect(), precision);
+    recovery.map(Some).map_err(|error| Error::from_file(&results.job.write.superelement, error))
+}
+
+/// The size of the dynamic modes depends on the units; the constraint modes are displacements under unit displacements.
+fn refuse_beyond_single(values: &Matrix, n_b: usize) -> Result<()> {
+    let shapes = values.as_slice().chunks_exact(values.cols().max(1)).flat_map(|row| &row[n_b..]);
+    let largest = shapes.fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    let [low, high] = RANGE_OF_SINGLE;
+    if largest == 0.0 || (f64::from(low).exp2()..f64::from(high).exp2()).contains(&largest) {
+        return Ok(());
+    }
+    Err(Error::RecoveryRange { largest, low, high })
+}
