@@ -90,8 +90,6 @@ pub struct SupelComponent {
 /// Scratch and results of one thread's evaluations of one component.
 pub struct SupelWorkspace {
     workspace: Workspace,
-    /// Nodes and amplitudes of its component.
-    shape: (usize, usize),
 }
 
 thread_local! {

@@ -167,7 +167,7 @@ impl ModalComponent {
     ///
     /// # Errors
     ///
-    /// [`EvaluationError`]: arguments of wrong length, not finite or no rotations; a node half a turn from the floating
+    /// [`EvaluationError`]: arguments of wrong length, not finite or no rotations; a workspace of another component; a node half a turn from the floating
     /// frame; a floating frame that the nodes do not determine.
     ///
     /// Source: paper, eqs. (63), (76), (81), and (85) with J⁻¹.

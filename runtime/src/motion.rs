@@ -75,6 +75,18 @@ impl Motion {
         }
     }
 
+    /// The motion with its rotation matrix brought back to the rotations, R (3 I − RᵀR)/2: a drift ε becomes ε².
+    ///
+    /// Every product of rotation matrices rounds, and millions of steps add up.
+    #[inline]
+    pub fn orthonormalised(&self) -> Self {
+        let gram = multiply_transposed_3(&self.rotation, &self.rotation);
+        let back = std::array::from_fn(|i| {
+            std::array::from_fn(|j| if i == j { 1.5 - 0.5 * gram[i][j] } else { -0.5 * gram[i][j] })
+        });
+        Self { rotation: multiply_3(&self.rotation, &back), translation: self.translation }
+    }
+
     /// Where a point of the reference configuration goes, R x + u.
     #[inline]
     pub fn apply(&self, point: &Vector3) -> Vector3 {

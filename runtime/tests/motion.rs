@@ -59,6 +59,20 @@ fn motions_form_a_group() {
 }
 
 #[test]
+fn a_drift_from_the_rotations_is_squared_away() {
+    let mut random = Random(9);
+    let h = random.motion(1.5);
+    for drift in [1e-3, 1e-6] {
+        let mut drifted = h;
+        drifted.rotation.iter_mut().flatten().for_each(|entry| *entry += drift * random.next());
+        let back = drifted.orthonormalised();
+        let gram = motion::multiply_transposed_3(&back.rotation, &back.rotation);
+        assert_close(gram.as_flattened(), motion::IDENTITY_3.as_flattened(), 9.0 * drift * drift + ROUNDING);
+        assert_same_motion(&back, &h, 3.0 * drift);
+    }
+}
+
+#[test]
 fn exponential_of_small_and_large_angles_turns_about_the_axis() {
     for angle in [0.0, 1e-9, 9.99e-3, 1.001e-2, 1.0, 3.0, 6.0] {
         let h = Motion::exp(&[1.0, 2.0, 3.0, 0.0, 0.0, angle]);

@@ -21,8 +21,7 @@ pub unsafe extern "C" fn supel_workspace_new(
         if workspace.is_null() {
             return Err(null("workspace"));
         }
-        let shape = (component.n_nodes(), component.n_modal());
-        let made = SupelWorkspace { workspace: component.workspace(), shape };
+        let made = SupelWorkspace { workspace: component.workspace() };
         // SAFETY: not null, and a place for a pointer by the promise of the caller.
         unsafe { workspace.write(Box::into_raw(Box::new(made))) };
         Ok(())
@@ -62,11 +61,8 @@ unsafe fn evaluate(
     let (component, state, workspace) = unsafe { (component.as_ref(), state.as_ref(), workspace.as_mut()) };
     let component = &component.ok_or_else(|| null("component"))?.component;
     let state = state.ok_or_else(|| null("state"))?;
-    let SupelWorkspace { workspace, shape } = workspace.ok_or_else(|| null("workspace"))?;
+    let workspace = &mut workspace.ok_or_else(|| null("workspace"))?.workspace;
     let r = component.n_coordinates();
-    if *shape != (component.n_nodes(), component.n_modal()) {
-        return Err((SupelStatus::Argument, "the workspace is that of another component".to_owned()));
-    }
     // SAFETY: as many values as the header asks for, by the promise of the caller.
     let (motions, amplitudes, velocities, accelerations) = unsafe {
         (

@@ -110,11 +110,9 @@ impl ModalComponent {
             Some(gravity) => transposed_product(&change, gravity),
             None => momenta.iter().map(|row| [row[0], row[1], row[2]]).collect(),
         };
-        let damping = matrices.damping.as_ref();
-        let damping_acts_on = match damping.is_some_and(|c| rigid_force(c, &with_zeros(&rigid, n_modal)).0 > UNDAMPED) {
-            true => ActsOn::Motion,
-            false => ActsOn::Deformation,
-        };
+        let resists = |c: &Vec<f64>| rigid_force(c, &with_zeros(&rigid, n_modal)).0 > UNDAMPED;
+        let resists_motion = matrices.damping.as_ref().is_some_and(resists);
+        let damping_acts_on = if resists_motion { ActsOn::Motion } else { ActsOn::Deformation };
         Ok(Self {
             measures,
             n_modal,

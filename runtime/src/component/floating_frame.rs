@@ -25,6 +25,7 @@ impl ModalComponent {
     /// Checks the state; finds H_F, e, J, F, S, Q, V_F and ė.
     pub(super) fn kinematics(&self, state: &State<'_>, workspace: &mut Workspace) -> Result<(), EvaluationError> {
         self.check(state)?;
+        self.check_workspace(workspace)?;
         self.find_frame(state, workspace)?;
         self.project_frame(workspace);
         self.velocities(state.velocities, workspace);
@@ -48,6 +49,18 @@ impl ModalComponent {
             }
         }
         Ok(())
+    }
+
+    /// A workspace of this component.
+    pub(super) fn check_workspace(&self, workspace: &Workspace) -> Result<(), EvaluationError> {
+        let lengths = [
+            ("nodes of the workspace", workspace.nodes.len(), self.n_nodes()),
+            ("coordinates of the workspace", workspace.deformation.len(), self.n_coordinates()),
+        ];
+        match lengths.into_iter().find(|(_, found, expected)| found != expected) {
+            Some((what, found, expected)) => Err(EvaluationError::WrongLength { what, found, expected }),
+            None => Ok(()),
+        }
     }
 
     /// As many motions as nodes, each a finite translation and a rotation.
@@ -92,17 +105,17 @@ impl ModalComponent {
 
     fn newton(&self, state: &State<'_>, start: Motion, workspace: &mut Workspace) -> Result<(), EvaluationError> {
         let rounding = self.frame_rounding.of(state);
-        workspace.floating_frame = start;
+        workspace.floating_frame = start.orthonormalised();
         let mut correction = [0.0; 6];
         for _ in 0..MAX_ITERATIONS {
             self.measure(state, workspace)?;
             let gradient = dense::block_sum(&self.frame, workspace.nodes.iter().map(|node| &node.f));
             workspace.s = dense::inverse(&gradient, SMALLEST_PIVOT).ok_or(EvaluationError::FrameSingular)?;
             let residual = dense::columns_times(&self.frame, &workspace.deformation);
-            correction = times_6(&workspace.s, &residual);
-            if correction.iter().zip(&rounding).all(|(x, limit)| x.abs() <= *limit) {
+            if residual.iter().zip(&rounding).all(|(x, limit)| x.abs() <= *limit) {
                 return Ok(());
             }
+            correction = times_6(&workspace.s, &residual);
             workspace.floating_frame = workspace.floating_frame.compose(&Motion::exp(&correction));
         }
         let correction = correction.iter().fold(0.0_f64, |m, x| m.max(x.abs()));

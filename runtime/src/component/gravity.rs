@@ -17,7 +17,13 @@ impl ModalComponent {
     ///
     /// They are the gradient of a potential; in the reference configuration they are the file's `gravity` times g, or M̂Û g
     /// where the file has none.
+    ///
+    /// # Panics
+    ///
+    /// Panics on the workspace of a component with other coordinates.
     pub fn gravity_forces<'w>(&self, g: &Vector3, workspace: &'w mut Workspace) -> &'w [f64] {
+        let (found, expected) = (workspace.deformation.len(), self.n_coordinates());
+        assert_eq!(found, expected, "coordinates of the workspace and of the component");
         let Workspace { floating_frame, nodes, q, deformation, product, results, .. } = workspace;
         let a = transposed_times_3(&floating_frame.rotation, g);
         let mut moved = [0.0; 3];

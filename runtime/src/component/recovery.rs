@@ -75,6 +75,7 @@ impl ModalComponent {
         positions: &[Vector3],
         nodes: &mut [RecoveredNode],
     ) -> Result<(), EvaluationError> {
+        self.check_workspace(workspace)?;
         let expected = self.recovered_labels().len();
         for (what, found) in [("positions of recovered nodes", positions.len()), ("recovered nodes", nodes.len())] {
             if found != expected {

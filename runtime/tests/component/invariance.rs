@@ -187,6 +187,31 @@ fn arguments_of_the_wrong_length_are_refused() {
 }
 
 #[test]
+fn the_workspace_of_another_component_is_refused() {
+    let (component, other) = (arc(), ModalComponent::new(&beam::arc(2).superelement, FloatingFrame::Rigid));
+    let mut workspace = other.expect("a free body").workspace();
+    let situation = Situation::random(&component, 0.1, 9);
+    let expected = Err(EvaluationError::WrongLength { what: "coordinates of the workspace", found: 14, expected: 17 });
+    assert_eq!(component.evaluate(&situation.state(), &mut workspace), expected);
+    assert_eq!(component.tangents(&situation.state(), &mut workspace), expected);
+}
+
+/// Displacements lose digits with the distance, but nothing else goes wrong.
+#[test]
+fn a_component_may_go_far() {
+    let component = arc();
+    for distance in [1e3, 1e6, 1e9] {
+        let mut situation = Situation::random(&component, 0.1, 12);
+        let near = situation.evaluated(&component);
+        situation.motions.iter_mut().for_each(|motion| motion.translation[0] += distance);
+        let far = situation.evaluated(&component);
+        // Displacements rounded at 1e-16 of the distance, against deformations of 0.1 and a stiffness whose largest and
+        // smallest eigenvalues are 1e3 apart.
+        assert_close(far.elastic_forces(), near.elastic_forces(), 1e-12 + 1e-12 * distance);
+    }
+}
+
+#[test]
 fn values_that_are_not_finite_are_refused() {
     let component = arc();
     let good = Situation::random(&component, 0.1, 10);
