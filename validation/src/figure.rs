@@ -171,12 +171,12 @@ fn panel_of(area: &Area<'_>, figure: &Figure, lines: &[Line], (x, y): &([f64; 2]
 }
 
 fn legend(area: &Area<'_>, lines: &[Line]) -> Drawn {
-    let mut left = 400;
+    let mut left = 320;
     for (line, colour) in lines.iter().zip(COLOURS) {
         let width = if colour == INK { 5 } else { 2 };
         area.draw(&PathElement::new([(left, 16), (left + 36, 16)], colour.stroke_width(width)))?;
         area.draw(&Text::new(line.label.clone(), (left + 44, 4), words(HPos::Left)))?;
-        left += 64 + 10 * line.label.chars().count() as i32;
+        left += 60 + 11 * line.label.chars().count() as i32;
     }
     Ok(())
 }
