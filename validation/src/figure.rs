@@ -33,7 +33,7 @@ pub const FIGURES: [Figure; 9] = [
         example: Example::Bend,
         quantity: (2, "tip displacement out of the plane, m"),
         models: &BEND,
-        windows: &[(LOADS, [0.0, 70.0])],
+        windows: &[(LOADS, [0.0, 80.0])],
     },
     Figure {
         number: "5",

@@ -44,11 +44,12 @@ pub const fn driven_pin(angle: fn(f64) -> f64, initial_acceleration: f64) -> Sup
 /// A joint of one or two nodes, in inertial axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Joint {
-    /// Two nodes at one place in the plane z = 0, free to turn: a revolute joint there.
-    Pin([usize; 2]),
-    /// A node that does not leave the plane through its first position: a prismatic joint without mass, in series with a
-    /// revolute one.
-    Slider {
+    /// Two nodes that share their place in x and y: a revolute joint about z only where supports hold both nodes in the
+    /// plane, see [`PLANAR`].
+    PlanarPin([usize; 2]),
+    /// A node that does not leave the plane through its first position, free to turn: a point on a plane. In a planar
+    /// mechanism it is the massless slider with its pin; it is no prismatic joint, which would hold rotations.
+    PointOnPlane {
         /// The node.
         node: usize,
         /// Unit normal of the plane.
@@ -83,10 +84,10 @@ impl Joint {
             }
         };
         match *self {
-            Self::Pin([a, b]) => {
+            Self::PlanarPin([a, b]) => {
                 [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|direction| row(direction, &[(a, 1.0), (b, -1.0)])).to_vec()
             }
-            Self::Slider { node, normal } => vec![row(normal, &[(node, 1.0)])],
+            Self::PointOnPlane { node, normal } => vec![row(normal, &[(node, 1.0)])],
         }
     }
 }
@@ -99,7 +100,8 @@ mod tests {
     fn rows_are_the_gradients_of_the_violation() {
         let positions = [[1.0, 2.0, 0.0], [1.0, 2.0, 0.0]];
         let at = [[0.3, -0.2, 0.1, 0.2, 0.5, -0.4], [-0.1, 0.4, 0.2, -0.3, 0.1, 0.6]].map(|v| Motion::exp(&v));
-        let (joints, size) = ([Joint::Pin([0, 1]), Joint::Slider { node: 1, normal: [0.0, 1.0, 0.0] }], 1e-6);
+        let (joints, size) =
+            ([Joint::PlanarPin([0, 1]), Joint::PointOnPlane { node: 1, normal: [0.0, 1.0, 0.0] }], 1e-6);
         for joint in joints {
             for (number, row) in joint.rows(&at, &positions).iter().enumerate() {
                 for (node, gradient) in &row.gradient {

@@ -12,7 +12,6 @@ pub mod examples;
 pub mod figure;
 pub mod film;
 pub mod integrator;
-pub mod interior;
 pub mod joint;
 pub mod page;
 pub mod part;
@@ -21,7 +20,9 @@ mod saddle;
 pub mod selection;
 pub mod statics;
 pub mod study;
+pub mod summary;
 pub mod system;
+pub mod verdict;
 #[cfg(feature = "vtkhdf")]
 pub mod vtkhdf;
 

@@ -10,6 +10,7 @@ use validation::examples::Example;
 use validation::page::{figures, page};
 use validation::pendulum::Pendulum;
 use validation::study::Study;
+use validation::summary::{summary, totals};
 
 const USAGE: &str = "usage: validation all|bend|rotating|spherical|crank|elbow|bracket [FOLDER]";
 
@@ -48,8 +49,11 @@ fn run(arguments: &[String]) -> Result<()> {
         }
         studies.push(study);
     }
-    let path = folder.join("index.html");
+    // A run of one example leaves the page of all alone.
+    let name = if which == "all" { "index" } else { which };
+    let path = folder.join(format!("{name}.html"));
     fs::write(&path, page(&studies, pendulum.as_ref()))?;
+    println!("{}Claims: {}.", summary(&studies), totals(&studies));
     println!("{}", path.display());
     Ok(())
 }
@@ -79,10 +83,14 @@ fn solid(folder: &Path) -> Result<Pendulum> {
         &pendulum.swings[1].1.frames,
     )?;
     println!("A solid in large rotation");
-    for (n_modes, energy, away, iterations) in pendulum.figures() {
+    for f in pendulum.figures() {
         println!(
-            "  {n_modes} modes: energy changes by {energy:.1e}, base {away:.1e} from the finest, {iterations:.2} iterations"
+            "  {} modes: energy changes by {:.1e} of the largest kinetic and {:.1e} of the largest strain energy, base {:.1e} from \
+             the finest, {:.2} iterations",
+            f.n_modes, f.of_kinetic, f.of_strain, f.away, f.iterations
         );
     }
+    #[cfg(not(feature = "vtkhdf"))]
+    println!("  no series for ParaView: it needs --features vtkhdf");
     Ok(pendulum)
 }

@@ -22,6 +22,8 @@ pub struct Part {
     pub model: Model,
     /// Labels of the nodes of each interface, in the order of the component's nodes; several move as a rigid patch.
     pub interface: Vec<Vec<i64>>,
+    /// Labels of the nodes whose displacements the superelement recovers.
+    pub recovered: Vec<i64>,
     /// Label of the units.
     pub units: &'static str,
     /// Free-free modes that the superelement keeps, from which the modes of every variant are taken.
@@ -53,10 +55,14 @@ impl Part {
             let coupling = if labels.len() > 1 { "rigid" } else { "direct" };
             format!("[[interface]]\nname = \"{}\"\nnodes = {labels:?}\ncoupling = \"{coupling}\"\n\n", number + 1)
         };
+        let recovery = match self.recovered.as_slice() {
+            [] => String::new(),
+            labels => format!("recovery = {{ nodes = {labels:?} }}\n"),
+        };
         format!(
             "[model]\nstiffness = \"stiffness.mtx\"\nmass      = \"mass.mtx\"\nnodes     = \"nodes.csv\"\n\
              dofs      = \"model.dof\"\nunits     = \"{}\"\n\n{}[reduction]\nmethod = \"herting\"\n\
-             modes  = {{ count = {} }}\n\n[write]\nsuperelement = \"part.supel\"\n",
+             modes  = {{ count = {} }}\n\n[write]\nsuperelement = \"part.supel\"\n{recovery}",
             self.units,
             self.interface.iter().enumerate().map(interface).collect::<String>(),
             self.n_modes,

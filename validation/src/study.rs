@@ -22,8 +22,9 @@ pub struct Study {
     pub runs: Vec<(Variant, Run)>,
     /// Effort of the motion-based variants at other tolerances; none where a run stopped.
     pub efforts: Vec<(Variant, f64, Option<Effort>)>,
-    /// The motion-based variants that stop with an iteration matrix that never changes, and why.
-    pub constant: Vec<(Variant, String)>,
+    /// Effort of the motion-based variants with an iteration matrix that never changes, at the tolerance at which iterations
+    /// are judged; none where a run stopped.
+    pub constant: Vec<(Variant, Option<Effort>)>,
     /// Whether `supel reduce` gave the same superelements as the library, to the last bit; none where it was not tried.
     pub same_by_command: Option<bool>,
 }
@@ -71,9 +72,9 @@ impl Study {
                 let run = self.example.run(parts, &variant, Some(Scheme { tolerance, ..own }))?;
                 self.efforts.push((variant, tolerance, run.stopped.is_none().then_some(run.effort)));
             }
-            let constant = Scheme { matrix: IterationMatrix::Constant, ..own };
-            let stopped = self.example.run(parts, &variant, Some(constant))?.stopped;
-            self.constant.extend(stopped.map(|why| (variant, why)));
+            let constant = Scheme { matrix: IterationMatrix::Constant, tolerance: self.example.counted_at(), ..own };
+            let run = self.example.run(parts, &variant, Some(constant))?;
+            self.constant.push((variant, run.stopped.is_none().then_some(run.effort)));
         }
         Ok(())
     }
@@ -92,4 +93,22 @@ impl Study {
         let run = self.of(variant);
         run.stopped.is_none().then(|| run.curves.misfit(column, (&self.reference, column), window))
     }
+}
+
+/// Mean iterations per step of each variant at a tolerance, with the matrices beyond the first; how many variants stop.
+pub fn taken(study: &Study, tolerance: f64) -> String {
+    let entry = |model: &(usize, usize)| {
+        let variant = motion_based(model.0, model.1);
+        study.efforts.iter().find(|entry| entry.0 == variant && entry.1 == tolerance).and_then(|entry| entry.2)
+    };
+    let own: Vec<Option<Effort>> = study.example.models().iter().map(entry).collect();
+    let one = |effort: &Effort| match effort.renewals {
+        0 => format!("{:.2}", effort.mean()),
+        n => format!("{:.2} (matrix renewed {n} times)", effort.mean()),
+    };
+    let counts: Vec<String> =
+        own.iter().map(|effort| effort.as_ref().map_or_else(|| "stops".to_owned(), one)).collect();
+    let stopped = own.iter().filter(|effort| effort.is_none()).count();
+    let note = if stopped > 0 { format!(" ({stopped} of {} stop)", own.len()) } else { String::new() };
+    counts.join(", ") + &note
 }

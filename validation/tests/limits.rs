@@ -18,8 +18,14 @@ fn run(example: Example, variant: Variant) -> Run {
 }
 
 fn finished(example: Example, variant: Variant) -> (Curves, Curves) {
+    counted(example, variant, f64::INFINITY)
+}
+
+/// The same with a bound on the mean iterations per step: those of the independent implementation and a tenth.
+fn counted(example: Example, variant: Variant, most: f64) -> (Curves, Curves) {
     let run = run(example, variant);
     assert_eq!(run.stopped, None, "{} {}", example.name(), variant.slug());
+    assert!(run.effort.mean() <= most, "{} {}: {:?}, {most} allowed", example.name(), variant.slug(), run.effort);
     (run.curves, example.reference().expect("fixture"))
 }
 
@@ -57,8 +63,8 @@ fn bend_in_one_element_fails_with_classical_measures() {
 
 #[test]
 fn rotating_beam_is_within_the_limits() {
-    for (layout, n_modes, limit) in [(1, 0, 0.030), (1, 3, 0.025), (2, 0, 0.003)] {
-        let (curves, reference) = finished(Example::Rotating, motion_based(layout, n_modes));
+    for (layout, n_modes, limit, most) in [(1, 0, 0.030, 1.36), (1, 3, 0.025, 1.70), (2, 0, 0.003, f64::INFINITY)] {
+        let (curves, reference) = counted(Example::Rotating, motion_based(layout, n_modes), most);
         within(limit, (&curves, &reference), 0, ALWAYS);
     }
 }
@@ -66,17 +72,19 @@ fn rotating_beam_is_within_the_limits() {
 #[test]
 fn rotating_beam_is_captured_badly_by_classical_measures() {
     for n_modes in [0, 3] {
-        let (curves, reference) = finished(Example::Rotating, classical(1, n_modes));
-        let misfit = curves.misfit(0, (&reference, 0), ALWAYS);
-        println!("  {misfit:?}");
-        assert!(misfit.max > 0.2, "classical measures stiffen the beam wrongly: {misfit:?}");
+        let (curves, _) = finished(Example::Rotating, classical(1, n_modes));
+        let peak = curves.column(0).into_iter().fold(0.0, f64::min);
+        println!("  {peak}");
+        // That of the independent implementation, −0.603 m to three digits with and without modes, against −0.532 m of the
+        // reference: its rounding is 5e-4, and modes move the peak by as much again.
+        assert!((peak + 0.603).abs() <= 0.002, "classical measures soften the beam wrongly: {peak}");
     }
 }
 
 #[test]
 fn spherical_beam_is_within_the_limits() {
-    for (n_modes, metres, before) in [(0, 1.0, 0.14), (6, 0.08, 0.015), (12, 0.008, 0.032)] {
-        let (curves, reference) = finished(Example::Spherical, motion_based(1, n_modes));
+    for (n_modes, metres, before, most) in [(0, 1.0, 0.14, 2.80), (6, 0.08, 0.015, 2.93), (12, 0.008, 0.032, 3.12)] {
+        let (curves, reference) = counted(Example::Spherical, motion_based(1, n_modes), most);
         let distance = |(own, other): (&Vec<f64>, &Vec<f64>)| {
             (1..4).map(|axis| (own[axis] - other[axis]).abs()).fold(0.0, f64::max)
         };
@@ -89,8 +97,8 @@ fn spherical_beam_is_within_the_limits() {
 
 #[test]
 fn crank_is_within_the_limits() {
-    for (n_modes, after) in [(0, 0.07), (3, 0.09)] {
-        let (curves, reference) = finished(Example::Crank, motion_based(2, n_modes));
+    for (n_modes, after, most) in [(0, 0.07, 3.55), (3, 0.09, 3.72)] {
+        let (curves, reference) = counted(Example::Crank, motion_based(2, n_modes), most);
         for column in [0, 1] {
             within(2e-3, (&curves, &reference), column, [0.0, 5.0]);
             within(after, (&curves, &reference), column, [5.0, 6.0]);
@@ -100,10 +108,18 @@ fn crank_is_within_the_limits() {
 
 #[test]
 fn elbow_is_within_the_limits() {
-    for (strategy, n_modes, limit) in
-        [(1, 0, 0.31), (2, 0, 0.22), (3, 0, 0.05), (1, 6, 0.36), (2, 6, 0.10), (3, 6, 0.04)]
-    {
-        let (curves, reference) = finished(Example::Elbow, motion_based(strategy, n_modes));
+    // 2.6 to 3.3 iterations with a matrix that never changes at this tolerance; 5.1 in strategy 1, at a finer one. In strategy
+    // 2 with modes it is renewed, after eight iterations each time.
+    let any = f64::INFINITY;
+    for (strategy, n_modes, limit, most) in [
+        (1, 0, 0.31, 5.2),
+        (2, 0, 0.22, 3.4),
+        (3, 0, 0.05, 3.4),
+        (1, 6, 0.36, 5.2),
+        (2, 6, 0.10, any),
+        (3, 6, 0.04, 3.4),
+    ] {
+        let (curves, reference) = counted(Example::Elbow, motion_based(strategy, n_modes), most);
         within(limit, (&curves, &reference), 0, ALWAYS);
     }
 }

@@ -1,9 +1,11 @@
 //! What the page says.
 
-use validation::claims::{Verdict, claims};
+use validation::claims::claims;
 use validation::examples::Example;
 use validation::page::{figures, page};
 use validation::study::Study;
+use validation::summary::{summary, totals};
+use validation::verdict::Verdict;
 
 fn study(example: Example) -> Study {
     let folder = tempfile::tempdir().expect("folder");
@@ -32,19 +34,45 @@ fn static_example_reaches_every_claim_and_shows_every_figure() {
     }
 }
 
-/// All variants at all tolerances: on demand, `cargo test -p validation -- --ignored`. The curves are tested always.
+/// One run of everything, the examples side by side, for all that is said of all.
 #[test]
-#[ignore = "repeats every simulation at four tolerances"]
-fn dynamic_examples_reach_what_the_page_says() {
+fn examples_reach_what_page_and_readme_say() {
     use Verdict::{NotReached, Partly, Reached};
-    let expected: [(Example, &[Verdict]); 4] = [
-        (Example::Rotating, &[Reached; 5]),
-        (Example::Spherical, &[Reached; 4]),
-        (Example::Crank, &[Reached, NotReached, Partly, NotReached, Reached]),
-        (Example::Elbow, &[Reached, Partly, Reached, Reached, Partly, Partly]),
+    let studies: Vec<Study> = std::thread::scope(|scope| {
+        let started = Example::ALL.map(|example| scope.spawn(move || study(example)));
+        started.map(|one| one.join().expect("computed")).into()
+    });
+    let expected: [&[Verdict]; 5] = [
+        &[Reached; 4],
+        &[Reached, Reached, Partly, Reached, Reached],
+        &[Reached; 4],
+        &[Reached, NotReached, Partly, NotReached, NotReached],
+        &[Reached, Partly, Reached, Reached, Reached, Partly, Partly],
     ];
-    for (example, verdicts_of_page) in expected {
-        let study = study(example);
-        assert_eq!(verdicts(&study), verdicts_of_page, "{}", example.name());
+    for (study, expected) in studies.iter().zip(expected) {
+        assert_eq!(verdicts(study), expected, "{}", study.example.name());
     }
+    let readme =
+        |path: &str| std::fs::read_to_string(format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))).expect("README");
+    let (own, of_tool) = (readme("README.md"), readme("../README.md"));
+    assert!(of_tool.replace('\n', " ").contains(&totals(&studies)), "README.md lacks: {}", totals(&studies));
+    let summary = summary(&studies);
+    for row in summary.lines().filter(|row| !row.is_empty()) {
+        assert!(own.lines().any(|line| is_same(line, row)), "validation/README.md lacks the row\n{row}");
+    }
+}
+
+/// The same words, and numbers that differ by no more than one in the last digit: processors round differently.
+fn is_same(line: &str, row: &str) -> bool {
+    let words = |text: &str| -> Vec<String> { text.split_whitespace().map(str::to_owned).collect() };
+    let near = |a: &str, b: &str| {
+        let bare = |word: &str| word.trim_matches(|c: char| !c.is_ascii_digit()).to_owned();
+        let (a, b) = (bare(a), bare(b));
+        let decimals = b.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+        let number = |word: &str| word.parse::<f64>().ok();
+        // With a half for the rounding of the decimal fractions themselves.
+        number(&a).zip(number(&b)).is_some_and(|(a, b)| (a - b).abs() < 1.5 * 0.1_f64.powi(decimals as i32))
+    };
+    let (line, row) = (words(line), words(row));
+    line.len() == row.len() && line.iter().zip(&row).all(|(a, b)| a == b || near(a, b))
 }

@@ -41,6 +41,7 @@ pub fn parts() -> Vec<Part> {
         name: format!("crank-{name}"),
         model: polyline(&[[from, 0.0, 0.0], [to, 0.0, 0.0]], ELEMENTS, &section),
         interface: vec![vec![1], vec![ELEMENTS as i64 / 2 + 1], vec![ELEMENTS as i64 + 1]],
+        recovered: Vec::new(),
         units: "m-kg-s",
         n_modes: 12,
     };
@@ -60,7 +61,7 @@ pub fn run(parts: &[Superelement], variant: &Variant, scheme: &Scheme) -> Result
     supports[0] = driven_pin(angle, ACCELERATION);
     let formulation = Formulation { frame: FloatingFrame::MassWeighted, measures: variant.measures };
     let mut system = System::new(positions, &supports, &[(crank, &[0, 1, 2]), (rod, &[3, 4, 5])], formulation)?;
-    system.joints = vec![Joint::Pin([2, 3]), Joint::Slider { node: 5, normal: [0.0, 1.0, 0.0] }];
+    system.joints = vec![Joint::PlanarPin([2, 3]), Joint::PointOnPlane { node: 5, normal: [0.0, 1.0, 0.0] }];
     let names = ["t_s", "M_transverse_m", "N_transverse_m"];
     Ok(recorded(system, scheme, 2, &names, |system, now| {
         let transverse = |root: usize, middle: usize| {

@@ -52,6 +52,7 @@ pub fn parts(strategy: usize) -> Vec<Part> {
         name: format!("elbow-{strategy}-{number}"),
         model: polyline(points, elements, &section),
         interface: (0..points.len()).map(|point| vec![(point * elements) as i64 + 1]).collect(),
+        recovered: Vec::new(),
         units: "m-kg-s",
         n_modes: 12,
     };

@@ -40,6 +40,7 @@ pub fn parts(layout: usize) -> Vec<Part> {
         name: format!("rotating-{}-of-{layout}", number + 1),
         model: polyline(ends, elements, &section),
         interface: vec![vec![1], vec![elements as i64 + 1]],
+        recovered: Vec::new(),
         units: "m-kg-s",
         n_modes: 12,
     };

@@ -41,6 +41,7 @@ pub fn parts() -> Vec<Part> {
         name: "spherical".into(),
         model,
         interface: vec![vec![1], vec![ELEMENTS as i64 + 1]],
+        recovered: Vec::new(),
         units: "m-kg-s",
         n_modes: 80,
     }]
