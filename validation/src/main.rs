@@ -44,6 +44,9 @@ fn run(arguments: &[String]) -> Result<()> {
         let study = Study::new(example, &own, program.as_deref())?;
         written(&study, &own)?;
         println!("{}", example.title());
+        if study.same_by_command == Some(false) {
+            println!("  superelements of the program supel are not those of the library: is it of another build?");
+        }
         for claim in claims(&study) {
             println!("  {:?}: {}\n    {}", claim.verdict, claim.paper, claim.found);
         }
