@@ -167,8 +167,9 @@ impl ModalComponent {
     ///
     /// # Errors
     ///
-    /// [`EvaluationError`]: arguments of wrong length, not finite or no rotations; a workspace of another component; a node half a turn from the floating
-    /// frame; a floating frame that the nodes do not determine.
+    /// [`EvaluationError`]: arguments of wrong length, not finite or no rotations; a workspace of a component of another
+    /// size; a node half a turn from the floating frame; a floating frame that the nodes do not determine; results beyond
+    /// the range of numbers.
     ///
     /// Source: paper, eqs. (63), (76), (81), and (85) with J⁻¹.
     pub fn evaluate(&self, state: &State<'_>, workspace: &mut Workspace) -> Result<(), EvaluationError> {
@@ -176,7 +177,7 @@ impl ModalComponent {
         self.elastic_forces(workspace);
         self.inertial_forces(state, workspace);
         self.damping_forces(workspace);
-        Ok(())
+        workspace.results.check_forces()
     }
 
     /// Stiffness, mass, gyroscopic and damping matrix of a state.
@@ -191,7 +192,7 @@ impl ModalComponent {
     pub fn tangents(&self, state: &State<'_>, workspace: &mut Workspace) -> Result<(), EvaluationError> {
         self.kinematics(state, workspace)?;
         self.tangent_matrices(state, workspace);
-        Ok(())
+        workspace.results.check_tangents()
     }
 
     /// Matrices in the coordinates of the measures.
