@@ -18,6 +18,7 @@
 //! Source: paper, section 4. Its inertial forces (85) lack J⁻¹ and those of its table 1 Qᵀ M_F Q; here both are complete, so
 //! that forces are those of a Lagrangian for any choice of Y.
 
+mod batch;
 mod construction;
 mod damping;
 mod dense;
@@ -33,6 +34,7 @@ mod recovery;
 mod tangents;
 mod workspace;
 
+pub use batch::{BatchError, Evaluation, evaluate_all, tangents_all};
 pub use error::{ComponentError, EvaluationError};
 pub use loads::DeadLoad;
 pub use recovery::RecoveredNode;
