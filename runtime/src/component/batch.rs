@@ -29,7 +29,8 @@ pub struct BatchError {
 /// [`ModalComponent::evaluate`] of all `evaluations`, by at most `threads` threads, of which the caller's is one.
 ///
 /// Each evaluation is made by one thread, so that the results have the same bits for any number of them. Threads are
-/// started and ended within the call, tens of microseconds for each: it pays from about a hundred components on.
+/// started and ended within the call, tens of microseconds for each: more than one pays where the evaluations take some
+/// hundreds of them.
 ///
 /// # Errors
 ///

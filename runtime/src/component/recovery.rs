@@ -72,8 +72,8 @@ impl ModalComponent {
     ///
     /// [`EvaluationError::WrongLength`]; [`EvaluationError::IncompleteRecovery`] where the file recovers only some of the
     /// three translations of a node, or only some of its rotations: they cannot be turned with the floating frame. The tool
-    /// writes the directions that a node of the model has, which may be fewer; then no node of the file is recovered by
-    /// this function, and the job must leave such nodes out of `recovery`.
+    /// writes the directions that a node of the model has, which may be fewer: one such node makes this function refuse
+    /// the file as a whole, and the job must leave it out of `recovery`.
     pub fn recover(
         &self,
         workspace: &Workspace,
