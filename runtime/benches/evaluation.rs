@@ -1,4 +1,5 @@
-//! Time of one evaluation of a component with two interface nodes, against the number of modal amplitudes.
+//! Time of two evaluations of a component with two interface nodes, against the number of modal amplitudes; and of one evaluation of
+//! many components by one and two threads.
 
 #![allow(missing_docs)]
 
@@ -8,11 +9,14 @@ mod beam;
 mod random;
 
 use std::hint::black_box;
+use std::num::NonZero;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use random::Random;
 use supel_runtime::Superelement;
-use supel_runtime::component::{FloatingFrame, ModalComponent, State, Workspace};
+use supel_runtime::component::{
+    BatchError, Evaluation, FloatingFrame, ModalComponent, State, Workspace, evaluate_all, tangents_all,
+};
 use supel_runtime::motion::Motion;
 
 /// A component, and its states in two time steps of which each is evaluated after the other, as in a simulation.
@@ -65,5 +69,30 @@ fn evaluation(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, evaluation);
+/// One step of a mechanism of components with 20 modes, by one and two threads.
+fn batch(criterion: &mut Criterion) {
+    let case = Case::new(20);
+    let [state, _] = case.states();
+    let mut group = criterion.benchmark_group("components at once");
+    for n_components in [10, 100, 1000] {
+        let mut workspaces = vec![case.workspace.clone(); n_components];
+        let component = &case.component;
+        let each = workspaces.iter_mut().map(|workspace| Evaluation { component, state, workspace });
+        let mut evaluations: Vec<_> = each.collect();
+        for n_threads in [1, 2] {
+            let threads = NonZero::new(n_threads).expect("a thread");
+            for (name, all) in [("forces", evaluate_all as All), ("tangents", tangents_all)] {
+                let id = BenchmarkId::new(format!("{name}, threads {n_threads}"), n_components);
+                group.bench_function(id, |bencher| {
+                    bencher.iter(|| all(black_box(&mut evaluations), threads).expect("a small deformation"));
+                });
+            }
+        }
+    }
+    group.finish();
+}
+
+type All = fn(&mut [Evaluation<'_>], NonZero<usize>) -> Result<(), BatchError>;
+
+criterion_group!(benches, evaluation, batch);
 criterion_main!(benches);

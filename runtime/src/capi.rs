@@ -4,21 +4,29 @@
 //! panic crosses the border. Vectors have as many doubles as the component has coordinates, matrices are square, row by
 //! row. A component may be used by several threads at once, a workspace by one at a time.
 //!
+//! A pointer that a component gives is valid until the component is freed, one that a workspace gives until the workspace
+//! is freed; its values change with the next evaluation. No array of the caller may overlap with one of these.
+//!
 //! This is the only module of the crate with unsafe code. What it must trust is named under *Safety*: that pointers come
 //! from this library or point to as many values as the header says. Pointers are never null where they are used.
 
 #![allow(unsafe_code)]
 
 mod evaluation;
+mod recovery;
+mod results;
 
 pub use evaluation::*;
+pub use recovery::*;
+pub use results::*;
 
+use std::any::Any;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use crate::component::{FloatingFrame, ModalComponent, Workspace};
+use crate::component::{FloatingFrame, Measures, ModalComponent, Workspace};
 use crate::motion::Motion;
 use crate::superelement::Superelement;
 
@@ -28,13 +36,13 @@ use crate::superelement::Superelement;
 pub enum SupelStatus {
     /// Done.
     Ok = 0,
-    /// A pointer is null, or a value is none of those that have a name.
+    /// A pointer is null, a value is none of those that have a name, or a workspace belongs to another component.
     Argument = 1,
     /// The file cannot be read or is no superelement.
     File = 2,
     /// The superelement cannot undergo large motion.
     Component = 3,
-    /// The component cannot be evaluated in this state.
+    /// The component cannot be evaluated in this state, loaded there, or recovered from this file.
     State = 4,
     /// An error of the library.
     Internal = 5,
@@ -45,6 +53,12 @@ pub const SUPEL_MASS_WEIGHTED: u32 = 0;
 
 /// Floating frame in which the deformation measures of the nodes have no mean.
 pub const SUPEL_RIGID: u32 = 1;
+
+/// Deformation measured by the motion of the nodes relative to the floating frame.
+pub const SUPEL_MOTION_BASED: u32 = 0;
+
+/// Deformation measured by displacements and skew parts of rotations, for comparison.
+pub const SUPEL_CLASSICAL: u32 = 1;
 
 /// A rigid-body motion x -> R x + u.
 #[repr(C)]
@@ -88,6 +102,9 @@ pub struct SupelComponent {
 }
 
 /// Scratch and results of one thread's evaluations of one component.
+///
+/// Pointers to its results are valid until it is freed, and their values change with the next evaluation; pointers that a
+/// component gives are valid until that is freed. No array that the caller passes to a function may overlap with these.
 pub struct SupelWorkspace {
     workspace: Workspace,
 }
@@ -104,7 +121,7 @@ fn guarded(body: impl FnOnce() -> Outcome) -> SupelStatus {
     let (status, reason) = match outcome {
         Ok(Ok(())) => return SupelStatus::Ok,
         Ok(Err(failure)) => failure,
-        Err(_) => (SupelStatus::Internal, "internal error".to_owned()),
+        Err(panic) => (SupelStatus::Internal, internal(panic.as_ref())),
     };
     // A reason with a zero byte inside, from a file's name, would end there.
     let reason = CString::new(reason.replace('\0', " ")).unwrap_or_default();
@@ -112,8 +129,18 @@ fn guarded(body: impl FnOnce() -> Outcome) -> SupelStatus {
     status
 }
 
+fn internal(panic: &(dyn Any + Send)) -> String {
+    let said = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
+    let said = said.unwrap_or("no reason");
+    format!("the library failed where it never should: {said}; free the workspace, and report this with the file")
+}
+
 fn null(what: &str) -> (SupelStatus, String) {
     (SupelStatus::Argument, format!("{what} is null"))
+}
+
+fn unknown(what: &str, found: u32, expected: &str) -> (SupelStatus, String) {
+    (SupelStatus::Argument, format!("{what} {found}, expected {expected}"))
 }
 
 fn failed(status: SupelStatus) -> impl Fn(&dyn std::error::Error) -> (SupelStatus, String) {
@@ -143,7 +170,8 @@ pub extern "C" fn supel_last_error() -> *const c_char {
     LAST_ERROR.with(|last| last.borrow().as_ptr())
 }
 
-/// Reads a superelement file and makes a component of it, to be freed by `supel_component_free`.
+/// Reads a superelement file and makes a component of it with motion-based measures, to be freed by
+/// `supel_component_free`.
 ///
 /// # Safety
 ///
@@ -154,20 +182,43 @@ pub unsafe extern "C" fn supel_component_open(
     frame: u32,
     component: *mut *mut SupelComponent,
 ) -> SupelStatus {
+    // SAFETY: the same promises.
+    unsafe { supel_component_open_with(path, frame, SUPEL_MOTION_BASED, component) }
+}
+
+/// As `supel_component_open`, with a choice of measures: `SUPEL_MOTION_BASED` or `SUPEL_CLASSICAL`.
+///
+/// # Safety
+///
+/// As of `supel_component_open`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn supel_component_open_with(
+    path: *const c_char,
+    frame: u32,
+    measures: u32,
+    component: *mut *mut SupelComponent,
+) -> SupelStatus {
     guarded(|| {
         if path.is_null() || component.is_null() {
             return Err(null(if path.is_null() { "path" } else { "component" }));
         }
         // SAFETY: not null, and a string by the promise of the caller.
         let path = unsafe { CStr::from_ptr(path) };
-        let path = path.to_str().map_err(|error| failed(SupelStatus::File)(&error))?;
+        let path =
+            path.to_str().map_err(|error| (SupelStatus::File, format!("path is not UTF-8, as expected: {error}")))?;
         let superelement = Superelement::open(Path::new(path)).map_err(|error| failed(SupelStatus::File)(&error))?;
         let frame = match frame {
             SUPEL_MASS_WEIGHTED => FloatingFrame::MassWeighted,
             SUPEL_RIGID => FloatingFrame::Rigid,
-            other => return Err((SupelStatus::Argument, format!("{other} is no floating frame"))),
+            other => return Err(unknown("floating frame", other, "0 (SUPEL_MASS_WEIGHTED) or 1 (SUPEL_RIGID)")),
         };
-        let made = ModalComponent::new(&superelement, frame).map_err(|error| failed(SupelStatus::Component)(&error))?;
+        let measures = match measures {
+            SUPEL_MOTION_BASED => Measures::MotionBased,
+            SUPEL_CLASSICAL => Measures::Classical,
+            other => return Err(unknown("measures", other, "0 (SUPEL_MOTION_BASED) or 1 (SUPEL_CLASSICAL)")),
+        };
+        let made = ModalComponent::with_measures(&superelement, frame, measures);
+        let made = made.map_err(|error| failed(SupelStatus::Component)(&error))?;
         // SAFETY: not null, and a place for a pointer by the promise of the caller.
         unsafe { component.write(Box::into_raw(Box::new(SupelComponent { component: made }))) };
         Ok(())
@@ -240,6 +291,17 @@ pub unsafe extern "C" fn supel_positions(component: *const SupelComponent) -> *c
 pub unsafe extern "C" fn supel_reference_stiffness(component: *const SupelComponent) -> *const f64 {
     // SAFETY: null or a component by the promise of the caller.
     pointer(unsafe { component.as_ref() }.map(|component| component.component.reference_stiffness()))
+}
+
+/// Damping without deformation; null for null and where the file has no damping.
+///
+/// # Safety
+///
+/// `component` is null or comes from `supel_component_open`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn supel_reference_damping(component: *const SupelComponent) -> *const f64 {
+    // SAFETY: null or a component by the promise of the caller.
+    pointer(unsafe { component.as_ref() }.and_then(|component| component.component.reference_damping()))
 }
 
 /// Mass without deformation; null for null.

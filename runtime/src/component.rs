@@ -18,6 +18,7 @@
 //! Source: paper, section 4. Its inertial forces (85) lack J⁻¹ and those of its table 1 Qᵀ M_F Q; here both are complete, so
 //! that forces are those of a Lagrangian for any choice of Y.
 
+mod batch;
 mod construction;
 mod damping;
 mod dense;
@@ -33,6 +34,7 @@ mod recovery;
 mod tangents;
 mod workspace;
 
+pub use batch::{BatchError, Evaluation, evaluate_all, tangents_all};
 pub use error::{ComponentError, EvaluationError};
 pub use loads::DeadLoad;
 pub use recovery::RecoveredNode;
@@ -167,8 +169,9 @@ impl ModalComponent {
     ///
     /// # Errors
     ///
-    /// [`EvaluationError`]: arguments of wrong length, not finite or no rotations; a workspace of another component; a node half a turn from the floating
-    /// frame; a floating frame that the nodes do not determine.
+    /// [`EvaluationError`]: arguments of wrong length, not finite or no rotations; a workspace of a component of another
+    /// size; a node half a turn from the floating frame; a floating frame that the nodes do not determine; results beyond
+    /// the range of numbers.
     ///
     /// Source: paper, eqs. (63), (76), (81), and (85) with J⁻¹.
     pub fn evaluate(&self, state: &State<'_>, workspace: &mut Workspace) -> Result<(), EvaluationError> {
@@ -176,7 +179,7 @@ impl ModalComponent {
         self.elastic_forces(workspace);
         self.inertial_forces(state, workspace);
         self.damping_forces(workspace);
-        Ok(())
+        workspace.results.check_forces()
     }
 
     /// Stiffness, mass, gyroscopic and damping matrix of a state.
@@ -191,7 +194,7 @@ impl ModalComponent {
     pub fn tangents(&self, state: &State<'_>, workspace: &mut Workspace) -> Result<(), EvaluationError> {
         self.kinematics(state, workspace)?;
         self.tangent_matrices(state, workspace);
-        Ok(())
+        workspace.results.check_tangents()
     }
 
     /// Matrices in the coordinates of the measures.

@@ -1,8 +1,8 @@
 //! Evaluations through the C interface.
 
 use super::{Outcome, SupelComponent, SupelDeadLoad, SupelMotion, SupelState, SupelStatus, SupelWorkspace};
-use super::{failed, guarded, null, pointer, values};
-use crate::component::{DeadLoad, State};
+use super::{failed, guarded, null, values};
+use crate::component::{DeadLoad, ModalComponent, State, Workspace};
 use crate::motion::Motion;
 
 /// Room for the evaluations of a component by one thread, to be freed by `supel_workspace_free`.
@@ -41,6 +41,11 @@ pub unsafe extern "C" fn supel_workspace_free(workspace: *mut SupelWorkspace) {
     }
 }
 
+/// Before anything is done: the wrong workspace is a mistake of the program, not of the state.
+pub(super) fn check_workspace(component: &ModalComponent, workspace: &Workspace) -> Outcome {
+    component.check_workspace(workspace).map_err(|error| failed(SupelStatus::Argument)(&error))
+}
+
 /// What an evaluation fills.
 #[derive(Clone, Copy)]
 enum Wanted {
@@ -73,6 +78,7 @@ unsafe fn evaluate(
         )
     };
     let state = State { motions, amplitudes, velocities, accelerations };
+    check_workspace(component, workspace)?;
     let outcome = match wanted {
         Wanted::Forces => component.evaluate(&state, workspace),
         Wanted::Tangents => component.tangents(&state, workspace),
@@ -84,7 +90,7 @@ unsafe fn evaluate(
 ///
 /// # Safety
 ///
-/// `component` and `workspace` come from this library, the workspace from the component; `state` points to a state
+/// `component` and `workspace` come from this library; `state` points to a state
 /// whose arrays have as many values as the component has nodes, amplitudes and coordinates. Each may be null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn supel_evaluate(
@@ -129,6 +135,7 @@ pub unsafe extern "C" fn supel_add_gravity(
         let (component, workspace) = unsafe { (component.as_ref(), workspace.as_mut()) };
         let component = &component.ok_or_else(|| null("component"))?.component;
         let workspace = &mut workspace.ok_or_else(|| null("workspace"))?.workspace;
+        check_workspace(component, workspace)?;
         // SAFETY: three values by the promise of the caller.
         let gravity = unsafe { values(gravity, 3, "gravity")? };
         if forces.is_null() {
@@ -227,7 +234,7 @@ pub unsafe extern "C" fn supel_floating_frame(
     })
 }
 
-/// Starts the next search for the floating frame from `frame`.
+/// Starts the next search for the floating frame from `frame`, which the next evaluation checks.
 ///
 /// # Safety
 ///
@@ -245,103 +252,4 @@ pub unsafe extern "C" fn supel_set_floating_frame(
         workspace.ok_or_else(|| null("workspace"))?.workspace.set_floating_frame(&frame);
         Ok(())
     })
-}
-
-/// Deformation measure of the state last evaluated; null for null.
-///
-/// # Safety
-///
-/// `workspace` is null or comes from `supel_workspace_new`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn supel_deformation(workspace: *const SupelWorkspace) -> *const f64 {
-    // SAFETY: null or a workspace by the promise of the caller.
-    pointer(unsafe { workspace.as_ref() }.map(|workspace| workspace.workspace.deformation()))
-}
-
-/// Elastic forces of the state last evaluated; null for null.
-///
-/// # Safety
-///
-/// `workspace` is null or comes from `supel_workspace_new`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn supel_elastic_forces(workspace: *const SupelWorkspace) -> *const f64 {
-    // SAFETY: null or a workspace by the promise of the caller.
-    pointer(unsafe { workspace.as_ref() }.map(|workspace| workspace.workspace.elastic_forces()))
-}
-
-/// Inertial forces of the state last evaluated; null for null.
-///
-/// # Safety
-///
-/// `workspace` is null or comes from `supel_workspace_new`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn supel_inertial_forces(workspace: *const SupelWorkspace) -> *const f64 {
-    // SAFETY: null or a workspace by the promise of the caller.
-    pointer(unsafe { workspace.as_ref() }.map(|workspace| workspace.workspace.inertial_forces()))
-}
-
-/// Damping forces of the state last evaluated; null for null.
-///
-/// # Safety
-///
-/// `workspace` is null or comes from `supel_workspace_new`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn supel_damping_forces(workspace: *const SupelWorkspace) -> *const f64 {
-    // SAFETY: null or a workspace by the promise of the caller.
-    pointer(unsafe { workspace.as_ref() }.map(|workspace| workspace.workspace.damping_forces()))
-}
-
-/// Tangent stiffness of the state whose tangents were last asked for, a matrix; null for null.
-///
-/// # Safety
-///
-/// `workspace` is null or comes from `supel_workspace_new`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn supel_stiffness(workspace: *const SupelWorkspace) -> *const f64 {
-    // SAFETY: null or a workspace by the promise of the caller.
-    pointer(unsafe { workspace.as_ref() }.map(|workspace| workspace.workspace.stiffness()))
-}
-
-/// Mass of the state whose tangents were last asked for, a matrix; null for null.
-///
-/// # Safety
-///
-/// `workspace` is null or comes from `supel_workspace_new`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn supel_mass(workspace: *const SupelWorkspace) -> *const f64 {
-    // SAFETY: null or a workspace by the promise of the caller.
-    pointer(unsafe { workspace.as_ref() }.map(|workspace| workspace.workspace.mass()))
-}
-
-/// Gyroscopic matrix of the state whose tangents were last asked for; null for null.
-///
-/// # Safety
-///
-/// `workspace` is null or comes from `supel_workspace_new`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn supel_gyroscopic(workspace: *const SupelWorkspace) -> *const f64 {
-    // SAFETY: null or a workspace by the promise of the caller.
-    pointer(unsafe { workspace.as_ref() }.map(|workspace| workspace.workspace.gyroscopic()))
-}
-
-/// Strain energy of the state last evaluated; not a number for null.
-///
-/// # Safety
-///
-/// `workspace` is null or comes from `supel_workspace_new`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn supel_strain_energy(workspace: *const SupelWorkspace) -> f64 {
-    // SAFETY: null or a workspace by the promise of the caller.
-    unsafe { workspace.as_ref() }.map_or(f64::NAN, |workspace| workspace.workspace.strain_energy())
-}
-
-/// Kinetic energy of the state last evaluated; not a number for null.
-///
-/// # Safety
-///
-/// `workspace` is null or comes from `supel_workspace_new`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn supel_kinetic_energy(workspace: *const SupelWorkspace) -> f64 {
-    // SAFETY: null or a workspace by the promise of the caller.
-    unsafe { workspace.as_ref() }.map_or(f64::NAN, |workspace| workspace.workspace.kinetic_energy())
 }

@@ -16,7 +16,9 @@ use super::recovery::RecoveryMap;
 use super::{ComponentError, FloatingFrame, Measures, ModalComponent};
 use crate::matrix::Matrix;
 use crate::metadata::{Coordinate, Direction, RigidBodyModes};
-use crate::motion::{IDENTITY_3, IDENTITY_6, Matrix6, Vector3, Vector6, blocks, skew, transposed_times_6};
+use crate::motion::{
+    IDENTITY_3, IDENTITY_6, Matrix6, Vector3, Vector6, blocks, dot, multiply_6, skew, transposed_times_6,
+};
 use crate::superelement::Superelement;
 
 /// Largest force that a rigid-body motion may make, relative to the sum of the magnitudes of its parts.
@@ -27,6 +29,9 @@ const FREE: f64 = 1e-5;
 
 /// Forces of rigid-body motion below this are rounding, also in matrices that were printed with twelve digits.
 const UNDAMPED: f64 = 1e-10;
+
+/// The damping in proportion to a stiffness has its residual; forces this much larger are no rounding.
+const ABOVE_THE_STIFFNESS: f64 = 10.0;
 
 /// Smallest pivot of the rigid-body mass scaled to unit diagonal: of a body ten thousand times its size away from the
 /// origin.
@@ -91,8 +96,7 @@ impl ModalComponent {
             FloatingFrame::MassWeighted => times(&nodal.mass, &with_zeros(&rigid, n_modal)),
             FloatingFrame::Rigid => with_zeros(&rigid, n_modal),
         };
-        let scale = normalisation(&frame, &rigid).ok_or(ComponentError::MasslessMotion)?;
-        dense::apply_to_rows(&scale, &mut frame);
+        dense::apply_to_rows(&normalisation(&dense::block_sum(&frame, rigid.iter()))?, &mut frame);
         let (measured, rigid, change) = match measures {
             Measures::MotionBased => (None, rigid, change),
             Measures::Classical => {
@@ -110,9 +114,6 @@ impl ModalComponent {
             Some(gravity) => transposed_product(&change, gravity),
             None => momenta.iter().map(|row| [row[0], row[1], row[2]]).collect(),
         };
-        let resists = |c: &Vec<f64>| rigid_force(c, &with_zeros(&rigid, n_modal)).0 > UNDAMPED;
-        let resists_motion = matrices.damping.as_ref().is_some_and(resists);
-        let damping_acts_on = if resists_motion { ActsOn::Motion } else { ActsOn::Deformation };
         Ok(Self {
             measures,
             n_modal,
@@ -121,7 +122,7 @@ impl ModalComponent {
             unloaded: superelement.metadata().validity.unloaded.clone(),
             rigid_motion_residual: residual,
             frame_rounding: FrameRounding::new(&frame, &positions),
-            damping_acts_on,
+            damping_acts_on: damping_acts_on(superelement, &rigid_modes, residual),
             positions,
             nodal,
             measured,
@@ -188,6 +189,16 @@ fn rigid_amplitudes(superelement: &Superelement) -> Vec<Vector6> {
 /// U of the nodes and zeros for the modal amplitudes, r × 6.
 fn with_zeros(rigid: &[Matrix6], n_modal: usize) -> Vec<Vector6> {
     [rigid.as_flattened(), &vec![[0.0; 6]; n_modal]].concat()
+}
+
+/// On the whole motion where the damping of the file resists rigid-body motion, by more than what `residual` says of the
+/// accuracy of the stiffness.
+fn damping_acts_on(superelement: &Superelement, rigid_modes: &[Vector6], residual: f64) -> ActsOn {
+    let limit = UNDAMPED.max(ABOVE_THE_STIFFNESS * residual);
+    match &superelement.tensors().damping {
+        Some(damping) if rigid_force(damping.as_slice(), rigid_modes).0 > limit => ActsOn::Motion,
+        _ => ActsOn::Deformation,
+    }
 }
 
 /// Largest force that a column of U makes, relative to the sum of the magnitudes of its parts, and that column. Each row
@@ -265,11 +276,34 @@ fn times(mass: &[f64], rigid: &[Vector6]) -> Vec<Vector6> {
     mass.chunks_exact(rigid.len()).map(|row| dense::columns_times(rigid, row)).collect()
 }
 
-/// (YᵀU)⁻¹, found in the scale of its diagonal; `None` where it is singular.
-fn normalisation(frame: &[Vector6], rigid: &[Matrix6]) -> Option<Matrix6> {
-    let product = dense::block_sum(frame, rigid.iter());
-    let scale: Vector6 = std::array::from_fn(|a| product[a][a].sqrt().recip());
+/// (YᵀU)⁻¹.
+fn normalisation(product: &Matrix6) -> Result<Matrix6, ComponentError> {
+    inverse_in_scale(product).ok_or_else(|| no_frame(product))
+}
+
+/// The inverse, found in the scale of the diagonal; `None` where it is singular.
+fn inverse_in_scale(a: &Matrix6) -> Option<Matrix6> {
+    let scale: Vector6 = std::array::from_fn(|i| a[i][i].sqrt().recip());
     let scaled =
         |a: &Matrix6| -> Matrix6 { std::array::from_fn(|i| std::array::from_fn(|j| scale[i] * a[i][j] * scale[j])) };
-    dense::inverse(&scaled(&product), SMALLEST_PIVOT).map(|inverse| scaled(&inverse))
+    dense::inverse(&scaled(a), SMALLEST_PIVOT).map(|inverse| scaled(&inverse))
+}
+
+/// Why YᵀU is singular: the mass of a body that is only far away is not, once it is turned to the centre of mass c by
+/// TᵀYᵀU T with T = [I, c̃; 0, I].
+fn no_frame(product: &Matrix6) -> ComponentError {
+    let mass = (product[0][0] + product[1][1] + product[2][2]) / 3.0;
+    let centre = [(1, 5), (2, 3), (0, 4)].map(|(i, j)| product[i][j] / mass);
+    let about = blocks(&IDENTITY_3, &skew(&centre), &[[0.0; 3]; 3], &IDENTITY_3);
+    let turned = multiply_6(&dense::transposed(&about), &multiply_6(product, &about));
+    if inverse_in_scale(&turned).is_none() {
+        return ComponentError::MasslessMotion;
+    }
+    let hidden = |a: usize| product[a][a] / turned[a][a];
+    let axis = (3..6).fold(3, |most, axis| if hidden(axis) > hidden(most) { axis } else { most });
+    ComponentError::FarFromOrigin {
+        distance: dot(&centre, &centre).sqrt(),
+        radius: (turned[axis][axis] / mass).sqrt(),
+        limit: SMALLEST_PIVOT.sqrt().recip(),
+    }
 }

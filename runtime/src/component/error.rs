@@ -52,9 +52,21 @@ pub enum ComponentError {
         /// What is allowed.
         limit: f64,
     },
+    /// The component is so far from the origin that its own inertia is lost in that about the origin.
+    #[error(
+        "the centre of mass is {distance:.1e} from the origin, where the radius of gyration {radius:.1e} of the component is lost in rounding, at most {limit:.0e} times the radius expected; place the model near the origin, or choose the rigid floating frame"
+    )]
+    FarFromOrigin {
+        /// Distance of the centre of mass from the origin.
+        distance: f64,
+        /// Radius of gyration about the centre of mass, of the axis that suffers most.
+        radius: f64,
+        /// What is allowed.
+        limit: f64,
+    },
     /// The mass sees no difference between some rigid-body motions.
     #[error(
-        "the mass of the component does not resist each rigid-body motion, so that a mass-weighted floating frame is undefined; choose the rigid one"
+        "the mass of the component does not resist each rigid-body motion, or too far from the origin for rounding to tell, so that a mass-weighted floating frame is undefined; place the model near the origin, or choose the rigid floating frame"
     )]
     MasslessMotion,
 }
@@ -65,7 +77,9 @@ pub enum ComponentError {
 #[non_exhaustive]
 pub enum EvaluationError {
     /// An argument has the wrong length.
-    #[error("{found} {what} given, the component has {expected}")]
+    #[error(
+        "found {found} {what}, expected {expected}, as the component has; give the arrays and the workspace of this component"
+    )]
     WrongLength {
         /// What the argument is.
         what: &'static str,
@@ -75,7 +89,9 @@ pub enum EvaluationError {
         expected: usize,
     },
     /// An argument is infinite or not a number.
-    #[error("entry {index} (from 0) of the {what} is not finite")]
+    #[error(
+        "entry {index} (from 0) of the {what} is infinite or not a number, expected a finite value; has the integration diverged? take a smaller step"
+    )]
     NotFinite {
         /// What the argument is.
         what: &'static str,
@@ -88,6 +104,19 @@ pub enum EvaluationError {
         /// Number of the node.
         node: usize,
     },
+    /// The floating frame given to start from is no rigid-body motion.
+    #[error(
+        "the floating frame to start from is not a finite translation and a rotation matrix; orthonormalise it, or give none"
+    )]
+    InvalidFrame,
+    /// Products of the arguments leave the range of numbers.
+    #[error(
+        "the {what} cannot be held in double precision: the state has values beyond any physical size; has the integration diverged? take a smaller step"
+    )]
+    Overflow {
+        /// Which result.
+        what: &'static str,
+    },
     /// A node has turned by half a turn against the floating frame.
     #[error(
         "interface node {node} (from 0) has turned by half a turn against the floating frame; the component is valid for small deformation: divide it into several"
@@ -98,7 +127,7 @@ pub enum EvaluationError {
     },
     /// The deformation is so large that the floating frame is not determined.
     #[error(
-        "the floating frame is not determined by the interface nodes: the deformation is too large; divide the component into several"
+        "the interface nodes do not determine the floating frame: a pivot of YᵀF, 1 without deformation, is below 1e-3; the deformation is too large: divide the component into several"
     )]
     FrameSingular,
     /// The floating frame was not found.

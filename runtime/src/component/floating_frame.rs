@@ -4,9 +4,9 @@
 //! and the residual Yᵀe is itself a small motion.
 
 use super::dense;
-use super::workspace::Workspace;
+use super::workspace::{Workspace, all_finite};
 use super::{EvaluationError, ModalComponent, State};
-use crate::motion::{Motion, Vector3, Vector6, cross, dot, times_6};
+use crate::motion::{Matrix3, Motion, Vector3, Vector6, cross, dot, times_6};
 
 /// Steps from one start. From a node turned by half a radian four are needed; the limit is for those that diverge.
 const MAX_ITERATIONS: usize = 25;
@@ -51,11 +51,13 @@ impl ModalComponent {
         Ok(())
     }
 
-    /// A workspace of this component.
-    pub(super) fn check_workspace(&self, workspace: &Workspace) -> Result<(), EvaluationError> {
+    /// A workspace with room for this component, neither more nor less.
+    pub(crate) fn check_workspace(&self, workspace: &Workspace) -> Result<(), EvaluationError> {
+        let n_damping = self.reference_damping().map_or(0, <[f64]>::len);
         let lengths = [
             ("nodes of the workspace", workspace.nodes.len(), self.n_nodes()),
             ("coordinates of the workspace", workspace.deformation.len(), self.n_coordinates()),
+            ("entries of the workspace's damping matrix", workspace.results.damping.len(), n_damping),
         ];
         match lengths.into_iter().find(|(_, found, expected)| found != expected) {
             Some((what, found, expected)) => Err(EvaluationError::WrongLength { what, found, expected }),
@@ -74,11 +76,7 @@ impl ModalComponent {
                 let (what, index) = ("translations of nodes", 3 * node + axis);
                 return Err(EvaluationError::NotFinite { what, index });
             }
-            let [a, b, c] = &motion.rotation;
-            let near = |value: f64, target: f64| (value - target).abs() <= ROTATION_TOLERANCE;
-            let unit = [a, b, c].into_iter().all(|row| near(dot(row, row), 1.0));
-            let orthogonal = [(a, b), (a, c), (b, c)].into_iter().all(|(x, y)| near(dot(x, y), 0.0));
-            if !(unit && orthogonal && near(dot(&cross(a, b), c), 1.0)) {
+            if !is_rotation(&motion.rotation) {
                 return Err(EvaluationError::NotRotation { node });
             }
         }
@@ -87,8 +85,11 @@ impl ModalComponent {
 
     /// From the given frame, or the last one carried along with node 0; failing that from each node in turn.
     fn find_frame(&self, state: &State<'_>, workspace: &mut Workspace) -> Result<(), EvaluationError> {
-        let carried = || state.motions[0].compose(&workspace.frame_in_node);
-        let first = workspace.given_frame.take().unwrap_or_else(carried);
+        let first = match workspace.given_frame.take() {
+            Some(frame) if is_rotation(&frame.rotation) && all_finite(&frame.translation) => frame,
+            Some(_) => return Err(EvaluationError::InvalidFrame),
+            None => state.motions[0].compose(&workspace.frame_in_node),
+        };
         let mut outcome = self.newton(state, first, workspace);
         for start in state.motions {
             if outcome.is_ok() {
@@ -160,11 +161,18 @@ impl ModalComponent {
     }
 }
 
+fn is_rotation([a, b, c]: &Matrix3) -> bool {
+    let near = |value: f64, target: f64| (value - target).abs() <= ROTATION_TOLERANCE;
+    let unit = [a, b, c].into_iter().all(|row| near(dot(row, row), 1.0));
+    let orthogonal = [(a, b), (a, c), (b, c)].into_iter().all(|(x, y)| near(dot(x, y), 0.0));
+    unit && orthogonal && near(dot(&cross(a, b), c), 1.0)
+}
+
 /// What rounding makes of Yᵀe: each of its six rows is a sum of translations, rotations and amplitudes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct FrameRounding {
     /// Largest coordinate of an interface node.
-    extent: f64,
+    pub(super) extent: f64,
     /// Sums of the magnitudes of Y over translations, rotations and amplitudes.
     weights: [Vector6; 3],
 }

@@ -20,10 +20,10 @@ impl ModalComponent {
     ///
     /// # Panics
     ///
-    /// Panics on the workspace of a component with other coordinates.
+    /// Panics on the workspace of a component with other numbers of nodes or coordinates.
     pub fn gravity_forces<'w>(&self, g: &Vector3, workspace: &'w mut Workspace) -> &'w [f64] {
-        let (found, expected) = (workspace.deformation.len(), self.n_coordinates());
-        assert_eq!(found, expected, "coordinates of the workspace and of the component");
+        let fit = self.check_workspace(workspace);
+        assert_eq!(fit, Ok(()), "the workspace is that of the component");
         let Workspace { floating_frame, nodes, q, deformation, product, results, .. } = workspace;
         let a = transposed_times_3(&floating_frame.rotation, g);
         let mut moved = [0.0; 3];

@@ -6,7 +6,8 @@ use crate::motion::{
     Matrix3, Matrix6, Motion, Vector3, Vector6, blocks, cross, join, multiply_3, skew, transposed_times_3,
 };
 
-/// A load that should have no component along a dof has one of rounding, 1e-16 and the drift of the rotation.
+/// A load that should have no component along a dof has one of rounding, 1e-16 and the drift of the rotation; moments also that
+/// of the lever arms of their forces.
 const ALONG_THE_OTHERS: f64 = 1e-9;
 
 /// A force and a moment on an interface node, constant in inertial axes.
@@ -110,8 +111,10 @@ impl ModalComponent {
             &transposed_times_3(&motion.rotation, &load.moment),
         );
         for &InterfaceDof { node, direction } in self.unloaded.iter().filter(|dof| dof.node == load.node) {
-            let part = direction as usize / 3 * 3;
-            let whole = in_node[part..part + 3].iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+            let largest = |part: &[f64]| part.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+            let (force, moment) = (largest(&in_node[..3]), largest(&in_node[3..]));
+            let lever = self.frame_rounding.extent;
+            let whole = if (direction as usize) < 3 { force } else { moment.max(force * lever) };
             if in_node[direction as usize].abs() > ALONG_THE_OTHERS * whole {
                 return Err(EvaluationError::UnloadedDof { node, direction });
             }

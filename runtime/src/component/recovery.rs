@@ -21,6 +21,9 @@ pub(super) struct RecoveryMap {
 }
 
 /// Where a node inside the component has gone.
+///
+/// Its memory is twelve doubles in this order, for programs in other languages.
+#[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RecoveredNode {
     /// Displacement, in inertial axes.
@@ -68,7 +71,9 @@ impl ModalComponent {
     /// # Errors
     ///
     /// [`EvaluationError::WrongLength`]; [`EvaluationError::IncompleteRecovery`] where the file recovers only some of the
-    /// three translations of a node, or only some of its rotations: they cannot be turned with the floating frame.
+    /// three translations of a node, or only some of its rotations: they cannot be turned with the floating frame. The tool
+    /// writes the directions that a node of the model has, which may be fewer: one such node makes this function refuse
+    /// the file as a whole, and the job must leave it out of `recovery`.
     pub fn recover(
         &self,
         workspace: &Workspace,

@@ -1,8 +1,8 @@
 //! Scratch and results of a component's evaluations, owned by the caller.
 
-use super::ModalComponent;
 use super::dense;
 use super::measures::NodeMeasure;
+use super::{EvaluationError, ModalComponent};
 use crate::motion::{IDENTITY_6, Matrix6, Motion, Vector6};
 
 /// Scratch and results of the evaluations of one component; made by [`ModalComponent::workspace`].
@@ -61,6 +61,49 @@ pub(super) struct Scratch {
     pub(super) tall: Vec<Vector6>,
 }
 
+impl Results {
+    /// Forces and energies that are numbers.
+    pub(super) fn check_forces(&self) -> Result<(), EvaluationError> {
+        let each = [
+            ("elastic forces", self.elastic.as_slice()),
+            ("inertial forces", &self.inertial),
+            ("damping forces", &self.damping_forces),
+            ("strain energy", &[self.strain_energy]),
+            ("kinetic energy", &[self.kinetic_energy]),
+        ];
+        check_finite(each)
+    }
+
+    /// Tangent matrices of numbers.
+    pub(super) fn check_tangents(&self) -> Result<(), EvaluationError> {
+        let each = [
+            ("tangent stiffness", self.stiffness.as_slice()),
+            ("mass", &self.mass),
+            ("damping matrix", &self.damping),
+            // Its part of the floating frame is in it.
+            ("gyroscopic matrix", &self.gyroscopic),
+        ];
+        check_finite(each)
+    }
+}
+
+fn check_finite<const N: usize>(each: [(&'static str, &[f64]); N]) -> Result<(), EvaluationError> {
+    match each.into_iter().find(|(_, values)| !all_finite(values)) {
+        Some((what, _)) => Err(EvaluationError::Overflow { what }),
+        None => Ok(()),
+    }
+}
+
+/// Zero times an infinity is no number, nor is any sum with one: eight sums side by side take the processor's vectors.
+pub(super) fn all_finite(values: &[f64]) -> bool {
+    let (eights, rest) = values.as_chunks::<8>();
+    let mut zeros = [0.0; 8];
+    for eight in eights {
+        zeros = std::array::from_fn(|i| zeros[i] + 0.0 * eight[i]);
+    }
+    zeros.iter().chain(rest).all(|value| value.is_finite())
+}
+
 impl Workspace {
     pub(super) fn new(component: &ModalComponent) -> Self {
         let (k, r) = (component.n_nodes(), component.n_coordinates());
@@ -103,7 +146,8 @@ impl Workspace {
         workspace
     }
 
-    /// Starts the next search for the floating frame from `frame`: after a jump of the state, or to repeat a run.
+    /// Starts the next search for the floating frame from `frame`: after a jump of the state, or to repeat a run. The next
+    /// evaluation checks it ([`EvaluationError::InvalidFrame`]).
     pub fn set_floating_frame(&mut self, frame: &Motion) {
         self.given_frame = Some(*frame);
     }

@@ -8,9 +8,9 @@ mod random;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use supel_runtime::Superelement;
 use supel_runtime::component::{DeadLoad, FloatingFrame, ModalComponent, State};
 use supel_runtime::motion::Motion;
+use supel_runtime::{Direction, Matrix, Precision, RecoveredDof, Recovery, Superelement};
 
 fn in_crate(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
@@ -32,7 +32,7 @@ fn header() -> String {
         ..cbindgen::Config::default()
     };
     config.enumeration.rename_variants = cbindgen::RenameRule::QualifiedScreamingSnakeCase;
-    let sources = ["src/capi.rs", "src/capi/evaluation.rs"];
+    let sources = ["src/capi.rs", "src/capi/evaluation.rs", "src/capi/recovery.rs", "src/capi/results.rs"];
     let builder = cbindgen::Builder::new().with_config(config);
     let bindings = sources.iter().fold(builder, |builder, source| builder.with_src(in_crate(source))).generate();
     let mut text = Vec::new();
@@ -69,8 +69,8 @@ fn library() -> PathBuf {
     archives.next().expect("an archive")
 }
 
-/// Compiles a C program without warnings and runs it with a superelement file.
-fn run(source: &str, library: &Path, folder: &Path, file: &Path) -> Output {
+/// Compiles a C program without warnings and runs it with superelement files.
+fn run(source: &str, library: &Path, folder: &Path, files: &[&Path]) -> Output {
     let program = folder.join(Path::new(source).file_stem().expect("a file"));
     let compiled = Command::new("cc")
         .args(["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-I"])
@@ -80,20 +80,45 @@ fn run(source: &str, library: &Path, folder: &Path, file: &Path) -> Output {
         .output()
         .expect("a C compiler");
     assert!(compiled.status.success(), "{}", String::from_utf8_lossy(&compiled.stderr));
-    Command::new(program).arg(file).output().expect("the program runs")
+    Command::new(program).args(files).output().expect("the program runs")
+}
+
+/// Rows of the basis for some directions of one node.
+fn recovery(node: i64, directions: &[Direction], rows: Matrix) -> Option<Recovery> {
+    let dofs = directions.iter().map(|&direction| RecoveredDof { node, direction }).collect();
+    Some(Recovery::new(rows, dofs, Precision::Double).expect("as many dofs as rows"))
+}
+
+/// A damped arc that recovers the node in its middle.
+fn arc() -> Superelement {
+    let (mut tensors, metadata, basis) = beam::reduced_parts(&beam::arc_nodes(), &beam::SOFT, &[0, 8], 3);
+    tensors.damping = Some(tensors.mass.clone());
+    let rows = Matrix::from_fn(6, 15, |i, j| basis[(6 * 4 + i) * 15 + j]);
+    tensors.recovery = recovery(4, &Direction::ALL, rows);
+    Superelement::new(tensors, metadata).expect("the parts fit")
+}
+
+/// Another component with fifteen coordinates, which recovers two directions of a node.
+fn one_node() -> Superelement {
+    let (mut tensors, metadata) = beam::random_parts(1, 9, 1);
+    let rows = Matrix::from_fn(2, 15, |i, j| if i == j { 1.0 } else { 0.0 });
+    tensors.recovery = recovery(7, &Direction::ALL[..2], rows);
+    Superelement::new(tensors, metadata).expect("the parts fit")
 }
 
 #[test]
 fn c_programs_get_the_same_bits_and_reasons() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("arc.supel");
-    beam::arc(3).superelement.write(&file).expect("the file can be written");
+    arc().write(&file).expect("the file can be written");
+    let other = folder.path().join("other.supel");
+    one_node().write(&other).expect("the file can be written");
     let library = library();
 
-    let refusals = run("tests/capi/refusals.c", &library, folder.path(), &file);
+    let refusals = run("tests/capi/refusals.c", &library, folder.path(), &[&file, &other]);
     assert!(refusals.status.success(), "{}", String::from_utf8_lossy(&refusals.stderr));
 
-    let example = run("capi/example.c", &library, folder.path(), &file);
+    let example = run("capi/example.c", &library, folder.path(), &[&file]);
     assert!(example.status.success(), "{}", String::from_utf8_lossy(&example.stderr));
     let text = String::from_utf8(example.stdout).expect("the program prints text");
     let printed: Vec<f64> = text.split_whitespace().filter_map(|word| word.parse().ok()).collect();

@@ -1,4 +1,5 @@
-/* Wrong calls end in a status and a reason, never in a crash; argv: a superelement file. */
+/* Wrong calls end in a status and a reason, never in a crash; argv: a damped superelement file of two nodes that recovers a
+ * node, and another one with as many coordinates, of one node, that recovers some directions of a node. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,15 +20,16 @@ static void expect(int line, SupelStatus found, SupelStatus expected, const char
 
 int main(int argc, char **argv)
 {
-    SupelComponent *component = NULL;
-    SupelWorkspace *workspace = NULL;
-    REQUIRE(argc == 2);
+    SupelComponent *component = NULL, *other = NULL;
+    SupelWorkspace *workspace = NULL, *foreign = NULL;
+    REQUIRE(argc == 3);
 
     EXPECT(supel_component_open(NULL, SUPEL_RIGID, &component), SUPEL_STATUS_ARGUMENT, "path is null");
     EXPECT(supel_component_open(argv[1], SUPEL_RIGID, NULL), SUPEL_STATUS_ARGUMENT, "component is null");
-    EXPECT(supel_component_open(argv[1], 7, &component), SUPEL_STATUS_ARGUMENT, "7 is no floating frame");
+    EXPECT(supel_component_open(argv[1], 7, &component), SUPEL_STATUS_ARGUMENT, "floating frame 7, expected 0");
+    EXPECT(supel_component_open_with(argv[1], SUPEL_RIGID, 2, &component), SUPEL_STATUS_ARGUMENT, "measures 2, expected 0");
     EXPECT(supel_component_open("no.supel", SUPEL_RIGID, &component), SUPEL_STATUS_FILE, "no.supel");
-    EXPECT(supel_component_open("\xff", SUPEL_RIGID, &component), SUPEL_STATUS_FILE, "utf-8");
+    EXPECT(supel_component_open("\xff", SUPEL_RIGID, &component), SUPEL_STATUS_FILE, "path is not UTF-8");
     REQUIRE(component == NULL);
     EXPECT(supel_component_open(argv[1], SUPEL_RIGID, &component), SUPEL_STATUS_OK, "");
     EXPECT(supel_workspace_new(NULL, &workspace), SUPEL_STATUS_ARGUMENT, "component is null");
@@ -64,6 +66,48 @@ int main(int argc, char **argv)
     EXPECT(supel_set_floating_frame(workspace, NULL), SUPEL_STATUS_ARGUMENT, "frame is null");
     EXPECT(supel_set_floating_frame(workspace, &frame), SUPEL_STATUS_OK, "");
 
+    frame.rotation[0][0] = 1.1;
+    EXPECT(supel_set_floating_frame(workspace, &frame), SUPEL_STATUS_OK, "");
+    EXPECT(supel_evaluate(component, &state, workspace), SUPEL_STATUS_STATE, "floating frame to start from");
+
+    EXPECT(supel_component_open_with(argv[2], SUPEL_RIGID, SUPEL_CLASSICAL, &other), SUPEL_STATUS_OK, "");
+    EXPECT(supel_workspace_new(other, &foreign), SUPEL_STATUS_OK, "");
+    REQUIRE(supel_n_coordinates(other) == n && supel_n_nodes(other) == 1);
+    EXPECT(supel_evaluate(component, &state, foreign), SUPEL_STATUS_ARGUMENT, "nodes of the workspace");
+    EXPECT(supel_tangents(component, &state, foreign), SUPEL_STATUS_ARGUMENT, "nodes of the workspace");
+    EXPECT(supel_add_gravity(component, gravity, foreign, forces), SUPEL_STATUS_ARGUMENT, "nodes of the workspace");
+
+    double position[3] = {0, 0, 0};
+    SupelRecoveredNode node;
+    EXPECT(supel_recover(component, foreign, position, &node), SUPEL_STATUS_ARGUMENT, "nodes of the workspace");
+    EXPECT(supel_recover(NULL, workspace, position, &node), SUPEL_STATUS_ARGUMENT, "component is null");
+    EXPECT(supel_recover(component, NULL, position, &node), SUPEL_STATUS_ARGUMENT, "workspace is null");
+    EXPECT(supel_recover(component, workspace, NULL, &node), SUPEL_STATUS_ARGUMENT, "positions is null");
+    EXPECT(supel_recover(component, workspace, position, NULL), SUPEL_STATUS_ARGUMENT, "nodes is null");
+    EXPECT(supel_recover(other, foreign, position, &node), SUPEL_STATUS_STATE, "some directions of node 7");
+    REQUIRE(supel_n_recovered(component) == 1 && supel_recovered_labels(component)[0] == 4);
+    REQUIRE(supel_n_recovered(NULL) == 0 && supel_recovered_labels(NULL) == NULL);
+
+    /* At 2 along z, moving at 3 along x. */
+    double *velocities = calloc(n, sizeof *velocities);
+    REQUIRE(velocities != NULL);
+    velocities[0] = velocities[6] = 3.0;
+    motions[0].translation[2] = motions[1].translation[2] = 2.0;
+    SupelState moving = {motions, zeros, velocities, zeros};
+    EXPECT(supel_tangents(component, &moving, workspace), SUPEL_STATUS_OK, "");
+    EXPECT(supel_recover(component, workspace, position, &node), SUPEL_STATUS_OK, "");
+    REQUIRE(fabs(node.displacement[2] - 2.0) <= 1e-12 && fabs(node.rotation[1][1] - 1.0) <= 1e-12);
+    REQUIRE(fabs(supel_frame_velocity(workspace)[0] - 3.0) <= 1e-12);
+    REQUIRE(fabs(supel_deformation_rate(workspace)[0]) <= 1e-12);
+    for (size_t i = 0; i < n * n; ++i) {
+        REQUIRE(fabs(supel_damping(workspace)[i] - supel_reference_damping(component)[i]) <= 1e-9);
+        REQUIRE(isfinite(supel_frame_gyroscopic(workspace)[i]));
+    }
+    REQUIRE(supel_damping(foreign) == NULL && supel_reference_damping(other) == NULL);
+    motions[0] = motions[1] = identity;
+    EXPECT(supel_tangents(component, &state, workspace), SUPEL_STATUS_OK, "");
+    free(velocities);
+
     for (size_t i = 0; i < n * n; ++i) {
         REQUIRE(fabs(supel_mass(workspace)[i] - supel_reference_mass(component)[i]) <= 1e-9);
         REQUIRE(fabs(supel_stiffness(workspace)[i] - supel_reference_stiffness(component)[i]) <= 1e-6);
@@ -80,6 +124,8 @@ int main(int argc, char **argv)
     free(forces);
     free(zeros);
     supel_workspace_free(workspace);
+    supel_workspace_free(foreign);
+    supel_component_free(other);
     supel_workspace_free(NULL);
     supel_component_free(component);
     supel_component_free(NULL);

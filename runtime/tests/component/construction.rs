@@ -1,6 +1,7 @@
 //! What a component is made of, and what cannot become one.
 
 use supel_runtime::component::{ComponentError, FloatingFrame, Measures, ModalComponent};
+use supel_runtime::motion::Motion;
 use supel_runtime::{Coordinate, Direction, Matrix, Metadata, Superelement, Tensors};
 
 use crate::beam;
@@ -99,6 +100,53 @@ fn a_component_without_inertia_about_an_axis_needs_the_rigid_floating_frame() {
     let error = ModalComponent::new(&superelement, FloatingFrame::MassWeighted).expect_err("no frame");
     assert_eq!(error, ComponentError::MasslessMotion);
     assert!(ModalComponent::new(&superelement, FloatingFrame::Rigid).is_ok());
+}
+
+/// The frame of a body 1e5 away is lost in rounding: 1e-16 of the inertia 1e10 about the origin, which the search amplifies.
+#[test]
+fn distance_from_the_origin_is_not_taken_for_a_lack_of_mass() {
+    let at = |distance: f64, frame: FloatingFrame| {
+        let nodes: Vec<[f64; 3]> = (0..=8).map(|i| [0.25 * f64::from(i) - 1.0, distance, 0.0]).collect();
+        let superelement = beam::reduced(&nodes, &beam::SOFT, &[0, 8], 2).superelement;
+        ModalComponent::new(&superelement, frame)
+    };
+    assert!(at(1e3, FloatingFrame::MassWeighted).is_ok() && at(1e5, FloatingFrame::Rigid).is_ok());
+    let error = at(1e5, FloatingFrame::MassWeighted).expect_err("too far");
+    let ComponentError::FarFromOrigin { distance, radius, limit } = error else { panic!("{error}") };
+    assert_close(&[distance], &[1e5], 1e-9);
+    // About the axis of the beam: polar inertia 0.05 of a mass of 2 for each length; 1e-16 of 1e10 is 1e-4 of 0.025.
+    assert_close(&[radius], &[0.025_f64.sqrt()], 1e-3);
+    assert!(distance / radius > limit && error_text(&at(1e5, FloatingFrame::MassWeighted)).contains("near the origin"));
+}
+
+fn error_text(outcome: &Result<ModalComponent, ComponentError>) -> String {
+    outcome.as_ref().map_or_else(ToString::to_string, |_| String::new())
+}
+
+/// Matrices printed with six digits make a component, and their stiffness-proportional damping no brake.
+#[test]
+fn rounded_damping_in_proportion_to_the_stiffness_does_not_brake() {
+    let (mut tensors, metadata) = arc_without(&[]);
+    let six = |x: f64| format!("{x:.5e}").parse::<f64>().expect("a number");
+    let k = tensors.stiffness;
+    tensors.stiffness = Matrix::from_fn(k.rows(), k.cols(), |i, j| six(k[(i, j)]));
+    for (share, brakes) in [(0.0, false), (1e-2, true)] {
+        let (k, m) = (&tensors.stiffness, &tensors.mass);
+        let damping = Matrix::from_fn(k.rows(), k.cols(), |i, j| six(1e-3 * k[(i, j)] + share * m[(i, j)]));
+        let tensors = Tensors { damping: Some(damping), ..tensors.clone() };
+        let superelement = Superelement::new(tensors, metadata.clone()).expect("the parts fit");
+        let component = ModalComponent::new(&superelement, FloatingFrame::Rigid).expect("a free body");
+        assert!(component.rigid_motion_residual() > 1e-9, "{:e}", component.rigid_motion_residual());
+        let mut situation = crate::situation::Situation::random(&component, 0.0, 1);
+        situation.motions.fill(Motion::IDENTITY);
+        situation.velocities.fill(0.0);
+        situation.amplitudes.fill(0.0);
+        (situation.velocities[5], situation.velocities[11]) = (1.0, 1.0);
+        let brake = largest(situation.evaluated(&component).damping_forces());
+        // Without one only rounding of the deformation rate is left, 1e-16 of a velocity of order one times the damping.
+        let rounding = 1e-14 * largest(component.reference_damping().expect("a damping"));
+        assert_eq!(brake > rounding, brakes, "{share}: {brake:e}");
+    }
 }
 
 #[test]

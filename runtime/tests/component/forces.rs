@@ -2,6 +2,7 @@
 
 use supel_runtime::component::{Measures, ModalComponent};
 use supel_runtime::motion::{check, cross, hat, times_3, times_6, transposed_times_6};
+use supel_runtime::{Matrix, Superelement};
 
 use crate::random::Random;
 use crate::situation::{CHOICES, Situation, assert_close, components, dot, file_matrix, largest, superelements, times};
@@ -272,6 +273,29 @@ fn gravity_forces_are_the_gradient_of_the_potential() {
             let mut workspace = situation.evaluated(&component);
             assert_close(component.gravity_forces(&g, &mut workspace), &expected, DIFFERENCE_TOLERANCE);
         }
+    }
+}
+
+/// The file's own loads of gravity, which are not M̂Û here, as where the mass is lumped otherwise than in the model.
+#[test]
+fn gravity_of_the_file_is_taken_in_every_choice() {
+    let (mut tensors, metadata, _) =
+        crate::beam::reduced_parts(&crate::beam::arc_nodes(), &crate::beam::SOFT, &[0, 8], 3);
+    let mut random = Random(14);
+    let own = Matrix::from_fn(15, 3, |_, _| random.next());
+    tensors.gravity = Some(own.clone());
+    let superelement = Superelement::new(tensors, metadata).expect("the parts fit");
+    let g = [1.0, -2.0, 3.0];
+    // Loads on displacements at the nodes; the coordinates of the component have the moment about the origin.
+    let mut expected: Vec<f64> = (0..15).map(|i| (0..3).map(|a| own[(i, a)] * g[a]).sum()).collect();
+    for (six, x) in expected[..12].as_chunks_mut::<6>().0.iter_mut().zip(&superelement.tensors().interface_positions) {
+        let lever = cross(x, &[six[0], six[1], six[2]]);
+        (0..3).for_each(|i| six[3 + i] += lever[i]);
+    }
+    for (frame, measures) in CHOICES {
+        let component = ModalComponent::with_measures(&superelement, frame, measures).expect("a free body");
+        // In the reference configuration every motion of the nodes is a deformation or a rigid motion, of which Ĝ has both.
+        assert_close(component.gravity_forces(&g, &mut component.workspace()), &expected, 1e-12);
     }
 }
 

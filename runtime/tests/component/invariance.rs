@@ -194,6 +194,62 @@ fn the_workspace_of_another_component_is_refused() {
     let expected = Err(EvaluationError::WrongLength { what: "coordinates of the workspace", found: 14, expected: 17 });
     assert_eq!(component.evaluate(&situation.state(), &mut workspace), expected);
     assert_eq!(component.tangents(&situation.state(), &mut workspace), expected);
+    // One without room for damping, in which the forces of another would stay.
+    let (mut tensors, metadata, _) = beam::reduced_parts(&beam::arc_nodes(), &beam::SOFT, &[0, 8], 5);
+    tensors.damping = Some(tensors.mass.clone());
+    let superelement = Superelement::new(tensors, metadata).expect("the parts fit");
+    let damped = ModalComponent::new(&superelement, FloatingFrame::Rigid).expect("a free body");
+    let what = "entries of the workspace's damping matrix";
+    let expected = |found, expected| Err(EvaluationError::WrongLength { what, found, expected });
+    assert_eq!(damped.tangents(&situation.state(), &mut component.workspace()), expected(0, 289));
+    assert_eq!(component.evaluate(&situation.state(), &mut damped.workspace()), expected(289, 0));
+}
+
+/// One node with six amplitudes and two nodes with none have twelve coordinates.
+#[test]
+#[should_panic(expected = "nodes of the workspace")]
+fn gravity_in_a_workspace_with_other_nodes_panics() {
+    let one = Superelement::new(beam::random_parts(1, 6, 3).0, beam::random_parts(1, 6, 3).1).expect("the parts fit");
+    let one = ModalComponent::new(&one, FloatingFrame::Rigid).expect("a free body");
+    let two = ModalComponent::new(&beam::arc(0).superelement, FloatingFrame::Rigid).expect("a free body");
+    two.gravity_forces(&[0.0, 0.0, -9.81], &mut one.workspace());
+}
+
+#[test]
+fn a_floating_frame_that_is_no_motion_is_refused_and_forgotten() {
+    let component = arc();
+    let situation = Situation::random(&component, 0.2, 8);
+    let expected = situation.evaluated(&component);
+    let mut stretched = Motion::IDENTITY;
+    stretched.rotation[0][0] = 1.1;
+    let infinite = Motion { translation: [0.0, f64::INFINITY, 0.0], ..Motion::IDENTITY };
+    let empty = Motion { rotation: [[f64::NAN; 3]; 3], ..Motion::IDENTITY };
+    let mut workspace = component.workspace();
+    for frame in [stretched, infinite, empty] {
+        workspace.set_floating_frame(&frame);
+        assert_eq!(component.evaluate(&situation.state(), &mut workspace), Err(EvaluationError::InvalidFrame));
+        component.evaluate(&situation.state(), &mut workspace).expect("a moderate deformation");
+        assert_same_results(&workspace, &expected, 1e-11);
+    }
+}
+
+/// A node whose rotation has drifted within the tolerance hands its drift to the frame that it carries, once for each
+/// evaluation: after 1e5 of them (1 + 2e-7)^1e5 = 1.02 would be left of it.
+#[test]
+fn a_drifted_node_does_not_stretch_the_frame() {
+    let component = arc();
+    for drift in [1e-9, 2e-7] {
+        let mut situation = Situation::random(&component, 0.2, 9);
+        situation.motions[0].rotation.as_flattened_mut().iter_mut().for_each(|x| *x *= 1.0 + drift);
+        let expected = situation.evaluated(&component);
+        let mut workspace = component.workspace();
+        for _ in 0..100_000 {
+            component.evaluate(&situation.state(), &mut workspace).expect("a moderate deformation");
+        }
+        // The drift left is 1.5 (2e-7)² = 6e-14, of positions of order one; a stiffness whose eigenvalues are 1e3 apart
+        // makes 1e-10 of the forces of it, and deformations of 0.2 another digit.
+        assert_same_results(&workspace, &expected, 1e-9);
+    }
 }
 
 /// Displacements lose digits with the distance, but nothing else goes wrong.
@@ -244,23 +300,42 @@ fn half_a_turn_between_nodes_is_an_error_and_not_a_number() {
 }
 
 #[test]
+fn velocities_whose_square_is_no_number_are_refused() {
+    let component = arc();
+    let mut situation = Situation::random(&component, 0.1, 13);
+    situation.velocities.iter_mut().for_each(|v| *v *= 1e200);
+    let outcome = component.evaluate(&situation.state(), &mut component.workspace());
+    assert!(matches!(outcome, Err(EvaluationError::Overflow { .. })), "{outcome:?}");
+}
+
+#[test]
 fn states_of_any_finite_size_give_finite_results_or_an_error() {
     let component = arc();
     let mut workspace = component.workspace();
     let mut outcomes = [0, 0];
     for seed in 0..200 {
-        for size in [1e-300_f64, 1e-3, 1.0, 3.0, 1e3, 1e150] {
+        for (size, speed) in
+            [1e-300_f64, 1e-3, 1.0, 3.0, 1e3, 1e150].into_iter().zip([1.0, 1e200, 1e100, 1.0, 1e308, 1.0])
+        {
             let mut situation = Situation::random(&component, 1.0, seed);
             let mut random = Random(seed);
             situation.motions.iter_mut().for_each(|motion| *motion = random.motion(size.min(3.0)));
             situation.motions.iter_mut().for_each(|motion| motion.translation = random.vector_3(size));
             situation.amplitudes = random.vector(5, size);
+            situation.velocities = random.vector(17, speed);
+            let energies = |workspace: &Workspace| vec![workspace.strain_energy(), workspace.kinetic_energy()];
+            let finite = |results: &[&[f64]]| results.iter().all(|values| values.iter().all(|x| x.is_finite()));
             match component.evaluate(&situation.state(), &mut workspace) {
                 Ok(()) => {
                     outcomes[0] += 1;
-                    assert!(workspace.deformation().iter().all(|x| x.is_finite()));
+                    let forces = [workspace.elastic_forces(), workspace.inertial_forces(), workspace.damping_forces()];
+                    assert!(finite(&[workspace.deformation(), workspace.deformation_rate(), &energies(&workspace)]));
+                    assert!(finite(&forces), "{forces:?}");
                 }
                 Err(_) => outcomes[1] += 1,
+            }
+            if component.tangents(&situation.state(), &mut workspace).is_ok() {
+                assert!(finite(&[workspace.stiffness(), workspace.mass(), workspace.gyroscopic()]));
             }
         }
     }

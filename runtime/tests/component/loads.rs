@@ -78,6 +78,22 @@ fn a_load_on_a_dof_declared_unloaded_is_refused() {
     assert_eq!(component.add_load(&DeadLoad { moment: [0.0; 3], ..LOAD }, &situation.motions, &mut forces), Ok(()));
 }
 
+/// A client that moves a force of 1e5 by its lever arm leaves 1e-16 of their product in the moment.
+#[test]
+fn rounding_of_a_lever_arm_is_no_load() {
+    let (tensors, mut metadata, _) = beam::reduced_parts(&beam::arc_nodes(), &beam::SOFT, &[0, 8], 2);
+    metadata.validity.unloaded = vec![InterfaceDof { node: 1, direction: Direction::Ry }];
+    let superelement = Superelement::new(tensors, metadata).expect("the parts fit");
+    let component = ModalComponent::new(&superelement, FloatingFrame::Rigid).expect("a free body");
+    let mut forces = [0.0; 14];
+    let mut outcome = |moment: f64| {
+        let load = DeadLoad { node: 1, force: [1e5, 0.0, 0.0], moment: [0.0, moment, 0.0] };
+        component.add_load(&load, &[Motion::IDENTITY; 2], &mut forces)
+    };
+    assert_eq!(outcome(1e-13), Ok(()));
+    assert_eq!(outcome(1e-3), Err(EvaluationError::UnloadedDof { node: 1, direction: Direction::Ry }));
+}
+
 #[test]
 fn impossible_loads_are_refused() {
     let component = arc();

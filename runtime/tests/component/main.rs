@@ -1,5 +1,6 @@
 //! The modal component in large motion.
 
+mod batch;
 #[path = "../beam/mod.rs"]
 mod beam;
 mod construction;
