@@ -1,6 +1,7 @@
 //! FRAME: Euler-Bernoulli beams in space, six dofs a node.
 
 use crate::model::{Assembler, Material, Model};
+use crate::two_node::{Element, add_rod, place, to_global};
 
 /// Cross-section of a beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,13 +68,11 @@ pub fn frame(
     Model::node_major(nodes.to_vec(), &[0, 1, 2, 3, 4, 5], stiffness, mass)
 }
 
-type Beam = [[f64; 12]; 12];
-
 /// Rows and columns of deflection and slope at both ends: in the x-y plane, and in the x-z plane, where a positive
 /// rotation lowers the end.
 const BENDING: [([usize; 4], f64); 2] = [([1, 5, 7, 11], 1.0), ([2, 4, 8, 10], -1.0)];
 
-fn beam_stiffness(section: &Section, material: &Material, length: f64) -> Beam {
+fn beam_stiffness(section: &Section, material: &Material, length: f64) -> Element {
     let mut k = [[0.0; 12]; 12];
     let shear_modulus = material.young / (2.0 * (1.0 + material.poisson));
     add_rod(&mut k, 0, [material.young * section.area / length, -material.young * section.area / length]);
@@ -91,7 +90,7 @@ fn beam_stiffness(section: &Section, material: &Material, length: f64) -> Beam {
     k
 }
 
-fn beam_mass(section: &Section, material: &Material, length: f64) -> Beam {
+fn beam_mass(section: &Section, material: &Material, length: f64) -> Element {
     let mut m = [[0.0; 12]; 12];
     let total = material.density * section.area * length;
     let polar = material.density * (section.second_moment_y + section.second_moment_z) * length;
@@ -110,29 +109,12 @@ fn beam_mass(section: &Section, material: &Material, length: f64) -> Beam {
     m
 }
 
-fn lumped_mass(section: &Section, material: &Material, length: f64) -> Beam {
+fn lumped_mass(section: &Section, material: &Material, length: f64) -> Element {
     let mut m = [[0.0; 12]; 12];
     for row in [0, 1, 2, 6, 7, 8] {
         m[row][row] = material.density * section.area * length / 2.0;
     }
     m
-}
-
-/// Adds the two-node matrix [d o; o d] for the direction `first`.
-fn add_rod(matrix: &mut Beam, first: usize, [diagonal, off]: [f64; 2]) {
-    let second = first + 6;
-    matrix[first][first] += diagonal;
-    matrix[second][second] += diagonal;
-    matrix[first][second] += off;
-    matrix[second][first] += off;
-}
-
-fn place(matrix: &mut Beam, rows: &[usize; 4], block: &[[f64; 4]; 4], factor: f64) {
-    for (&row, values) in rows.iter().zip(block) {
-        for (&column, value) in rows.iter().zip(values) {
-            matrix[row][column] += factor * value;
-        }
-    }
 }
 
 /// The local axes as rows.
@@ -143,20 +125,6 @@ fn local_axes(x: [f64; 3]) -> [[f64; 3]; 3] {
     let z = cross(x, reference);
     let z = z.map(|c| c / norm(z));
     [x, cross(z, x), z]
-}
-
-/// TᵀAT with T = diag(axes, axes, axes, axes).
-fn to_global(local: &Beam, axes: &[[f64; 3]; 3]) -> Beam {
-    let rotate = |row: usize, d: usize| axes[row % 3][d];
-    let mut global = [[0.0; 12]; 12];
-    for (i, j) in (0..12).flat_map(|i| (i..12).map(move |j| (i, j))) {
-        let (block_i, block_j) = (i - i % 3, j - j % 3);
-        for (r, s) in (block_i..block_i + 3).flat_map(|r| (block_j..block_j + 3).map(move |s| (r, s))) {
-            global[i][j] += rotate(r, i % 3) * local[r][s] * rotate(s, j % 3);
-        }
-        global[j][i] = global[i][j];
-    }
-    global
 }
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

@@ -22,6 +22,7 @@ pub mod random;
 pub mod tetrahedra;
 pub mod tetrahedron;
 pub mod transform;
+pub mod two_node;
 pub mod write;
 
 pub use bar::{Ends, bar, bar_spectrum, ring, ring_spectrum, spring, spring_spectrum};

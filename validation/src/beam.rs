@@ -3,6 +3,7 @@
 //! Stiffness is that of the exact static solution, Φ = 12 EI / (GA L²); mass is consistent with the same shape functions
 //! and includes the inertia of rotating cross-sections.
 
+use supel_models::two_node::{Element, add_rod, place, to_global};
 use supel_models::{Assembler, Model};
 
 /// Cross-section of a beam, as stiffnesses and inertias along its axis.
@@ -88,8 +89,6 @@ fn through(nodes: &[[f64; 3]], section: &Section) -> Model {
     Model::node_major(nodes.to_vec(), &[0, 1, 2, 3, 4, 5], stiffness, mass)
 }
 
-type Element = [[f64; 12]; 12];
-
 /// One plane of bending: deflection and slope at both ends, and the sign of the slope. In the plane of 1 and 3 a positive
 /// rotation lowers the end.
 struct Plane {
@@ -160,37 +159,6 @@ fn rotation_shape(phi: f64, l: f64) -> [[f64; 4]; 4] {
     let tt = (2.0 / 15.0 + phi / 6.0 + phi * phi / 3.0) * l * l;
     let tt_far = (-1.0 / 30.0 - phi / 6.0 + phi * phi / 6.0) * l * l;
     [[1.2, wt, -1.2, wt], [wt, tt, -wt, tt_far], [-1.2, -wt, 1.2, -wt], [wt, tt_far, -wt, tt]]
-}
-
-/// Adds the two-node matrix [d o; o d] for the direction `first`.
-fn add_rod(matrix: &mut Element, first: usize, [diagonal, off]: [f64; 2]) {
-    let second = first + 6;
-    matrix[first][first] += diagonal;
-    matrix[second][second] += diagonal;
-    matrix[first][second] += off;
-    matrix[second][first] += off;
-}
-
-fn place(matrix: &mut Element, rows: &[usize; 4], block: &[[f64; 4]; 4], factor: f64) {
-    for (&row, values) in rows.iter().zip(block) {
-        for (&column, value) in rows.iter().zip(values) {
-            matrix[row][column] += factor * value;
-        }
-    }
-}
-
-/// TᵀAT with T = diag(axes, axes, axes, axes); the local axes are rows.
-fn to_global(local: &Element, axes: &[[f64; 3]; 3]) -> Element {
-    let rotate = |row: usize, d: usize| axes[row % 3][d];
-    let mut global = [[0.0; 12]; 12];
-    for (i, j) in (0..12).flat_map(|i| (i..12).map(move |j| (i, j))) {
-        let (block_i, block_j) = (i - i % 3, j - j % 3);
-        for (r, s) in (block_i..block_i + 3).flat_map(|r| (block_j..block_j + 3).map(move |s| (r, s))) {
-            global[i][j] += rotate(r, i % 3) * local[r][s] * rotate(s, j % 3);
-        }
-        global[j][i] = global[i][j];
-    }
-    global
 }
 
 #[cfg(test)]
