@@ -4,6 +4,6 @@ mod heap;
 
 fn main() -> std::process::ExitCode {
     // An allocator that refuses is slower, no less right.
-    let _ = heap::keep_large_blocks();
+    heap::keep_large_blocks();
     supel::cli::main(supel::reduce)
 }
