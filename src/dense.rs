@@ -4,9 +4,13 @@
 //! Decompositions of small matrices run sequentially.
 
 use faer::linalg::matmul::matmul;
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
 
 use crate::error::{Error, Result};
+
+/// How much faster operations of dense blocks are than those of a triangular solve, which waits for memory. For forecasts of time.
+pub const GAIN: f64 = 4.0;
 
 /// Products smaller than this many multiplications are done by one thread: starting a second one costs more.
 const PARALLEL_ABOVE: usize = 1 << 18;
@@ -59,6 +63,15 @@ pub fn add_product(mut y: MatMut<'_, f64>, alpha: f64, x: MatRef<'_, f64>, c: Ma
     for first in (0..n).step_by(PRODUCT_ROWS) {
         tile(first, y.as_mut().subrows_mut(first, PRODUCT_ROWS.min(n - first)));
     }
+}
+
+/// L⁻¹ A L⁻ᵀ of a symmetric matrix by the Cholesky factor L of another: the pencil of the two in standard form. Symmetric to rounding.
+pub fn standard_form(l: MatRef<'_, f64>, mut a: Mat<f64>) -> Mat<f64> {
+    for _ in 0..2 {
+        solve_lower_triangular_in_place(l, a.as_mut(), Par::Seq);
+        a = a.transpose().to_owned();
+    }
+    a
 }
 
 /// Eigenvalues in ascending order and orthonormal eigenvectors of a symmetric matrix (lower triangle read).

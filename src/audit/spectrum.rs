@@ -26,17 +26,14 @@ pub(super) fn eigenpairs(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> 
     let Ok(factor) = scaled(shifted.as_ref()).llt(Side::Lower) else {
         return Ok(Eigenpairs { values: Vec::new(), vectors: Mat::zeros(n, 0) });
     };
-    let (l, par) = (factor.L(), faer::Par::Seq);
-    let mut half = scaled(m);
-    faer::linalg::triangular_solve::solve_lower_triangular_in_place(l, half.as_mut(), par);
-    let mut c = half.transpose().to_owned();
-    faer::linalg::triangular_solve::solve_lower_triangular_in_place(l, c.as_mut(), par);
+    let l = factor.L();
+    let mut c = dense::standard_form(l, scaled(m));
     dense::symmetrise(&mut c);
     let (theta, w) = dense::symmetric_eigen(c.as_ref())?;
     let largest = theta.last().copied().unwrap_or(0.0);
     let kept: Vec<usize> = (0..n).rev().filter(|j| theta[*j] > f64::EPSILON * largest).collect();
     let mut vectors = Mat::from_fn(n, kept.len(), |i, j| w[(i, kept[j])] / theta[kept[j]].sqrt());
-    faer::linalg::triangular_solve::solve_upper_triangular_in_place(l.transpose(), vectors.as_mut(), par);
+    faer::linalg::triangular_solve::solve_upper_triangular_in_place(l.transpose(), vectors.as_mut(), faer::Par::Seq);
     for j in 0..vectors.ncols() {
         dense::column_mut(vectors.as_mut(), j).iter_mut().zip(&d).for_each(|(value, d)| *value *= d);
     }

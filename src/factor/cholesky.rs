@@ -161,11 +161,7 @@ impl SolveOperator for Cholesky<'_> {
     }
 
     fn bytes(&self) -> u64 {
-        let storage = match self.kept {
-            Kept::Double(_) => Storage::Double,
-            Kept::Single(_) => Storage::Single,
-        };
-        self.analysis.factor_bytes(storage)
+        self.analysis.factor_bytes(self.storage())
     }
 }
 

@@ -3,6 +3,8 @@
 //! A wide block reads the factor seldom and wastes vectors: the space that m modes need holds the more vectors the fewer steps
 //! build it. The width with the least predicted time is taken.
 
+use crate::dense;
+
 /// Widths that the kernels of the factor are made for.
 const WIDTHS: [usize; 3] = [4, 8, 16];
 /// Bytes of a factor that a processor's cache still holds.
@@ -11,8 +13,6 @@ const CACHED: u64 = 64 << 20;
 /// holds the factor: 145, 25, 17.5 and 11.4 ms for each of 1, 8, 16 and 64 right-hand sides of a factor of 1.2 GB.
 const READ: f64 = 15.0;
 const READ_CACHED: f64 = 3.0;
-/// Time of an operation of a triangular solve over that of a product of dense blocks.
-const DENSE_GAIN: f64 = 4.0;
 
 /// The width of the blocks for `n_modes` modes of a model of `n` dofs whose factor has `bytes` bytes.
 pub(super) fn block_width(n: usize, bytes: u64, n_modes: usize) -> usize {
@@ -21,7 +21,7 @@ pub(super) fn block_width(n: usize, bytes: u64, n_modes: usize) -> usize {
     let time = |width: usize| {
         let n_vectors = vectors(n_modes, width);
         // For each vector: its share of reading the factor, its use, and the products with the vectors before it, twice.
-        n_vectors * (read / width as f64 + 1.0 + n_vectors * n as f64 / entries / DENSE_GAIN)
+        n_vectors * (read / width as f64 + 1.0 + n_vectors * n as f64 / entries / dense::GAIN)
     };
     let best = WIDTHS.into_iter().min_by(|a, b| time(*a).total_cmp(&time(*b)));
     best.unwrap_or(1).min(n)

@@ -40,11 +40,7 @@ pub(super) fn all_modes(problem: &BoundaryProblem<'_>, wanted: usize) -> Result<
         return Ok(None);
     };
     let lower = factor.L();
-    let mut c = scaled(modal.stiffness, &scale);
-    for _ in 0..2 {
-        lower.solve_lower_triangular_in_place(&mut c);
-        c = c.transpose().to_owned();
-    }
+    let mut c = dense::standard_form(lower, scaled(modal.stiffness, &scale));
     dense::symmetrise(&mut c);
     let (values, mut vectors) = dense::symmetric_eigen(c.as_ref())?;
     lower.transpose().solve_upper_triangular_in_place(&mut vectors);

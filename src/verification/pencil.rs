@@ -8,7 +8,7 @@
 //! No θ is divided by, so that coordinates without mass (θ = 0) answer statically, as they should. With structural
 //! damping K (1 + iη) − ω²M = (1 + iη) (K − zM) at z = ω² / (1 + iη): a complex symmetric matrix is never factored.
 
-use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
+use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
 use faer::{Mat, MatRef, Par, Side, c64};
 
 use super::spectrum::scaled_by;
@@ -47,10 +47,7 @@ impl Spectral {
         let shifted = Mat::from_fn(n, n, |i, j| k[(i, j)] + alpha * m[(i, j)]);
         let scale: Vec<f64> = (0..n).map(|i| dense::power_of_two_root(shifted[(i, i)])).collect();
         let Ok(factor) = scaled_by(shifted.as_ref(), &scale).llt(Side::Lower) else { return Ok(None) };
-        let mut c = scaled_by(m, &scale);
-        solve_lower_triangular_in_place(factor.L(), c.as_mut(), Par::Seq);
-        let mut c = c.transpose().to_owned();
-        solve_lower_triangular_in_place(factor.L(), c.as_mut(), Par::Seq);
+        let mut c = dense::standard_form(factor.L(), scaled_by(m, &scale));
         dense::symmetrise(&mut c);
         let (mut theta, q) = dense::symmetric_eigen(c.as_ref())?;
         theta.reverse();

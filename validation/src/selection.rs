@@ -111,11 +111,7 @@ fn generalised_eigen(stiffness: &Mat<f64>, mass: &Mat<f64>) -> Result<(Vec<f64>,
     let scaled = |a: &Mat<f64>| Mat::from_fn(n, n, |i, j| a[(i, j)] * scale[i] * scale[j]);
     let factor = scaled(mass).llt(Side::Lower).map_err(|_| "the reduced mass matrix is singular")?;
     let lower = factor.L();
-    let mut c = scaled(stiffness);
-    for _ in 0..2 {
-        lower.solve_lower_triangular_in_place(&mut c);
-        c = c.transpose().to_owned();
-    }
+    let mut c = dense::standard_form(lower, scaled(stiffness));
     dense::symmetrise(&mut c);
     let (values, mut vectors) = dense::symmetric_eigen(c.as_ref())?;
     lower.transpose().solve_upper_triangular_in_place(&mut vectors);

@@ -58,11 +58,8 @@ impl Scaled {
         let d: Vec<f64> = (0..n).map(|i| dense::power_of_two_root(sum[(i, i)])).collect();
         let scaled = Mat::from_fn(n, n, |i, j| sum[(i, j)] * d[i] * d[j]);
         let Ok(factor) = scaled.llt(Side::Lower) else { return Ok(Mat::from_fn(n, 1, |_, _| f64::NAN)) };
-        let (l, par) = (factor.L(), faer::Par::Seq);
-        let mut half = Mat::from_fn(n, n, |i, j| k[(i, j)] * d[i] * d[j]);
-        faer::linalg::triangular_solve::solve_lower_triangular_in_place(l, half.as_mut(), par);
-        let mut c = half.transpose().to_owned();
-        faer::linalg::triangular_solve::solve_lower_triangular_in_place(l, c.as_mut(), par);
+        let l = factor.L();
+        let mut c = dense::standard_form(l, Mat::from_fn(n, n, |i, j| k[(i, j)] * d[i] * d[j]));
         self.take_out_rigid_motion(&mut c, l, &d);
         dense::symmetrise(&mut c);
         let (tau, w) = dense::symmetric_eigen(c.as_ref())?;

@@ -1,6 +1,7 @@
 //! What is compared with the full model: the one place where its cost is weighed.
 
 use super::super::Evidence;
+use crate::dense;
 use crate::factor::Analysis;
 use crate::job::{Certify, Job, ModeSelection, SceneJob, Support};
 
@@ -11,8 +12,6 @@ const CUT_OFF: f64 = 1.5;
 const UNASKED_FLOPS: f64 = 1e10;
 /// Right-hand sides an eigensolution takes beside three for each mode found.
 const SOLVES_BESIDE: f64 = 64.0;
-/// How much faster operations of dense blocks are than those of a triangular solve, which waits for memory.
-const DENSE_GAIN: f64 = 4.0;
 /// Blocks of n_B right-hand sides that the response converges in.
 const RESPONSE_BLOCKS: f64 = 6.0;
 
@@ -98,7 +97,7 @@ impl Cost {
         let extended = evidence.reduction.n_reduced() as f64 + RESPONSE_BLOCKS * n_b;
         let residuals = n * (RESPONSE_BLOCKS * 24.0 * extended * n_b + 2.0 * (2.0 * extended + n_b).powi(2));
         Self {
-            support: n_solves * (solve + 4.0 * n * n_solves / DENSE_GAIN),
+            support: n_solves * (solve + 4.0 * n * n_solves / dense::GAIN),
             n_new_supports: default_supports(evidence).len().saturating_sub(1) as f64,
             count: analysis.flops,
             response: RESPONSE_BLOCKS * n_b * solve + residuals,
