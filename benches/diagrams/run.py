@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Makes the diagrams of run time against error, as SVG and CSV, by one command.
 
     benches/diagrams/run.py [A C D E] [--family bulky] [--dofs 10000] [--threads 2]

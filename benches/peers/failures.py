@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Two silent failures of other programs beside supel's answer to the same matrices, as one table.
 
     python3 benches/peers/failures.py [--supel PATH] [--calls N] [--keep FOLDER] [--check]

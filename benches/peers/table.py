@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Runs supel and its peers on the very same files with the same number of threads and prints one table for each part.
 
     benches/peers/table.py [--family bulky] [--dofs 10000] [--peer pardiso] [--threads 2] [--repeats 3]
