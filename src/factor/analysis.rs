@@ -12,6 +12,7 @@ mod tasks;
 
 use std::ops::Range;
 
+use super::panels::Shape;
 use super::{Pencil, Storage};
 use crate::error::{Error, Result};
 use crate::partition::Partition;
@@ -56,7 +57,7 @@ pub(super) struct Supernode<'a> {
     pub(super) below: &'a [u32],
     /// The same rows as places of its task: its own steps first, then those it reaches outside.
     pub(super) local: &'a [u32],
-    /// Where its entries are in the factor, by columns.
+    /// Where its entries are in the factor, by panels.
     pub(super) values: Range<usize>,
     /// Supernodes that hand their rest to it.
     pub(super) n_children: usize,
@@ -92,7 +93,10 @@ impl Analysis {
         let (mut rows_at, mut values_at) = (vec![0usize], vec![0usize]);
         for (steps, below) in supernodes.first.windows(2).zip(&supernodes.n_below) {
             let size = steps[1] - steps[0];
-            let entries = (size + below).checked_mul(size).ok_or_else(no_memory)?;
+            let shape = Shape { rows: size + below, size };
+            // Panels have no more entries than their trapezoid.
+            shape.rows.checked_mul(size).ok_or_else(no_memory)?;
+            let entries = shape.n_values();
             values_at.push(values_at[values_at.len() - 1].checked_add(entries).ok_or_else(no_memory)?);
             rows_at.push(rows_at[rows_at.len() - 1] + below);
         }
@@ -132,7 +136,8 @@ impl Analysis {
         for s in 0..self.n_children.len() {
             let node = self.supernode(s);
             let rest = node.below.len().saturating_mul(node.below.len() + 1);
-            peak = peak.max(live.saturating_add(rest).saturating_add(node.values.len()));
+            let trapezoid = (node.steps.len() + node.below.len()).saturating_mul(node.steps.len());
+            peak = peak.max(live.saturating_add(rest).saturating_add(trapezoid));
             live = live.saturating_add(rest);
             for child in waiting.drain(waiting.len() - node.n_children..) {
                 live -= child;

@@ -61,23 +61,21 @@ impl<'a> Indefinite<'a> {
         self.numbers.pivots().map(|(_, coupling)| coupling).collect()
     }
 
-    /// Row, column and value of the entries of L by columns, the unit diagonal first; rows are numbered as the pivots came.
+    /// Row, column and value of the entries of L, its unit diagonal too; rows are numbered as the pivots came.
     fn visit(&self, mut with: impl FnMut(usize, usize, f64)) {
         let places = self.numbers.places_of_pivots(self.analysis);
         for (node, numbers) in self.numbers.supernodes(self.analysis) {
             let (start, size) = (node.steps.start, node.steps.len());
-            for j in 0..size {
-                with(start + j, start + j, 1.0);
+            numbers.panels.visit(|i, j, value| {
                 let end_of_panel = size.min(j - j % PANEL + PANEL);
-                for (i, value) in dense::column(numbers.trapezoid, j).iter().enumerate().skip(j + 1) {
-                    let row = match i {
-                        _ if i < end_of_panel => start + i,
-                        _ if i < size => places[start + i],
-                        _ => places[node.below[i - size] as usize],
-                    };
-                    with(row, start + j, *value);
-                }
-            }
+                let (row, value) = match i {
+                    _ if i == j => (start + j, 1.0),
+                    _ if i < end_of_panel => (start + i, value),
+                    _ if i < size => (places[start + i], value),
+                    _ => (places[node.below[i - size] as usize], value),
+                };
+                with(row, start + j, value);
+            });
         }
     }
 

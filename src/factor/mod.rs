@@ -21,6 +21,8 @@ mod inertia;
 mod matrix;
 mod memory;
 mod multifrontal;
+mod panels;
+mod prefetch;
 mod refined;
 mod rounding;
 mod rows;

@@ -12,13 +12,14 @@ mod assembly;
 use std::sync::{Mutex, OnceLock};
 
 use faer::dyn_stack::MemBuffer;
-use faer::{Mat, MatMut, MatRef};
+use faer::{Mat, MatMut};
 
 use super::Analysis;
 use super::analysis::{Supernode, Task};
 use super::elimination::{self, Kind, PANEL, Pivots, add_products, eliminate_columns, outer_product};
-use super::entry::{Entry, Room};
+use super::entry::Entry;
 use super::matrix::Shifted;
+use super::panels::{self, Panels, Shape};
 use assembly::{Places, Rest, RestStack, rest_len};
 
 /// What is kept of L.
@@ -57,7 +58,7 @@ struct TaskNumbers<T> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Eliminated<'a, T> {
     /// L_11 and L_21.
-    pub(super) trapezoid: MatRef<'a, T>,
+    pub(super) panels: Panels<'a, T>,
     /// Diagonal of B; of a definite matrix the squares of the diagonal of L.
     pub(super) diagonal: &'a [f64],
     /// Couplings of pivots of order two.
@@ -75,7 +76,7 @@ impl<T: Entry> Numbers<T> {
         let first = node.values.start - analysis.values_of(task).start;
         let values = &numbers.values[first..first + node.values.len()];
         Eliminated {
-            trapezoid: MatRef::from_column_major_slice(values, size + node.below.len(), size),
+            panels: Panels::new(Shape { rows: size + node.below.len(), size }, values),
             diagonal: &numbers.diagonal[start..start + size],
             subdiagonal: &numbers.subdiagonal[start..start + size],
             order: &numbers.order[start..start + size],
@@ -121,9 +122,10 @@ pub(super) enum Stop {
     NoMemory,
 }
 
-/// The part of a factor that is still to be computed.
+/// Where the next supernode of a factor goes.
 struct Part<'a, T> {
-    values: &'a mut [T],
+    /// Panels are appended; none where only the pivots are kept.
+    values: Option<&'a mut Vec<T>>,
     pivots: Pivots<'a>,
 }
 
@@ -137,7 +139,7 @@ struct Workspace {
 
 /// What the elimination of one supernode needs beside its front.
 struct Tools {
-    /// A trapezoid that is not kept.
+    /// The trapezoid of the front.
     trapezoid: Vec<f64>,
     /// For the dense kernels.
     dense: MemBuffer,
@@ -239,8 +241,10 @@ impl Run<'_> {
     ) -> std::result::Result<(TaskNumbers<T>, Vec<f64>), Stop> {
         let n_steps = self.analysis.steps_of(self.task).len();
         let n_values = if keep == Keep::Factor { self.analysis.values_of(self.task).len() } else { 0 };
+        let mut values = Vec::new();
+        values.try_reserve_exact(n_values).map_err(|_| Stop::NoMemory)?;
         let mut numbers = TaskNumbers {
-            values: zeros(n_values)?,
+            values,
             diagonal: zeros(n_steps)?,
             subdiagonal: zeros(n_steps)?,
             order: vec![0; n_steps],
@@ -251,7 +255,7 @@ impl Run<'_> {
             subdiagonal: &mut numbers.subdiagonal,
             order: &mut numbers.order,
         };
-        let part = Part { values: &mut numbers.values, pivots };
+        let part = Part { values: (keep == Keep::Factor).then_some(&mut numbers.values), pivots };
         let (rest, largest_product) = self.eliminate(part, handed, workspace)?;
         numbers.largest_product = largest_product;
         Ok((numbers, rest))
@@ -294,8 +298,7 @@ impl Run<'_> {
         tools: &mut Tools,
     ) -> std::result::Result<f64, Stop> {
         let (size, b) = (node.steps.len(), node.below.len());
-        let Room { here, rounded } = T::room(part.values);
-        let values = if here.is_empty() { cleared(&mut tools.trapezoid, node.values.len())? } else { here };
+        let values = cleared(&mut tools.trapezoid, (size + b) * size)?;
         let mut trapezoid = MatMut::from_column_major_slice_mut(values, size + b, size);
         for (at, row) in node.below.iter().enumerate() {
             place[*row as usize] = (size + at) as u32;
@@ -313,8 +316,8 @@ impl Run<'_> {
         for (child, places) in children.iter().zip(&places) {
             places.add_rest(child.values, rest.as_mut());
         }
-        for (entries, values) in rounded.chunks_mut(size + b).zip(trapezoid.as_ref().col_iter()) {
-            entries.iter_mut().zip(values.iter()).for_each(|(entry, value)| *entry = T::of(*value));
+        if let Some(values) = part.values {
+            panels::append(trapezoid.as_ref(), values);
         }
         if self.kind == Kind::Definite {
             return Ok(0.0);
@@ -334,18 +337,11 @@ impl Run<'_> {
     }
 }
 
-impl<'a, T> Part<'a, T> {
-    /// Splits off the part of the next supernode.
-    fn take(&mut self, node: &Supernode<'_>) -> Part<'a, T> {
-        let n_values = if self.values.is_empty() { 0 } else { node.values.len() };
-        let n_steps = node.steps.len();
-        Part { values: split(&mut self.values, n_values), pivots: self.pivots.split_off(n_steps) }
+impl<T> Part<'_, T> {
+    /// The part of the next supernode.
+    fn take(&mut self, node: &Supernode<'_>) -> Part<'_, T> {
+        Part { values: self.values.as_deref_mut(), pivots: self.pivots.split_off(node.steps.len()) }
     }
-}
-
-/// The first `n` of what is left.
-fn split<'a, T>(left: &mut &'a mut [T], n: usize) -> &'a mut [T] {
-    left.split_off_mut(..n).expect("the supernodes make up the factor")
 }
 
 /// Adds what the last task of a tree leaves.

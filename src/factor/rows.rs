@@ -1,27 +1,25 @@
 //! One supernode times blocks of right-hand sides, stored row by row.
 //!
 //! ```text
-//! trapezoid   `size` columns: the triangle on top, rows below
-//! X           n × W, row-major: the W numbers that an entry of L meets are neighbours in memory
+//! X       n × W, row-major: the W numbers that an entry of L meets are neighbours in memory
+//! panel   N columns of L, row-major as well: N entries meet one row of X
 //! ```
 //! A solve reads L once down and once up and does 2·W multiplications with each entry, so for a narrow block it is bound
-//! by memory traffic. Column-major right-hand sides would touch W cache lines for every row index; row-major ones touch
-//! one. Columns of a supernode are taken four at a time, so that a row of X is loaded once for four entries, and each is
-//! read in the order of memory, which is what a factor larger than the cache asks for.
+//! by memory traffic: every panel is read from end to end. Going down a row of X is loaded once for N entries; going up the sums of N
+//! rows of X stay in registers.
 //!
 //! Every sum has a fixed order: the rows of a large supernode may be shared among threads, never the terms of a row.
 
-use faer::MatRef;
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
 use super::elimination::{Inverse, Kind, PANEL};
 use super::entry::Entry;
 use super::multifrontal::Eliminated;
+use super::panels::{Panel, Panels};
+use super::prefetch::prefetch;
 
-/// Columns of the triangle that are solved one by one before the rest is updated.
-const STRIP: usize = 32;
-/// Rows or columns of a supernode given to one task.
+/// Rows or columns of a supernode given to one task; a multiple of the columns of a panel.
 const CHUNK: usize = 128;
 /// Entries of a trapezoid above which its rows are shared among threads: at a few nanoseconds an entry the work is then
 /// ten times what starting a task costs.
@@ -33,25 +31,24 @@ pub(super) type Row<const W: usize> = [f64; W];
 /// One supernode of a factor.
 pub(super) struct Block<'a, T> {
     numbers: Eliminated<'a, T>,
-    columns: Columns<'a, T>,
     kind: Kind,
 }
 
 impl<'a, T: Entry> Block<'a, T> {
     pub(super) fn new(numbers: Eliminated<'a, T>, kind: Kind) -> Self {
-        Self { columns: Columns(numbers.trapezoid), numbers, kind }
+        Self { numbers, kind }
     }
 
     /// L_11⁻¹ P on the rows of its columns, `top`; `update` becomes −L_21 times the result.
     pub(super) fn forward<const W: usize>(&self, top: &mut [Row<W>], update: &mut Vec<Row<W>>) {
-        let (columns, size) = (&self.columns, top.len());
-        Kernel::Triangle { columns, diagonal: self.diagonal(), top: &mut *top }.run();
+        let (panels, diagonal, size) = (self.numbers.panels, self.diagonal(), top.len());
         update.clear();
-        update.resize(self.numbers.trapezoid.nrows() - size, [0.0; W]);
-        let top = &*top;
-        for_chunks(size, update, |first, rows| {
-            Kernel::Rows { columns, first: size + first, top, rows }.run();
-        });
+        update.resize(panels.shape().rows - size, [0.0; W]);
+        if !is_shared(size, update) {
+            return Kernel::Forward { panels, diagonal, top, update }.run();
+        }
+        Kernel::Forward { panels, diagonal, top: &mut *top, update: &mut [] }.run();
+        for_chunks(update, |first, rows| Kernel::Rows { panels, first: size + first, top, rows }.run());
     }
 
     /// B⁻¹ on the rows of its columns.
@@ -79,11 +76,12 @@ impl<'a, T: Entry> Block<'a, T> {
 
     /// Pᵀ L_11⁻ᵀ (X − L_21ᵀ `below`) on the rows of its columns.
     pub(super) fn backward<const W: usize>(&self, top: &mut [Row<W>], below: &[Row<W>]) {
-        let (columns, size) = (&self.columns, top.len());
-        for_chunks(below.len(), top, |first, targets| {
-            Kernel::Columns { columns, first, size, below, targets }.run();
-        });
-        Kernel::TransposedTriangle { columns, diagonal: self.diagonal(), top }.run();
+        let (panels, diagonal) = (self.numbers.panels, self.diagonal());
+        if !is_shared(below.len(), top) {
+            return Kernel::Backward { panels, diagonal, top, below }.run();
+        }
+        for_chunks(top, |first, targets| Kernel::Columns { panels, first, below, targets }.run());
+        Kernel::Backward { panels, diagonal, top, below: &[] }.run();
     }
 
     fn diagonal(&self) -> Diagonal<'a> {
@@ -104,10 +102,11 @@ enum Diagonal<'a> {
 }
 
 impl Diagonal<'_> {
+    /// The reciprocal of one of its entries, which is stored as `entry`.
     #[inline(always)]
-    fn inverse<T: Entry>(self, column: &[T], j: usize) -> f64 {
+    fn inverse<T: Entry>(self, entry: T) -> f64 {
         match self {
-            Self::OfTriangle => 1.0 / column[j].into(),
+            Self::OfTriangle => 1.0 / entry.into(),
             Self::Ones { .. } => 1.0,
         }
     }
@@ -138,29 +137,34 @@ impl Diagonal<'_> {
     }
 }
 
-/// Gives chunks of rows to tasks where the work (rows times `depth`) is worth it.
-fn for_chunks<const W: usize>(depth: usize, rows: &mut [Row<W>], work: impl Fn(usize, &mut [Row<W>]) + Sync) {
-    if depth * rows.len() > PARALLEL_ABOVE {
-        rows.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, rows)| work(chunk * CHUNK, rows));
-    } else {
-        rows.chunks_mut(CHUNK).enumerate().for_each(|(chunk, rows)| work(chunk * CHUNK, rows));
-    }
+/// Whether rows are worth sharing among threads, each of which takes `depth` entries.
+fn is_shared<const W: usize>(depth: usize, rows: &[Row<W>]) -> bool {
+    depth * rows.len() > PARALLEL_ABOVE
+}
+
+fn for_chunks<const W: usize>(rows: &mut [Row<W>], work: impl Fn(usize, &mut [Row<W>]) + Sync) {
+    rows.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, rows)| work(chunk * CHUNK, rows));
 }
 
 /// The inner loops, compiled for the vector unit that the machine turns out to have.
 enum Kernel<'a, T, const W: usize> {
-    /// Solves the triangle on top.
-    Triangle { columns: &'a Columns<'a, T>, diagonal: Diagonal<'a>, top: &'a mut [Row<W>] },
+    /// Solves the triangle on top and takes the rows below along.
+    Forward { panels: Panels<'a, T>, diagonal: Diagonal<'a>, top: &'a mut [Row<W>], update: &'a mut [Row<W>] },
     /// Subtracts from rows what the trapezoid makes of the solved top.
-    Rows { columns: &'a Columns<'a, T>, first: usize, top: &'a [Row<W>], rows: &'a mut [Row<W>] },
+    Rows { panels: Panels<'a, T>, first: usize, top: &'a [Row<W>], rows: &'a mut [Row<W>] },
     /// Takes the rows below into rows of the top.
-    Columns { columns: &'a Columns<'a, T>, first: usize, size: usize, below: &'a [Row<W>], targets: &'a mut [Row<W>] },
-    /// Solves the transposed triangle.
-    TransposedTriangle { columns: &'a Columns<'a, T>, diagonal: Diagonal<'a>, top: &'a mut [Row<W>] },
+    Columns { panels: Panels<'a, T>, first: usize, below: &'a [Row<W>], targets: &'a mut [Row<W>] },
+    /// The same for all of the top, and solves the transposed triangle.
+    Backward { panels: Panels<'a, T>, diagonal: Diagonal<'a>, top: &'a mut [Row<W>], below: &'a [Row<W>] },
 }
 
 impl<T: Entry, const W: usize> Kernel<'_, T, W> {
     fn run(self) {
+        // A vector of eight numbers would hold two rows of four.
+        #[cfg(target_arch = "x86_64")]
+        if let (4, Some(narrow)) = (W, pulp::x86::V3::try_new()) {
+            return Simd::vectorize(narrow, self);
+        }
         Arch::new().dispatch(self);
     }
 
@@ -169,14 +173,10 @@ impl<T: Entry, const W: usize> Kernel<'_, T, W> {
     fn with_vectors<S: Simd, const V: usize, const C: usize>(self, simd: S) {
         let unit = Unit::<S, V, C>(simd);
         match self {
-            Self::Triangle { columns, diagonal, top } => unit.solve_triangle(columns, diagonal, top),
-            Self::Rows { columns, first, top, rows } => unit.subtract_rows(columns, (first, 0), top, rows),
-            Self::Columns { columns, first, size, below, targets } => {
-                unit.subtract_columns(columns, (size, first), below, targets);
-            }
-            Self::TransposedTriangle { columns, diagonal, top } => {
-                unit.solve_transposed_triangle(columns, diagonal, top);
-            }
+            Self::Forward { panels, diagonal, top, update } => unit.forward(panels, diagonal, top, update),
+            Self::Rows { panels, first, top, rows } => unit.rows(panels, first, top, rows),
+            Self::Columns { panels, first, below, targets } => unit.columns(panels, first, below, targets),
+            Self::Backward { panels, diagonal, top, below } => unit.backward(panels, diagonal, top, below),
         }
     }
 }
@@ -186,9 +186,9 @@ impl<T: Entry, const W: usize> WithSimd for Kernel<'_, T, W> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        const { assert!(W >= S::F64_LANES, "a row is narrower than a vector") };
         match W / S::F64_LANES {
-            1 => self.with_vectors::<S, 1, 4>(simd),
+            1 => self.with_vectors::<S, 1, 8>(simd),
+            2 if S::REGISTER_COUNT >= 32 => self.with_vectors::<S, 2, 8>(simd),
             2 => self.with_vectors::<S, 2, 4>(simd),
             4 => self.with_vectors::<S, 4, 2>(simd),
             8 => self.with_vectors::<S, 8, 1>(simd),
@@ -198,14 +198,16 @@ impl<T: Entry, const W: usize> WithSimd for Kernel<'_, T, W> {
     }
 }
 
-/// The columns of a trapezoid.
-struct Columns<'a, T>(MatRef<'a, T>);
-
-impl<'a, T> Columns<'a, T> {
-    #[inline(always)]
-    fn get(&self, j: usize) -> &'a [T] {
-        self.0.col(j).try_as_col_major().expect("stored by columns").as_slice()
-    }
+/// Calls a method for the columns that a panel has.
+macro_rules! of_width {
+    ($unit:ident.$method:ident($panel:expr; $($argument:expr),*)) => {
+        match $panel.width {
+            8 => $unit.$method::<T, 8>($($argument),*),
+            4 => $unit.$method::<T, 4>($($argument),*),
+            2 => $unit.$method::<T, 2>($($argument),*),
+            _ => $unit.$method::<T, 1>($($argument),*),
+        }
+    };
 }
 
 /// A vector unit that holds a row of right-hand sides in V vectors.
@@ -222,132 +224,175 @@ impl<S: Simd, const V: usize, const C: usize> Unit<S, V, C> {
         S::as_mut_simd_f64s(rows.as_flattened_mut()).0.as_chunks_mut::<V>().0
     }
 
-    /// `rows` − A X, where A begins at row and column `at` of the trapezoid. Four columns are read side by side, each in the
-    /// order of memory.
     #[inline(always)]
-    fn subtract_rows<T: Entry, const W: usize>(
+    fn forward<T: Entry, const W: usize>(
         &self,
-        columns: &Columns<'_, T>,
-        at: (usize, usize),
-        x: &[Row<W>],
-        rows: &mut [Row<W>],
+        panels: Panels<'_, T>,
+        diagonal: Diagonal<'_>,
+        top: &mut [Row<W>],
+        update: &mut [Row<W>],
     ) {
-        let simd = self.0;
-        let (x, rows) = (Self::vectors(x), Self::vectors_mut(rows));
-        let range = at.0..at.0 + rows.len();
-        let (quads, single) = x.as_chunks::<4>();
-        for (quad, x) in quads.iter().enumerate() {
-            let [a, b, c, d]: [&[T]; 4] = std::array::from_fn(|k| &columns.get(at.1 + 4 * quad + k)[range.clone()]);
-            for ((((row, a), b), c), d) in rows.iter_mut().zip(a).zip(b).zip(c).zip(d) {
-                let entries = [a, b, c, d].map(|entry| simd.splat_f64s(-(*entry).into()));
-                for v in 0..V {
-                    row[v] = entries.iter().zip(x).fold(row[v], |sum, (entry, x)| simd.mul_add_f64s(*entry, x[v], sum));
-                }
+        let size = top.len();
+        let update = Self::vectors_mut(update);
+        let mut left = panels.shape().panels().peekable();
+        while let Some(panel) = left.next() {
+            let next = left.peek().copied();
+            let Panel { first, width, .. } = panel;
+            if first % PANEL == 0 {
+                diagonal.permute(first, top);
             }
-        }
-        for (k, x) in single.iter().enumerate() {
-            for (row, entry) in rows.iter_mut().zip(&columns.get(at.1 + 4 * quads.len() + k)[range.clone()]) {
-                let entry = simd.splat_f64s(-(*entry).into());
-                for v in 0..V {
-                    row[v] = simd.mul_add_f64s(entry, x[v], row[v]);
-                }
-            }
+            let (own, rest) = Self::vectors_mut(&mut top[first..]).split_at_mut(width);
+            let triangle = panels.rows(panel, first..first + width);
+            of_width!(self.solve(panel; triangle, diagonal, own));
+            of_width!(self.subtract_rows(panel; panels.rows_and_next(panel, first + width..size, next), own, rest));
+            of_width!(self.subtract_rows(panel; panels.rows_and_next(panel, size..size + update.len(), next), own, update));
         }
     }
 
-    /// `targets` − Aᵀ X, where A begins at row and column `at` of the trapezoid.
     #[inline(always)]
-    fn subtract_columns<T: Entry, const W: usize>(
+    fn rows<T: Entry, const W: usize>(&self, panels: Panels<'_, T>, first: usize, top: &[Row<W>], rows: &mut [Row<W>]) {
+        let (top, rows) = (Self::vectors(top), Self::vectors_mut(rows));
+        let mut left = panels.shape().panels().peekable();
+        while let Some(panel) = left.next() {
+            let next = left.peek().copied();
+            let own = &top[panel.first..panel.first + panel.width];
+            of_width!(self.subtract_rows(panel; panels.rows_and_next(panel, first..first + rows.len(), next), own, rows));
+        }
+    }
+
+    #[inline(always)]
+    fn columns<T: Entry, const W: usize>(
         &self,
-        columns: &Columns<'_, T>,
-        at: (usize, usize),
-        x: &[Row<W>],
+        panels: Panels<'_, T>,
+        first: usize,
+        below: &[Row<W>],
         targets: &mut [Row<W>],
     ) {
-        let (x, targets) = (Self::vectors(x), Self::vectors_mut(targets));
-        let rows = at.0..at.0 + x.len();
-        let (groups, single) = targets.as_chunks_mut::<C>();
-        let n_grouped = C * groups.len();
-        for (group, targets) in groups.iter_mut().enumerate() {
-            let entries = std::array::from_fn(|k| &columns.get(at.1 + C * group + k)[rows.clone()]);
-            self.subtract_group(entries, x, targets);
-        }
-        for (k, target) in single.iter_mut().enumerate() {
-            let entries = [&columns.get(at.1 + n_grouped + k)[rows.clone()]];
-            self.subtract_group(entries, x, std::array::from_mut(target));
+        let (below, targets) = (Self::vectors(below), Self::vectors_mut(targets));
+        let size = panels.shape().size;
+        let inside = first..first + targets.len();
+        let mut left = panels.shape().panels().filter(|panel| inside.contains(&panel.first)).peekable();
+        while let Some(panel) = left.next() {
+            let next = left.peek().copied();
+            let own = &mut targets[panel.first - first..][..panel.width];
+            of_width!(self.subtract_columns(panel; panels.rows_and_next(panel, size..size + below.len(), next), below, own));
         }
     }
 
     #[inline(always)]
-    fn subtract_group<T: Entry, const N: usize>(
+    fn backward<T: Entry, const W: usize>(
         &self,
-        entries: [&[T]; N],
-        x: &[[S::f64s; V]],
-        targets: &mut [[S::f64s; V]; N],
+        panels: Panels<'_, T>,
+        diagonal: Diagonal<'_>,
+        top: &mut [Row<W>],
+        below: &[Row<W>],
+    ) {
+        let size = top.len();
+        let below = Self::vectors(below);
+        let mut left = panels.shape().panels().rev().peekable();
+        while let Some(panel) = left.next() {
+            let next = left.peek().copied();
+            let Panel { first, width, .. } = panel;
+            let (own, rest) = Self::vectors_mut(&mut top[first..]).split_at_mut(width);
+            of_width!(self.subtract_columns(panel; panels.rows_and_next(panel, size..size + below.len(), next), below, own));
+            of_width!(self.subtract_columns(panel; panels.rows_and_next(panel, first + width..size, next), rest, own));
+            let triangle = panels.rows(panel, first..first + width);
+            of_width!(self.solve_transposed(panel; triangle, diagonal, own));
+            if first % PANEL == 0 {
+                diagonal.restore(first, top);
+            }
+        }
+    }
+
+    /// X ← L⁻¹ X for the triangle L of a panel.
+    #[inline(always)]
+    fn solve<T: Entry, const N: usize>(&self, triangle: &[T], diagonal: Diagonal<'_>, x: &mut [[S::f64s; V]]) {
+        let simd = self.0;
+        let triangle = triangle.as_chunks::<N>().0;
+        for j in 0..N {
+            let inverse = simd.splat_f64s(diagonal.inverse(triangle[j][j]));
+            x[j] = x[j].map(|x| simd.mul_f64s(x, inverse));
+            let negative = x[j].map(|x| simd.neg_f64s(x));
+            for i in j + 1..N {
+                let entry = simd.splat_f64s(triangle[i][j].into());
+                for v in 0..V {
+                    x[i][v] = simd.mul_add_f64s(entry, negative[v], x[i][v]);
+                }
+            }
+        }
+    }
+
+    /// X ← L⁻ᵀ X for the triangle L of a panel.
+    #[inline(always)]
+    fn solve_transposed<T: Entry, const N: usize>(
+        &self,
+        triangle: &[T],
+        diagonal: Diagonal<'_>,
+        x: &mut [[S::f64s; V]],
     ) {
         let simd = self.0;
-        let entries = entries.map(|entries| &entries[..x.len()]);
-        let mut sums = [[simd.splat_f64s(0.0); V]; N];
-        for (i, x) in x.iter().enumerate() {
-            for (sum, entries) in sums.iter_mut().zip(&entries) {
-                let entry = simd.splat_f64s(entries[i].into());
+        let triangle = triangle.as_chunks::<N>().0;
+        for j in (0..N).rev() {
+            let inverse = simd.splat_f64s(diagonal.inverse(triangle[j][j]));
+            x[j] = x[j].map(|x| simd.mul_f64s(x, inverse));
+            let negative = x[j].map(|x| simd.neg_f64s(x));
+            for i in 0..j {
+                let entry = simd.splat_f64s(triangle[j][i].into());
+                for v in 0..V {
+                    x[i][v] = simd.mul_add_f64s(entry, negative[v], x[i][v]);
+                }
+            }
+        }
+    }
+
+    /// `rows` − A X for some rows A of a panel, while the `next` entries are loaded.
+    #[inline(always)]
+    fn subtract_rows<T: Entry, const N: usize>(
+        &self,
+        [a, next]: [&[T]; 2],
+        x: &[[S::f64s; V]],
+        rows: &mut [[S::f64s; V]],
+    ) {
+        let simd = self.0;
+        let negative: [[S::f64s; V]; N] = std::array::from_fn(|k| x[k].map(|x| simd.neg_f64s(x)));
+        for (i, (row, entries)) in rows.iter_mut().zip(a.as_chunks::<N>().0).enumerate() {
+            prefetch(next, i * N);
+            let mut sum = *row;
+            for (entry, x) in entries.iter().zip(&negative) {
+                let entry = simd.splat_f64s((*entry).into());
                 for v in 0..V {
                     sum[v] = simd.mul_add_f64s(entry, x[v], sum[v]);
                 }
             }
-        }
-        for (target, sum) in targets.iter_mut().zip(&sums) {
-            for v in 0..V {
-                target[v] = simd.sub_f64s(target[v], sum[v]);
-            }
+            *row = sum;
         }
     }
 
-    /// Solves the triangle strip by strip.
+    /// `targets` − Aᵀ X for some rows A of a panel, C columns at a time, while the `next` entries are loaded.
     #[inline(always)]
-    fn solve_triangle<T: Entry, const W: usize>(
+    fn subtract_columns<T: Entry, const N: usize>(
         &self,
-        columns: &Columns<'_, T>,
-        diagonal: Diagonal<'_>,
-        top: &mut [Row<W>],
+        [a, next]: [&[T]; 2],
+        x: &[[S::f64s; V]],
+        targets: &mut [[S::f64s; V]],
     ) {
-        for start in (0..top.len()).step_by(STRIP) {
-            if start % PANEL == 0 {
-                diagonal.permute(start, top);
+        let simd = self.0;
+        let rows = a.as_chunks::<N>().0;
+        for (group, targets) in targets.chunks_mut(C).enumerate() {
+            let mut sums = [[simd.splat_f64s(0.0); V]; C];
+            for (i, (entries, x)) in rows.iter().zip(x).enumerate() {
+                prefetch(next, i * N);
+                for (k, sum) in sums.iter_mut().enumerate().take(N) {
+                    let entry = simd.splat_f64s(entries[(group * C + k) % N].into());
+                    for v in 0..V {
+                        sum[v] = simd.mul_add_f64s(entry, x[v], sum[v]);
+                    }
+                }
             }
-            let end = (start + STRIP).min(top.len());
-            for j in start..end {
-                let column = columns.get(j);
-                let (solved, rest) = top[..end].split_at_mut(j + 1);
-                let inverse = diagonal.inverse(column, j);
-                solved[j].iter_mut().for_each(|x| *x *= inverse);
-                self.subtract_rows(columns, (j + 1, j), &solved[j..], rest);
-            }
-            let (strip, rest) = top.split_at_mut(end);
-            self.subtract_rows(columns, (end, start), &strip[start..], rest);
-        }
-    }
-
-    /// Solves the transposed triangle from its last strip up.
-    #[inline(always)]
-    fn solve_transposed_triangle<T: Entry, const W: usize>(
-        &self,
-        columns: &Columns<'_, T>,
-        diagonal: Diagonal<'_>,
-        top: &mut [Row<W>],
-    ) {
-        for start in (0..top.len()).step_by(STRIP).rev() {
-            let end = (start + STRIP).min(top.len());
-            let (strip, below) = top.split_at_mut(end);
-            self.subtract_columns(columns, (end, start), below, &mut strip[start..]);
-            for j in (start..end).rev() {
-                let (target, below) = top[..end].split_at_mut(j + 1);
-                self.subtract_columns(columns, (j + 1, j), below, &mut target[j..]);
-                let inverse = diagonal.inverse(columns.get(j), j);
-                target[j].iter_mut().for_each(|x| *x *= inverse);
-            }
-            if start % PANEL == 0 {
-                diagonal.restore(start, top);
+            for (target, sum) in targets.iter_mut().zip(&sums) {
+                for v in 0..V {
+                    target[v] = simd.sub_f64s(target[v], sum[v]);
+                }
             }
         }
     }

@@ -1,7 +1,6 @@
 //! How far L Lᵀ can be from the matrix that was factored.
 
 use super::{Cholesky, Kept};
-use crate::dense;
 use crate::factor::rounding::{gamma, largest_row_sum};
 
 /// Roundings of an entry beside those of its sum: the root or the division of the pivot, and the product with its
@@ -25,13 +24,10 @@ impl Cholesky<'_> {
         let visit = |with: &mut dyn FnMut(usize, usize, f64)| {
             for (node, numbers) in numbers.supernodes(self.analysis) {
                 let size = node.steps.len();
-                for j in 0..size {
-                    let column = dense::column(numbers.trapezoid, j);
-                    for (i, value) in column.iter().enumerate().skip(j) {
-                        let row = if i < size { node.steps.start + i } else { node.below[i - size] as usize };
-                        with(row, node.steps.start + j, value.abs() * scale[given[row] as usize]);
-                    }
-                }
+                numbers.panels.visit(|i, j, value| {
+                    let row = if i < size { node.steps.start + i } else { node.below[i - size] as usize };
+                    with(row, node.steps.start + j, value.abs() * scale[given[row] as usize]);
+                });
             }
         };
         visit(&mut |row, col, value| {

@@ -283,9 +283,10 @@ mod tests {
         let exact: Vec<f64> = one.iter().flat_map(|lambda| vec![*lambda; n_copies]).collect();
         let matrices = copies(&spring(100, Ends::Fixed), n_copies, [1.0, 1.0]);
         with_operator(&matrices, -1e3 * one[0], |problem| {
-            for seed in 0..4 {
+            let mut n_missed = 0;
+            for seed in 0..16 {
                 let alone = plain(problem, wanted, seed);
-                assert!(worst(&alone, &exact) > 0.1, "ARPACK alone finds all copies: {alone:?}");
+                n_missed += usize::from(worst(&alone, &exact) > 0.1);
                 // What it does find are eigenvalues: no residual tells.
                 let is_exact = |lambda: &f64| one.iter().any(|exact| (lambda / exact - 1.0).abs() < 1e-9);
                 assert!(alone.iter().all(is_exact), "{alone:?}");
@@ -293,6 +294,8 @@ mod tests {
                 assert_eq!(found.values.len(), n_copies, "the cluster comes whole");
                 assert!(worst(&found.values, &exact) < 1e-9, "{:?}", found.values);
             }
+            // Which start vectors miss copies is for rounding to say, and that differs from processor to processor.
+            assert!(n_missed > 0, "ARPACK alone finds all copies from every start");
         });
     }
 }
