@@ -17,9 +17,10 @@ use crate::system::{Configuration, System};
 /// multipliers keep four digits of sixteen.
 const DEPENDENT: f64 = 1e-12;
 
-/// Gradients of the joints, m rows of n.
+/// Gradients of the joints, m rows of n, and what they are gradients of.
 pub(crate) struct Gradients {
     rows: Vec<Vec<f64>>,
+    pub(crate) violations: Vec<f64>,
 }
 
 impl Gradients {
@@ -32,7 +33,9 @@ impl Gradients {
             }
             row
         };
-        Self { rows: system.constraints(at).iter().map(|row| dense(&row.gradient)).collect() }
+        let rows = system.constraints(at).into_iter();
+        let (violations, rows) = rows.map(|row| (row.violation, dense(&row.gradient))).unzip();
+        Self { rows, violations }
     }
 
     pub(crate) fn times(&self, x: &[f64]) -> Vec<f64> {
