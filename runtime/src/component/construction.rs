@@ -21,7 +21,8 @@ use crate::motion::{
 };
 use crate::superelement::Superelement;
 
-/// Largest force that a rigid-body motion may make, relative to the sum of the magnitudes of its parts.
+/// Largest force that a rigid-body motion may make, relative to the sum of the magnitudes of its parts and of its inertia in
+/// the first mode.
 ///
 /// Matrices in full precision give 1e-14; ones printed with six digits give 1e-6, and a component of those is free, too.
 /// One that is held by its stiffness gives a number of order one.
