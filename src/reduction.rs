@@ -57,7 +57,11 @@ impl Reduction {
     pub fn new(partition: &Partition, basis: &Basis, rigid: &RigidBodyModes) -> Self {
         let (mut stiffness, mut mass) =
             rayon::join(|| project(&partition.stiffness, basis), || project(&partition.mass, basis));
-        let n_b = partition.n_interface();
+        let (n_b, r) = (partition.n_interface(), basis.n_reduced());
+        if rigid.count() == r {
+            // K̂Û = 0 with a regular Û: the component is rigid, and what was projected is rounding.
+            stiffness.fill(0.0);
+        }
         let mut measured = Projection {
             stiffness_asymmetry: dense::symmetrise(&mut stiffness),
             mass_asymmetry: dense::symmetrise(&mut mass),
@@ -67,7 +71,6 @@ impl Reduction {
             0 => clear_rigid_body(&mut stiffness, rigid.count()),
             _ => uncouple(&mut stiffness, partition),
         };
-        let r = basis.n_reduced();
         let u_b = rigid.modes.as_ref().subrows(partition.n_internal, n_b);
         let mut rigid_body_modes = Mat::from_fn(r, rigid.count(), |i, j| if i < n_b { u_b[(i, j)] } else { 0.0 });
         if n_b == 0 {

@@ -153,7 +153,8 @@ impl ModalComponent {
         &self.rigid_mass
     }
 
-    /// Largest force that a rigid-body motion makes, relative to the sum of the magnitudes of its parts.
+    /// Largest force that a rigid-body motion makes, relative to the sum of the magnitudes of its parts and of its inertia in the
+    /// first mode.
     pub fn rigid_motion_residual(&self) -> f64 {
         self.rigid_motion_residual
     }

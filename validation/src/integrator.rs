@@ -3,8 +3,12 @@
 //! ```text
 //! S   n × n   β' M + K of the first configuration, without gyroscopic terms and without the tangent operator of the
 //!             increment; factored once
-//! B   m × n   gradients of the joints, renewed once per step because they turn with the nodes
+//! B   m × n   gradients of the joints; those of the iteration matrix are renewed once per step because they turn with the nodes
 //! ```
+//!
+//! Reactions act along the gradients of the configuration itself, so that those of two nodes balance. Without the derivative of
+//! Bᵀλ the iteration converges linearly: each one leaves λ l / (β' J) ~ h² of the error, with l the lever of a reaction and J the
+//! inertia that it turns.
 //!
 //! Source: Brüls and Cardona's scheme as the corrected section 2.5 of the paper's equations has it.
 
@@ -77,7 +81,8 @@ pub struct Instant {
     pub acceleration: Vec<f64>,
     /// The scheme's own accelerations a.
     algorithmic: Vec<f64>,
-    multipliers: Vec<f64>,
+    /// Multipliers λ of the rows of all joints, N or N m: the joints act on the nodes with −Bᵀλ.
+    pub multipliers: Vec<f64>,
 }
 
 /// Moves a mechanism from rest through all steps; `look` sees the start and the end of each step.
@@ -188,13 +193,13 @@ impl<'a> Newton<'a> {
     /// One step; the number of iterations.
     fn step(&mut self, system: &mut System, now: &mut Instant, time: f64, effort: &mut Effort) -> Result<usize> {
         let mut trial = self.predicted(system, now, time);
-        let mut joints = Gradients::new(system, &trial.at);
-        let mut bordered = self.kkt.bordered(&joints)?;
+        let mut bordered = self.kkt.bordered(&Gradients::new(system, &trial.at))?;
         for iteration in 0..=MOST_ITERATIONS {
             let forces = system.forces(time, &trial.at, &trial.velocity, &trial.acceleration)?;
             let mut residual = forces.residual();
+            let joints = Gradients::new(system, &trial.at);
             joints.add_reactions(&trial.multipliers, &mut residual);
-            let violation: Vec<f64> = system.constraints(&trial.at).iter().map(|row| row.violation).collect();
+            let violation = &joints.violations;
             let free = &self.kkt.free;
             let size = |v: &[f64]| free.iter().map(|i| v[*i] * v[*i]).sum::<f64>().sqrt();
             let gap = violation.iter().map(|g| (self.constraint_scale * g).powi(2)).sum::<f64>();
@@ -211,11 +216,10 @@ impl<'a> Newton<'a> {
                 && iteration == patience
             {
                 (self.kkt, self.constraint_scale) = Self::factored(system, &trial.at, self.coefficients)?;
-                joints = Gradients::new(system, &trial.at);
                 bordered = self.kkt.bordered(&joints)?;
                 effort.renewals += 1;
             }
-            let (change, multipliers) = self.kkt.solve(&bordered, &residual, &violation);
+            let (change, multipliers) = self.kkt.solve(&bordered, &residual, violation);
             self.correct(system, now, &mut trial, &change);
             trial.multipliers.iter_mut().zip(&multipliers).for_each(|(m, d)| *m += d);
         }

@@ -8,24 +8,34 @@
 
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{Mat, Side};
+use supel_runtime::motion::Vector6;
 
 use crate::Result;
 use crate::system::{Configuration, System};
 
-/// Gradients of the joints, m rows of n.
+/// Squared sine of the angle between a row and those before it, in the norm of S⁻¹, from which on they depend on each other:
+/// multipliers keep four digits of sixteen.
+const DEPENDENT: f64 = 1e-12;
+
+/// Gradients of the joints, m rows of n, and what they are gradients of.
 pub(crate) struct Gradients {
     rows: Vec<Vec<f64>>,
+    pub(crate) violations: Vec<f64>,
 }
 
 impl Gradients {
     pub(crate) fn new(system: &System, at: &Configuration) -> Self {
         let n = system.n();
-        let dense = |gradient: &[(usize, [f64; 3])]| {
+        let dense = |gradient: &[(usize, Vector6)]| {
             let mut row = vec![0.0; n];
-            gradient.iter().for_each(|(node, g)| row[6 * node..6 * node + 3].copy_from_slice(g));
+            for (node, g) in gradient {
+                row[6 * node..6 * node + 6].iter_mut().zip(g).for_each(|(sum, value)| *sum += value);
+            }
             row
         };
-        Self { rows: system.constraints(at).iter().map(|row| dense(&row.gradient)).collect() }
+        let rows = system.constraints(at).into_iter();
+        let (violations, rows) = rows.map(|row| (row.violation, dense(&row.gradient))).unzip();
+        Self { rows, violations }
     }
 
     pub(crate) fn times(&self, x: &[f64]) -> Vec<f64> {
@@ -49,6 +59,8 @@ pub(crate) struct Saddle {
 
 /// B and S⁻¹Bᵀ on the free coordinates, and the factor of B S⁻¹ Bᵀ; none without joints.
 pub(crate) struct Bordered {
+    /// The rows that move a free coordinate by more than rounding; supports keep the others.
+    active: Vec<usize>,
     gradients: Mat<f64>,
     solved: Mat<f64>,
     complement: Option<Llt<f64>>,
@@ -61,12 +73,19 @@ impl Saddle {
         Ok(Self { factor, free, n: s.nrows() })
     }
 
+    /// # Errors
+    /// Joints that depend on each other.
     pub(crate) fn bordered(&self, joints: &Gradients) -> Result<Bordered> {
-        let gradients = Mat::from_fn(joints.rows.len(), self.free.len(), |i, j| joints.rows[i][self.free[j]]);
+        let largest = |most: f64, b: &f64| most.max(b.abs());
+        let moves = |row: &Vec<f64>| {
+            let free = self.free.iter().map(|i| &row[*i]).fold(0.0, largest);
+            free > 16.0 * f64::EPSILON * row.iter().fold(0.0, largest)
+        };
+        let active: Vec<usize> = (0..joints.rows.len()).filter(|i| moves(&joints.rows[*i])).collect();
+        let gradients = Mat::from_fn(active.len(), self.free.len(), |i, j| joints.rows[active[i]][self.free[j]]);
         let solved = self.factor.solve(gradients.transpose());
-        let complement = (gradients.nrows() > 0).then(|| (&gradients * &solved).llt(Side::Lower));
-        let complement = complement.transpose().map_err(|_| "the joints depend on each other")?;
-        Ok(Bordered { gradients, solved, complement })
+        let complement = if active.is_empty() { None } else { Some(independent(&gradients * &solved)?) };
+        Ok(Bordered { active, gradients, solved, complement })
     }
 
     /// Changes of all coordinates and of the multipliers.
@@ -76,13 +95,22 @@ impl Saddle {
         let mut multipliers = vec![0.0; violation.len()];
         if let Some(complement) = &bordered.complement {
             let held = &bordered.gradients * &change;
-            let right = Mat::from_fn(violation.len(), 1, |i, _| held[(i, 0)] + violation[i]);
+            let right = Mat::from_fn(held.nrows(), 1, |i, _| held[(i, 0)] + violation[bordered.active[i]]);
             let found = complement.solve(&right);
             change -= &bordered.solved * &found;
-            (0..multipliers.len()).for_each(|i| multipliers[i] = found[(i, 0)]);
+            bordered.active.iter().enumerate().for_each(|(i, row)| multipliers[*row] = found[(i, 0)]);
         }
         let mut full = vec![0.0; self.n];
         self.free.iter().enumerate().for_each(|(i, row)| full[*row] = change[(i, 0)]);
         (full, multipliers)
     }
+}
+
+/// The factor of B S⁻¹ Bᵀ.
+fn independent(complement: Mat<f64>) -> Result<Llt<f64>> {
+    let depend = "the joints depend on each other: they hold a direction twice in which nothing deforms";
+    let factor = complement.llt(Side::Lower).map_err(|_| depend)?;
+    let lower = factor.L();
+    let depends = (0..lower.nrows()).any(|i| lower[(i, i)].powi(2) <= DEPENDENT * complement[(i, i)]);
+    if depends { Err(depend.into()) } else { Ok(factor) }
 }

@@ -23,12 +23,15 @@ const TOLERANCE: f64 = 1e-9;
 /// Equilibrium under the loads at "time" 1, 2, … `n_steps`; `look` sees each with its number of iterations.
 ///
 /// # Errors
-/// A load step does not converge; the message says which.
+/// The mechanism has joints, which only the time integration enforces; a load step does not converge, the message says which.
 pub fn equilibria(
     system: &mut System,
     n_steps: usize,
     mut look: impl FnMut(&System, &Configuration, usize),
 ) -> Result<()> {
+    if !system.joints.is_empty() {
+        return Err("a static equilibrium of a mechanism with joints".into());
+    }
     let mut at = system.initial();
     for step in 1..=n_steps {
         let iterations = equilibrium(system, &mut at, step as f64).map_err(|why| format!("load step {step}: {why}"))?;

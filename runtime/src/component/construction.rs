@@ -21,7 +21,8 @@ use crate::motion::{
 };
 use crate::superelement::Superelement;
 
-/// Largest force that a rigid-body motion may make, relative to the sum of the magnitudes of its parts.
+/// Largest force that a rigid-body motion may make, relative to the sum of the magnitudes of its parts and of its inertia in
+/// the first mode.
 ///
 /// Matrices in full precision give 1e-14; ones printed with six digits give 1e-6, and a component of those is free, too.
 /// One that is held by its stiffness gives a number of order one.
@@ -85,7 +86,7 @@ impl ModalComponent {
         let shifts: Vec<Matrix6> = positions.iter().map(shift).collect();
         let in_modes = rigid_amplitudes(superelement);
         let rigid_modes = [shifts.as_flattened(), &in_modes].concat();
-        let (residual, motion) = rigid_force(tensors.stiffness.as_slice(), &rigid_modes);
+        let (residual, motion) = rigid_force(tensors.stiffness.as_slice(), &magnitudes(superelement), &rigid_modes);
         if residual > FREE {
             return Err(ComponentError::NotFree { motion: MOTIONS[motion], residual, limit: FREE });
         }
@@ -195,23 +196,35 @@ fn with_zeros(rigid: &[Matrix6], n_modal: usize) -> Vec<Vector6> {
 /// accuracy of the stiffness.
 fn damping_acts_on(superelement: &Superelement, rigid_modes: &[Vector6], residual: f64) -> ActsOn {
     let limit = UNDAMPED.max(ABOVE_THE_STIFFNESS * residual);
-    match &superelement.tensors().damping {
-        Some(damping) if rigid_force(damping.as_slice(), rigid_modes).0 > limit => ActsOn::Motion,
-        _ => ActsOn::Deformation,
-    }
+    let Some(damping) = &superelement.tensors().damping else { return ActsOn::Deformation };
+    let magnitudes: Vec<f64> = damping.as_slice().iter().map(|entry| entry.abs()).collect();
+    let (force, _) = rigid_force(damping.as_slice(), &magnitudes, rigid_modes);
+    if force > limit { ActsOn::Motion } else { ActsOn::Deformation }
 }
 
-/// Largest force that a column of U makes, relative to the sum of the magnitudes of its parts, and that column. Each row
-/// is measured in the unit of its diagonal entry.
-fn rigid_force(a: &[f64], u: &[Vector6]) -> (f64, usize) {
+/// |K| + λ|M|, r × r, with λ the lowest quotient K_ηη / M_ηη of a modal coordinate.
+///
+/// One node that just holds the component has a stiffness of rounding alone, which is small beside what the component deforms with.
+fn magnitudes(superelement: &Superelement) -> Vec<f64> {
+    let (k, m) = (&superelement.tensors().stiffness, &superelement.tensors().mass);
+    let quotients = (superelement.n_interface()..k.rows()).map(|i| k[(i, i)] / m[(i, i)]);
+    let lowest = quotients.filter(|quotient| *quotient > 0.0 && quotient.is_finite()).reduce(f64::min).unwrap_or(0.0);
+    k.as_slice().iter().zip(m.as_slice()).map(|(k, m)| k.abs() + lowest * m.abs()).collect()
+}
+
+/// Largest force that a column of U makes, relative to the sum of the magnitudes of its parts, r × r, and that column. Each
+/// row is measured in the unit of the diagonal entry of those.
+fn rigid_force(a: &[f64], magnitudes: &[f64], u: &[Vector6]) -> (f64, usize) {
     let r = u.len();
     let ratio = |column: usize| {
         let (mut force, mut parts) = (0.0_f64, 0.0_f64);
-        for (i, row) in a.chunks_exact(r).enumerate().filter(|(i, row)| row[*i] > 0.0) {
-            let scale = row[i].sqrt().recip();
-            let terms = || row.iter().zip(u).map(|(entry, motion)| scale * entry * motion[column]);
-            force = force.max(terms().sum::<f64>().abs());
-            parts = parts.max(terms().map(f64::abs).sum());
+        let rows = a.chunks_exact(r).zip(magnitudes.chunks_exact(r)).enumerate();
+        for (i, (row, magnitudes)) in rows.filter(|(i, (_, magnitudes))| magnitudes[*i] > 0.0) {
+            let scale = magnitudes[i].sqrt().recip();
+            let terms = row.iter().zip(u).map(|(entry, motion)| scale * entry * motion[column]);
+            force = force.max(terms.sum::<f64>().abs());
+            parts =
+                parts.max(magnitudes.iter().zip(u).map(|(entry, motion)| scale * entry * motion[column].abs()).sum());
         }
         if parts > 0.0 { force / parts } else { 0.0 }
     };

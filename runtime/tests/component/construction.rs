@@ -90,6 +90,27 @@ fn a_component_that_is_held_is_refused() {
     assert!(matches!(error, ComponentError::NotFree { residual, .. } if residual > 0.1), "{error}");
 }
 
+/// One node just holds a component: what is left of its stiffness is rounding, and a spring shows beside the first mode.
+#[test]
+fn a_component_of_one_node_is_free_unless_a_spring_holds_it() {
+    let (tensors, metadata, _) = beam::reduced_parts(&beam::arc_nodes(), &beam::SOFT, &[8], 5);
+    let spring = tensors.mass[(1, 1)] * tensors.stiffness[(6, 6)] / tensors.mass[(6, 6)];
+    let component = |share: f64| {
+        let k = |i: usize, j: usize| tensors.stiffness[(i, j)] + if (i, j) == (1, 1) { share * spring } else { 0.0 };
+        let stiffness = Matrix::from_fn(tensors.stiffness.rows(), tensors.stiffness.cols(), k);
+        let superelement = Superelement::new(Tensors { stiffness, ..tensors.clone() }, metadata.clone());
+        ModalComponent::new(&superelement.expect("the parts fit"), FloatingFrame::MassWeighted)
+    };
+    // The solution with the internal stiffness, of condition 1e4, leaves stiffnesses of 1e-12 of the elements'; these are some
+    // thousand times the first mode's.
+    let residual = component(0.0).expect("a free body").rigid_motion_residual();
+    assert!(residual > 0.0 && residual < 1e-8, "{residual:e}");
+    for share in [1.0, 1e-3] {
+        let error = component(share).expect_err("it is held");
+        assert!(matches!(error, ComponentError::NotFree { residual, .. } if residual > 0.1 * share), "{error}");
+    }
+}
+
 #[test]
 fn a_component_without_inertia_about_an_axis_needs_the_rigid_floating_frame() {
     let (mut tensors, metadata) = arc_without(&[]);

@@ -9,7 +9,7 @@ use super::{Run, Variant, recorded, seen_from};
 use crate::Result;
 use crate::beam::{Section, polyline};
 use crate::integrator::{IterationMatrix, Scheme};
-use crate::joint::{Joint, PLANAR, driven_pin};
+use crate::joint::{Joint, Kind, PLANAR, Side, driven_pin};
 use crate::part::Part;
 use crate::selection::{Modes, selected};
 use crate::system::{Formulation, System};
@@ -56,12 +56,18 @@ pub fn run(parts: &[Superelement], variant: &Variant, scheme: &Scheme) -> Result
     let modes = Modes::Free(variant.n_modes);
     let parts: Vec<Superelement> = parts.iter().map(|part| selected(part, modes)).collect::<Result<_>>()?;
     let [crank, rod] = parts.as_slice() else { return Err("a crank and a rod".into()) };
-    let positions = [0.0, 5.0, 10.0, 10.0, 20.0, 30.0].map(|x| [x, 0.0, 0.0]).to_vec();
+    let positions = [0.0, 5.0, 10.0, 10.0, 20.0, 30.0].map(|x| [x, 0.0, 0.0]);
     let mut supports = [PLANAR; 6];
     supports[0] = driven_pin(angle, ACCELERATION);
     let formulation = Formulation { frame: FloatingFrame::MassWeighted, measures: variant.measures };
-    let mut system = System::new(positions, &supports, &[(crank, &[0, 1, 2]), (rod, &[3, 4, 5])], formulation)?;
-    system.joints = vec![Joint::PlanarPin([2, 3]), Joint::PointOnPlane { node: 5, normal: [0.0, 1.0, 0.0] }];
+    let mut system =
+        System::new(positions.to_vec(), &supports, &[(crank, &[0, 1, 2]), (rod, &[3, 4, 5])], formulation)?;
+    let pin = Kind::Revolute { axis: [0.0, 0.0, 1.0] };
+    let slider = Kind::PointOnPlane { normal: [0.0, 1.0, 0.0] };
+    system.joints = vec![
+        Joint { kind: pin, sides: [Side::Node(2), Side::Node(3)], point: positions[2] },
+        Joint { kind: slider, sides: [Side::Node(5), Side::Ground], point: positions[5] },
+    ];
     let names = ["t_s", "M_transverse_m", "N_transverse_m"];
     Ok(recorded(system, scheme, 2, &names, |system, now| {
         let transverse = |root: usize, middle: usize| {
