@@ -45,7 +45,7 @@ impl Prepared {
         let model = Model::new(supel::input::read(&job.model).expect("files")).expect("a sound model");
         let partition = Partition::new(&model, &job.interfaces).expect("two faces");
         let (rigid, _) = rigid_body_modes(&partition).expect("six of them");
-        let (k_ii, m_ii) = (partition.internal_stiffness(), partition.internal_mass());
+        let (k_ii, m_ii) = partition.internal();
         let sigma = shift_of_factor(&partition, &rigid);
         Self { job, partition, rigid, k_ii, m_ii, sigma }
     }

@@ -95,7 +95,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let (rigid, loose) = rigid::with_mechanisms(&partition, &constraint, rigid)?;
 
     observer.stage("modes");
-    let (k_ii, m_ii) = (partition.internal_stiffness(), partition.internal_mass());
+    let (k_ii, m_ii) = partition.internal();
     let internal = (&k_ii, &m_ii);
     let component = Component::new(&partition, internal, &analysis, &factor, &rigid, &constraint);
     let search = modes::Search::new(component, &job.reduction)?;

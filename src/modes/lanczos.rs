@@ -14,6 +14,7 @@ use faer::{Mat, MatRef};
 
 use super::answer::Goal;
 use super::block_width::block_width;
+use super::columns::Columns;
 use super::eigenproblem::{CLUSTER_GAP, EigenWork, Eigenpairs, Interval, Problem, Wanted, is_above};
 use super::orthogonalisation::combine_in_place;
 use super::random::SplitMix64;
@@ -72,7 +73,7 @@ pub(super) struct Basis<'a> {
     pub(super) problem: Problem<'a>,
     pub(super) random: SplitMix64,
     /// V followed by W.
-    pub(super) vectors: Mat<f64>,
+    pub(super) vectors: Columns,
     /// M W, kept for the next application of OP.
     pub(super) mass_next: Mat<f64>,
     /// T.
@@ -106,7 +107,7 @@ impl<'a> Basis<'a> {
         let mut basis = Self {
             problem,
             random: SplitMix64::new(seed),
-            vectors: Mat::zeros(n, capacity + block),
+            vectors: Columns::zeros(n, capacity + block),
             mass_next: Mat::zeros(n, 0),
             projected: Mat::zeros(0, 0),
             coupling: Mat::zeros(0, 0),
@@ -256,7 +257,7 @@ impl<'a> Basis<'a> {
         self.look_at = 0;
         let capacity = capacity_for(n_wanted, block, n);
         if capacity > self.capacity {
-            self.vectors.resize_with(n, capacity + block, |_, _| 0.0);
+            self.vectors.grow(capacity + block);
             self.capacity = capacity;
             return Ok(());
         }

@@ -14,6 +14,7 @@ mod block_width;
 mod boundary_problem;
 mod certificate;
 mod cluster;
+mod columns;
 mod dense_spectrum;
 mod eigenproblem;
 mod equilibration;

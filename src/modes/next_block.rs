@@ -1,6 +1,7 @@
 //! The next block of a Lanczos basis: M-orthogonal to what is there, M-orthonormal in itself.
 
 use faer::{Mat, MatRef};
+use rayon::prelude::*;
 
 use super::eigenproblem::mass_norm;
 use super::lanczos::Basis;
@@ -57,11 +58,12 @@ impl Basis<'_> {
         }
         self.replace_dependent(&mut block, &dependent);
         let kept: Vec<usize> = (0..width).filter(|j| !dependent[*j] || self.holds(block.as_ref(), *j)).collect();
-        let next = Mat::from_fn(block.nrows(), kept.len(), |i, j| block[(i, kept[j])]);
         let coupling = Mat::from_fn(kept.len(), width, |i, j| coupling[(kept[i], j)]);
-        self.vectors.as_mut().subcols_mut(self.size, kept.len()).copy_from(&next);
+        let next = self.vectors.as_mut().subcols_mut(self.size, kept.len());
+        next.par_col_iter_mut().zip(&kept).for_each(|(mut column, j)| column.copy_from(block.col(*j)));
+        let next = self.vectors.as_ref().subcols(self.size, kept.len());
         let is_carried = dependent.iter().all(|dependent| !dependent);
-        self.mass_next = if is_carried { mass_block } else { product(self.problem.mass, next.as_ref()) };
+        self.mass_next = if is_carried { mass_block } else { product(self.problem.mass, next) };
         (coefficients, coupling)
     }
 

@@ -121,14 +121,10 @@ impl Partition {
         Pencil { stiffness: &self.stiffness, mass: &self.mass }
     }
 
-    /// K_II as a matrix of its own.
-    pub fn internal_stiffness(&self) -> SparseMatrix {
-        leading_block(&self.stiffness, self.n_internal)
-    }
-
-    /// M_II as a matrix of its own.
-    pub fn internal_mass(&self) -> SparseMatrix {
-        leading_block(&self.mass, self.n_internal)
+    /// K_II and M_II as matrices of their own.
+    pub fn internal(&self) -> (SparseMatrix, SparseMatrix) {
+        let block = |matrix| leading_block(matrix, self.n_internal);
+        rayon::join(|| block(&self.stiffness), || block(&self.mass))
     }
 }
 
@@ -146,14 +142,21 @@ fn leading_block(matrix: &SparseMatrix, n: usize) -> SparseMatrix {
     let pointers = matrix.indptr();
     let pointers = pointers.raw_storage();
     let (columns, values) = (matrix.indices(), matrix.data());
-    let mut block = (Vec::with_capacity(n + 1), Vec::new(), Vec::new());
-    block.0.push(0);
-    for row in 0..n {
-        let range = pointers[row]..pointers[row + 1];
-        let end = range.start + columns[range.clone()].partition_point(|col| (*col as usize) < n);
-        block.1.extend_from_slice(&columns[range.start..end]);
-        block.2.extend_from_slice(&values[range.start..end]);
-        block.0.push(block.1.len());
+    let rows = || {
+        pointers.windows(2).take(n).map(|row| {
+            let inside = columns[row[0]..row[1]].partition_point(|col| (*col as usize) < n);
+            row[0]..row[0] + inside
+        })
+    };
+    let mut ends = vec![0];
+    ends.extend(rows().scan(0, |end, row| {
+        *end += row.len();
+        Some(*end)
+    }));
+    let mut block = (Vec::with_capacity(ends[n]), Vec::with_capacity(ends[n]));
+    for row in rows() {
+        block.0.extend_from_slice(&columns[row.clone()]);
+        block.1.extend_from_slice(&values[row]);
     }
-    SparseMatrix::new((n, n), block.0, block.1, block.2)
+    SparseMatrix::new((n, n), ends, block.0, block.1)
 }

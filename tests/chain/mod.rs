@@ -114,7 +114,7 @@ pub(crate) fn reduce(
 ) -> Result<Chain, Error> {
     let (partition, rigid) = rigid_of(model, interfaces)?;
     rigid::interface_rank(&partition, &rigid)?;
-    let (k_ii, m_ii) = (partition.internal_stiffness(), partition.internal_mass());
+    let (k_ii, m_ii) = partition.internal();
     let analysis = Analysis::of(&partition)?;
     let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof))?;
     let constraint = constraint_modes(&partition, &factor, &rigid);

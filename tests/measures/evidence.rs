@@ -25,7 +25,7 @@ pub(crate) fn with_evidence<T>(
     let partition = Partition::new(&model, interfaces).expect("interfaces of the model");
     let (rigid, _) = rigid::rigid_body_modes(&partition).expect("rigid-body modes");
     let rank = rigid::interface_rank(&partition, &rigid).expect("an interface that reacts them");
-    let (k_ii, m_ii) = (partition.internal_stiffness(), partition.internal_mass());
+    let (k_ii, m_ii) = partition.internal();
     let analysis = Analysis::of(&partition).expect("memory");
     let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof)).expect("definite");
     let constraint = constraint_modes(&partition, &factor, &rigid);

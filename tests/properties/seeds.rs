@@ -26,7 +26,7 @@ struct Built {
 
 fn built(method: Method, count: usize, seed: u64) -> Built {
     let (partition, rigid) = rigid_of(&square_beam(), &[direct("ends", &[1, 15, 43, 63])]).expect("a beam");
-    let (k_ii, m_ii) = (partition.internal_stiffness(), partition.internal_mass());
+    let (k_ii, m_ii) = partition.internal();
     let analysis = Analysis::of(&partition).expect("memory");
     let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof)).expect("definite");
     let constraint = constraint_modes(&partition, &factor, &rigid);
@@ -77,7 +77,7 @@ proptest! {
         }
         // sin² of the largest angle between the spans: what projecting one on the other loses.
         let mass = match method {
-            Method::CraigBampton => reference.partition.internal_mass(),
+            Method::CraigBampton => reference.partition.internal().1,
             _ => reference.partition.mass.clone(),
         };
         let image = supel::sparse::product(&mass, y.shapes.as_ref());

@@ -54,7 +54,7 @@ impl<'a> Witness<'a> {
                 (elastic_modes(problem, &Factored::new(&full.factor, full.sigma), request)?, None)
             }
             Boundary::FixedInterface => {
-                let (k, m) = (partition.internal_stiffness(), partition.internal_mass());
+                let (k, m) = partition.internal();
                 let problem = ModalProblem { stiffness: &k, mass: &m, rigid: None, precision };
                 let analysis = Analysis::new(Pencil { stiffness: &k, mass: &m })?;
                 let found = shifted(&analysis, problem, &|dof| partition.name_of(dof))?;
