@@ -21,11 +21,12 @@ use crate::motion::{
 };
 use crate::superelement::Superelement;
 
-/// Largest force that a rigid-body motion may make, relative to the sum of the magnitudes of its parts and of its inertia in
-/// the first mode.
+/// Largest force that a rigid-body motion may make, relative to the sum of the magnitudes of its parts; where one node just holds the
+/// component, with those of its inertia in the first mode.
 ///
 /// Matrices in full precision give 1e-14; ones printed with six digits give 1e-6, and a component of those is free, too.
-/// One that is held by its stiffness gives a number of order one.
+/// One that is held by its stiffness gives a number of order one; on one node, one whose mount has more than 0.3 % of the first mode's
+/// frequency is refused.
 const FREE: f64 = 1e-5;
 
 /// Forces of rigid-body motion below this are rounding, also in matrices that were printed with twelve digits.
@@ -86,7 +87,8 @@ impl ModalComponent {
         let shifts: Vec<Matrix6> = positions.iter().map(shift).collect();
         let in_modes = rigid_amplitudes(superelement);
         let rigid_modes = [shifts.as_flattened(), &in_modes].concat();
-        let (residual, motion) = rigid_force(tensors.stiffness.as_slice(), &magnitudes(superelement), &rigid_modes);
+        let (residual, motion) =
+            rigid_force(&tensors.stiffness, &magnitudes(&tensors.stiffness, superelement), &rigid_modes);
         if residual > FREE {
             return Err(ComponentError::NotFree { motion: MOTIONS[motion], residual, limit: FREE });
         }
@@ -197,28 +199,31 @@ fn with_zeros(rigid: &[Matrix6], n_modal: usize) -> Vec<Vector6> {
 fn damping_acts_on(superelement: &Superelement, rigid_modes: &[Vector6], residual: f64) -> ActsOn {
     let limit = UNDAMPED.max(ABOVE_THE_STIFFNESS * residual);
     let Some(damping) = &superelement.tensors().damping else { return ActsOn::Deformation };
-    let magnitudes: Vec<f64> = damping.as_slice().iter().map(|entry| entry.abs()).collect();
-    let (force, _) = rigid_force(damping.as_slice(), &magnitudes, rigid_modes);
+    let (force, _) = rigid_force(damping, &magnitudes(damping, superelement), rigid_modes);
     if force > limit { ActsOn::Motion } else { ActsOn::Deformation }
 }
 
-/// |K| + λ|M|, r × r, with λ the lowest quotient K_ηη / M_ηη of a modal coordinate.
+/// What the entries of a stiffness or damping A are measured by, r × r: |A|, and |A| + λ|M| for a component that one node just
+/// holds, with λ the lowest quotient A_ηη / M_ηη of a modal coordinate.
 ///
-/// One node that just holds the component has a stiffness of rounding alone, which is small beside what the component deforms with.
-fn magnitudes(superelement: &Superelement) -> Vec<f64> {
-    let (k, m) = (&superelement.tensors().stiffness, &superelement.tensors().mass);
-    let quotients = (superelement.n_interface()..k.rows()).map(|i| k[(i, i)] / m[(i, i)]);
-    let lowest = quotients.filter(|quotient| *quotient > 0.0 && quotient.is_finite()).reduce(f64::min).unwrap_or(0.0);
-    k.as_slice().iter().zip(m.as_slice()).map(|(k, m)| k.abs() + lowest * m.abs()).collect()
+/// There A_BB is rounding alone and cannot be compared with itself; the file says that all six motions are free, and a spring that it
+/// does not know of shows by the square of its frequency over that of the first mode.
+fn magnitudes(a: &Matrix, superelement: &Superelement) -> Vec<f64> {
+    let (m, n_nodal) = (&superelement.tensors().mass, superelement.n_interface());
+    let just_held = n_nodal == 6 && superelement.tensors().rigid_body_modes.cols() == 6;
+    let quotients = (n_nodal..a.rows()).map(|i| a[(i, i)] / m[(i, i)]);
+    let lowest = quotients.filter(|quotient| *quotient > 0.0 && quotient.is_finite()).reduce(f64::min);
+    let inertia = lowest.filter(|_| just_held).unwrap_or(0.0);
+    a.as_slice().iter().zip(m.as_slice()).map(|(a, m)| a.abs() + inertia * m.abs()).collect()
 }
 
 /// Largest force that a column of U makes, relative to the sum of the magnitudes of its parts, r × r, and that column. Each
 /// row is measured in the unit of the diagonal entry of those.
-fn rigid_force(a: &[f64], magnitudes: &[f64], u: &[Vector6]) -> (f64, usize) {
+fn rigid_force(a: &Matrix, magnitudes: &[f64], u: &[Vector6]) -> (f64, usize) {
     let r = u.len();
     let ratio = |column: usize| {
         let (mut force, mut parts) = (0.0_f64, 0.0_f64);
-        let rows = a.chunks_exact(r).zip(magnitudes.chunks_exact(r)).enumerate();
+        let rows = a.as_slice().chunks_exact(r).zip(magnitudes.chunks_exact(r)).enumerate();
         for (i, (row, magnitudes)) in rows.filter(|(i, (_, magnitudes))| magnitudes[*i] > 0.0) {
             let scale = magnitudes[i].sqrt().recip();
             let terms = row.iter().zip(u).map(|(entry, motion)| scale * entry * motion[column]);

@@ -111,6 +111,38 @@ fn a_component_of_one_node_is_free_unless_a_spring_holds_it() {
     }
 }
 
+/// Two nodes tell a spring by the stiffness between them, however heavy the node that it holds.
+#[test]
+fn a_heavy_node_hides_no_spring() {
+    let (mut tensors, metadata) = arc_without(&[]);
+    let (k, m) = (tensors.stiffness.clone(), tensors.mass.clone());
+    let at = |i: usize, j: usize| (i, j) == (1, 1);
+    tensors.mass = Matrix::from_fn(m.rows(), m.cols(), |i, j| m[(i, j)] * if at(i, j) { 1e8 } else { 1.0 });
+    tensors.stiffness = Matrix::from_fn(k.rows(), k.cols(), |i, j| k[(i, j)] * if at(i, j) { 2.0 } else { 1.0 });
+    let error = refusal((tensors, metadata), FloatingFrame::Rigid);
+    assert!(matches!(error, ComponentError::NotFree { residual, .. } if residual > 0.1), "{error}");
+}
+
+/// Damping in proportion to a stiffness that is rounding where one node just holds the component.
+#[test]
+fn damping_in_proportion_to_the_stiffness_does_not_brake_a_component_of_one_node() {
+    let (tensors, metadata, _) = beam::reduced_parts(&beam::arc_nodes(), &beam::SOFT, &[8], 5);
+    for (share, brakes) in [(0.0, false), (1e-2, true)] {
+        let (k, m) = (&tensors.stiffness, &tensors.mass);
+        let damping = Matrix::from_fn(k.rows(), k.cols(), |i, j| 1e-3 * k[(i, j)] + share * m[(i, j)]);
+        let tensors = Tensors { damping: Some(damping), ..tensors.clone() };
+        let superelement = Superelement::new(tensors, metadata.clone()).expect("the parts fit");
+        let component = ModalComponent::new(&superelement, FloatingFrame::Rigid).expect("a free body");
+        let mut situation = crate::situation::Situation::random(&component, 0.0, 1);
+        situation.motions.fill(Motion::IDENTITY);
+        situation.velocities.fill(0.0);
+        situation.amplitudes.fill(0.0);
+        situation.velocities[5] = 1.0;
+        let brake = largest(situation.evaluated(&component).damping_forces());
+        assert_eq!(brake > 0.0, brakes, "{share}: {brake:e}");
+    }
+}
+
 #[test]
 fn a_component_without_inertia_about_an_axis_needs_the_rigid_floating_frame() {
     let (mut tensors, metadata) = arc_without(&[]);
