@@ -39,7 +39,7 @@ pub struct Reduction {
 /// What was measured before it was mended.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Projection {
-    /// max |K̂_Bη| / √(K_BB K̂_ηη) over all entries (M-13).
+    /// max |K̂_Bη| / √(K_BB K̂_ηη) over all entries (M-13); of a rigid component, max |K̂_BB| / √(K_BB K_BB).
     pub block_coupling: f64,
     /// The entry it is reached at.
     pub block_coupling_at: (usize, usize),
@@ -57,20 +57,21 @@ impl Reduction {
     pub fn new(partition: &Partition, basis: &Basis, rigid: &RigidBodyModes) -> Self {
         let (mut stiffness, mut mass) =
             rayon::join(|| project(&partition.stiffness, basis), || project(&partition.mass, basis));
-        let (n_b, r) = (partition.n_interface(), basis.n_reduced());
-        if rigid.count() == r {
-            // K̂Û = 0 with a regular Û: the component is rigid, and what was projected is rounding.
-            stiffness.fill(0.0);
-        }
+        let n_b = partition.n_interface();
+        // K̂Û = 0 with a regular Û: the component is rigid, and what was projected is rounding.
+        let is_rigid = n_b > 0 && rigid.count() == basis.n_reduced();
+        let rounding = is_rigid.then(|| clear(&mut stiffness, partition));
         let mut measured = Projection {
             stiffness_asymmetry: dense::symmetrise(&mut stiffness),
             mass_asymmetry: dense::symmetrise(&mut mass),
             ..Projection::default()
         };
-        (measured.block_coupling, measured.block_coupling_at) = match n_b {
-            0 => clear_rigid_body(&mut stiffness, rigid.count()),
-            _ => uncouple(&mut stiffness, partition),
+        (measured.block_coupling, measured.block_coupling_at) = match (n_b, rounding) {
+            (_, Some(rounding)) => rounding,
+            (0, None) => clear_rigid_body(&mut stiffness, rigid.count()),
+            (_, None) => uncouple(&mut stiffness, partition),
         };
+        let r = basis.n_reduced();
         let u_b = rigid.modes.as_ref().subrows(partition.n_internal, n_b);
         let mut rigid_body_modes = Mat::from_fn(r, rigid.count(), |i, j| if i < n_b { u_b[(i, j)] } else { 0.0 });
         if n_b == 0 {
@@ -152,6 +153,24 @@ fn clear_rigid_body(stiffness: &mut Mat<f64>, n_rigid: usize) -> (f64, (usize, u
             stiffness[(i, j)] = 0.0;
             stiffness[(j, i)] = 0.0;
         }
+    }
+    worst
+}
+
+/// Sets K̂ of a rigid component to zero and says how large it was, relative to the diagonal of K_BB, of whose terms it is the
+/// rounding.
+fn clear(stiffness: &mut Mat<f64>, partition: &Partition) -> (f64, (usize, usize)) {
+    let uncondensed = |i: usize| {
+        let at = partition.n_internal + i;
+        partition.stiffness.get(at, at).copied().unwrap_or(0.0)
+    };
+    let (mut worst, r) = ((0.0, (0, 0)), stiffness.ncols());
+    for (i, j) in (0..r).flat_map(|j| (0..r).map(move |i| (i, j))) {
+        let size = (uncondensed(i) * uncondensed(j)).abs().sqrt();
+        if size != 0.0 && dense::worse(stiffness[(i, j)].abs() / size, worst.0) {
+            worst = (stiffness[(i, j)].abs() / size, (i, j));
+        }
+        stiffness[(i, j)] = 0.0;
     }
     worst
 }
