@@ -63,6 +63,13 @@ pub(super) struct Supernode<'a> {
     pub(super) n_children: usize,
 }
 
+impl Supernode<'_> {
+    /// Entries of the trapezoid, those above its diagonal too.
+    pub(super) fn n_trapezoid(&self) -> usize {
+        (self.steps.len() + self.below.len()).saturating_mul(self.steps.len())
+    }
+}
+
 impl Analysis {
     /// Analyses the pattern of K ∪ M.
     ///
@@ -129,22 +136,22 @@ impl Analysis {
         Ok(analysis)
     }
 
-    /// Most entries of rests at once where fronts are eliminated in order, and the trapezoid of the front at hand.
+    /// Most entries of rests at once where fronts are eliminated in order, and the largest trapezoid: both stay until the end.
     fn predicted_stack(&self) -> usize {
-        let (mut live, mut peak) = (0usize, 0usize);
+        let (mut live, mut peak, mut largest) = (0usize, 0usize, 0usize);
         let mut waiting = Vec::new();
         for s in 0..self.n_children.len() {
             let node = self.supernode(s);
             let rest = node.below.len().saturating_mul(node.below.len() + 1);
-            let trapezoid = (node.steps.len() + node.below.len()).saturating_mul(node.steps.len());
-            peak = peak.max(live.saturating_add(rest).saturating_add(trapezoid));
+            largest = largest.max(node.n_trapezoid());
             live = live.saturating_add(rest);
+            peak = peak.max(live);
             for child in waiting.drain(waiting.len() - node.n_children..) {
                 live -= child;
             }
             waiting.push(rest);
         }
-        peak
+        peak.saturating_add(largest)
     }
 
     /// Numbers the places of each task: its own steps first, then those it reaches outside.
@@ -188,7 +195,7 @@ impl Analysis {
         bytes.saturating_mul(self.n_values() as u64)
     }
 
-    /// Bytes that elimination needs beside the factor when one thread does it: what waits for its parent.
+    /// Bytes that elimination needs beside the factor when one thread does it: what waits for its parent, and the largest front.
     pub fn stack_bytes(&self) -> u64 {
         8u64.saturating_mul(self.stack as u64)
     }

@@ -47,8 +47,8 @@ pub fn storage_within_memory(
 
 /// Refuses a run whose forecast exceeds the memory allowed by the job, or else what the machine offers.
 ///
-/// Counted are the matrices, the factors that are kept, what waits for its parent while one is made, the constraint modes, the
-/// basis of the eigensolver (three vectors for each mode and eight blocks of eight) and the rows that are recovered. The number
+/// Counted are the matrices, the factors that are kept, what waits for its parent while one is made, the largest front, the
+/// constraint modes, the basis of the eigensolver (three vectors for each mode and eight blocks of eight) and the rows that are recovered. The number
 /// of modes is what a count in the band has found, once there is one.
 ///
 /// # Errors

@@ -129,7 +129,7 @@ struct Part<'a, T> {
     pivots: Pivots<'a>,
 }
 
-/// Memory that a thread uses again for its next task.
+/// Memory that is used again for the next task.
 struct Workspace {
     /// Row of the front at each step that is one of its rows.
     place: Vec<u32>,
@@ -143,6 +143,17 @@ struct Tools {
     trapezoid: Vec<f64>,
     /// For the dense kernels.
     dense: MemBuffer,
+}
+
+impl Tools {
+    /// Makes room for a trapezoid at once: memory that grows bit by bit is held twice each time.
+    fn reserve(&mut self, len: usize) -> std::result::Result<(), Stop> {
+        if len > self.trapezoid.capacity() {
+            self.trapezoid = Vec::new();
+            self.trapezoid.try_reserve_exact(len).map_err(|_| Stop::NoMemory)?;
+        }
+        Ok(())
+    }
 }
 
 impl Workspace {
@@ -207,19 +218,18 @@ fn take(rest: &Mutex<Handed>) -> Handed {
     std::mem::replace(&mut *lock(rest), Ok(Vec::new()))
 }
 
-/// The same memory as zeros, where there is enough.
-fn cleared(values: &mut Vec<f64>, len: usize) -> std::result::Result<&mut [f64], Stop> {
+/// The same memory as zeros; it was reserved.
+fn cleared(values: &mut Vec<f64>, len: usize) -> &mut [f64] {
     values.clear();
-    values.try_reserve_exact(len).map_err(|_| Stop::NoMemory)?;
     values.resize(len, 0.0);
-    Ok(values)
+    values
 }
 
 /// Zeros, where there is memory for them.
-fn zeros<T: Entry>(len: usize) -> std::result::Result<Vec<T>, Stop> {
+fn zeros(len: usize) -> std::result::Result<Vec<f64>, Stop> {
     let mut values = Vec::new();
     values.try_reserve_exact(len).map_err(|_| Stop::NoMemory)?;
-    values.resize(len, T::of(0.0));
+    values.resize(len, 0.0);
     Ok(values)
 }
 
@@ -271,6 +281,8 @@ impl Run<'_> {
         let mut largest = 0.0;
         let Workspace { place, stack, tools } = workspace;
         stack.clear();
+        let largest_front = self.task.supernodes.clone().map(|s| self.analysis.supernode(s).n_trapezoid()).max();
+        tools.reserve(largest_front.unwrap_or(0))?;
         let root = self.task.supernodes.end - 1;
         for s in self.task.supernodes.start..root {
             let node = self.analysis.supernode(s);
@@ -298,7 +310,7 @@ impl Run<'_> {
         tools: &mut Tools,
     ) -> std::result::Result<f64, Stop> {
         let (size, b) = (node.steps.len(), node.below.len());
-        let values = cleared(&mut tools.trapezoid, (size + b) * size)?;
+        let values = cleared(&mut tools.trapezoid, node.n_trapezoid());
         let mut trapezoid = MatMut::from_column_major_slice_mut(values, size + b, size);
         for (at, row) in node.below.iter().enumerate() {
             place[*row as usize] = (size + at) as u32;

@@ -21,12 +21,10 @@ pub(super) fn prefetch<T>(entries: &[T], at: usize) {
 mod tests {
     use super::*;
 
-    /// Asking changes nothing, and asking for what is not there is no fault.
+    /// A place outside is no fault of the bounds, and none of the processor.
     #[test]
-    fn entries_stay_as_they_are() {
-        let entries: Vec<f64> = (0..100).map(f64::from).collect();
-        (0..1000).for_each(|at| prefetch(&entries, at));
-        prefetch::<f64>(&[], 0);
-        assert!(entries.iter().zip(0..100).all(|(entry, i)| *entry == f64::from(i)));
+    fn asking_for_what_is_not_there_is_no_fault() {
+        (0..1000).for_each(|at| prefetch(&[0.0; 100], at));
+        prefetch::<f64>(&[], usize::MAX);
     }
 }

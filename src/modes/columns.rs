@@ -5,7 +5,7 @@ use faer::{MatMut, MatRef};
 /// A matrix of n rows stored by columns, all zero at first.
 ///
 /// The system gives memory that nothing was written to as zeros, and for nothing: a column costs something when it comes, and then
-/// to the thread that writes it.
+/// to the thread that writes it. Memory that the program used before is cleared at once.
 pub(super) struct Columns {
     n: usize,
     count: usize,
