@@ -103,8 +103,8 @@ pub fn taken(study: &Study, tolerance: f64) -> String {
     };
     let own: Vec<Option<Effort>> = study.example.models().iter().map(entry).collect();
     let one = |effort: &Effort| match effort.renewals {
-        0 => format!("{:.2}", effort.mean()),
-        n => format!("{:.2} (matrix renewed {n} times)", effort.mean()),
+        0 => format!("{:.1}", effort.mean()),
+        n => format!("{:.1} (matrix renewed {n} times)", effort.mean()),
     };
     let counts: Vec<String> =
         own.iter().map(|effort| effort.as_ref().map_or_else(|| "stops".to_owned(), one)).collect();
