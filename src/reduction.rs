@@ -10,6 +10,8 @@
 //! K̂ is formed as ΨᵀKΨ, whose error is of second order in that of Ψ; its blocks between interface and dynamic
 //! coordinates vanish by (29) and are set to zero after being measured.
 
+use std::ops::Range;
+
 use faer::{Mat, MatRef};
 
 use crate::basis::Basis;
@@ -60,7 +62,7 @@ impl Reduction {
         let n_b = partition.n_interface();
         // K̂Û = 0 with a regular Û: the component is rigid, and what was projected is rounding.
         let is_rigid = n_b > 0 && rigid.count() == basis.n_reduced();
-        let rounding = is_rigid.then(|| clear(&mut stiffness, partition));
+        let rounding = is_rigid.then(|| clear_all(&mut stiffness, partition));
         let mut measured = Projection {
             stiffness_asymmetry: dense::symmetrise(&mut stiffness),
             mass_asymmetry: dense::symmetrise(&mut mass),
@@ -140,55 +142,48 @@ pub(crate) fn transpose_apply(basis: &Basis, forces: MatRef<'_, f64>) -> Mat<f64
     reduced
 }
 
+/// How large a block was, relative to what its entries are rounding of, and where.
+type Worst = (f64, (usize, usize));
+
 /// Without an interface the first n_r coordinates are rigid-body modes: K U = 0 (2). Sets their rows of K̂ to zero and says how
 /// large they were, relative to the largest diagonal entry.
-fn clear_rigid_body(stiffness: &mut Mat<f64>, n_rigid: usize) -> (f64, (usize, usize)) {
-    let size = (0..stiffness.nrows()).fold(0.0f64, |max, i| max.max(stiffness[(i, i)]));
-    let mut worst = (0.0, (0, 0));
-    for j in 0..n_rigid {
-        for i in 0..stiffness.nrows() {
-            if size > 0.0 && dense::worse(stiffness[(i, j)].abs() / size, worst.0) {
-                worst = (stiffness[(i, j)].abs() / size, (i, j));
-            }
-            stiffness[(i, j)] = 0.0;
-            stiffness[(j, i)] = 0.0;
-        }
-    }
-    worst
+fn clear_rigid_body(stiffness: &mut Mat<f64>, n_rigid: usize) -> Worst {
+    let r = stiffness.nrows();
+    let size = (0..r).fold(0.0f64, |max, i| max.max(stiffness[(i, i)]));
+    clear(stiffness, [0..r, 0..n_rigid], |_, _| size)
 }
 
 /// Sets K̂ of a rigid component to zero and says how large it was, relative to the diagonal of K_BB, of whose terms it is the
 /// rounding.
-fn clear(stiffness: &mut Mat<f64>, partition: &Partition) -> (f64, (usize, usize)) {
-    let uncondensed = |i: usize| {
-        let at = partition.n_internal + i;
-        partition.stiffness.get(at, at).copied().unwrap_or(0.0)
-    };
-    let (mut worst, r) = ((0.0, (0, 0)), stiffness.ncols());
-    for (i, j) in (0..r).flat_map(|j| (0..r).map(move |i| (i, j))) {
-        let size = (uncondensed(i) * uncondensed(j)).abs().sqrt();
-        if size != 0.0 && dense::worse(stiffness[(i, j)].abs() / size, worst.0) {
-            worst = (stiffness[(i, j)].abs() / size, (i, j));
-        }
-        stiffness[(i, j)] = 0.0;
-    }
-    worst
+fn clear_all(stiffness: &mut Mat<f64>, partition: &Partition) -> Worst {
+    let r = stiffness.nrows();
+    clear(stiffness, [0..r, 0..r], |i, j| (uncondensed(partition, i) * uncondensed(partition, j)).abs().sqrt())
 }
 
 /// Sets K̂_Bη to zero and says how large it was, relative to the diagonal: for an interface dof that of K_BB, of whose
 /// terms the block is the rounding, for a mode that of K̂_ηη.
-fn uncouple(stiffness: &mut Mat<f64>, partition: &Partition) -> (f64, (usize, usize)) {
-    let (n_i, n_b) = (partition.n_internal, partition.n_interface());
+fn uncouple(stiffness: &mut Mat<f64>, partition: &Partition) -> Worst {
+    let (n_b, r) = (partition.n_interface(), stiffness.nrows());
+    let diagonal: Vec<f64> = (0..r).map(|j| stiffness[(j, j)]).collect();
+    clear(stiffness, [0..n_b, n_b..r], |i, j| (uncondensed(partition, i) * diagonal[j]).abs().sqrt())
+}
+
+/// An entry of the diagonal of K_BB.
+fn uncondensed(partition: &Partition, i: usize) -> f64 {
+    let at = partition.n_internal + i;
+    partition.stiffness.get(at, at).copied().unwrap_or(0.0)
+}
+
+/// Sets a block, rows and columns, and the one across the diagonal to zero and says how large they were, relative to `size`.
+fn clear(a: &mut Mat<f64>, [rows, columns]: [Range<usize>; 2], size: impl Fn(usize, usize) -> f64) -> Worst {
     let mut worst = (0.0, (0, 0));
-    for j in n_b..stiffness.ncols() {
-        for i in 0..n_b {
-            let uncondensed = partition.stiffness.get(n_i + i, n_i + i).copied().unwrap_or(0.0);
-            let size = (uncondensed * stiffness[(j, j)]).abs().sqrt();
-            if size != 0.0 && dense::worse(stiffness[(i, j)].abs() / size, worst.0) {
-                worst = (stiffness[(i, j)].abs() / size, (i, j));
+    for (i, j) in columns.flat_map(|j| rows.clone().map(move |i| (i, j))) {
+        let size = size(i, j);
+        for at in [(i, j), (j, i)] {
+            if size != 0.0 && dense::worse(a[at].abs() / size, worst.0) {
+                worst = (a[at].abs() / size, at);
             }
-            stiffness[(i, j)] = 0.0;
-            stiffness[(j, i)] = 0.0;
+            a[at] = 0.0;
         }
     }
     worst

@@ -60,16 +60,20 @@ impl Shape {
         let width_from = |first: usize| WIDEST.min(1 << (self.size - first).ilog2());
         panel.width = width_from(panel.first);
         for _ in n_widest..number {
-            panel.at += panel.width * (self.rows - panel.first);
+            panel.at += self.n_values_of(panel);
             panel.first += panel.width;
             panel.width = width_from(panel.first);
         }
         panel
     }
 
+    fn n_values_of(self, panel: Panel) -> usize {
+        panel.width * (self.rows - panel.first)
+    }
+
     /// Entries, with those above the diagonal of each panel.
     pub(super) fn n_values(self) -> usize {
-        self.panels().map(|panel| panel.width * (self.rows - panel.first)).sum()
+        self.panels().map(|panel| self.n_values_of(panel)).sum()
     }
 }
 
@@ -122,10 +126,8 @@ pub(super) fn append<T: Entry>(trapezoid: MatRef<'_, f64>, values: &mut Vec<T>) 
     let start = values.len();
     values.resize(start + shape.n_values(), T::default());
     let mut left = &mut values[start..];
-    let mut split = |panel: Panel| {
-        let n_values = panel.width * (shape.rows - panel.first);
-        (panel, left.split_off_mut(..n_values).expect("room for all panels"))
-    };
+    let mut split =
+        |panel: Panel| (panel, left.split_off_mut(..shape.n_values_of(panel)).expect("room for all panels"));
     let fill = |(panel, values): (Panel, &mut [T])| fill(trapezoid, panel, values);
     if shape.rows * shape.size > PARALLEL_ABOVE {
         shape.panels().map(split).collect::<Vec<_>>().into_par_iter().for_each(fill);
