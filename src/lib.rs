@@ -77,7 +77,7 @@ use verification::Evidence;
 /// # Errors
 /// Those of the stages; each says what, where, what was found, what was expected and what to do.
 pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Result<Outcome> {
-    let (facts, model, partition) = prepared(job, observer)?;
+    let (facts, partition) = prepared(job, observer)?;
 
     observer.stage("rigid-body modes");
     let (rigid, n_extra) = rigid::rigid_body_modes(&partition)?;
@@ -139,7 +139,6 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let (superelement, report) = output::output(&Results {
         job,
         input: &facts,
-        model: &model,
         loose: &loose,
         evidence,
         findings: &findings,
@@ -151,7 +150,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
 }
 
 /// The first three stages, which every look at the full model begins with.
-fn prepared(job: &Job, observer: &mut dyn Observer) -> Result<(InputFacts, Model, Partition)> {
+fn prepared(job: &Job, observer: &mut dyn Observer) -> Result<(InputFacts, Partition)> {
     // Small dense decompositions use faer's global setting; sequential ones give the same bits on every machine.
     faer::set_global_parallelism(faer::Par::Seq);
 
@@ -164,8 +163,8 @@ fn prepared(job: &Job, observer: &mut dyn Observer) -> Result<(InputFacts, Model
 
     observer.stage("partition");
     let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;
-    let partition = Partition { recovered, ..Partition::new(&model, &job.interfaces)? };
-    Ok((facts, model, partition))
+    let partition = Partition { recovered, ..Partition::new(model, &job.interfaces)? };
+    Ok((facts, partition))
 }
 
 /// Checks a superelement that was made earlier: by its own content, and with a job against the full matrices.
@@ -179,7 +178,7 @@ pub fn verify(superelement: &Superelement, job: Option<&Job>, observer: &mut dyn
     let by_itself = audit::of_file(superelement)?;
     let Some(job) = job else { return Ok(by_itself) };
 
-    let (facts, _, partition) = prepared(job, observer)?;
+    let (facts, partition) = prepared(job, observer)?;
 
     observer.stage("comparison");
     let against_model = audit::against_model(superelement, &partition, &facts)?;

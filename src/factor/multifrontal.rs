@@ -11,8 +11,10 @@ mod assembly;
 
 use std::sync::{Mutex, OnceLock};
 
+use bytemuck::Zeroable;
 use faer::dyn_stack::MemBuffer;
 use faer::{Mat, MatMut};
+use rayon::prelude::*;
 
 use super::Analysis;
 use super::analysis::{Supernode, Task};
@@ -124,8 +126,8 @@ pub(super) enum Stop {
 
 /// Where the next supernode of a factor goes.
 struct Part<'a, T> {
-    /// Panels are appended; none where only the pivots are kept.
-    values: Option<&'a mut Vec<T>>,
+    /// Room for the panels of those still to come; none where only the pivots are kept.
+    values: Option<&'a mut [T]>,
     pivots: Pivots<'a>,
 }
 
@@ -148,9 +150,9 @@ struct Tools {
 impl Tools {
     /// Makes room for a trapezoid at once: memory that grows bit by bit is held twice each time.
     fn reserve(&mut self, len: usize) -> std::result::Result<(), Stop> {
-        if len > self.trapezoid.capacity() {
+        if len > self.trapezoid.len() {
             self.trapezoid = Vec::new();
-            self.trapezoid.try_reserve_exact(len).map_err(|_| Stop::NoMemory)?;
+            self.trapezoid = zeros(len)?;
         }
         Ok(())
     }
@@ -218,19 +220,20 @@ fn take(rest: &Mutex<Handed>) -> Handed {
     std::mem::replace(&mut *lock(rest), Ok(Vec::new()))
 }
 
-/// The same memory as zeros; it was reserved.
-fn cleared(values: &mut Vec<f64>, len: usize) -> &mut [f64] {
-    values.clear();
-    values.resize(len, 0.0);
-    values
+/// Zeros, where there is memory for them. Fresh memory is zero as the system hands it out, page by page to the thread that
+/// touches it first: several of them, where a supernode is large.
+fn zeros<T: Zeroable>(len: usize) -> std::result::Result<Vec<T>, Stop> {
+    bytemuck::allocation::try_zeroed_vec(len).map_err(|()| Stop::NoMemory)
 }
 
-/// Zeros, where there is memory for them.
-fn zeros(len: usize) -> std::result::Result<Vec<f64>, Stop> {
-    let mut values = Vec::new();
-    values.try_reserve_exact(len).map_err(|_| Stop::NoMemory)?;
-    values.resize(len, 0.0);
-    Ok(values)
+/// Writes zeros, by several threads into what several will work on.
+fn clear(values: &mut [f64]) {
+    const CHUNK: usize = 1 << 16;
+    if values.len() > panels::PARALLEL_ABOVE {
+        values.par_chunks_mut(CHUNK).for_each(|chunk| chunk.fill(0.0));
+    } else {
+        values.fill(0.0);
+    }
 }
 
 /// One task with all it needs to know.
@@ -251,13 +254,11 @@ impl Run<'_> {
     ) -> std::result::Result<(TaskNumbers<T>, Vec<f64>), Stop> {
         let n_steps = self.analysis.steps_of(self.task).len();
         let n_values = if keep == Keep::Factor { self.analysis.values_of(self.task).len() } else { 0 };
-        let mut values = Vec::new();
-        values.try_reserve_exact(n_values).map_err(|_| Stop::NoMemory)?;
         let mut numbers = TaskNumbers {
-            values,
+            values: zeros(n_values)?,
             diagonal: zeros(n_steps)?,
             subdiagonal: zeros(n_steps)?,
-            order: vec![0; n_steps],
+            order: zeros(n_steps)?,
             largest_product: 0.0,
         };
         let pivots = Pivots {
@@ -265,7 +266,7 @@ impl Run<'_> {
             subdiagonal: &mut numbers.subdiagonal,
             order: &mut numbers.order,
         };
-        let part = Part { values: (keep == Keep::Factor).then_some(&mut numbers.values), pivots };
+        let part = Part { values: (keep == Keep::Factor).then_some(&mut numbers.values[..]), pivots };
         let (rest, largest_product) = self.eliminate(part, handed, workspace)?;
         numbers.largest_product = largest_product;
         Ok((numbers, rest))
@@ -310,7 +311,8 @@ impl Run<'_> {
         tools: &mut Tools,
     ) -> std::result::Result<f64, Stop> {
         let (size, b) = (node.steps.len(), node.below.len());
-        let values = cleared(&mut tools.trapezoid, node.n_trapezoid());
+        let values = &mut tools.trapezoid[..node.n_trapezoid()];
+        clear(values);
         let mut trapezoid = MatMut::from_column_major_slice_mut(values, size + b, size);
         for (at, row) in node.below.iter().enumerate() {
             place[*row as usize] = (size + at) as u32;
@@ -329,7 +331,7 @@ impl Run<'_> {
             places.add_rest(child.values, rest.as_mut());
         }
         if let Some(values) = part.values {
-            panels::append(trapezoid.as_ref(), values);
+            panels::pack(trapezoid.as_ref(), values);
         }
         if self.kind == Kind::Definite {
             return Ok(0.0);
@@ -349,10 +351,12 @@ impl Run<'_> {
     }
 }
 
-impl<T> Part<'_, T> {
+impl<'a, T> Part<'a, T> {
     /// The part of the next supernode.
-    fn take(&mut self, node: &Supernode<'_>) -> Part<'_, T> {
-        Part { values: self.values.as_deref_mut(), pivots: self.pivots.split_off(node.steps.len()) }
+    fn take(&mut self, node: &Supernode<'_>) -> Part<'a, T> {
+        let values = self.values.as_mut();
+        let values = values.map(|left| left.split_off_mut(..node.values.len()).expect("room for the whole task"));
+        Part { values, pivots: self.pivots.split_off(node.steps.len()) }
     }
 }
 

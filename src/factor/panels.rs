@@ -19,8 +19,8 @@ use crate::dense;
 
 /// Columns of most panels.
 const WIDEST: usize = 8;
-/// Entries of a trapezoid above which several threads make its panels: a millisecond of one.
-const PARALLEL_ABOVE: usize = 1 << 20;
+/// Entries of a trapezoid above which several threads clear it and make its panels: a millisecond of one.
+pub(super) const PARALLEL_ABOVE: usize = 1 << 20;
 
 /// The shape of a supernode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,14 +120,11 @@ impl<'a, T: Entry> Panels<'a, T> {
     }
 }
 
-/// Puts a trapezoid stored by columns behind `values`, for which there is room.
-pub(super) fn append<T: Entry>(trapezoid: MatRef<'_, f64>, values: &mut Vec<T>) {
+/// Makes panels of a trapezoid stored by columns.
+pub(super) fn pack<T: Entry>(trapezoid: MatRef<'_, f64>, mut values: &mut [T]) {
     let shape = Shape { rows: trapezoid.nrows(), size: trapezoid.ncols() };
-    let start = values.len();
-    values.resize(start + shape.n_values(), T::default());
-    let mut left = &mut values[start..];
     let mut split =
-        |panel: Panel| (panel, left.split_off_mut(..shape.n_values_of(panel)).expect("room for all panels"));
+        |panel: Panel| (panel, values.split_off_mut(..shape.n_values_of(panel)).expect("room for all panels"));
     let fill = |(panel, values): (Panel, &mut [T])| fill(trapezoid, panel, values);
     if shape.rows * shape.size > PARALLEL_ABOVE {
         shape.panels().map(split).collect::<Vec<_>>().into_par_iter().for_each(fill);
@@ -157,14 +154,13 @@ mod tests {
         let shapes = [(1, 1), (5, 0), (3, 3), (40, 7), (17, 8), (31, 15), (29, 22), (2100, 520)];
         for (rows, size) in shapes {
             let trapezoid = Mat::from_fn(rows, size, |i, j| (i * 1000 + j) as f64);
-            let mut values = vec![-1.0];
-            append::<f64>(trapezoid.as_ref(), &mut values);
             let shape = Shape { rows, size };
-            assert_eq!(values.len(), 1 + shape.n_values());
+            let mut values = vec![f64::NAN; shape.n_values()];
+            pack(trapezoid.as_ref(), &mut values);
             assert!(shape.n_values() <= rows * size);
             assert_eq!(shape.panels().map(|panel| panel.width).sum::<usize>(), size);
             let mut n_seen = 0;
-            Panels::new(shape, &values[1..]).visit(|i, j, value| {
+            Panels::new(shape, &values).visit(|i, j, value| {
                 assert_eq!(value, trapezoid[(i, j)], "entry {i}, {j} of {rows} by {size}");
                 assert!(i >= j);
                 n_seen += 1;
@@ -176,9 +172,10 @@ mod tests {
     #[test]
     fn a_row_of_a_panel_is_contiguous() {
         let trapezoid = Mat::from_fn(20, 11, |i, j| (100 * i + j) as f64);
-        let mut values = Vec::new();
-        append::<f32>(trapezoid.as_ref(), &mut values);
-        let panels = Panels::new(Shape { rows: 20, size: 11 }, &values);
+        let shape = Shape { rows: 20, size: 11 };
+        let mut values = vec![0.0_f32; shape.n_values()];
+        pack(trapezoid.as_ref(), &mut values);
+        let panels = Panels::new(shape, &values);
         let second = panels.shape().panels().rev().nth(1).expect("8, 2 and 1 columns");
         assert_eq!((second.first, second.width), (8, 2));
         assert_eq!(panels.rows(second, 12..14), [1208.0, 1209.0, 1308.0, 1309.0]);

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::sparse::Triplets;
 
 /// The shortest line of an entry, `1 1 1` and its end.
-const MIN_LINE_BYTES: usize = 6;
+pub(super) const MIN_LINE_BYTES: usize = 6;
 
 /// Entries of a piece of text.
 #[derive(Debug)]

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::banner::{Head, HeadReader, square_order};
 use super::blocks::{BLOCK_BYTES, LastLine, for_each_batch};
 use super::digits::significant_digits;
-use super::entries::{Entries, Fault, parse_entries};
+use super::entries::{Entries, Fault, MIN_LINE_BYTES, parse_entries};
 use super::{MatrixInput, Triangle};
 use crate::error::{Error, Result};
 use crate::sparse::{Declared, MAX_ORDER, Triplets};
@@ -84,6 +84,14 @@ struct Reading<'a> {
 }
 
 impl Reading<'_> {
+    /// Room for the entries that the size line declares, as far as the file can hold them: lists that grow bit by bit are held
+    /// twice each time.
+    fn reserve(&mut self) {
+        let Some(Head::Coordinate { n_entries, .. }) = self.head else { return };
+        let most = std::fs::metadata(self.path).map_or(0, |file| file.len() / MIN_LINE_BYTES as u64);
+        self.triplets.reserve(n_entries.min(most) as usize);
+    }
+
     fn take(&mut self, batch: &[Vec<u8>]) -> Result<()> {
         let mut texts: Vec<&[u8]> = Vec::with_capacity(batch.len());
         for block in batch {
@@ -92,6 +100,7 @@ impl Reading<'_> {
                 let (taken, head) = self.head_reader.take(text)?;
                 (text, self.head) = (&text[taken..], head);
                 self.n_lines = self.head_reader.n_lines();
+                self.reserve();
             }
             texts.push(text);
         }

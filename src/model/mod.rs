@@ -9,6 +9,8 @@ mod definite;
 mod scaling;
 mod symmetry;
 
+use std::collections::HashSet;
+
 use crate::error::{Error, Result};
 use crate::input::{Direction, Dof, DofMap, Input, MatrixInput, Nodes};
 use crate::sparse::SparseMatrix;
@@ -35,6 +37,19 @@ pub struct Model {
     /// Connected parts of the graph of K.
     pub bodies: Bodies,
     /// What was found and mended, in the order it was found.
+    pub findings: Vec<Finding>,
+}
+
+/// What is remembered of a model after its matrices have gone into the partition.
+#[derive(Clone, Debug)]
+pub struct ModelFacts {
+    /// Number of degrees of freedom n.
+    pub n_dofs: usize,
+    /// Number of nodes, where known.
+    pub n_nodes: Option<usize>,
+    /// Number of connected parts.
+    pub n_bodies: usize,
+    /// What was found and mended.
     pub findings: Vec<Finding>,
 }
 
@@ -155,8 +170,10 @@ impl Model {
         let mut stiffness = input.stiffness.matrix;
         let mut mass = input.mass.matrix;
         assert!(stiffness.rows() == mass.rows(), "K has {} rows, M has {}", stiffness.rows(), mass.rows());
-        symmetrise("stiffness", &mut stiffness, &mut findings)?;
-        symmetrise("mass", &mut mass, &mut findings)?;
+        let (of_stiffness, of_mass) =
+            rayon::join(|| symmetrise("stiffness", &mut stiffness), || symmetrise("mass", &mut mass));
+        findings.extend(of_stiffness?);
+        findings.extend(of_mass?);
         check_not_swapped(&stiffness, &mass, dofs.as_deref())?;
         check_diagonals(&stiffness, &mass, dofs.as_deref(), &mut findings)?;
         clear_negative_rounding(&mut mass);
@@ -170,6 +187,17 @@ impl Model {
     pub fn n_dofs(&self) -> usize {
         self.stiffness.rows()
     }
+
+    /// Takes down the facts of the model.
+    pub fn facts(&self) -> ModelFacts {
+        let n_nodes = |dofs: &DofMap| dofs.iter().map(|dof| dof.node).collect::<HashSet<_>>().len();
+        ModelFacts {
+            n_dofs: self.n_dofs(),
+            n_nodes: self.dofs.as_ref().map(n_nodes),
+            n_bodies: self.bodies.n_bodies,
+            findings: self.findings.clone(),
+        }
+    }
 }
 
 fn data_precision(matrix: &MatrixInput) -> f64 {
@@ -177,16 +205,14 @@ fn data_precision(matrix: &MatrixInput) -> f64 {
     if matrix.digits >= 16 { f64::EPSILON / 2.0 } else { 0.5 * 10f64.powi(1 - matrix.digits as i32) }
 }
 
-fn symmetrise(name: &'static str, matrix: &mut SparseMatrix, findings: &mut Vec<Finding>) -> Result<()> {
+fn symmetrise(name: &'static str, matrix: &mut SparseMatrix) -> Result<Option<Finding>> {
     let asymmetry = make_symmetric(matrix);
     if asymmetry.relative > ASYMMETRY_FAIL {
         let (row, col) = asymmetry.worst;
         return Err(Error::Unsymmetric { matrix: name, asymmetry: asymmetry.relative, row: row + 1, col: col + 1 });
     }
-    if asymmetry.relative > 0.0 {
-        findings.push(Finding::Symmetrised { matrix: name, asymmetry: asymmetry.relative });
-    }
-    Ok(())
+    let is_mended = asymmetry.relative > 0.0;
+    Ok(is_mended.then_some(Finding::Symmetrised { matrix: name, asymmetry: asymmetry.relative }))
 }
 
 /// K and M exchanged: a unit translation makes no force at most rows of a stiffness, held or free, and inertia at every

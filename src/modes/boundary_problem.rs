@@ -311,7 +311,7 @@ mod tests {
             origin: Origin::Centroid,
             dofs: None,
         };
-        Partition::new(&Model::new(input).expect("sound"), &[ends]).expect("sound")
+        Partition::new(Model::new(input).expect("sound"), &[ends]).expect("sound")
     }
 
     /// An operator whose answers are off by a share.

@@ -15,7 +15,6 @@ use crate::error::Result;
 use crate::factor::Analysis;
 use crate::input::{Input, InputNote};
 use crate::job::Job;
-use crate::model::Model;
 use crate::report::{Report, Warning, WorkCounters};
 use crate::rigid::LooseMotions;
 use crate::verification::check::Check;
@@ -70,8 +69,6 @@ pub struct Results<'a> {
     pub job: &'a Job,
     /// What was read.
     pub input: &'a InputFacts,
-    /// The checked model.
-    pub model: &'a Model,
     /// Mechanisms and what comes near them.
     pub loose: &'a LooseMotions,
     /// The results of the stages.

@@ -1,6 +1,5 @@
 //! The body of the report from the results of the stages.
 
-use std::collections::BTreeSet;
 
 use super::{MatrixFacts, Results, omega, rigid_body, warnings};
 use crate::basis::DynamicCoordinate;
@@ -28,15 +27,15 @@ pub(super) fn body(results: &Results<'_>) -> ReportBody {
 
 fn model(results: &Results<'_>) -> ModelReport {
     let evidence = &results.evidence;
-    let model = results.model;
+    let model = &evidence.partition.model;
     let [stiffness, mass] = &results.input.matrices;
     let mut notes = results.input.notes.clone();
     notes.extend(model.findings.iter().map(ToString::to_string));
     notes.extend(warnings::refinement(results));
     ModelReport {
-        n_dofs: model.n_dofs(),
-        n_nodes: model.dofs.as_ref().map(|dofs| dofs.iter().map(|dof| dof.node).collect::<BTreeSet<_>>().len()),
-        n_bodies: model.bodies.n_bodies,
+        n_dofs: model.n_dofs,
+        n_nodes: model.n_nodes,
+        n_bodies: model.n_bodies,
         stiffness: matrix(stiffness),
         mass: matrix(mass),
         mass_properties: mass_properties(results),
@@ -171,7 +170,7 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
     if evidence.rigid.misfit.is_none() {
         warnings.extend(rigid_body::grounded(results));
     }
-    for finding in results.model.findings.iter().chain(&evidence.partition.findings) {
+    for finding in evidence.partition.model.findings.iter().chain(&evidence.partition.findings) {
         warnings.extend(finding.warning().map(|code| Warning { code, message: finding.to_string() }));
     }
     if let Some(misfit) = &evidence.rigid.misfit {

@@ -144,7 +144,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
         validity: file::Validity { band_hz: band(results.job, tensors), ..file::Validity::default() },
         flags: BTreeSet::new(),
         model: file::ModelSummary {
-            n_dofs: results.model.n_dofs() as u64,
+            n_dofs: evidence.partition.model.n_dofs as u64,
             rigid_body_modes: match evidence.rigid.source {
                 RigidSource::Geometric if evidence.rigid.is_classical && evidence.rigid.n_mechanisms == 0 => {
                     file::RigidBodyModes::Geometric

@@ -18,7 +18,7 @@ pub(super) fn of_motions(results: &Results<'_>) -> Vec<Warning> {
     let mut warnings = Vec::new();
     // Without coordinates a body can move in six ways at most; what is beyond is a mechanism.
     let surplus = match rigid.source {
-        RigidSource::Algebraic => rigid.count().saturating_sub(6 * results.model.bodies.n_bodies),
+        RigidSource::Algebraic => rigid.count().saturating_sub(6 * results.evidence.partition.model.n_bodies),
         RigidSource::Geometric => 0,
     };
     let n_mechanisms = rigid.n_mechanisms.max(surplus);

@@ -22,7 +22,7 @@ use crate::error::{Error, Result};
 use crate::factor::Pencil;
 use crate::input::Dof;
 use crate::job::InterfaceJob;
-use crate::model::{Finding, Model, Precision, Scaling};
+use crate::model::{Finding, Model, ModelFacts, Precision, Scaling};
 use crate::sparse::SparseMatrix;
 
 pub use interface::{InterfaceNode, recovered_rows};
@@ -52,6 +52,8 @@ pub struct Partition {
     pub scaling: Scaling,
     /// Relative precision of the data.
     pub precision: Precision,
+    /// What the model was.
+    pub model: ModelFacts,
     /// What was found of the interface that is no error.
     pub findings: Vec<Finding>,
     /// How much rigid patches enlarge rounding of the data of K; one without patches.
@@ -59,30 +61,32 @@ pub struct Partition {
 }
 
 impl Partition {
-    /// Resolves the interfaces, applies the rigid patches by congruence and orders the internal dofs for elimination.
+    /// Resolves the interfaces, applies the rigid patches by congruence and orders the internal dofs for elimination. The
+    /// matrices of the model go as those of the partition come.
     ///
     /// # Errors
     /// Interface nodes that do not exist, repeat, or lack the dofs asked for; a patch that cannot carry a rotation.
-    pub fn new(model: &Model, interfaces: &[InterfaceJob]) -> Result<Self> {
-        let resolved = interface::resolve(model, interfaces)?;
-        let transformation = Transformation::new(model, &resolved)?;
-        let order = ordering::elimination_order(model, &transformation);
+    pub fn new(model: Model, interfaces: &[InterfaceJob]) -> Result<Self> {
+        let resolved = interface::resolve(&model, interfaces)?;
+        let transformation = Transformation::new(&model, &resolved)?;
+        let order = ordering::elimination_order(&model, &transformation);
         let transformation = transformation.permuted(&order);
         let n_internal = transformation.n_internal();
         let n_interface = transformation.dofs.len() - n_internal;
         if n_interface > LARGEST_INTERFACE {
             return Err(Error::InterfaceTooLarge { n_interface, limit: LARGEST_INTERFACE });
         }
-        let (stiffness, mass) = rayon::join(
-            || congruence::congruence(&model.stiffness, &transformation),
-            || congruence::congruence(&model.mass, &transformation),
-        );
+        let (facts, mut findings) = (model.facts(), held::constrained_nodes(&model, &resolved));
+        let stiffness = congruence::congruence(&model.stiffness, &transformation);
         let cancellation = congruence::cancellation(&model.stiffness, &stiffness, &transformation);
-        let mut findings = held::constrained_nodes(model, &resolved);
+        drop(model.stiffness);
+        let mass = congruence::congruence(&model.mass, &transformation);
+        drop(model.mass);
         let interface = resolved.into_nodes();
         findings.extend(hanging_dofs(&stiffness, &transformation, &interface));
         Ok(Self {
             cancellation,
+            model: facts,
             findings,
             stiffness,
             mass,

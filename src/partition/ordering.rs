@@ -3,10 +3,17 @@
 //! Nested dissection runs on the graph of nodes, not of dofs: three to six times smaller, the same separators. In frames
 //! minimum degree may need less work, and then it is taken.
 
+use rayon::prelude::*;
+
 use super::metis::{Graph, nested_dissection};
 use super::minimum_degree::{minimum_degree, work};
-use super::transformation::{Transformation, TransformationRow};
+use super::transformation::{DofOrigin, ReducedDof, Transformation, TransformationRow};
 use crate::model::Model;
+
+/// Nodes whose neighbours one task lists.
+const NODES_PER_TASK: usize = 2048;
+/// No group of internal dofs.
+const NONE: u32 = u32::MAX;
 
 /// Mean number of neighbours of a node below which minimum degree is tried, for a twentieth of the time of dissection: chains
 /// of nodes between joints, which dissection cuts where it should eliminate them. In frames of 2 to 3 neighbours minimum
@@ -21,7 +28,7 @@ pub(super) fn elimination_order(model: &Model, transformation: &Transformation) 
     let graph = node_graph(model, transformation, &nodes);
     let mut order = Vec::with_capacity(transformation.dofs.len());
     for node in order_of_nodes(&graph) {
-        order.extend_from_slice(&nodes.dofs[node as usize]);
+        order.extend_from_slice(nodes.dofs(node as usize));
     }
     order.extend(n_internal as u32..transformation.dofs.len() as u32);
     order
@@ -45,67 +52,124 @@ fn order_of_nodes(graph: &Graph) -> Vec<u32> {
 struct InternalNodes {
     /// Group of each internal dof.
     of_dof: Vec<u32>,
-    /// The dofs of each group.
-    dofs: Vec<Vec<u32>>,
+    /// Where the dofs of each group begin; one more than groups.
+    starts: Vec<usize>,
+    /// The dofs of the groups, one group after the other.
+    dofs: Vec<u32>,
 }
 
 impl InternalNodes {
+    /// Groups in the order in which nodes appear.
     fn new(transformation: &Transformation, n_internal: usize) -> Self {
-        let mut number = std::collections::HashMap::new();
-        let mut dofs: Vec<Vec<u32>> = Vec::new();
-        let of_dof = transformation.dofs[..n_internal].iter().enumerate().map(|(dof, what)| {
-            let group = *number.entry(what.node).or_insert_with(|| {
-                dofs.push(Vec::new());
-                dofs.len() as u32 - 1
-            });
-            dofs[group as usize].push(dof as u32);
-            group
-        });
-        let of_dof = of_dof.collect();
-        Self { of_dof, dofs }
+        let internal = &transformation.dofs[..n_internal];
+        let n_nodes = internal.iter().map(|dof| dof.node as usize + 1).max().unwrap_or(0);
+        let mut group_of_node = vec![NONE; n_nodes];
+        let mut starts = vec![0];
+        let group = |dof: &ReducedDof| {
+            let group = &mut group_of_node[dof.node as usize];
+            if *group == NONE {
+                *group = starts.len() as u32 - 1;
+                starts.push(0);
+            }
+            starts[*group as usize + 1] += 1;
+            *group
+        };
+        let of_dof: Vec<u32> = internal.iter().map(group).collect();
+        for group in 1..starts.len() {
+            starts[group] += starts[group - 1];
+        }
+        let mut next = starts.clone();
+        let mut dofs = vec![0; n_internal];
+        for (dof, group) in of_dof.iter().enumerate() {
+            dofs[next[*group as usize]] = dof as u32;
+            next[*group as usize] += 1;
+        }
+        Self { of_dof, starts, dofs }
+    }
+
+    fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    fn dofs(&self, group: usize) -> &[u32] {
+        &self.dofs[self.starts[group]..self.starts[group + 1]]
     }
 }
 
+/// The nodes that K or M couples.
 fn node_graph(model: &Model, transformation: &Transformation, nodes: &InternalNodes) -> Graph {
-    let n_nodes = nodes.dofs.len();
-    let group_of_row: Vec<Option<u32>> = transformation
+    let group_of_row: Vec<u32> = transformation
         .rows
         .iter()
         .map(|row| match row {
-            TransformationRow::Dof(dof) => nodes.of_dof.get(*dof as usize).copied(),
+            TransformationRow::Dof(dof) => nodes.of_dof.get(*dof as usize).copied().unwrap_or(NONE),
             // Dofs of a rigid node that are internal couple densely; METIS may place the node anywhere.
-            TransformationRow::Rigid(_) => None,
+            TransformationRow::Rigid(_) => NONE,
         })
         .collect();
-    let mut rows_of_node: Vec<Vec<u32>> = vec![Vec::new(); n_nodes];
-    for (row, group) in group_of_row.iter().enumerate() {
-        if let Some(group) = group {
-            rows_of_node[*group as usize].push(row as u32);
-        }
-    }
+    let n_nodes = nodes.len();
+    let lists: Vec<Lists> = (0..n_nodes.div_ceil(NODES_PER_TASK))
+        .into_par_iter()
+        .map_init(
+            || vec![NONE; n_nodes],
+            |last_seen, task| {
+                let mut lists = Lists::default();
+                for node in (task * NODES_PER_TASK..n_nodes).take(NODES_PER_TASK) {
+                    lists.add(model, &group_of_row, node as u32, own_rows(transformation, nodes.dofs(node)), last_seen);
+                }
+                lists
+            },
+        )
+        .collect();
     let mut graph = Graph { starts: vec![0], neighbours: Vec::new(), weights: Vec::new() };
-    let mut last_seen = vec![u32::MAX; n_nodes];
-    for (node, rows) in rows_of_node.iter().enumerate() {
-        last_seen[node] = node as u32;
+    for task in lists {
+        let before = graph.neighbours.len();
+        graph.starts.extend(task.ends.iter().map(|end| (before + end) as i32));
+        graph.neighbours.extend(task.neighbours);
+    }
+    graph.weights.extend((0..n_nodes).map(|node| nodes.dofs(node).len() as i32));
+    graph
+}
+
+/// The rows of the model that are these dofs.
+fn own_rows<'a>(transformation: &'a Transformation, dofs: &'a [u32]) -> impl Iterator<Item = usize> {
+    dofs.iter().filter_map(|dof| match transformation.dofs[*dof as usize].origin {
+        DofOrigin::Row(row) => Some(row),
+        DofOrigin::RigidNode(..) => None,
+    })
+}
+
+/// The neighbours of some nodes.
+#[derive(Default)]
+struct Lists {
+    neighbours: Vec<i32>,
+    /// Where the list of each node ends.
+    ends: Vec<usize>,
+}
+
+impl Lists {
+    /// Adds the list of a node; `last_seen` is the node whose list took each node last.
+    fn add(
+        &mut self,
+        model: &Model,
+        group_of_row: &[u32],
+        node: u32,
+        rows: impl Iterator<Item = usize>,
+        last_seen: &mut [u32],
+    ) {
+        last_seen[node as usize] = node;
         for row in rows {
-            for matrix in [&model.stiffness, &model.mass] {
-                let Some(view) = matrix.outer_view(*row as usize) else {
-                    continue;
-                };
-                for col in view.indices() {
-                    if let Some(other) = group_of_row[*col as usize]
-                        && last_seen[other as usize] != node as u32
-                    {
-                        last_seen[other as usize] = node as u32;
-                        graph.neighbours.push(other as i32);
-                    }
+            let views = [&model.stiffness, &model.mass].map(|matrix| matrix.outer_view(row));
+            for col in views.iter().flatten().flat_map(|view| view.indices()) {
+                let other = group_of_row[*col as usize];
+                if other != NONE && last_seen[other as usize] != node {
+                    last_seen[other as usize] = node;
+                    self.neighbours.push(other as i32);
                 }
             }
         }
-        graph.starts.push(graph.neighbours.len() as i32);
-        graph.weights.push(nodes.dofs[node].len() as i32);
+        self.ends.push(self.neighbours.len());
     }
-    graph
 }
 
 #[cfg(test)]

@@ -24,6 +24,13 @@ impl Triplets {
         self.values.is_empty()
     }
 
+    /// Makes room for more entries.
+    pub fn reserve(&mut self, n_entries: usize) {
+        self.rows.reserve_exact(n_entries);
+        self.cols.reserve_exact(n_entries);
+        self.values.reserve_exact(n_entries);
+    }
+
     /// Appends one entry: row, column, value, zero-based.
     pub fn push(&mut self, row: u32, col: u32, value: f64) {
         self.rows.push(row);

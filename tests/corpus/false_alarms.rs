@@ -23,7 +23,7 @@ const METHODS: [&str; 2] = ["herting", "craig-bampton"];
 /// stiffest row where the component is held.
 fn interface_rows(pairs: &Path, pair: &Pair) -> supel::error::Result<Vec<usize>> {
     let model = Model::new(read(&model_job(pairs, pair))?)?;
-    let partition = Partition::new(&model, &[])?;
+    let partition = Partition::new(model, &[])?;
     let (rigid, _) = rigid_body_modes(&partition)?;
     let row_of = |dof: usize| match partition.dofs[dof].origin {
         DofOrigin::Row(row) => row,

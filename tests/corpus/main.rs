@@ -103,7 +103,7 @@ fn free_modes(pairs: &Path, pair: &Pair, n_modes: usize) -> Result<Found> {
         input = without_rows(input, &pairs.join(pair.folder).join("constrained_rows.txt"));
     }
     let model = Model::new(input)?;
-    let partition = Partition::new(&model, &[])?;
+    let partition = Partition::new(model, &[])?;
     let (rigid, _) = rigid_body_modes(&partition)?;
     let (stiffness, mass) = (&partition.stiffness, &partition.mass);
     let analysis = Analysis::of(&partition)?;

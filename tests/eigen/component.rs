@@ -106,7 +106,7 @@ fn none(partition: &Partition) -> RigidBodyModes {
 
 pub(crate) fn partition(model: &supel_models::Model, interfaces: &[InterfaceJob]) -> Partition {
     let model = Model::new(input(model)).expect("a model");
-    Partition::new(&model, interfaces).expect("a partition")
+    Partition::new(model, interfaces).expect("a partition")
 }
 
 fn input(model: &supel_models::Model) -> Input {

@@ -115,7 +115,7 @@ write     = { superelement = "x.supel" }
     place.write("job.toml", text.as_bytes());
     let mut job = Job::read(&path).expect("a job");
     let model = Model::new(supel::input::read(&job.model).expect("files")).expect("a sound model");
-    let partition = Partition::new(&model, &job.interfaces).expect("a foot");
+    let partition = Partition::new(model, &job.interfaces).expect("a foot");
     let analysis = Analysis::of(&partition).expect("an analysis");
     let needed = |partition: &Partition, storage| {
         let resources = Resources { memory_bytes: Some(1) };

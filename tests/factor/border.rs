@@ -40,7 +40,7 @@ fn partition(matrix: &SparseMatrix, mass: impl Fn(usize) -> f64, interface: &[us
         origin: Origin::Centroid,
         dofs: None,
     };
-    Partition::new(&Model::new(input).expect("a model"), &[interface]).expect("a partition")
+    Partition::new(Model::new(input).expect("a model"), &[interface]).expect("a partition")
 }
 
 /// Every tree with a border of one dof, of some, and of all but one.

@@ -22,7 +22,7 @@ pub(crate) fn with_evidence<T>(
     look: impl FnOnce(Evidence<'_>) -> T,
 ) -> T {
     let model = Model::new(input).expect("a sound model");
-    let partition = Partition::new(&model, interfaces).expect("interfaces of the model");
+    let partition = Partition::new(model, interfaces).expect("interfaces of the model");
     let (rigid, _) = rigid::rigid_body_modes(&partition).expect("rigid-body modes");
     let rank = rigid::interface_rank(&partition, &rigid).expect("an interface that reacts them");
     let (k_ii, m_ii) = partition.internal();
