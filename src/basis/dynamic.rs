@@ -3,6 +3,7 @@
 use faer::prelude::ReborrowMut;
 use faer::{Mat, MatRef};
 
+use super::orthonormal::orthonormalised;
 use super::{ConstraintModes, DroppedColumn, DynamicCoordinate};
 use crate::dense;
 use crate::factor::SolveOperator;
@@ -103,6 +104,17 @@ pub(super) struct Independent {
 ///
 /// The order matters: a column is replaced by what it adds to the columns before it, so the low modes keep their shape.
 pub(super) fn independent(named: DynamicColumns, mass: &SparseMatrix) -> Independent {
+    match orthonormalised(named.columns.as_ref(), mass) {
+        Some((modes, mixing)) => {
+            let kept = (0..modes.ncols()).collect();
+            Independent { modes, coordinates: named.coordinates, mixing, kept, dropped: Vec::new() }
+        }
+        None => by_panels(named, mass),
+    }
+}
+
+/// The same where columns may depend on each other.
+fn by_panels(named: DynamicColumns, mass: &SparseMatrix) -> Independent {
     let (n, total) = (named.columns.nrows(), named.columns.ncols());
     let mut basis = Mat::zeros(n, total);
     let mut mixing = Mat::zeros(total, total);

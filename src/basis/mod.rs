@@ -8,6 +8,7 @@
 
 mod constraint;
 mod dynamic;
+mod orthonormal;
 
 use faer::Mat;
 

@@ -167,19 +167,20 @@ impl Model {
         let mut findings = Vec::new();
         let precision = Precision { stiffness: data_precision(&input.stiffness), mass: data_precision(&input.mass) };
         let dofs = input.dofs;
-        let mut stiffness = input.stiffness.matrix;
-        let mut mass = input.mass.matrix;
+        let (stiffness, mass) =
+            rayon::join(|| symmetrised("stiffness", input.stiffness), || symmetrised("mass", input.mass));
+        let ((mut stiffness, of_stiffness), (mut mass, of_mass)) = (stiffness?, mass?);
+        findings.extend(of_stiffness.into_iter().chain(of_mass));
         assert!(stiffness.rows() == mass.rows(), "K has {} rows, M has {}", stiffness.rows(), mass.rows());
-        let (of_stiffness, of_mass) =
-            rayon::join(|| symmetrise("stiffness", &mut stiffness), || symmetrise("mass", &mut mass));
-        findings.extend(of_stiffness?);
-        findings.extend(of_mass?);
         check_not_swapped(&stiffness, &mass, dofs.as_deref())?;
         check_diagonals(&stiffness, &mass, dofs.as_deref(), &mut findings)?;
         clear_negative_rounding(&mut mass);
         let scaling = Scaling::take_out(&mut stiffness, &mut mass)?;
-        definite::refuse_indefinite(&mass, precision.mass, dofs.as_deref())?;
-        let bodies = Bodies::of(&stiffness, &node_of_row(stiffness.rows(), dofs.as_deref()));
+        let (is_definite, bodies) = rayon::join(
+            || definite::refuse_indefinite(&mass, precision.mass, dofs.as_deref()),
+            || Bodies::of(&stiffness, &node_of_row(stiffness.rows(), dofs.as_deref())),
+        );
+        is_definite?;
         Ok(Self { stiffness, mass, scaling, precision, dofs, nodes: input.nodes, bodies, findings })
     }
 
@@ -205,14 +206,19 @@ fn data_precision(matrix: &MatrixInput) -> f64 {
     if matrix.digits >= 16 { f64::EPSILON / 2.0 } else { 0.5 * 10f64.powi(1 - matrix.digits as i32) }
 }
 
-fn symmetrise(name: &'static str, matrix: &mut SparseMatrix) -> Result<Option<Finding>> {
-    let asymmetry = make_symmetric(matrix);
+/// The matrix, symmetric to the bit, and what that took.
+fn symmetrised(name: &'static str, input: MatrixInput) -> Result<(SparseMatrix, Option<Finding>)> {
+    let mut matrix = input.matrix;
+    if input.notes.is_symmetric {
+        return Ok((matrix, None));
+    }
+    let asymmetry = make_symmetric(&mut matrix);
     if asymmetry.relative > ASYMMETRY_FAIL {
         let (row, col) = asymmetry.worst;
         return Err(Error::Unsymmetric { matrix: name, asymmetry: asymmetry.relative, row: row + 1, col: col + 1 });
     }
     let is_mended = asymmetry.relative > 0.0;
-    Ok(is_mended.then_some(Finding::Symmetrised { matrix: name, asymmetry: asymmetry.relative }))
+    Ok((matrix, is_mended.then_some(Finding::Symmetrised { matrix: name, asymmetry: asymmetry.relative })))
 }
 
 /// K and M exchanged: a unit translation makes no force at most rows of a stiffness, held or free, and inertia at every
@@ -221,7 +227,7 @@ fn check_not_swapped(stiffness: &SparseMatrix, mass: &SparseMatrix, dofs: Option
     // Rows near a support or with rotations do not cancel in K; rows of M never do, since translations carry mass.
     const MOST: f64 = 0.5;
     const FEW: f64 = 0.05;
-    let (in_stiffness, in_mass) = (cancelling_rows(stiffness, dofs), cancelling_rows(mass, dofs));
+    let (in_stiffness, in_mass) = rayon::join(|| cancelling_rows(stiffness, dofs), || cancelling_rows(mass, dofs));
     if in_mass > MOST && in_stiffness < FEW {
         return Err(Error::Swapped { in_stiffness, in_mass });
     }

@@ -26,7 +26,8 @@ impl Scaling {
     /// # Errors
     /// Numbers, or frequencies made of them, near the ends of the range of double precision.
     pub(super) fn take_out(stiffness: &mut SparseMatrix, mass: &mut SparseMatrix) -> Result<Self> {
-        let scaling = Self { stiffness: scale_to_unit(stiffness), mass: scale_to_unit(mass) };
+        let (stiffness_exponent, mass_exponent) = rayon::join(|| scale_to_unit(stiffness), || scale_to_unit(mass));
+        let scaling = Self { stiffness: stiffness_exponent, mass: mass_exponent };
         let ratio = scaling.stiffness - scaling.mass;
         // Beside one huge entry the others may fall below what the range holds with all digits.
         let least = |matrix: &SparseMatrix| {

@@ -132,7 +132,8 @@ impl<'a> Basis<'a> {
         let mut image = product(self.problem.mass, first.as_ref());
         self.apply(&mut image);
         self.recent = 0;
-        let (_, _) = self.orthonormalise(image);
+        let coupled = self.coupled_to_all(&image);
+        let (_, _) = self.orthonormalise(image, coupled);
         self.n_starts += block;
     }
 
@@ -163,12 +164,15 @@ impl<'a> Basis<'a> {
     /// One block step: V grows by W, a new W is found.
     fn extend(&mut self) {
         let block = self.n_next();
-        let mut image = std::mem::replace(&mut self.mass_next, Mat::zeros(0, 0));
+        let mass_last = std::mem::replace(&mut self.mass_next, Mat::zeros(0, 0));
+        let mut image = mass_last.clone();
         self.apply(&mut image);
         self.work.steps += 1;
         let before = self.size;
         self.size += block;
-        let (mut coefficients, coupling) = self.orthonormalise(image);
+        let coupled =
+            if self.recent > 0 { self.coupled_by_recurrence(&mass_last, &image) } else { self.coupled_to_all(&image) };
+        let (mut coefficients, coupling) = self.orthonormalise(image, coupled);
         self.recent = before;
         // Locked pairs are exact to the tolerance; their coupling is rounding and would unlock them.
         coefficients.as_mut().subrows_mut(0, self.locked).fill(0.0);

@@ -20,28 +20,36 @@ const LEFT: f64 = 1e-8;
 /// Share of a unit column whose orthogonality is that of rounding: twice is enough.
 const CLEAN: f64 = 0.5;
 
+/// What a block has of the columns of V, before anything is taken out of it.
+pub(super) struct Coupled {
+    /// The first column that it has anything of but rounding.
+    from: usize,
+    /// The shares of the columns from there on.
+    shares: Mat<f64>,
+    /// Length below which a column of the block is rounding.
+    floor: f64,
+}
+
 impl Basis<'_> {
     /// Makes a block M-orthogonal to V and M-orthonormal in itself: block = V C + W B. Stores W and M W.
     ///
-    /// By its recurrence OP W couples to the columns from `recent` on alone. The first pass takes those out and normalises,
-    /// however small the columns are; the second, on columns of unit length, takes out what rounding left along all of V. Errors
-    /// of a solve lie along the lowest modes and grow with the condition of K: where they made up most of a column, there is a
-    /// third pass.
-    pub(super) fn orthonormalise(&mut self, mut block: Mat<f64>) -> (Mat<f64>, Mat<f64>) {
+    /// The first pass takes out `start` and normalises, however small the columns are; the second, on columns of unit length,
+    /// takes out what rounding left along all of V. Errors of a solve lie along the lowest modes and grow with the condition of
+    /// K: where they made up most of a column, there is a third pass.
+    pub(super) fn orthonormalise(&mut self, mut block: Mat<f64>, start: Coupled) -> (Mat<f64>, Mat<f64>) {
         let width = block.ncols();
         let mut coefficients = Mat::zeros(self.size, width);
         let mut coupling: Mat<f64> = Mat::identity(width, width);
-        let mut mass_block = product(self.problem.mass, block.as_ref());
-        let floor = self.rounding_floor(&block, &mass_block);
+        let mut mass_block = Mat::zeros(0, 0);
         let mut dependent = vec![false; width];
         for pass in 0..MAX_PASSES {
             let (from, least) = match pass {
-                0 => (self.recent, floor),
-                1 if self.recent > 0 => (0, LEFT),
+                0 => (start.from, start.floor),
+                1 if start.from > 0 => (0, LEFT),
                 _ => (0, CLEAN),
             };
             let basis = self.v().subcols(from, self.size - from);
-            let c = dense::gram(basis, mass_block.as_ref());
+            let c = if pass == 0 { start.shares.clone() } else { dense::gram(basis, mass_block.as_ref()) };
             dense::add_product(block.as_mut(), -1.0, basis, c.as_ref());
             dense::add_product(coefficients.as_mut().subrows_mut(from, c.nrows()), 1.0, c.as_ref(), coupling.as_ref());
             // What was blown up took its rounding along: rigid-body motion, and the difference between M W and what is carried.
@@ -67,14 +75,31 @@ impl Basis<'_> {
         (coefficients, coupling)
     }
 
-    /// Length below which a column of OP V is rounding.
-    fn rounding_floor(&self, block: &Mat<f64>, mass_block: &Mat<f64>) -> f64 {
-        let largest = (0..self.projected.nrows()).fold(0.0f64, |max, i| max.max(self.projected[(i, i)].abs()));
+    /// What a block has of all of V, by inner products.
+    pub(super) fn coupled_to_all(&self, block: &Mat<f64>) -> Coupled {
+        let mass_block = product(self.problem.mass, block.as_ref());
         let own = (0..block.ncols()).fold(0.0f64, |max, j| {
             let square = dense::dot(dense::column(block.as_ref(), j), dense::column(mass_block.as_ref(), j));
             max.max(square.max(0.0).sqrt())
         });
-        f64::EPSILON * largest.max(own)
+        let floor = f64::EPSILON * self.largest_diagonal().max(own);
+        Coupled { from: 0, shares: dense::gram(self.v(), mass_block.as_ref()), floor }
+    }
+
+    /// What OP W has of V, W the last columns of V and `mass_last` M W. By its recurrence OP W couples to W and to the block
+    /// before W alone, and to that one by Bᵀ = (OP V)ᵀ M W: neither asks for M OP W.
+    pub(super) fn coupled_by_recurrence(&self, mass_last: &Mat<f64>, image: &Mat<f64>) -> Coupled {
+        let before = self.size - mass_last.ncols();
+        let to_previous = self.coupling.as_ref().subcols(self.recent, before - self.recent).transpose();
+        let mut shares = Mat::zeros(self.size - self.recent, image.ncols());
+        shares.as_mut().subrows_mut(0, before - self.recent).copy_from(to_previous);
+        let to_last = dense::gram(mass_last.as_ref(), image.as_ref());
+        shares.as_mut().subrows_mut(before - self.recent, mass_last.ncols()).copy_from(&to_last);
+        Coupled { from: self.recent, shares, floor: f64::EPSILON * self.largest_diagonal() }
+    }
+
+    fn largest_diagonal(&self) -> f64 {
+        (0..self.projected.nrows()).fold(0.0f64, |max, i| max.max(self.projected[(i, i)].abs()))
     }
 
     fn holds(&self, block: MatRef<'_, f64>, j: usize) -> bool {

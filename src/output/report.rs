@@ -1,6 +1,5 @@
 //! The body of the report from the results of the stages.
 
-
 use super::{MatrixFacts, Results, omega, rigid_body, warnings};
 use crate::basis::DynamicCoordinate;
 use crate::job::{Certify, ModeSelection};

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use faer::{Mat, MatRef};
 
-use super::{Misfit, RigidBodyModes, RigidEnergy, RigidSource, absolute_energy, largest_residual};
+use super::{Misfit, RigidBodyModes, RigidEnergy, RigidSource, energies_of_terms, largest_residual, residuals};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::model::Bodies;
 use crate::partition::{Partition, Site};
-use crate::sparse::{absolute_product, product};
+use crate::sparse::{absolute_product, product, product_and_terms};
 
 /// Singular values of a body's six unit motions, relative to the largest, below which the motion moves no dof (rotation
 /// of a straight row of translations about its own axis): a thousand times rounding, far below any real thickness.
@@ -153,8 +153,7 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
     let (orthonormal, massless) =
         mass_orthonormal(partition, dense::product(centred.as_ref(), moving.as_ref()).as_ref())?;
     let massless = without_energy(partition, massless)?;
-    let (energies, directions) = energies(partition, orthonormal.as_ref())?;
-    let noise = noise(partition, orthonormal.as_ref());
+    let Energies { energies, directions, noise } = Energies::of(partition, orthonormal.as_ref())?;
     if let Some(energy) = energies.first().filter(|energy| **energy < -FREE_BELOW_NOISE * noise) {
         return Err(Error::NegativeRigidEnergy { energy: *energy, noise });
     }
@@ -184,8 +183,7 @@ fn without_energy(partition: &Partition, massless: Mat<f64>) -> Result<Mat<f64>>
     if massless.ncols() == 0 {
         return Ok(massless);
     }
-    let (energies, directions) = energies(partition, massless.as_ref())?;
-    let noise = noise(partition, massless.as_ref());
+    let Energies { energies, directions, noise } = Energies::of(partition, massless.as_ref())?;
     let n_free = energies.iter().filter(|energy| **energy <= FREE_BELOW_NOISE * noise).count();
     Ok(dense::product(massless.as_ref(), directions.as_ref().subcols(0, n_free)))
 }
@@ -265,16 +263,25 @@ fn mass_orthonormal(partition: &Partition, motions: MatRef<'_, f64>) -> Result<(
     Ok((q, massless))
 }
 
-/// Energies qᵀKq in ascending order of size and the combinations that have them.
-fn energies(partition: &Partition, q: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>)> {
-    let mut energy = dense::gram(q, product(&partition.stiffness, q).as_ref());
-    dense::symmetrise(&mut energy);
-    dense::symmetric_eigen(energy.as_ref())
+/// What some motions cost.
+struct Energies {
+    /// qᵀKq in ascending order of size.
+    energies: Vec<f64>,
+    /// The combinations that have them.
+    directions: Mat<f64>,
+    /// What rounding of the data can make of one.
+    noise: f64,
 }
 
-fn noise(partition: &Partition, q: MatRef<'_, f64>) -> f64 {
-    let largest = absolute_energy(&partition.stiffness, q).into_iter().fold(0.0, f64::max);
-    (partition.precision.stiffness + f64::EPSILON) * largest
+impl Energies {
+    fn of(partition: &Partition, q: MatRef<'_, f64>) -> Result<Self> {
+        let (forces, terms) = product_and_terms(&partition.stiffness, q);
+        let mut energy = dense::gram(q, forces.as_ref());
+        dense::symmetrise(&mut energy);
+        let (energies, directions) = dense::symmetric_eigen(energy.as_ref())?;
+        let largest = energies_of_terms(q, terms.as_ref()).into_iter().fold(0.0, f64::max);
+        Ok(Self { energies, directions, noise: (partition.precision.stiffness + f64::EPSILON) * largest })
+    }
 }
 
 /// A rotation that is not free, or not quite.
@@ -295,11 +302,11 @@ fn costly_rotation(
     centred: MatRef<'_, f64>,
     noticeable: f64,
 ) -> Option<Costly> {
-    let forces = product(&partition.stiffness, centred);
-    let residual = |j: usize| largest_residual(&partition.stiffness, centred.subcols(j, 1));
+    let (forces, terms) = product_and_terms(&partition.stiffness, centred);
+    let residuals = residuals(forces.as_ref(), terms.as_ref());
     let data = partition.cancellation * (partition.precision.stiffness + f64::EPSILON);
-    let of_translations = (0..3).map(residual).fold(0.0, f64::max);
-    let (worst, of_rotation) = (3..6).map(|j| (j, residual(j))).fold((3, 0.0), |a, b| if b.1 > a.1 { b } else { a });
+    let of_translations = residuals[..3].iter().copied().fold(0.0, f64::max);
+    let (worst, of_rotation) = (3..6).map(|j| (j, residuals[j])).fold((3, 0.0), |a, b| if b.1 > a.1 { b } else { a });
     if of_translations > TRANSLATION_HELD.max(NOTICEABLE * data)
         || of_rotation <= noticeable * data.max(of_translations)
     {

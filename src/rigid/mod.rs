@@ -19,7 +19,7 @@ use faer::{Mat, MatRef};
 use crate::dense;
 use crate::error::Result;
 use crate::partition::Partition;
-use crate::sparse::{SparseMatrix, absolute_product, product};
+use crate::sparse::{SparseMatrix, absolute_product, product, product_and_terms};
 
 pub use algebraic::from_matrices;
 pub use mechanism::{Loose, LooseMotions, with_mechanisms};
@@ -149,20 +149,26 @@ pub fn from_coordinates(partition: &Partition) -> Result<Option<RigidBodyModes>>
 
 /// |x|ᵀ|A||x| for each column.
 pub(crate) fn absolute_energy(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> Vec<f64> {
-    let product = absolute_product(matrix, x);
-    let energy = |j: usize| {
-        let terms = dense::column(x, j).iter().zip(dense::column(product.as_ref(), j));
-        terms.map(|(x, p)| x.abs() * p).sum()
-    };
+    energies_of_terms(x, absolute_product(matrix, x).as_ref())
+}
+
+/// |x|ᵀ t for each column of x and of its terms |A||x|.
+fn energies_of_terms(x: MatRef<'_, f64>, terms: MatRef<'_, f64>) -> Vec<f64> {
+    let energy = |j: usize| dense::column(x, j).iter().zip(dense::column(terms, j)).map(|(x, t)| x.abs() * t).sum();
     (0..x.ncols()).map(energy).collect()
 }
 
 /// The largest ‖Kq‖ / ‖ |K||q| ‖ of the columns.
 fn largest_residual(stiffness: &SparseMatrix, q: MatRef<'_, f64>) -> f64 {
-    let (forces, magnitudes) = (product(stiffness, q), absolute_product(stiffness, q));
+    let (forces, terms) = product_and_terms(stiffness, q);
+    residuals(forces.as_ref(), terms.as_ref()).into_iter().fold(0.0, f64::max)
+}
+
+/// ‖Kq‖ / ‖ |K||q| ‖ of each column, from the two products.
+fn residuals(forces: MatRef<'_, f64>, terms: MatRef<'_, f64>) -> Vec<f64> {
     let ratio = |j: usize| {
-        let magnitude = dense::norm(dense::column(magnitudes.as_ref(), j));
-        if magnitude > 0.0 { dense::norm(dense::column(forces.as_ref(), j)) / magnitude } else { 0.0 }
+        let size = dense::norm(dense::column(terms, j));
+        if size > 0.0 { dense::norm(dense::column(forces, j)) / size } else { 0.0 }
     };
-    (0..q.ncols()).map(ratio).fold(0.0, f64::max)
+    (0..forces.ncols()).map(ratio).collect()
 }

@@ -83,7 +83,9 @@ impl Triplets {
             // What is stored twice was given once.
             (_, Mirror::On) => n_entries - (indices.len() + n_on_diagonal(&pointers, &indices)) / 2,
         };
-        let notes = AssemblyNotes { n_duplicates, mirrored: mirror == Mirror::On && declared == Declared::General };
+        let is_symmetric = mirror == Mirror::On;
+        let mirrored = is_symmetric && declared == Declared::General;
+        let notes = AssemblyNotes { n_duplicates, mirrored, is_symmetric };
         let matrix = SparseMatrix::try_new((n, n), pointers, indices, data);
         Ok((matrix.unwrap_or_else(|(.., fault)| panic!("rows of {} are not sorted: {fault}", path.display())), notes))
     }

@@ -8,7 +8,7 @@
 mod assembly;
 mod product;
 
-pub use product::{absolute_product, multiply, product};
+pub use product::{absolute_product, multiply, product, product_and_terms};
 
 /// A symmetric sparse matrix in compressed rows, both triangles stored, indices sorted, no duplicates.
 pub type SparseMatrix = sprs::CsMatI<f64, u32, usize>;
@@ -43,4 +43,6 @@ pub struct AssemblyNotes {
     pub n_duplicates: usize,
     /// A source declared general held one triangle only, which was mirrored.
     pub mirrored: bool,
+    /// One triangle stands for both: they hold the same bits.
+    pub is_symmetric: bool,
 }

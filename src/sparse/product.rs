@@ -21,40 +21,7 @@ const TILE_ROWS: usize = 512;
 /// # Panics
 /// Where the shapes differ.
 pub fn multiply(matrix: &SparseMatrix, x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
-    multiply_entries(matrix, x, y, |entry| entry);
-}
-
-/// |A| |X| as a new matrix, n × k: how large the terms of A X are.
-pub fn absolute_product(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> Mat<f64> {
-    let mut y = Mat::zeros(matrix.rows(), x.ncols());
-    multiply_entries(matrix, x, y.as_mut(), f64::abs);
-    y
-}
-
-/// The product of what `entry` makes of the entries of both.
-fn multiply_entries(
-    matrix: &SparseMatrix,
-    x: MatRef<'_, f64>,
-    mut y: MatMut<'_, f64>,
-    entry: impl Fn(f64) -> f64 + Sync + Copy,
-) {
-    let n = matrix.rows();
-    assert!(x.nrows() == matrix.cols(), "matrix of {} columns times block of {} rows", matrix.cols(), x.nrows());
-    assert!(y.nrows() == n && y.ncols() == x.ncols(), "product {n} x {}, block {:?}", x.ncols(), y.shape());
-    let mut packed: Vec<Group<8>> = Vec::new();
-    let mut col = 0;
-    while col < x.ncols() {
-        let left = x.ncols() - col;
-        let width = left.min(8);
-        let (x, y) = (x.subcols(col, width), y.rb_mut().subcols_mut(col, width));
-        match width {
-            1 => multiply_group::<1>(matrix, x, y, &mut Vec::new(), entry),
-            2 => multiply_group::<2>(matrix, x, y, &mut Vec::new(), entry),
-            3 | 4 => multiply_group::<4>(matrix, x, y, &mut Vec::new(), entry),
-            _ => multiply_group::<8>(matrix, x, y, &mut packed, entry),
-        }
-        col += width;
-    }
+    sums(matrix, x, [y], |product| [product]);
 }
 
 /// A X as a new matrix, n × k.
@@ -64,80 +31,130 @@ pub fn product(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> Mat<f64> {
     y
 }
 
+/// |A| |X| as a new matrix, n × k: how large the terms of A X are.
+pub fn absolute_product(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> Mat<f64> {
+    let mut y = Mat::zeros(matrix.rows(), x.ncols());
+    sums(matrix, x, [y.as_mut()], |product| [product.abs()]);
+    y
+}
+
+/// A X and |A| |X|, n × k each, for one reading of A.
+pub fn product_and_terms(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> (Mat<f64>, Mat<f64>) {
+    let zeros = || Mat::zeros(matrix.rows(), x.ncols());
+    let (mut y, mut terms) = (zeros(), zeros());
+    sums(matrix, x, [y.as_mut(), terms.as_mut()], |product| [product, product.abs()]);
+    (y, terms)
+}
+
+/// N sums over each row: those of what `of` makes of the products of the entries of A with those of x.
+fn sums<const N: usize>(
+    matrix: &SparseMatrix,
+    x: MatRef<'_, f64>,
+    mut y: [MatMut<'_, f64>; N],
+    of: impl Fn(f64) -> [f64; N] + Sync + Copy,
+) {
+    let n = matrix.rows();
+    assert!(x.nrows() == matrix.cols(), "matrix of {} columns times block of {} rows", matrix.cols(), x.nrows());
+    for y in &y {
+        assert!(y.nrows() == n && y.ncols() == x.ncols(), "product {n} x {}, block {:?}", x.ncols(), y.shape());
+    }
+    let mut packed: Vec<Group<8>> = Vec::new();
+    for col in (0..x.ncols()).step_by(8) {
+        let width = (x.ncols() - col).min(8);
+        let (x, y) = (x.subcols(col, width), y.each_mut().map(|y| y.rb_mut().subcols_mut(col, width)));
+        match width {
+            1 => group_sums::<1, N>(matrix, x, y, &mut Vec::new(), of),
+            2 => group_sums::<2, N>(matrix, x, y, &mut Vec::new(), of),
+            3 | 4 => group_sums::<4, N>(matrix, x, y, &mut Vec::new(), of),
+            _ => group_sums::<8, N>(matrix, x, y, &mut packed, of),
+        }
+    }
+}
+
 /// One row of a packed group of W columns.
 type Group<const W: usize> = [f64; W];
 
-fn multiply_group<const W: usize>(
+fn group_sums<const W: usize, const N: usize>(
     matrix: &SparseMatrix,
     x: MatRef<'_, f64>,
-    y: MatMut<'_, f64>,
+    y: [MatMut<'_, f64>; N],
     packed: &mut Vec<Group<W>>,
-    entry: impl Fn(f64) -> f64 + Sync + Copy,
+    of: impl Fn(f64) -> [f64; N] + Sync + Copy,
 ) {
-    pack(x, packed, entry);
+    pack(x, packed);
     let packed = packed.as_slice();
     let (indptr, indices, data) = (matrix.indptr(), matrix.indices(), matrix.data());
     let pointers = indptr.raw_storage();
-    y.par_row_chunks_mut(TILE_ROWS).enumerate().for_each(|(tile, mut y)| {
+    let n_rows = matrix.rows();
+    let mut tiles = y.map(|y| y.par_row_chunks_mut(TILE_ROWS).collect::<Vec<_>>().into_iter());
+    let tiles: Vec<[MatMut<'_, f64>; N]> = (0..n_rows.div_ceil(TILE_ROWS))
+        .map(|_| tiles.each_mut().map(|tiles| tiles.next().expect("as many tiles of each sum")))
+        .collect();
+    tiles.into_par_iter().enumerate().for_each(|(tile, y)| {
         let first = tile * TILE_ROWS;
-        let mut sums = [[0.0; W]; TILE_ROWS];
+        let mut sums = [[[0.0; W]; N]; TILE_ROWS];
+        let n_rows = TILE_ROWS.min(n_rows - first);
         Arch::new().dispatch(RowSums {
             pointers: &pointers[first..],
             indices,
             data,
             packed,
-            entry,
-            sums: &mut sums[..y.nrows()],
+            of,
+            sums: &mut sums[..n_rows],
         });
-        for (col, y) in y.as_mut().col_iter_mut().enumerate() {
-            for (y, sum) in y.iter_mut().zip(&sums) {
-                *y = sum[col];
+        for (kind, mut y) in y.into_iter().enumerate() {
+            for (col, y) in y.as_mut().col_iter_mut().enumerate() {
+                for (y, sums) in y.iter_mut().zip(&sums) {
+                    *y = sums[kind][col];
+                }
             }
         }
     });
 }
 
 /// The sums of a tile of rows.
-struct RowSums<'a, const W: usize, E> {
+struct RowSums<'a, const W: usize, const N: usize, F> {
     /// Of the first row on.
     pointers: &'a [usize],
     indices: &'a [u32],
     data: &'a [f64],
     packed: &'a [Group<W>],
-    entry: E,
-    sums: &'a mut [Group<W>],
+    of: F,
+    sums: &'a mut [[Group<W>; N]],
 }
 
-impl<const W: usize, E: Fn(f64) -> f64> WithSimd for RowSums<'_, W, E> {
+impl<const W: usize, const N: usize, F: Fn(f64) -> [f64; N]> WithSimd for RowSums<'_, W, N, F> {
     type Output = ();
 
     /// In the widest vectors that the processor has; a product and a sum are rounded one by one all the same.
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        for (bounds, sum) in self.pointers.windows(2).zip(self.sums) {
+        for (bounds, sums) in self.pointers.windows(2).zip(self.sums) {
             let row = bounds[0]..bounds[1];
             // Summed in a local, which stays in registers.
-            let mut row_sum = [0.0; W];
+            let mut row_sums = [[0.0; W]; N];
             for (&col, &value) in self.indices[row.clone()].iter().zip(&self.data[row]) {
-                let value = (self.entry)(value);
-                for (sum, x) in row_sum.iter_mut().zip(&self.packed[col as usize]) {
-                    *sum += value * x;
+                for (w, x) in self.packed[col as usize].iter().enumerate() {
+                    let terms = (self.of)(value * x);
+                    for (sums, term) in row_sums.iter_mut().zip(terms) {
+                        sums[w] += term;
+                    }
                 }
             }
-            *sum = row_sum;
+            *sums = row_sums;
         }
     }
 }
 
-/// Copies what `entry` makes of a block of at most W columns into rows of W, zeros on the right.
-fn pack<const W: usize>(x: MatRef<'_, f64>, packed: &mut Vec<Group<W>>, entry: impl Fn(f64) -> f64 + Sync + Copy) {
+/// Copies a block of at most W columns into rows of W, zeros on the right.
+fn pack<const W: usize>(x: MatRef<'_, f64>, packed: &mut Vec<Group<W>>) {
     packed.clear();
     packed.resize(x.nrows(), [0.0; W]);
     packed.par_chunks_mut(TILE_ROWS).enumerate().for_each(|(tile, rows)| {
         let x = x.subrows(tile * TILE_ROWS, rows.len());
         for (col, x) in x.col_iter().enumerate() {
             for (row, x) in rows.iter_mut().zip(x.iter()) {
-                row[col] = entry(*x);
+                row[col] = *x;
             }
         }
     });
@@ -201,6 +218,20 @@ mod tests {
         }
         for col in 0..11 {
             assert!(product(2, x.as_ref().subcols(col, 1)).col(0) == reference.col(col), "column {col} alone");
+        }
+    }
+
+    /// Sums of integers are exact.
+    #[test]
+    fn terms_are_the_sums_of_sizes() {
+        let matrix = banded(1300);
+        let sizes = matrix.map(|value| value.abs());
+        for k in [1, 3, 11] {
+            let x = block(1300, k);
+            let absolute = Mat::from_fn(1300, k, |i, j| x[(i, j)].abs());
+            let expected = product(&sizes, absolute.as_ref());
+            assert!(absolute_product(&matrix, x.as_ref()) == expected, "{k} columns");
+            assert!(product_and_terms(&matrix, x.as_ref()) == (product(&matrix, x.as_ref()), expected), "{k} columns");
         }
     }
 

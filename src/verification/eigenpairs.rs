@@ -10,10 +10,10 @@ use faer::Mat;
 use super::Evidence;
 use super::check::{Check, Limits};
 use super::reduced::largest_terms;
-use super::residual::{AT_REST, Rows, Worst};
+use super::residual::{AT_REST, Residuals, Rows, Worst};
 use crate::dense;
 use crate::modes::{Boundary, ModeError, mass_orthogonality};
-use crate::sparse::{SparseMatrix, product};
+use crate::sparse::SparseMatrix;
 
 /// Modes multiplied by K and M at a time: the memory beside the shapes is six such panels.
 const PANEL: usize = 32;
@@ -55,14 +55,7 @@ impl Pairs {
             let width = PANEL.min(modes.count() - start);
             let shapes = modes.shapes.as_ref().subcols(start, width);
             let lambda = &modes.lambda[start..start + width];
-            let forces = product(stiffness, shapes);
-            let mut residual = product(mass, shapes);
-            for (j, lambda) in lambda.iter().enumerate() {
-                let force = dense::column(forces.as_ref(), j);
-                let column = dense::column_mut(residual.as_mut(), j);
-                column.iter_mut().zip(force).for_each(|(r, force)| *r = force - lambda * *r);
-            }
-            let terms = rows.terms(shapes, lambda);
+            let Residuals { forces, residual, terms } = rows.residuals(shapes, lambda);
             for (j, lambda) in lambda.iter().enumerate() {
                 let (x, r) = (dense::column(shapes, j), dense::column(residual.as_ref(), j));
                 let at = rows.norms.largest(r);

@@ -8,7 +8,7 @@ use super::spectrum::{Spectrum, lowest_eigenpairs};
 use crate::dense;
 use crate::error::Result;
 use crate::modes::Equilibrated;
-use crate::sparse::{absolute_product, product};
+use crate::sparse::{product, product_and_terms};
 
 /// One direction.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,10 +57,7 @@ const AS_A_WHOLE: f64 = 2.0;
 pub(super) fn groundings(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result<Vec<Grounding>> {
     let directions = Directions::of(evidence);
     let partition = evidence.partition;
-    let (forces, terms) = (
-        product(&partition.stiffness, directions.motions.as_ref()),
-        absolute_product(&partition.stiffness, directions.motions.as_ref()),
-    );
+    let (forces, terms) = product_and_terms(&partition.stiffness, directions.motions.as_ref());
     let scale = Equilibrated::of(&partition.stiffness, &partition.mass).scale;
     // Where no elastic mode is known, one in scaled units: the largest K_ii over the largest M_ii.
     let first = spectrum.scale(directions.count().max(evidence.rigid.count())).unwrap_or(1.0);

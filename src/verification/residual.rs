@@ -11,7 +11,7 @@ use faer::{Mat, MatRef};
 use super::Evidence;
 use crate::dense;
 use crate::modes::Equilibrated;
-use crate::sparse::{SparseMatrix, absolute_product};
+use crate::sparse::{SparseMatrix, product_and_terms};
 
 /// Share of its own norm below which the terms of a row are at rest: a pair may leave 10⁻¹³ of a row's norm (M-01), which a
 /// row of smaller terms than this could not keep within 10⁻¹¹ of them (M-02).
@@ -29,26 +29,27 @@ pub(super) struct Rows<'a> {
 
 impl<'a> Rows<'a> {
     pub(super) fn of(stiffness: &'a SparseMatrix, mass: &'a SparseMatrix) -> Self {
-        let norms = Equilibrated::of(stiffness, mass);
-        let row_norm = |matrix: &SparseMatrix, row: usize| {
-            let entries = matrix.outer_view(row);
-            let sum = entries.map_or(0.0, |view| view.iter().map(|(col, a)| norms.scale[col] * a.abs()).sum::<f64>());
-            norms.scale[row] * sum
-        };
-        let of_row = (0..stiffness.rows()).map(|row| [row_norm(stiffness, row), row_norm(mass, row)]).collect();
+        let (norms, of_row) = Equilibrated::with_rows(stiffness, mass);
         Self { stiffness, mass, norms, of_row }
     }
 
-    /// (|K| + |λ_j||M|)|x_j|, n × k.
-    pub(super) fn terms(&self, x: MatRef<'_, f64>, lambda: &[f64]) -> Mat<f64> {
-        let mut terms = absolute_product(self.stiffness, x);
+    /// What the columns of x, with their λ_j, leave of the pencil.
+    pub(super) fn residuals(&self, x: MatRef<'_, f64>, lambda: &[f64]) -> Residuals {
+        let (forces, mut terms) = product_and_terms(self.stiffness, x);
+        let mut residual = forces.clone();
         if lambda.iter().any(|lambda| *lambda != 0.0) {
-            let mass = absolute_product(self.mass, x);
+            let (momenta, of_mass) = product_and_terms(self.mass, x);
             for (j, lambda) in lambda.iter().enumerate() {
-                dense::add_scaled(dense::column_mut(terms.as_mut(), j), lambda.abs(), dense::column(mass.as_ref(), j));
+                let column = dense::column_mut(residual.as_mut(), j);
+                column
+                    .iter_mut()
+                    .zip(dense::column(momenta.as_ref(), j))
+                    .for_each(|(r, momentum)| *r -= lambda * momentum);
+                let terms = dense::column_mut(terms.as_mut(), j);
+                dense::add_scaled(terms, lambda.abs(), dense::column(of_mass.as_ref(), j));
             }
         }
-        terms
+        Residuals { forces, residual, terms }
     }
 
     /// max ω_i over the rows that have a residual, and the row it is reached at.
@@ -68,6 +69,16 @@ impl<'a> Rows<'a> {
         }
         worst
     }
+}
+
+/// What some vectors leave of a pencil, n × k each.
+pub(super) struct Residuals {
+    /// K x.
+    pub(super) forces: Mat<f64>,
+    /// K x − λ M x.
+    pub(super) residual: Mat<f64>,
+    /// (|K| + |λ||M|)|x|.
+    pub(super) terms: Mat<f64>,
 }
 
 /// The largest of several errors, with the column and the row it belongs to.

@@ -3,10 +3,9 @@
 use faer::{Mat, MatRef};
 
 use super::check::{Check, Limits};
-use super::residual::{AT_REST, Rows, Worst};
+use super::residual::{AT_REST, Residuals, Rows, Worst};
 use super::{Evidence, data_noise};
 use crate::dense;
-use crate::sparse::product;
 
 /// Constraint modes that are all looked at; of more, random combinations are.
 const FEW: usize = 64;
@@ -36,10 +35,9 @@ pub(super) fn static_solves(evidence: &Evidence<'_>) -> Check {
     for start in (0..combinations.ncols()).step_by(PANEL) {
         let width = PANEL.min(combinations.ncols() - start);
         let panel = constraint_panel(evidence, combinations.as_ref().subcols(start, width));
-        let forces = product(&partition.stiffness, panel.as_ref());
-        let terms = rows.terms(panel.as_ref(), &vec![0.0; width]);
+        let Residuals { residual, terms, .. } = rows.residuals(panel.as_ref(), &vec![0.0; width]);
         for j in 0..width {
-            let mut residual = dense::column(forces.as_ref(), j).to_vec();
+            let mut residual = dense::column(residual.as_ref(), j).to_vec();
             // The rows of the interface carry its reactions.
             residual[partition.n_internal..].fill(0.0);
             let x = dense::column(panel.as_ref(), j);

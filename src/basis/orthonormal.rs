@@ -1,0 +1,118 @@
+//! Orthonormal columns of a basis all at once, where they are far from dependent: Cholesky of their Gram matrix, twice
+//! (Yamamoto et al. 2015).
+//!
+//! ```text
+//! G = XᵀMX = RᵀR    X ← X R⁻¹    n × k, k × k
+//! ```
+//! The first pass leaves ε κ(G) of orthogonality, the second ε. A column that keeps little of its length beside the columns before
+//! it is for the panels of [`super::dynamic`], which tell dependent ones.
+
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::{Mat, MatMut, MatRef, Par, Side};
+use rayon::prelude::*;
+
+use crate::dense;
+use crate::sparse::{SparseMatrix, product};
+
+/// Share of its length that a column must keep: the square, what Cholesky works with, has half its digits then.
+const HEALTHY: f64 = 1e-4;
+/// Distance of G from the identity from which one more pass leaves no more than rounding: κ(G) is 1.2 at most.
+const NEARLY: f64 = 0.1;
+/// Rows solved by one task.
+const TILE_ROWS: usize = 1024;
+/// Columns multiplied by M at a time.
+const PANEL: usize = 32;
+
+/// Q and upper triangular R with X = Q R and QᵀMQ = I; none where a column is not healthy.
+pub(super) fn orthonormalised(columns: MatRef<'_, f64>, mass: &SparseMatrix) -> Option<(Mat<f64>, Mat<f64>)> {
+    let k = columns.ncols();
+    let mut q = columns.to_owned();
+    let mut triangle: Mat<f64> = Mat::identity(k, k);
+    for _ in 0..2 {
+        let gram = gram(q.as_ref(), mass);
+        let lower = gram.llt(Side::Lower).ok()?;
+        let lower = lower.L();
+        let is_healthy = (0..k).all(|j| lower[(j, j)] > HEALTHY * gram[(j, j)].sqrt());
+        if !is_healthy {
+            return None;
+        }
+        divide(q.as_mut(), lower);
+        triangle = dense::product(lower.transpose(), triangle.as_ref());
+        let is_done = (0..k).all(|j| (0..k).all(|i| (gram[(i, j)] - f64::from(u8::from(i == j))).abs() <= NEARLY));
+        if is_done {
+            return Some((q, triangle));
+        }
+    }
+    None
+}
+
+/// XᵀMX.
+fn gram(x: MatRef<'_, f64>, mass: &SparseMatrix) -> Mat<f64> {
+    let k = x.ncols();
+    let mut gram = Mat::zeros(k, k);
+    for start in (0..k).step_by(PANEL) {
+        let width = PANEL.min(k - start);
+        let panel = dense::gram(x, product(mass, x.subcols(start, width)).as_ref());
+        gram.as_mut().subcols_mut(start, width).copy_from(&panel);
+    }
+    dense::symmetrise(&mut gram);
+    gram
+}
+
+/// X ← X L⁻ᵀ.
+fn divide(mut x: MatMut<'_, f64>, lower: MatRef<'_, f64>) {
+    x.as_mut().par_row_chunks_mut(TILE_ROWS).for_each(|mut tile| {
+        solve_lower_triangular_in_place(lower, tile.as_mut().transpose_mut(), Par::Seq);
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn diagonal(n: usize) -> SparseMatrix {
+        let values = (0..n).map(|i| 1.0 + (i % 7) as f64).collect();
+        SparseMatrix::new((n, n), (0..=n).collect(), (0..n as u32).collect(), values)
+    }
+
+    fn columns(n: usize, k: usize) -> Mat<f64> {
+        Mat::from_fn(n, k, |i, j| ((i * (j + 2)) as f64).sin() + 1.0 / (1 + i + j) as f64)
+    }
+
+    #[test]
+    fn columns_are_orthonormal_and_come_back() {
+        let (n, k) = (3000, 40);
+        let (x, mass) = (columns(n, k), diagonal(n));
+        let (q, r) = orthonormalised(x.as_ref(), &mass).expect("healthy columns");
+        let gram = gram(q.as_ref(), &mass);
+        let back = dense::product(q.as_ref(), r.as_ref());
+        for j in 0..k {
+            for i in 0..k {
+                // Sums of n products of unit vectors, rounded at random, and those of the solve with k terms.
+                let expected = f64::from(u8::from(i == j));
+                assert!((gram[(i, j)] - expected).abs() < 4.0 * (n as f64).sqrt() * f64::EPSILON, "{i}, {j}");
+                assert!(i <= j || r[(i, j)] == 0.0, "R is upper triangular");
+            }
+            let difference: Vec<f64> = (0..n).map(|i| back[(i, j)] - x[(i, j)]).collect();
+            let size = dense::norm(dense::column(x.as_ref(), j));
+            assert!(dense::norm(&difference) <= k as f64 * f64::EPSILON * size, "column {j}");
+        }
+    }
+
+    #[test]
+    fn dependent_and_empty_columns_are_for_others() {
+        let mass = diagonal(500);
+        let mut x = columns(500, 5);
+        let twin: Vec<f64> = dense::column(x.as_ref(), 1).iter().map(|value| 3.0 * value).collect();
+        dense::column_mut(x.as_mut(), 4).copy_from_slice(&twin);
+        assert!(orthonormalised(x.as_ref(), &mass).is_none());
+        dense::column_mut(x.as_mut(), 4).fill(0.0);
+        assert!(orthonormalised(x.as_ref(), &mass).is_none());
+    }
+
+    #[test]
+    fn no_columns_are_orthonormal() {
+        let (q, r) = orthonormalised(Mat::zeros(9, 0).as_ref(), &diagonal(9)).expect("nothing to do");
+        assert_eq!((q.shape(), r.shape()), ((9, 0), (0, 0)));
+    }
+}
