@@ -174,6 +174,11 @@ pub fn dot(x: &[f64], y: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
+/// x_jᵀ y_j of the columns of two blocks of one shape.
+pub fn dots(x: MatRef<'_, f64>, y: MatRef<'_, f64>) -> Vec<f64> {
+    (0..x.ncols()).map(|j| dot(column(x, j), column(y, j))).collect()
+}
+
 /// Y ← Y + α X on columns.
 pub fn add_scaled(y: &mut [f64], alpha: f64, x: &[f64]) {
     for (y, x) in y.iter_mut().zip(x) {

@@ -10,6 +10,7 @@ use super::inertia::count_negative;
 use super::matrix::Shifted;
 use super::multifrontal::{Keep, Numbers, Stop, eliminate};
 use super::refined::{Refined, Refinement};
+use super::solve::by_solutions;
 use super::substitution::Factor;
 use super::{Analysis, Pencil, SolveOperator, Storage};
 use crate::dense;
@@ -157,6 +158,14 @@ impl SolveOperator for Cholesky<'_> {
         match &self.kept {
             Kept::Double(numbers) => Factor::definite(self.analysis, numbers).solve_in_place(block),
             Kept::Single(refined) => refined.solve_in_place(block),
+        }
+    }
+
+    /// ‖L⁻¹f‖², the forward half of a solve, where L is that of the matrix.
+    fn compliances(&self, loads: MatRef<'_, f64>) -> Vec<f64> {
+        match &self.kept {
+            Kept::Double(numbers) => Factor::definite(self.analysis, numbers).compliances(loads),
+            Kept::Single(_) => by_solutions(self, loads),
         }
     }
 

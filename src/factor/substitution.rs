@@ -69,6 +69,19 @@ impl<'a, T: Entry> Factor<'a, T> {
         self.solve_tile::<8>(block);
     }
 
+    /// ‖L⁻¹f‖² of each column of loads, n rows, by a definite factor: the forward half alone.
+    pub(super) fn compliances(self, loads: MatRef<'_, f64>) -> Vec<f64> {
+        const W: usize = 16;
+        let mut compliances = Vec::with_capacity(loads.ncols());
+        for start in (0..loads.ncols()).step_by(W) {
+            let width = W.min(loads.ncols() - start);
+            let mut rows = pack::<W>(loads.subcols(start, width), |step| self.analysis.given()[step] as usize);
+            self.forward(&mut rows, &mut vec![[0.0; W]; self.analysis.n_border()]);
+            compliances.extend_from_slice(&squares(&rows)[..width]);
+        }
+        compliances
+    }
+
     /// −A_II⁻¹ A_IB X_B for motions of the border, n_B rows: the backward half alone.
     pub(super) fn follow_border(self, border: MatRef<'_, f64>) -> Mat<f64> {
         const W: usize = 8;
@@ -198,6 +211,15 @@ fn pack<const W: usize>(block: MatRef<'_, f64>, row_at: impl Fn(usize) -> usize 
         }
     });
     rows
+}
+
+/// The sum of the squares of each column, added up by chunks of a fixed size.
+fn squares<const W: usize>(rows: &[Row<W>]) -> Row<W> {
+    let of_chunk = |rows: &[Row<W>]| {
+        rows.iter().fold([0.0; W], |sums: Row<W>, row| std::array::from_fn(|j| sums[j] + row[j] * row[j]))
+    };
+    let chunks: Vec<Row<W>> = rows.par_chunks(PACK_ROWS).map(of_chunk).collect();
+    chunks.iter().fold([0.0; W], |sums, chunk| std::array::from_fn(|j| sums[j] + chunk[j]))
 }
 
 /// Adds rows to the places they belong to, own ones first.

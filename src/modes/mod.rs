@@ -50,7 +50,7 @@ pub use equilibration::Equilibrated;
 pub use lanczos::{lanczos, lanczos_between};
 pub use operator::{Factored, FreeAtZero, ShiftInvert};
 pub use orthogonalisation::gram_schmidt;
-pub use quality::{ModeError, mass_orthogonality};
+pub use quality::{MassOrthogonality, ModeError, mass_orthogonality};
 pub(crate) use random::SplitMix64;
 pub use retained::{Component, Retained};
 pub use search::{SLICED_FROM, Search};

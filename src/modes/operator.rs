@@ -21,6 +21,13 @@ pub trait ShiftInvert: Sync {
     /// Replaces forces by displacements; on a free component the forces are self-equilibrated.
     fn solve_in_place(&self, block: MatMut<'_, f64>);
 
+    /// fᵀ(K − σM)⁻¹f of each column of loads that nothing has to be taken out of.
+    fn compliances(&self, loads: MatRef<'_, f64>) -> Vec<f64> {
+        let mut x = loads.to_owned();
+        self.solve_in_place(x.as_mut());
+        dense::dots(loads, x.as_ref())
+    }
+
     /// Bytes that one application reads; they decide how many right-hand sides it is given at once. Few unless said otherwise.
     fn bytes(&self) -> u64 {
         0
@@ -51,6 +58,10 @@ impl ShiftInvert for Factored<'_> {
 
     fn solve_in_place(&self, block: MatMut<'_, f64>) {
         self.factor.solve_in_place(block);
+    }
+
+    fn compliances(&self, loads: MatRef<'_, f64>) -> Vec<f64> {
+        self.factor.compliances(loads)
     }
 
     fn bytes(&self) -> u64 {

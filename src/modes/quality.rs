@@ -5,9 +5,8 @@ use faer::{Mat, MatRef};
 use super::eigenproblem::Problem;
 use super::{CLUSTER_GAP, Equilibrated, ModalProblem};
 use crate::dense;
-use crate::rigid::absolute_energy;
-use crate::sparse::SparseMatrix;
-use crate::sparse::product;
+use crate::rigid::energies_of_terms;
+use crate::sparse::{SparseMatrix, product, product_and_terms};
 
 /// What is known of the error of one mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,6 +26,8 @@ pub struct ModeError {
     pub rounding_floor: f64,
 }
 
+/// Modes multiplied by M at a time.
+const PANEL: usize = 32;
 /// Components of a mode nearer than this, relatively, are of one size: far above the error of a mode, far below what differs
 /// by design.
 const ALIKE: f64 = 1e-6;
@@ -51,9 +52,12 @@ pub(super) fn rayleigh_quotients(
     problem: ModalProblem<'_>,
     shapes: MatRef<'_, f64>,
 ) -> (Vec<f64>, Vec<ModeError>, Mat<f64>) {
-    let (mut forces, momenta) = rayon::join(|| product(problem.stiffness, shapes), || product(problem.mass, shapes));
-    let (stiffness_terms, mass_terms) =
-        rayon::join(|| absolute_energy(problem.stiffness, shapes), || absolute_energy(problem.mass, shapes));
+    let both = |matrix| {
+        let (image, terms) = product_and_terms(matrix, shapes);
+        (image, energies_of_terms(shapes, terms.as_ref()))
+    };
+    let (mut forces, stiffness_terms) = both(problem.stiffness);
+    let (momenta, mass_terms) = both(problem.mass);
     let norms = Equilibrated::of(problem.stiffness, problem.mass);
     let rounding = f64::EPSILON;
     let (lambda, errors) = (0..shapes.ncols())
@@ -99,18 +103,19 @@ pub(super) fn add_residual_bars(
 ) {
     let sigma = problem.operator.shift();
     let resultants = dense::gram(problem.deflated[0], residuals.as_ref());
-    problem.equilibrate(residuals.as_mut());
-    let mut y = residuals.clone();
-    problem.operator.solve_in_place(y.as_mut());
-    problem.deflate(y.as_mut());
     let is_inside = lambda.iter().any(|lambda| *lambda < sigma);
-    let momenta = if is_inside { product(problem.mass, y.as_ref()) } else { residuals };
-    let squares: Vec<f64> = (0..lambda.len())
-        .map(|j| {
-            let energy = dense::dot(dense::column(momenta.as_ref(), j), dense::column(y.as_ref(), j)).abs();
-            if is_inside { energy } else { energy / (lambda[j] - sigma).abs() }
-        })
-        .collect();
+    let energies = if is_inside || resultants.nrows() > 0 {
+        problem.equilibrate(residuals.as_mut());
+        let mut y = residuals.clone();
+        problem.operator.solve_in_place(y.as_mut());
+        problem.deflate(y.as_mut());
+        let momenta = if is_inside { product(problem.mass, y.as_ref()) } else { residuals };
+        dense::dots(momenta.as_ref(), y.as_ref())
+    } else {
+        problem.operator.compliances(residuals.as_ref())
+    };
+    let over = |lambda: f64| if is_inside { 1.0 } else { (lambda - sigma).abs() };
+    let squares: Vec<f64> = energies.iter().zip(lambda).map(|(energy, lambda)| energy.abs() / over(*lambda)).collect();
     let mut first = 0;
     while first < lambda.len() {
         let mut end = first + 1;
@@ -139,17 +144,33 @@ fn relative_gap(mu: f64, below: Option<f64>, above: Option<f64>) -> f64 {
     [below, above].into_iter().flatten().map(distance).fold(1.0, f64::min)
 }
 
-/// max |XᵀMX − I| over all pairs, and the pair it is reached at (M-03).
-pub fn mass_orthogonality(mass: &SparseMatrix, shapes: MatRef<'_, f64>) -> (f64, (usize, usize)) {
-    let products = dense::gram(shapes, product(mass, shapes).as_ref());
-    let mut worst = (0.0, (0, 0));
-    for j in 0..products.ncols() {
-        for i in 0..=j {
-            let error = (products[(i, j)] - f64::from(u8::from(i == j))).abs();
-            if dense::worse(error, worst.0) {
-                worst = (error, (i, j));
+/// How far some modes are from orthonormal in the mass.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MassOrthogonality {
+    /// max |XᵀMX − I| over all pairs (M-03).
+    pub error: f64,
+    /// The pair it is reached at.
+    pub pair: (usize, usize),
+    /// max |x|ᵀ|M||x|: how large the terms are that the products are summed from.
+    pub largest_terms: f64,
+}
+
+/// Measures it, one panel of modes after the other.
+pub fn mass_orthogonality(mass: &SparseMatrix, shapes: MatRef<'_, f64>) -> MassOrthogonality {
+    let mut found = MassOrthogonality::default();
+    for start in (0..shapes.ncols()).step_by(PANEL) {
+        let panel = shapes.subcols(start, PANEL.min(shapes.ncols() - start));
+        let (images, terms) = product_and_terms(mass, panel);
+        found.largest_terms = energies_of_terms(panel, terms.as_ref()).into_iter().fold(found.largest_terms, f64::max);
+        let products = dense::gram(shapes.subcols(0, start + panel.ncols()), images.as_ref());
+        for j in 0..panel.ncols() {
+            for i in 0..=start + j {
+                let error = (products[(i, j)] - f64::from(u8::from(i == start + j))).abs();
+                if dense::worse(error, found.error) {
+                    (found.error, found.pair) = (error, (i, start + j));
+                }
             }
         }
     }
-    worst
+    found
 }

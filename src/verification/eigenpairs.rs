@@ -9,10 +9,9 @@ use faer::Mat;
 
 use super::Evidence;
 use super::check::{Check, Limits};
-use super::reduced::largest_terms;
 use super::residual::{AT_REST, Residuals, Rows, Worst};
 use crate::dense;
-use crate::modes::{Boundary, ModeError, mass_orthogonality};
+use crate::modes::{Boundary, MassOrthogonality, ModeError, mass_orthogonality};
 use crate::sparse::SparseMatrix;
 
 /// Modes multiplied by K and M at a time: the memory beside the shapes is six such panels.
@@ -165,12 +164,11 @@ pub(super) fn orthogonality(evidence: &Evidence<'_>) -> Check {
     };
     // These rigid-body modes are orthonormal combinations, not unit motions.
     let rigid_name = |i: usize| format!("orthonormal rigid-body mode {}", i + 1);
-    let (value, (a, b)) = mass_orthogonality(mass, all.as_ref());
+    let MassOrthogonality { error: value, pair: (a, b), largest_terms } = mass_orthogonality(mass, all.as_ref());
     let name = |i: usize| if i < n_r { rigid_name(i) } else { format!("mode {}", i - n_r + 1) };
     // x_iᵀMx_j of n terms is rounded by ε times their sizes, at most √(m_i m_j) with m = |x|ᵀ|M||x|, and so it is by rounding of
     // the modes themselves. A mode that M nearly lets pass has m ≫ 1.
-    let terms = largest_terms(mass, all.as_ref());
-    let limits = Limits { engineering: 1e-12, arithmetic: NOISE_FACTOR * f64::EPSILON * terms, data: 0.0 };
+    let limits = Limits { engineering: 1e-12, arithmetic: NOISE_FACTOR * f64::EPSILON * largest_terms, data: 0.0 };
     Check {
         id: "M-03",
         name: "modes are orthonormal in the mass",

@@ -139,9 +139,7 @@ fn interior_masses(evidence: &Evidence<'_>, gamma: MatRef<'_, f64>, start: MatRe
     let mass = evidence.internal.1;
     let inverse: Vec<f64> = diagonal(mass).into_iter().map(|m| if m > 0.0 { 1.0 / m } else { 0.0 }).collect();
     let precondition = |r: &Mat<f64>| Mat::from_fn(r.nrows(), r.ncols(), |i, j| r[(i, j)] * inverse[i]);
-    let dots = |a: &Mat<f64>, b: &Mat<f64>| -> Vec<f64> {
-        (0..a.ncols()).map(|j| dense::dot(dense::column(a.as_ref(), j), dense::column(b.as_ref(), j))).collect()
-    };
+    let dots = |a: &Mat<f64>, b: &Mat<f64>| dense::dots(a.as_ref(), b.as_ref());
     let gamma = gamma.to_owned();
     let sizes = dots(&gamma, &precondition(&gamma));
     let mut x = start.to_owned();

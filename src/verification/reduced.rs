@@ -60,7 +60,7 @@ impl Terms {
 }
 
 /// max |x|ᵀ|A||x| of the columns: a product xᵀAy is rounded by ε times the root of that of x and of y.
-pub(super) fn largest_terms(matrix: &SparseMatrix, columns: MatRef<'_, f64>) -> f64 {
+fn largest_terms(matrix: &SparseMatrix, columns: MatRef<'_, f64>) -> f64 {
     let starts = (0..columns.ncols()).step_by(PANEL);
     let panels = starts.map(|start| columns.subcols(start, PANEL.min(columns.ncols() - start)));
     panels.flat_map(|panel| absolute_energy(matrix, panel)).fold(0.0, f64::max)

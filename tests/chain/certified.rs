@@ -96,7 +96,7 @@ pub(crate) fn judge(search: &Search<'_>, modes: Modes, certificate: Certificate)
         DofOrigin::RigidNode(..) => usize::MAX,
     };
     let rows = partition.dofs.iter().map(row).collect();
-    let orthogonality = mass_orthogonality(search.problem.modal().mass, modes.shapes.as_ref()).0;
+    let orthogonality = mass_orthogonality(search.problem.modal().mass, modes.shapes.as_ref()).error;
     let lambda = modes.lambda.iter().map(|lambda| lambda * unit).collect();
     Certified { lambda, modes, certificate, orthogonality, rows, unit }
 }

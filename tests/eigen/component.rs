@@ -6,7 +6,8 @@ use supel::input::{Direction, Dof, Input, MatrixInput, Nodes};
 use supel::job::{Eigensolver, InterfaceJob};
 use supel::model::Model;
 use supel::modes::{
-    Factored, ModalProblem, ModeRequest, Modes, SEED, Wanted, elastic_modes, mass_orthogonality, shifted,
+    Factored, MassOrthogonality, ModalProblem, ModeRequest, Modes, SEED, Wanted, elastic_modes, mass_orthogonality,
+    shifted,
 };
 use supel::partition::Partition;
 use supel::rigid::{RigidBodyModes, from_coordinates};
@@ -76,7 +77,7 @@ impl Component {
             assert!(error.backward <= bar, "mode {j}: backward error {:e} above {bar:e}", error.backward);
         }
         // Two passes of Gram-Schmidt leave a few ε for each of the k vectors.
-        let (worst, pair) = mass_orthogonality(mass, modes.shapes.as_ref());
+        let MassOrthogonality { error: worst, pair, .. } = mass_orthogonality(mass, modes.shapes.as_ref());
         assert!(worst <= 1e-12, "modes {pair:?} are orthogonal to {worst:e} only");
         let rigid = dense::gram(self.rigid.mass_orthonormal.as_ref(), modes.shapes.as_ref());
         assert!(rigid.norm_max() <= 1e-12, "rigid-body motion in the modes: {:e}", rigid.norm_max());

@@ -8,7 +8,7 @@ use faer::linalg::solvers::Solve;
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, MatRef, Side};
 use supel::error::Error;
-use supel::factor::{Analysis, Cholesky, Pencil, SolveOperator, count_negative, whole_count};
+use supel::factor::{Analysis, Cholesky, Pencil, SolveOperator, Storage, count_negative, whole_count};
 use supel::sparse::{SparseMatrix, product};
 
 use matrices::{diagonal, families, grid, spd};
@@ -61,6 +61,40 @@ fn solutions_are_as_good_as_those_of_faer() {
             let ours = backward_error(&matrix, x.as_ref(), b.as_ref());
             // Both are bounded by n ε and reach a few ε; neither is allowed to be ten times the other.
             assert!(ours <= 10.0 * theirs.max(f64::EPSILON), "{name}, {k} loads: {ours:e}, faer {theirs:e}");
+        }
+    }
+}
+
+/// fᵀA⁻¹f by the forward half of a solve, and by whole ones.
+#[test]
+fn compliances_are_those_of_the_solutions() {
+    for (name, matrix) in families() {
+        let n = matrix.rows();
+        let mass = unit(n);
+        let analysis = Analysis::new(pencil(&matrix, &mass)).expect("an analysis");
+        let name_of = |dof: usize| dof.to_string();
+        let single =
+            Cholesky::kept(&analysis, (pencil(&matrix, &mass), 0.0), Storage::Single, &name_of).expect("definite");
+        let double = factor(&analysis, &matrix, &mass);
+        for k in [1, 8, 16, 19] {
+            let f = loads(n, k);
+            let mut x = f.clone();
+            double.solve_in_place(x.as_mut());
+            for (storage, found) in
+                [("double", double.compliances(f.as_ref())), ("single", single.compliances(f.as_ref()))]
+            {
+                assert_eq!(found.len(), k);
+                for (j, found) in found.into_iter().enumerate() {
+                    let expected: f64 = (0..n).map(|i| f[(i, j)] * x[(i, j)]).sum();
+                    // Sums of n products, here and there, and of as many in each solve.
+                    let terms: f64 = (0..n).map(|i| (f[(i, j)] * x[(i, j)]).abs()).sum();
+                    let bound = 4.0 * n as f64 * f64::EPSILON * terms;
+                    assert!(
+                        (found - expected).abs() <= bound,
+                        "{name}, {storage}, load {j} of {k}: {found} for {expected}"
+                    );
+                }
+            }
         }
     }
 }
