@@ -7,40 +7,25 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::transformation::{DofOrigin, Transformation, TransformationRow};
-use crate::sparse::SparseMatrix;
+use crate::sparse::{RowStorage, SparseMatrix, filled};
 
-/// Rows of the result computed by one task; a fixed number, so that the work is cut the same way on every machine.
+/// Rows worth a thread of their own: tens of microseconds of work.
 const ROWS_PER_TASK: usize = 512;
 
 /// TᵀAT, n' × n', bitwise symmetric for a bitwise symmetric A.
 pub(super) fn congruence(matrix: &SparseMatrix, transformation: &Transformation) -> SparseMatrix {
     let n = transformation.dofs.len();
     let moved = Moved::by(transformation);
-    let mut lengths = vec![0; n];
-    lengths.par_chunks_mut(ROWS_PER_TASK).enumerate().for_each(|(task, lengths)| {
-        let mut row = Row::default();
-        for (at, length) in lengths.iter_mut().enumerate() {
-            *length = row.gather(matrix, &moved, task * ROWS_PER_TASK + at).n_columns();
-        }
+    let rows = (0..n).into_par_iter().with_min_len(ROWS_PER_TASK);
+    let lengths: Vec<usize> =
+        rows.map_init(Row::default, |row, dof| row.gather(matrix, &moved, dof).n_columns()).collect();
+    let mut stored = filled(&lengths, Row::default, |row, dof, indices, values| {
+        let places = indices.iter_mut().zip(values);
+        let sums = row.gather(matrix, &moved, dof).sums();
+        sums.zip(places).for_each(|((col, sum), (index, value))| (*index, *value) = (col, sum));
     });
-    let pointers: Vec<usize> = std::iter::once(0)
-        .chain(lengths.iter().scan(0, |end, length| {
-            *end += length;
-            Some(*end)
-        }))
-        .collect();
-    let (mut indices, mut values) = (vec![0; pointers[n]], vec![0.0; pointers[n]]);
-    let tasks = cut(&pointers, &mut indices, &mut values);
-    tasks.into_par_iter().enumerate().for_each(|(task, (indices, values))| {
-        let mut row = Row::default();
-        let mut places = indices.iter_mut().zip(values);
-        for dof in (task * ROWS_PER_TASK..n).take(ROWS_PER_TASK) {
-            let sums = row.gather(matrix, &moved, dof).sums();
-            sums.zip(&mut places).for_each(|((col, sum), (index, value))| (*index, *value) = (col, sum));
-        }
-    });
-    symmetrise(&pointers, &indices, &mut values, &moved);
-    SparseMatrix::new((n, n), pointers, indices, values)
+    symmetrise(&mut stored, &moved);
+    SparseMatrix::new((n, n), stored.pointers, stored.indices, stored.values)
 }
 
 /// The rows of A that move with each dof.
@@ -116,21 +101,9 @@ impl Row {
     }
 }
 
-/// The parts of columns and values that belong to the rows of each task.
-fn cut<'a>(pointers: &[usize], indices: &'a mut [u32], values: &'a mut [f64]) -> Vec<(&'a mut [u32], &'a mut [f64])> {
-    let (mut indices, mut values) = (indices, values);
-    let n = pointers.len() - 1;
-    let mut part = |start: usize| {
-        let length = pointers[(start + ROWS_PER_TASK).min(n)] - pointers[start];
-        let take = "the pointers end where the entries do";
-        (indices.split_off_mut(..length).expect(take), values.split_off_mut(..length).expect(take))
-    };
-    (0..n).step_by(ROWS_PER_TASK).map(&mut part).collect()
-}
-
 /// Replaces the entries of rigid nodes by the mean of the two sides of the diagonal: their sums are taken in different orders
 /// there. All other entries are single terms.
-fn symmetrise(pointers: &[usize], indices: &[u32], values: &mut [f64], moved: &Moved<'_>) {
+fn symmetrise(RowStorage { pointers, indices, values }: &mut RowStorage, moved: &Moved<'_>) {
     for dof in moved.by_rigid_nodes.keys() {
         for at in pointers[*dof]..pointers[dof + 1] {
             let other = indices[at] as usize;

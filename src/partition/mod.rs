@@ -18,12 +18,14 @@ mod ordering;
 mod region;
 mod transformation;
 
+use rayon::prelude::*;
+
 use crate::error::{Error, Result};
 use crate::factor::Pencil;
 use crate::input::Dof;
 use crate::job::InterfaceJob;
 use crate::model::{Finding, Model, ModelFacts, Precision, Scaling};
-use crate::sparse::SparseMatrix;
+use crate::sparse::{RowStorage, SparseMatrix, filled};
 
 pub use interface::{InterfaceNode, recovered_rows};
 pub use transformation::{DofOrigin, ReducedDof, Site, Transformation, TransformationRow};
@@ -146,21 +148,15 @@ fn leading_block(matrix: &SparseMatrix, n: usize) -> SparseMatrix {
     let pointers = matrix.indptr();
     let pointers = pointers.raw_storage();
     let (columns, values) = (matrix.indices(), matrix.data());
-    let rows = || {
-        pointers.windows(2).take(n).map(|row| {
-            let inside = columns[row[0]..row[1]].partition_point(|col| (*col as usize) < n);
-            row[0]..row[0] + inside
-        })
+    let inside = |row: usize| {
+        let start = pointers[row];
+        start..start + columns[start..pointers[row + 1]].partition_point(|col| (*col as usize) < n)
     };
-    let mut ends = vec![0];
-    ends.extend(rows().scan(0, |end, row| {
-        *end += row.len();
-        Some(*end)
-    }));
-    let mut block = (Vec::with_capacity(ends[n]), Vec::with_capacity(ends[n]));
-    for row in rows() {
-        block.0.extend_from_slice(&columns[row.clone()]);
-        block.1.extend_from_slice(&values[row]);
-    }
-    SparseMatrix::new((n, n), ends, block.0, block.1)
+    let lengths: Vec<usize> = (0..n).into_par_iter().map(|row| inside(row).len()).collect();
+    let copy = |(): &mut (), row: usize, to_columns: &mut [u32], to_values: &mut [f64]| {
+        to_columns.copy_from_slice(&columns[inside(row)]);
+        to_values.copy_from_slice(&values[inside(row)]);
+    };
+    let RowStorage { pointers, indices, values } = filled(&lengths, || (), copy);
+    SparseMatrix::new((n, n), pointers, indices, values)
 }

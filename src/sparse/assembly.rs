@@ -10,6 +10,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
+use super::by_rows::{balanced_ranges, split_by_rows};
 use super::{AssemblyNotes, Declared, SparseMatrix, Triplets};
 use crate::error::{Error, Result};
 
@@ -155,43 +156,6 @@ fn scatter(triplets: &Triplets, pointers: &[usize], mirror: Mirror) -> (Vec<u32>
         }
     });
     (indices, data)
-}
-
-/// At most `n_parts` consecutive ranges of rows with about as many entries each.
-fn balanced_ranges(pointers: &[usize], n_parts: usize) -> Vec<std::ops::Range<usize>> {
-    let n_rows = pointers.len() - 1;
-    let n_stored = pointers[n_rows];
-    let mut ranges = Vec::new();
-    let mut start = 0;
-    for part in 1..=n_parts {
-        let target = (n_stored as u128 * part as u128 / n_parts as u128) as usize;
-        let end = if part == n_parts { n_rows } else { pointers.partition_point(|&p| p < target).min(n_rows) };
-        if end > start {
-            ranges.push(start..end);
-            start = end;
-        }
-    }
-    ranges
-}
-
-/// A range of rows with the parts of the column and value arrays that belong to it.
-type RowPart<'a> = (std::ops::Range<usize>, &'a mut [u32], &'a mut [f64]);
-
-fn split_by_rows<'a>(
-    pointers: &[usize],
-    ranges: &[std::ops::Range<usize>],
-    mut indices: &'a mut [u32],
-    mut data: &'a mut [f64],
-) -> Vec<RowPart<'a>> {
-    let mut parts = Vec::with_capacity(ranges.len());
-    for rows in ranges {
-        let length = pointers[rows.end] - pointers[rows.start];
-        let (index_part, index_rest) = indices.split_at_mut(length);
-        let (data_part, data_rest) = data.split_at_mut(length);
-        (indices, data) = (index_rest, data_rest);
-        parts.push((rows.clone(), index_part, data_part));
-    }
-    parts
 }
 
 /// Sorts every row by column and adds duplicates into the first of them; returns how many entries each row keeps, at

@@ -6,8 +6,10 @@
 //! rows are then also compressed columns, and a product needs no scatter, which makes it parallel and deterministic.
 
 mod assembly;
+mod by_rows;
 mod product;
 
+pub(crate) use by_rows::{RowStorage, filled};
 pub use product::{absolute_product, multiply, product, product_and_terms};
 
 /// A symmetric sparse matrix in compressed rows, both triangles stored, indices sorted, no duplicates.
