@@ -80,11 +80,13 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let (facts, partition) = prepared(job, observer)?;
 
     observer.stage("rigid-body modes");
-    let (rigid, n_extra) = rigid::rigid_body_modes(&partition)?;
+    // The structure of the factor asks for the pattern of the matrices alone.
+    let (rigid, analysis) = rayon::join(|| rigid::rigid_body_modes(&partition), || Analysis::of(&partition));
+    let (rigid, n_extra) = rigid?;
     let rank = rigid::interface_rank(&partition, &rigid)?;
 
     observer.stage("factor");
-    let analysis = Analysis::of(&partition)?;
+    let analysis = analysis?;
     let storage = factor::storage_within_memory(&analysis, &partition, job, resources)?;
     let sigma = modes::shift_of_factor(&partition, &rigid);
     let factor = Cholesky::kept(&analysis, (partition.pencil(), sigma), storage, &|dof| partition.name_of(dof))?;

@@ -17,8 +17,10 @@ pub(super) fn congruence(matrix: &SparseMatrix, transformation: &Transformation)
     let n = transformation.dofs.len();
     let moved = Moved::by(transformation);
     let rows = (0..n).into_par_iter().with_min_len(ROWS_PER_TASK);
-    let lengths: Vec<usize> =
-        rows.map_init(Row::default, |row, dof| row.gather(matrix, &moved, dof).n_columns()).collect();
+    let length = |row: &mut Row, dof: usize| {
+        moved.permuted_length(matrix, dof).unwrap_or_else(|| row.gather(matrix, &moved, dof).sums().count())
+    };
+    let lengths: Vec<usize> = rows.map_init(Row::default, length).collect();
     let mut stored = filled(&lengths, Row::default, |row, dof, indices, values| {
         let places = indices.iter_mut().zip(values);
         let sums = row.gather(matrix, &moved, dof).sums();
@@ -48,6 +50,14 @@ impl<'a> Moved<'a> {
         Self { transformation, by_rigid_nodes }
     }
 
+    /// Entries of a dof's row where it is a row of A with its columns in other places, each to itself.
+    fn permuted_length(&self, matrix: &SparseMatrix, dof: usize) -> Option<usize> {
+        let DofOrigin::Row(row) = self.transformation.dofs[dof].origin else { return None };
+        let columns = matrix.outer_view(row).map_or(&[][..], |row| row.into_raw_storage().0);
+        let is_dof = |col: &u32| matches!(self.transformation.rows[*col as usize], TransformationRow::Dof(_));
+        columns.iter().all(is_dof).then_some(columns.len())
+    }
+
     fn with(&self, dof: usize) -> impl Iterator<Item = (usize, f64)> {
         let own = match self.transformation.dofs[dof].origin {
             DofOrigin::Row(row) => Some((row, 1.0)),
@@ -65,8 +75,6 @@ struct Row {
     /// the order of the model, so that their sum is always the same.
     keys: Vec<u64>,
     values: Vec<f64>,
-    /// A single row of A, none of whose columns is a rigid node's: each term has its column to itself.
-    is_permuted: bool,
 }
 
 impl Row {
@@ -74,22 +82,15 @@ impl Row {
     fn gather(&mut self, matrix: &SparseMatrix, moved: &Moved<'_>, dof: usize) -> &mut Self {
         self.keys.clear();
         self.values.clear();
-        self.is_permuted = !moved.by_rigid_nodes.contains_key(&dof);
         for (row, factor) in moved.with(dof) {
             for (col, value) in matrix.outer_view(row).iter().flat_map(|row| row.iter()) {
-                let targets = &moved.transformation.rows[col];
-                self.is_permuted &= matches!(targets, TransformationRow::Dof(_));
-                for (target, lever) in targets.entries() {
+                for (target, lever) in moved.transformation.rows[col].entries() {
                     self.keys.push(u64::from(target) << 32 | self.values.len() as u64);
                     self.values.push(factor * value * lever);
                 }
             }
         }
         self
-    }
-
-    fn n_columns(&mut self) -> usize {
-        if self.is_permuted { self.keys.len() } else { self.sums().count() }
     }
 
     /// Columns in ascending order, and the sum of the terms of each.
