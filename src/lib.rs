@@ -80,7 +80,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let (facts, partition) = prepared(job, observer)?;
 
     observer.stage("rigid-body modes");
-    // The structure of the factor asks for the pattern of the matrices alone.
+    // The analysis asks for the pattern of the matrices alone: it is made beside, and is the first of what a factor needs.
     let (rigid, analysis) = rayon::join(|| rigid::rigid_body_modes(&partition), || Analysis::of(&partition));
     let (rigid, n_extra) = rigid?;
     let rank = rigid::interface_rank(&partition, &rigid)?;

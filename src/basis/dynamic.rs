@@ -124,7 +124,7 @@ fn by_panels(named: DynamicColumns, mass: &SparseMatrix) -> Independent {
         let mut panel = named.columns.as_ref().subcols(start, width).to_owned();
         let lengths = scale_to_unit_mass(&mut panel, mass);
         let size = kept.len();
-        let step = orthonormalise(basis.as_ref().subcols(0, size), panel, mass);
+        let step = orthonormal_panel(basis.as_ref().subcols(0, size), panel, mass);
         for j in 0..width {
             let coordinate = named.coordinates[start + j];
             for i in 0..size {
@@ -174,7 +174,7 @@ struct Step {
 }
 
 /// panel = basis · coefficients + block · coupling, twice over for orthogonality to rounding.
-fn orthonormalise(basis: MatRef<'_, f64>, panel: Mat<f64>, mass: &SparseMatrix) -> Step {
+fn orthonormal_panel(basis: MatRef<'_, f64>, panel: Mat<f64>, mass: &SparseMatrix) -> Step {
     let width = panel.ncols();
     let mut block = panel;
     let mut coefficients = Mat::zeros(basis.ncols(), width);

@@ -71,15 +71,23 @@ impl<'a, T: Entry> Factor<'a, T> {
 
     /// ‖L⁻¹f‖² of each column of loads, n rows, by a definite factor: the forward half alone.
     pub(super) fn compliances(self, loads: MatRef<'_, f64>) -> Vec<f64> {
-        const W: usize = 16;
         let mut compliances = Vec::with_capacity(loads.ncols());
-        for start in (0..loads.ncols()).step_by(W) {
-            let width = W.min(loads.ncols() - start);
-            let mut rows = pack::<W>(loads.subcols(start, width), |step| self.analysis.given()[step] as usize);
-            self.forward(&mut rows, &mut vec![[0.0; W]; self.analysis.n_border()]);
-            compliances.extend_from_slice(&squares(&rows)[..width]);
+        for start in (0..loads.ncols()).step_by(16) {
+            let left = loads.ncols() - start;
+            let tile = loads.subcols(start, left.min(16));
+            match left {
+                1..=4 => compliances.extend_from_slice(&self.compliances_of_tile::<4>(tile)[..left]),
+                5..=8 => compliances.extend_from_slice(&self.compliances_of_tile::<8>(tile)[..left]),
+                _ => compliances.extend_from_slice(&self.compliances_of_tile::<16>(tile)[..tile.ncols()]),
+            }
         }
         compliances
+    }
+
+    fn compliances_of_tile<const W: usize>(self, tile: MatRef<'_, f64>) -> Row<W> {
+        let mut rows = pack::<W>(tile, |step| self.analysis.given()[step] as usize);
+        self.forward(&mut rows, &mut vec![[0.0; W]; self.analysis.n_border()]);
+        squares(&rows)
     }
 
     /// −A_II⁻¹ A_IB X_B for motions of the border, n_B rows: the backward half alone.

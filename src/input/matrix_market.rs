@@ -84,12 +84,12 @@ struct Reading<'a> {
 }
 
 impl Reading<'_> {
-    /// Room for the entries that the size line declares, as far as the file can hold them: lists that grow bit by bit are held
-    /// twice each time.
-    fn reserve(&mut self) {
+    /// Room for the entries that the size line declares, as far as a file of this length holds them (of a gzipped one that is
+    /// too few): lists that grow bit by bit are held twice each time.
+    fn expect_entries(&mut self) {
         let Some(Head::Coordinate { n_entries, .. }) = self.head else { return };
         let most = std::fs::metadata(self.path).map_or(0, |file| file.len() / MIN_LINE_BYTES as u64);
-        self.triplets.reserve(n_entries.min(most) as usize);
+        self.triplets.expect(n_entries.min(most) as usize);
     }
 
     fn take(&mut self, batch: &[Vec<u8>]) -> Result<()> {
@@ -100,7 +100,7 @@ impl Reading<'_> {
                 let (taken, head) = self.head_reader.take(text)?;
                 (text, self.head) = (&text[taken..], head);
                 self.n_lines = self.head_reader.n_lines();
-                self.reserve();
+                self.expect_entries();
             }
             texts.push(text);
         }
@@ -200,6 +200,19 @@ mod tests {
             assert_eq!(blocks.input.digest, whole.input.digest);
             assert_eq!(blocks.last_line, LastLine::Terminated);
         }
+    }
+
+    /// A header that promises more than any memory, and a length that the disk does not hold either.
+    #[test]
+    fn neither_header_nor_length_is_believed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("c.mtx");
+        let head = "%%MatrixMarket matrix coordinate real symmetric\n3 3 100000000000\n1 1 1\n";
+        std::fs::write(&path, head).expect("a file");
+        let file = std::fs::OpenOptions::new().write(true).open(&path).expect("the file");
+        file.set_len(1 << 40).expect("a file with a hole");
+        let error = read_in_blocks(&path, None, 1 << 10).err().expect("an error");
+        assert!(matches!(&error, Error::EntryField { line: 4, .. } | Error::LineTooLong { line: 4, .. }), "{error}");
     }
 
     #[test]

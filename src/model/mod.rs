@@ -209,9 +209,6 @@ fn data_precision(matrix: &MatrixInput) -> f64 {
 /// The matrix, symmetric to the bit, and what that took.
 fn symmetrised(name: &'static str, input: MatrixInput) -> Result<(SparseMatrix, Option<Finding>)> {
     let mut matrix = input.matrix;
-    if input.notes.is_symmetric {
-        return Ok((matrix, None));
-    }
     let asymmetry = make_symmetric(&mut matrix);
     if asymmetry.relative > ASYMMETRY_FAIL {
         let (row, col) = asymmetry.worst;

@@ -1,6 +1,10 @@
 //! Symmetry of a matrix stored whole.
 
-use crate::sparse::SparseMatrix;
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use crate::sparse::{SparseMatrix, balanced_ranges};
 
 /// How far a matrix was from symmetric.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +19,9 @@ pub struct Asymmetry {
 ///
 /// A position stored on one side only counts as zero on the other and is given to both.
 pub fn make_symmetric(matrix: &mut SparseMatrix) -> Asymmetry {
+    if is_symmetric(matrix) {
+        return Asymmetry { relative: 0.0, worst: (0, 0) };
+    }
     let largest = matrix.data().iter().fold(0.0f64, |max, value| max.max(value.abs()));
     let mut worst = (0.0, (0, 0));
     if !walk_pairs(matrix, &mut worst) {
@@ -26,6 +33,45 @@ pub fn make_symmetric(matrix: &mut SparseMatrix) -> Asymmetry {
         }
     }
     Asymmetry { relative: if largest > 0.0 { worst.0 / largest } else { 0.0 }, worst: worst.1 }
+}
+
+/// Whether a matrix has the same values at (i, j) and (j, i), by ranges of rows side by side.
+///
+/// Each entry below the diagonal has its partner above it, and there are no more of those.
+fn is_symmetric(matrix: &SparseMatrix) -> bool {
+    let pointers = matrix.indptr();
+    let pointers = pointers.raw_storage();
+    let ranges = balanced_ranges(pointers, rayon::current_num_threads());
+    let beyond: Option<Vec<i64>> = ranges.into_par_iter().map(|rows| unmatched_above(matrix, pointers, rows)).collect();
+    beyond.is_some_and(|counts| counts.iter().sum::<i64>() == 0)
+}
+
+/// Entries above the diagonal less those below it in some rows, every one of which has an equal partner; none where one has not.
+fn unmatched_above(matrix: &SparseMatrix, pointers: &[usize], rows: Range<usize>) -> Option<i64> {
+    let (columns, values) = (matrix.indices(), matrix.data());
+    // As in the walk of all pairs: the partners in row j are met in ascending order.
+    let first_partner = |row: usize| {
+        let entries = pointers[row]..pointers[row + 1];
+        entries.start + columns[entries].partition_point(|col| (*col as usize) < rows.start.max(row + 1))
+    };
+    let mut cursor: Vec<usize> = (0..rows.end).map(first_partner).collect();
+    let mut above = 0;
+    for row in rows {
+        for at in pointers[row]..pointers[row + 1] {
+            let col = columns[at] as usize;
+            if col >= row {
+                above += i64::from(col > row);
+                continue;
+            }
+            let partner = cursor[col];
+            if partner >= pointers[col + 1] || columns[partner] as usize != row || values[at] != values[partner] {
+                return None;
+            }
+            cursor[col] += 1;
+            above -= 1;
+        }
+    }
+    Some(above)
 }
 
 /// Averages every pair (i, j), (j, i) in one pass; false where the pattern is not symmetric.
@@ -93,6 +139,38 @@ mod tests {
         let csr: sprs::CsMatI<f64, u32, u32> = triplets.to_csr();
         let pointers = csr.indptr().raw_storage().iter().map(|p| *p as usize).collect();
         SparseMatrix::new((3, 3), pointers, csr.indices().to_vec(), csr.data().to_vec())
+    }
+
+    /// Values, and positions on either side, that differ anywhere, for any number of threads.
+    #[test]
+    fn a_single_difference_is_seen() {
+        let n = 200;
+        let mut entries = Vec::new();
+        for i in 0..n {
+            entries.push((i, i, 4.0));
+            for j in (0..i).filter(|j| (i * 7 + j * 3) % 11 == 0) {
+                entries.extend([(i, j, f64::from(i + j)), (j, i, f64::from(i + j))]);
+            }
+        }
+        let of = |entries: &[(u32, u32, f64)]| {
+            let mut triplets = crate::sparse::Triplets::default();
+            entries.iter().for_each(|(row, col, value)| triplets.push(*row, *col, *value));
+            triplets.assemble(n as usize, crate::sparse::Declared::General, "a".as_ref()).expect("a matrix").0
+        };
+        let beside: Vec<usize> = (0..entries.len()).filter(|at| entries[*at].0 != entries[*at].1).collect();
+        for threads in [1, 2, 5] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            pool.install(|| {
+                assert!(is_symmetric(&of(&entries)));
+                for at in beside.iter().step_by(97) {
+                    let mut other = entries.clone();
+                    other[*at].2 += 1e-9;
+                    assert!(!is_symmetric(&of(&other)), "{:?} on {threads} threads", entries[*at]);
+                    other.remove(*at);
+                    assert!(!is_symmetric(&of(&other)), "without {:?} on {threads} threads", entries[*at]);
+                }
+            });
+        }
     }
 
     #[test]

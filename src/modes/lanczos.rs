@@ -6,8 +6,9 @@
 //! T = VᵀM OP V               m × m    Ritz pairs (θ, s): λ = σ + 1/θ, x = V s
 //! OP V = V T + W B           W the next block (n × b), B its coupling (b × m); ‖B s‖ is the residual of a Ritz pair
 //! ```
-//! T is formed from inner products, so that after a restart the kept Ritz vectors simply are the basis; the recurrence only says
-//! which of them the first pass of orthogonalisation may leave out. A wanted cluster is never cut, and one pair beyond the wanted ones is found too, so
+//! T is formed from what orthogonalisation takes out, so that after a restart the kept Ritz vectors simply are the basis. Its first pass
+//! knows from the recurrence what a block has of the block before it, Bᵀ, and that it has nothing of older ones; later passes measure
+//! and correct that. A wanted cluster is never cut, and one pair beyond the wanted ones is found too, so
 //! that a Sturm count can be taken in the gap between them.
 
 use faer::{Mat, MatRef};

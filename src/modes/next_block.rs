@@ -38,6 +38,7 @@ impl Basis<'_> {
     /// K: where they made up most of a column, there is a third pass.
     pub(super) fn orthonormalise(&mut self, mut block: Mat<f64>, start: Coupled) -> (Mat<f64>, Mat<f64>) {
         let width = block.ncols();
+        let mut known = Some(start.shares);
         let mut coefficients = Mat::zeros(self.size, width);
         let mut coupling: Mat<f64> = Mat::identity(width, width);
         let mut mass_block = Mat::zeros(0, 0);
@@ -49,7 +50,7 @@ impl Basis<'_> {
                 _ => (0, CLEAN),
             };
             let basis = self.v().subcols(from, self.size - from);
-            let c = if pass == 0 { start.shares.clone() } else { dense::gram(basis, mass_block.as_ref()) };
+            let c = known.take().unwrap_or_else(|| dense::gram(basis, mass_block.as_ref()));
             dense::add_product(block.as_mut(), -1.0, basis, c.as_ref());
             dense::add_product(coefficients.as_mut().subrows_mut(from, c.nrows()), 1.0, c.as_ref(), coupling.as_ref());
             // What was blown up took its rounding along: rigid-body motion, and the difference between M W and what is carried.
@@ -95,7 +96,8 @@ impl Basis<'_> {
         shares.as_mut().subrows_mut(0, before - self.recent).copy_from(to_previous);
         let to_last = dense::gram(mass_last.as_ref(), image.as_ref());
         shares.as_mut().subrows_mut(before - self.recent, mass_last.ncols()).copy_from(&to_last);
-        Coupled { from: self.recent, shares, floor: f64::EPSILON * self.largest_diagonal() }
+        let own = (0..to_last.ncols().min(to_last.nrows())).fold(0.0f64, |max, j| max.max(to_last[(j, j)].abs()));
+        Coupled { from: self.recent, shares, floor: f64::EPSILON * self.largest_diagonal().max(own) }
     }
 
     fn largest_diagonal(&self) -> f64 {

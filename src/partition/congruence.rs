@@ -90,6 +90,7 @@ impl Row {
                 }
             }
         }
+        assert!(self.values.len() <= u32::MAX as usize, "a row of TᵀAT has {} terms", self.values.len());
         self
     }
 
@@ -141,4 +142,59 @@ pub(super) fn cancellation(matrix: &SparseMatrix, product: &SparseMatrix, transf
         if left > 0.0 { sum / left } else { 1.0 }
     };
     sums.into_iter().map(ratio).fold(1.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::Direction;
+    use crate::partition::{ReducedDof, Site};
+
+    /// A chain of rows, the first and the last few of which move with two rigid nodes by levers that no sum of keeps exact.
+    fn two_patches(n: usize) -> (SparseMatrix, Transformation) {
+        let mut triplets = crate::sparse::Triplets::default();
+        for row in 0..n as u32 {
+            for step in (0..40).filter(|step| *step <= row) {
+                triplets.push(row, row - step, 1.0 / f64::from(3 * row + 7 * step + 1));
+            }
+        }
+        let matrix = triplets.assemble(n, crate::sparse::Declared::Symmetric, "a".as_ref()).expect("a matrix").0;
+        let n_internal = n - 40;
+        let site = Some(Site { position: [0.0; 3], direction: Direction::Ux });
+        let dof = |origin, is_interface| ReducedDof { origin, is_interface, site, node: 0, label: None };
+        let mut dofs: Vec<ReducedDof> = (20..n - 20).map(|row| dof(DofOrigin::Row(row), false)).collect();
+        for node in 0..2 {
+            dofs.extend(Direction::ALL.map(|direction| dof(DofOrigin::RigidNode(node, direction), true)));
+        }
+        let patch = |node: usize, row: usize| {
+            let entry = |k: usize| ((n_internal + 6 * node + k) as u32, ((row + k) as f64).sin());
+            TransformationRow::Rigid((0..6).map(entry).collect())
+        };
+        let rows = (0..n).map(|row| match row {
+            0..20 => patch(0, row),
+            row if row < n - 20 => TransformationRow::Dof((row - 20) as u32),
+            row => patch(1, row),
+        });
+        (matrix, Transformation { dofs, rows: rows.collect() })
+    }
+
+    #[test]
+    fn both_sides_of_the_diagonal_have_the_same_bits_for_any_number_of_threads() {
+        let (matrix, transformation) = two_patches(1500);
+        let run = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            pool.install(|| congruence(&matrix, &transformation))
+        };
+        let product = run(1);
+        assert_eq!(product.rows(), 1460 + 12);
+        for (row, entries) in product.outer_iterator().enumerate() {
+            for (col, value) in entries.iter() {
+                let other = product.get(col, row).expect("a partner");
+                assert_eq!(value.to_bits(), other.to_bits(), "{row}, {col}");
+            }
+        }
+        for threads in [2, 7] {
+            assert_eq!(run(threads), product, "{threads} threads");
+        }
+    }
 }

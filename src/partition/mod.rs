@@ -68,6 +68,9 @@ impl Partition {
     ///
     /// # Errors
     /// Interface nodes that do not exist, repeat, or lack the dofs asked for; a patch that cannot carry a rotation.
+    ///
+    /// # Panics
+    /// Where the pattern of K or M is not symmetric, which that of a checked model is.
     pub fn new(model: Model, interfaces: &[InterfaceJob]) -> Result<Self> {
         let resolved = interface::resolve(&model, interfaces)?;
         let transformation = Transformation::new(&model, &resolved)?;

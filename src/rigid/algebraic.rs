@@ -2,13 +2,13 @@
 
 use faer::Mat;
 
-use super::{RigidBodyModes, RigidEnergy, RigidSource, absolute_energy, largest_residual};
+use super::{RigidBodyModes, RigidEnergy, RigidSource, energies_of_terms, residuals};
 use crate::dense;
 use crate::error::Result;
 use crate::factor::{Analysis, Pencil, SolveOperator};
 use crate::modes::{ModalProblem, Shifted, gram_schmidt, shifted};
 use crate::partition::Partition;
-use crate::sparse::product;
+use crate::sparse::{product, product_and_terms};
 
 /// The zero modes of a pencil without coordinates, with the factorisations they took.
 ///
@@ -32,12 +32,10 @@ pub(super) fn zero_modes(partition: &Partition) -> Result<(RigidBodyModes, Optio
     };
     let found = shifted(&analysis, problem, &|step| partition.name_of(step))?;
     let orthonormal = without_elastic_rounding(partition, &found);
-    let forces = product(&partition.stiffness, orthonormal.as_ref());
-    let magnitudes = absolute_energy(&partition.stiffness, orthonormal.as_ref());
-    let mut energy = RigidEnergy {
-        largest_residual: largest_residual(&partition.stiffness, orthonormal.as_ref()),
-        ..RigidEnergy::default()
-    };
+    let (forces, terms) = product_and_terms(&partition.stiffness, orthonormal.as_ref());
+    let magnitudes = energies_of_terms(orthonormal.as_ref(), terms.as_ref());
+    let largest_residual = residuals(forces.as_ref(), terms.as_ref()).into_iter().fold(0.0, f64::max);
+    let mut energy = RigidEnergy { largest_residual, ..RigidEnergy::default() };
     for (j, magnitude) in magnitudes.iter().enumerate() {
         let (q, force) = (dense::column(orthonormal.as_ref(), j), dense::column(forces.as_ref(), j));
         energy.largest_quotient = energy.largest_quotient.max(dense::dot(q, force).abs());

@@ -25,11 +25,11 @@ impl Triplets {
         self.values.is_empty()
     }
 
-    /// Makes room for more entries.
-    pub fn reserve(&mut self, n_entries: usize) {
-        self.rows.reserve_exact(n_entries);
-        self.cols.reserve_exact(n_entries);
-        self.values.reserve_exact(n_entries);
+    /// Makes room for more entries, where there is memory for them: what comes may be fewer.
+    pub fn expect(&mut self, n_entries: usize) {
+        let in_all = self.rows.try_reserve_exact(n_entries).and_then(|()| self.cols.try_reserve_exact(n_entries));
+        // Without room the lists grow with what comes.
+        let _ = in_all.and_then(|()| self.values.try_reserve_exact(n_entries));
     }
 
     /// Appends one entry: row, column, value, zero-based.
@@ -84,9 +84,7 @@ impl Triplets {
             // What is stored twice was given once.
             (_, Mirror::On) => n_entries - (indices.len() + n_on_diagonal(&pointers, &indices)) / 2,
         };
-        let is_symmetric = mirror == Mirror::On;
-        let mirrored = is_symmetric && declared == Declared::General;
-        let notes = AssemblyNotes { n_duplicates, mirrored, is_symmetric };
+        let notes = AssemblyNotes { n_duplicates, mirrored: mirror == Mirror::On && declared == Declared::General };
         let matrix = SparseMatrix::try_new((n, n), pointers, indices, data);
         Ok((matrix.unwrap_or_else(|(.., fault)| panic!("rows of {} are not sorted: {fault}", path.display())), notes))
     }

@@ -41,7 +41,7 @@ pub(crate) fn filled<S>(
 }
 
 /// At most `n_parts` consecutive ranges of rows with about as many entries each.
-pub(super) fn balanced_ranges(pointers: &[usize], n_parts: usize) -> Vec<Range<usize>> {
+pub(crate) fn balanced_ranges(pointers: &[usize], n_parts: usize) -> Vec<Range<usize>> {
     let n_rows = pointers.len() - 1;
     let n_stored = pointers[n_rows];
     let mut ranges = Vec::new();

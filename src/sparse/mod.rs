@@ -9,7 +9,7 @@ mod assembly;
 mod by_rows;
 mod product;
 
-pub(crate) use by_rows::{RowStorage, filled};
+pub(crate) use by_rows::{RowStorage, balanced_ranges, filled};
 pub use product::{absolute_product, multiply, product, product_and_terms};
 
 /// A symmetric sparse matrix in compressed rows, both triangles stored, indices sorted, no duplicates.
@@ -45,6 +45,4 @@ pub struct AssemblyNotes {
     pub n_duplicates: usize,
     /// A source declared general held one triangle only, which was mirrored.
     pub mirrored: bool,
-    /// One triangle stands for both: they hold the same bits.
-    pub is_symmetric: bool,
 }

@@ -14,7 +14,7 @@ use crate::dense;
 use crate::modes::{Boundary, MassOrthogonality, ModeError, mass_orthogonality};
 use crate::sparse::SparseMatrix;
 
-/// Modes multiplied by K and M at a time: the memory beside the shapes is six such panels.
+/// Modes multiplied by K and M at a time: the memory beside the shapes is five such panels.
 const PANEL: usize = 32;
 
 /// Residual of a solve beyond which the free modes are computed by another factor ([`crate::modes`] says why).

@@ -35,13 +35,13 @@ pub(super) fn static_solves(evidence: &Evidence<'_>) -> Check {
     for start in (0..combinations.ncols()).step_by(PANEL) {
         let width = PANEL.min(combinations.ncols() - start);
         let panel = constraint_panel(evidence, combinations.as_ref().subcols(start, width));
-        let Residuals { residual, terms, .. } = rows.residuals(panel.as_ref(), &vec![0.0; width]);
+        let Residuals { mut residual, terms, .. } = rows.residuals(panel.as_ref(), &vec![0.0; width]);
+        // The rows of the interface carry its reactions.
+        residual.as_mut().subrows_mut(partition.n_internal, n_b).fill(0.0);
         for j in 0..width {
-            let mut residual = dense::column(residual.as_ref(), j).to_vec();
-            // The rows of the interface carry its reactions.
-            residual[partition.n_internal..].fill(0.0);
             let x = dense::column(panel.as_ref(), j);
-            let (error, at) = rows.componentwise(0.0, x, &residual, dense::column(terms.as_ref(), j));
+            let (error, at) =
+                rows.componentwise(0.0, x, dense::column(residual.as_ref(), j), dense::column(terms.as_ref(), j));
             worst.take(error, start + j, at);
         }
     }
