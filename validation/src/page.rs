@@ -17,7 +17,7 @@ const HEAD: &str = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf
 <style>body{font:16px/1.5 sans-serif;color:#1a2129;max-width:1000px;margin:2em auto;padding:0 1em}\n\
 table{border-collapse:collapse;width:100%;margin:1em 0}td,th{border-bottom:1px solid #d5dce3;padding:.4em .6em;\
 text-align:left;vertical-align:top}img{width:100%}.reached{color:#14653a}.partly{color:#8a5a00}.not{color:#a52014}\n\
-.n{text-align:right;white-space:nowrap}figure{margin:1.5em 0}figcaption{color:#55606b}</style></head><body>\n";
+.n{text-align:right}td.n{white-space:nowrap}figure{margin:1.5em 0}figcaption{color:#55606b}</style></head><body>\n";
 
 /// The whole page; figures are taken from the folders of the examples.
 pub fn page(studies: &[Study], pendulum: Option<&Pendulum>) -> String {
@@ -42,14 +42,16 @@ pub fn page(studies: &[Study], pendulum: Option<&Pendulum>) -> String {
         let _ = section(&mut html, study);
     }
     html += &pendulum.map_or(String::new(), solid);
-    html + "</body></html>\n"
+    // A number and its sign stay on one line.
+    html.replace(" %", "\u{a0}%") + "</body></html>\n"
 }
 
 /// The solid in large rotation.
 fn solid(pendulum: &Pendulum) -> String {
     let row = |f: Figures| {
+        let away = if f.away > 0.0 { format!("{:.1e}", f.away) } else { "–".to_owned() };
         let numbers =
-            format!("{:.1e}</td><td class=\"n\">{:.1e}</td><td class=\"n\">{:.1e}", f.of_kinetic, f.of_strain, f.away);
+            format!("{:.1e}</td><td class=\"n\">{:.1e}</td><td class=\"n\">{away}", f.of_kinetic, f.of_strain);
         format!(
             "<tr><td>{}</td><td class=\"n\">{numbers}</td><td class=\"n\">{:.2}</td></tr>\n",
             f.n_modes, f.iterations
@@ -151,11 +153,10 @@ fn claim_table(html: &mut String, study: &Study) -> std::fmt::Result {
 }
 
 fn misfit_table(html: &mut String, study: &Study) -> std::fmt::Result {
-    let names = &study.reference.names[1..];
     // A column of the reference that is not drawn is not recorded either.
-    let n = study.runs.first().map_or(0, |run| run.1.curves.names.len() - 1).min(names.len());
+    let n = study.runs.first().map_or(0, |run| run.1.curves.names.len().min(study.reference.names.len()) - 1);
     write!(html, "<table><tr><th>Misfit, largest / RMS</th>")?;
-    names[..n].iter().try_for_each(|name| write!(html, "<th class=\"n\">{}</th>", name.replace('_', " ")))?;
+    (0..n).try_for_each(|column| write!(html, "<th class=\"n\">{}</th>", study.reference.quantity(column).0))?;
     writeln!(html, "</tr>")?;
     for (variant, run) in &study.runs {
         let words = if variant.measures == Measures::MotionBased { "" } else { ", classical" };
