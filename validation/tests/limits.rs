@@ -69,6 +69,7 @@ fn rotating_beam_is_within_the_limits() {
         (1, 0, 0.030, 1.36, vec![(0.027, 5e-4), (0.012, 5e-4)]),
         (1, 3, 0.025, 1.70, vec![(0.022, 5e-4), (0.0099, 5e-5)]),
         (2, 0, 0.003, f64::INFINITY, vec![(0.0022, 5e-5)]),
+        (4, 0, 0.003, f64::INFINITY, vec![(0.00012, 5e-6)]),
     ];
     for (layout, n_modes, limit, most, stated) in cases {
         let (curves, reference) = counted(Example::Rotating, motion_based(layout, n_modes), most);
