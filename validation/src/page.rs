@@ -22,20 +22,11 @@ text-align:left;vertical-align:top}img{width:100%}.reached{color:#14653a}.partly
 /// The whole page; figures are taken from the folders of the examples.
 pub fn page(studies: &[Study], pendulum: Option<&Pendulum>) -> String {
     let mut html = HEAD.to_owned();
-    html += "<h1>Validation against the paper</h1>\n<p>The examples of section 5 of Sonneville, Brüls and Bauchau, \
-             <em>Modal Reduction Procedures for Flexible Multibody Dynamics</em>: linear beam models written as matrices, \
-             reduced by supel, moved as modal components. References are fully nonlinear beam models of independent codes \
-             (<code>fixtures/paper</code>). Misfits are shares of the largest value of the reference over its record, \
-             the largest or the root of the mean square.</p>\n";
-    html += &format!(
-        "<p>The paper compares by eye; what its words are taken for here was chosen with the first results in view, once for \
-         all examples. RMS misfits: <em>overall</em> up to {OVERALL} %, <em>accurate</em> up to {ACCURATE} % (<em>poor</em> above), \
-         <em>excellent</em> up to {EXCELLENT} %. Changes of a misfit, as a share of it: none below {SLIGHT}, <em>slight</em> or \
-         <em>marginal</em> up to {NOTICED}, from there <em>noticed</em>, <em>considerable</em>, <em>significant</em>; without a \
-         degree any change counts, and measures are <em>equally</em> accurate where it is not noticed. <em>About n</em> iterations: \
-         at most n + {ABOUT}, with a matrix that never changes; a lower number of iterations is any lower one.</p>\n<p>Claims: {}.</p>\n",
-        totals(studies)
-    );
+    html += "<h1>Validation against the paper</h1>\n";
+    // The bracket alone is compared with nothing of the paper.
+    if !studies.is_empty() {
+        html += &rules(studies);
+    }
     html += &iterations(studies);
     for study in studies {
         // Writing to a text cannot fail.
@@ -44,6 +35,24 @@ pub fn page(studies: &[Study], pendulum: Option<&Pendulum>) -> String {
     html += &pendulum.map_or(String::new(), solid);
     // A number and its sign stay on one line.
     html.replace(" %", "\u{a0}%") + "</body></html>\n"
+}
+
+/// What is compared with what, and how the paper's words are judged.
+fn rules(studies: &[Study]) -> String {
+    let examples = "<p>The examples of section 5 of Sonneville, Brüls and Bauchau, \
+             <em>Modal Reduction Procedures for Flexible Multibody Dynamics</em>: linear beam models written as matrices, \
+             reduced by supel, moved as modal components. References are fully nonlinear beam models of independent codes \
+             (<code>fixtures/paper</code>). Misfits are shares of the largest value of the reference over its record, \
+             the largest or the root of the mean square.</p>\n";
+    format!(
+        "{examples}<p>The paper compares by eye; what its words are taken for here was chosen with the first results in view, once for \
+         all examples. RMS misfits: <em>overall</em> up to {OVERALL} %, <em>accurate</em> up to {ACCURATE} % (<em>poor</em> above), \
+         <em>excellent</em> up to {EXCELLENT} %. Changes of a misfit, as a share of it: none below {SLIGHT}, <em>slight</em> or \
+         <em>marginal</em> up to {NOTICED}, from there <em>noticed</em>, <em>considerable</em>, <em>significant</em>; without a \
+         degree any change counts, and measures are <em>equally</em> accurate where it is not noticed. <em>About n</em> iterations: \
+         at most n + {ABOUT}, with a matrix that never changes; a lower number of iterations is any lower one.</p>\n<p>Claims: {}.</p>\n",
+        totals(studies)
+    )
 }
 
 /// The solid in large rotation.
