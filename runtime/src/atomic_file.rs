@@ -1,5 +1,7 @@
 //! A file that appears whole or not at all.
 
+use alloc::borrow::ToOwned;
+use alloc::vec::Vec;
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write};

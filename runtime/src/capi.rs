@@ -20,6 +20,8 @@ pub use evaluation::*;
 pub use recovery::*;
 pub use results::*;
 
+use alloc::boxed::Box;
+use alloc::string::{String, ToString};
 use std::any::Any;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char};
@@ -109,7 +111,7 @@ pub struct SupelWorkspace {
     workspace: Workspace,
 }
 
-thread_local! {
+std::thread_local! {
     static LAST_ERROR: RefCell<CString> = RefCell::default();
 }
 

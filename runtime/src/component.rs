@@ -18,6 +18,7 @@
 //! Source: paper, section 4. Its inertial forces (85) lack J⁻¹ and those of its table 1 Qᵀ M_F Q; here both are complete, so
 //! that forces are those of a Lagrangian for any choice of Y.
 
+#[cfg(feature = "std")]
 mod batch;
 mod construction;
 mod damping;
@@ -34,11 +35,14 @@ mod recovery;
 mod tangents;
 mod workspace;
 
+#[cfg(feature = "std")]
 pub use batch::{BatchError, Evaluation, evaluate_all, tangents_all};
 pub use error::{ComponentError, EvaluationError};
 pub use loads::DeadLoad;
 pub use recovery::RecoveredNode;
 pub use workspace::Workspace;
+
+use alloc::vec::Vec;
 
 use crate::metadata::InterfaceDof;
 use crate::motion::{Matrix6, Motion, Vector3, Vector6};

@@ -4,7 +4,10 @@
 //! are those of the reference implementation (tensors end to end, the last one at the end of the file, shape times size
 //! equal to the bytes given) and stricter ones: no key twice, no unknown tensor, no foreign metadata.
 
-use std::collections::BTreeMap;
+use alloc::borrow::ToOwned;
+use alloc::collections::BTreeMap;
+use alloc::string::String;
+use alloc::vec::Vec;
 
 use serde_json::{Map, Value};
 
@@ -96,7 +99,7 @@ impl<'a> Container<'a> {
             .ok()
             .and_then(|length| rest.split_at_checked(length))
             .ok_or(FileError::HeaderTruncated { found: rest.len(), expected: length })?;
-        let header = std::str::from_utf8(header)
+        let header = core::str::from_utf8(header)
             .map_err(|source| FileError::HeaderNotUtf8 { offset: PREFIX + source.valid_up_to() })?;
         if !header.starts_with('{') {
             return Err(FileError::HeaderNotObject);

@@ -1,5 +1,8 @@
 //! The metadata document of the file: format version and digest around [`Metadata`].
 
+use alloc::borrow::ToOwned;
+use alloc::string::{String, ToString};
+
 use serde::Serialize;
 use serde_json::Value;
 

@@ -1,6 +1,7 @@
 //! Tensors to and from little-endian bytes.
 
-use std::collections::BTreeMap;
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
 
 use crate::container::{Dtype, RawTensor, TENSORS, TensorToWrite};
 use crate::error::{FileError, Result};

@@ -1,17 +1,22 @@
 //! Every way a superelement can be refused, one variant each, with the values that explain it.
 
+use alloc::string::String;
+use alloc::vec::Vec;
+
+#[cfg(feature = "std")]
 use std::path::PathBuf;
 
 use crate::metadata::Direction;
 
 /// The result of every fallible call of this crate.
-pub type Result<T, E = FileError> = std::result::Result<T, E>;
+pub type Result<T, E = FileError> = core::result::Result<T, E>;
 
 /// Why a superelement file could not be read or written, or why its content is not a superelement.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FileError {
     // ---- the file as a whole ---------------------------------------------------------------------------------------
+    #[cfg(feature = "std")]
     /// The system refused to read the file.
     #[error("{}: cannot be read: {source}", path.display())]
     Read {
@@ -20,6 +25,7 @@ pub enum FileError {
         /// What the system said.
         source: std::io::Error,
     },
+    #[cfg(feature = "std")]
     /// The system refused to write the file.
     #[error("{}: cannot be written: {source}", path.display())]
     Write {
@@ -28,12 +34,14 @@ pub enum FileError {
         /// What the system said.
         source: std::io::Error,
     },
+    #[cfg(feature = "std")]
     /// The name is that of a folder, a device or a pipe, or names no file at all.
     #[error("{}: is not a regular file; give the name of a superelement file", path.display())]
     NotAFile {
         /// The name.
         path: PathBuf,
     },
+    #[cfg(feature = "std")]
     /// The file does not fit the memory.
     #[error("superelement file of {bytes} bytes does not fit the memory")]
     OutOfMemory {
@@ -386,6 +394,7 @@ pub enum FileError {
 
 impl FileError {
     /// True where the system failed, false where the content is wrong.
+    #[cfg(feature = "std")]
     pub fn is_io(&self) -> bool {
         matches!(self, Self::Read { .. } | Self::Write { .. } | Self::NotAFile { .. })
     }

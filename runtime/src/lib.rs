@@ -100,13 +100,31 @@
 //! each component, and the results have the same bits for any number of threads.
 //!
 //! Programs in C use the same through `capi/supel.h` (feature `capi`).
+//!
+//! # Without the standard library
+//!
+//! With `default-features = false` the crate needs `core` and `alloc` alone, for controllers without an operating system: bytes
+//! become a superelement by [`Superelement::from_bytes`], and everything of the component and of [`motion`] is there. What is missing are
+//! files ([`Superelement::open`], [`Superelement::write`], [`StagedFile`]) and the threads of
+//! [`evaluate_all`](component::evaluate_all). Only [`Motion::exp`](motion::Motion::exp) may differ in its last bits: its sine is that of `libm`.
 
+#![no_std]
+
+#[macro_use]
+extern crate alloc;
+#[cfg(feature = "std")]
+extern crate std;
+
+#[cfg(feature = "std")]
 mod atomic_file;
 #[cfg(feature = "capi")]
 pub mod capi;
 pub mod component;
 mod container;
+#[cfg(feature = "std")]
+mod disk;
 mod document;
+mod elementary;
 mod encoding;
 mod error;
 mod file;
@@ -118,6 +136,7 @@ mod strict_json;
 mod superelement;
 mod validation;
 
+#[cfg(feature = "std")]
 pub use atomic_file::{StagedFile, abandoned_parts};
 pub use document::FORMAT_VERSION;
 pub use error::{FileError, Result};

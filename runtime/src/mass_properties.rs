@@ -37,10 +37,10 @@ pub fn mass_properties(rigid_body_mass: &Matrix) -> Option<MassProperties> {
     // treats the axes alike.
     let moment = [m_f[(2, 4)], m_f[(0, 5)], m_f[(1, 3)]];
     let opposite = [m_f[(1, 5)], m_f[(2, 3)], m_f[(0, 4)]];
-    let c: [f64; 3] = std::array::from_fn(|a| (opposite[a] - moment[a]) / (2.0 * mass));
+    let c: [f64; 3] = core::array::from_fn(|a| (opposite[a] - moment[a]) / (2.0 * mass));
     let c_squared = c.iter().map(|x| x * x).sum::<f64>();
     let steiner = |i: usize, j: usize| mass * (if i == j { c_squared } else { 0.0 } - c[i] * c[j]);
     let about_origin = |i: usize, j: usize| 0.5 * (m_f[(3 + i, 3 + j)] + m_f[(3 + j, 3 + i)]);
-    let inertia = std::array::from_fn(|i| std::array::from_fn(|j| about_origin(i, j) - steiner(i, j)));
+    let inertia = core::array::from_fn(|i| core::array::from_fn(|j| about_origin(i, j) - steiner(i, j)));
     Some(MassProperties { mass, center_of_mass: c, inertia })
 }

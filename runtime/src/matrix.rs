@@ -1,5 +1,7 @@
 //! Dense matrix of the superelement file, row by row.
 
+use alloc::vec::Vec;
+
 use crate::error::{FileError, Result};
 
 /// A dense matrix in row-major order, the order of the file and of numpy.
@@ -58,7 +60,7 @@ impl Matrix {
     }
 }
 
-impl std::ops::Index<(usize, usize)> for Matrix {
+impl core::ops::Index<(usize, usize)> for Matrix {
     type Output = f64;
 
     /// Entry (i, j).

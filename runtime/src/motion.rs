@@ -15,6 +15,8 @@
 mod algebra;
 mod tangent;
 
+use crate::elementary::{sin, sqrt};
+
 pub(crate) use algebra::blocks;
 pub use algebra::{
     IDENTITY_3, IDENTITY_6, Matrix3, Matrix6, Vector3, Vector6, check, cross, dot, hat, join, multiply_3, multiply_6,
@@ -55,20 +57,20 @@ impl Motion {
     pub fn compose(&self, first: &Self) -> Self {
         let rotation = multiply_3(&self.rotation, &first.rotation);
         let moved = times_3(&self.rotation, &first.translation);
-        Self { rotation, translation: std::array::from_fn(|i| self.translation[i] + moved[i]) }
+        Self { rotation, translation: core::array::from_fn(|i| self.translation[i] + moved[i]) }
     }
 
     /// The motion back, (Rᵀ, −Rᵀu).
     #[inline]
     pub fn inverse(&self) -> Self {
-        let rotation = std::array::from_fn(|i| std::array::from_fn(|j| self.rotation[j][i]));
+        let rotation = core::array::from_fn(|i| core::array::from_fn(|j| self.rotation[j][i]));
         Self { rotation, translation: transposed_times_3(&self.rotation, &self.translation).map(|x| -x) }
     }
 
     /// `self`⁻¹ ∘ `other`: the motion `other` seen from the frame `self`.
     #[inline]
     pub fn relative(&self, other: &Self) -> Self {
-        let difference = std::array::from_fn(|i| other.translation[i] - self.translation[i]);
+        let difference = core::array::from_fn(|i| other.translation[i] - self.translation[i]);
         Self {
             rotation: multiply_transposed_3(&self.rotation, &other.rotation),
             translation: transposed_times_3(&self.rotation, &difference),
@@ -81,8 +83,8 @@ impl Motion {
     #[inline]
     pub fn orthonormalised(&self) -> Self {
         let gram = multiply_transposed_3(&self.rotation, &self.rotation);
-        let back = std::array::from_fn(|i| {
-            std::array::from_fn(|j| if i == j { 1.5 - 0.5 * gram[i][j] } else { -0.5 * gram[i][j] })
+        let back = core::array::from_fn(|i| {
+            core::array::from_fn(|j| if i == j { 1.5 - 0.5 * gram[i][j] } else { -0.5 * gram[i][j] })
         });
         Self { rotation: multiply_3(&self.rotation, &back), translation: self.translation }
     }
@@ -91,7 +93,7 @@ impl Motion {
     #[inline]
     pub fn apply(&self, point: &Vector3) -> Vector3 {
         let turned = times_3(&self.rotation, point);
-        std::array::from_fn(|i| turned[i] + self.translation[i])
+        core::array::from_fn(|i| turned[i] + self.translation[i])
     }
 
     /// Exponential map of (u; θ): the motion after unit time with the constant material velocity (u; θ).
@@ -105,14 +107,14 @@ impl Motion {
             let (a, b) = (series(1.0, 1.0 / 6.0, 1.0 / 120.0), series(0.5, 1.0 / 24.0, 1.0 / 720.0));
             (a, b, series(1.0 / 6.0, 1.0 / 120.0, 1.0 / 5040.0))
         } else {
-            let phi = square.sqrt();
-            let half = (0.5 * phi).sin();
-            (phi.sin() / phi, 2.0 * half * half / square, (phi - phi.sin()) / (square * phi))
+            let phi = sqrt(square);
+            let half = sin(0.5 * phi);
+            (sin(phi) / phi, 2.0 * half * half / square, (phi - sin(phi)) / (square * phi))
         };
         let (once, twice) = (cross(&theta, &u), cross(&theta, &cross(&theta, &u)));
         Self {
             rotation: rotation_matrix(&theta, a, b),
-            translation: std::array::from_fn(|i| u[i] + b * once[i] + c * twice[i]),
+            translation: core::array::from_fn(|i| u[i] + b * once[i] + c * twice[i]),
         }
     }
 
@@ -124,11 +126,11 @@ impl Motion {
     #[inline]
     pub fn parameters(&self) -> Option<Vector6> {
         let r = &self.rotation;
-        let double_cosine = (r[0][0] + r[1][1] + r[2][2] + 1.0).sqrt();
+        let double_cosine = sqrt(r[0][0] + r[1][1] + r[2][2] + 1.0);
         let p = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]].map(|x| x / double_cosine);
         let p0 = 0.5 * double_cosine;
         let turned = cross(&p, &self.translation);
-        let parameters = join(&std::array::from_fn(|i| p0 * self.translation[i] - 0.5 * turned[i]), &p);
+        let parameters = join(&core::array::from_fn(|i| p0 * self.translation[i] - 0.5 * turned[i]), &p);
         // A square root of a negative number and infinities end here, too: no comparison with NaN is true.
         (p0 >= SMALLEST_COSINE && parameters.iter().all(|x| x.is_finite())).then_some(parameters)
     }
@@ -157,8 +159,8 @@ impl Motion {
 #[inline]
 fn rotation_matrix(v: &Vector3, a: f64, b: f64) -> Matrix3 {
     let (square, turn) = (dot(v, v), skew(v));
-    std::array::from_fn(|i| {
-        std::array::from_fn(|j| {
+    core::array::from_fn(|i| {
+        core::array::from_fn(|j| {
             let diagonal = if i == j { 1.0 - b * square } else { 0.0 };
             diagonal + a * turn[i][j] + b * v[i] * v[j]
         })

@@ -2,8 +2,10 @@
 //!
 //! Readers differ in which of two equal keys they keep, so a file with both can be two different superelements.
 
-use std::cell::RefCell;
-use std::fmt;
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::cell::RefCell;
+use core::fmt;
 
 use serde::de::{DeserializeSeed, Deserializer, Error as _, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Value};

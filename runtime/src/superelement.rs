@@ -7,6 +7,8 @@
 //! | M_F | `rigid_body_mass` | n_r × n_r |
 //! | ω | `frequencies` | n_modes, rad/s |
 
+use alloc::vec::Vec;
+
 use crate::error::{FileError, Result};
 use crate::matrix::Matrix;
 use crate::metadata::{Direction, Metadata};

@@ -1,5 +1,9 @@
 //! What makes numbers and metadata one superelement. The same rules hold for one that is built and one that is read.
 
+use alloc::borrow::ToOwned;
+use alloc::string::String;
+use alloc::vec::Vec;
+
 use crate::document::is_digest;
 use crate::error::{FileError, Result};
 use crate::matrix::Matrix;
@@ -153,7 +157,7 @@ fn mode_numbers(coordinate: &Coordinate) -> [f64; 2] {
 }
 
 fn check_interface(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
-    let mut seen = std::collections::BTreeSet::new();
+    let mut seen = alloc::collections::BTreeSet::new();
     let places = tensors.interface_positions.iter().zip(&tensors.interface_frames);
     for (node, (position, frame)) in metadata.interface_nodes.iter().zip(places) {
         let name = || node.name.clone();
@@ -234,7 +238,7 @@ fn check_modes(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
             return Err(FileError::CoordinateMode { coordinate, mode, n_modes: frequencies.len() });
         };
         *named = true;
-        if (frequency_hz * std::f64::consts::TAU - omega).abs() > CONVERSION_TOLERANCE * omega {
+        if (frequency_hz * core::f64::consts::TAU - omega).abs() > CONVERSION_TOLERANCE * omega {
             return Err(FileError::CoordinateFrequency { coordinate, frequency_hz, omega });
         }
     }

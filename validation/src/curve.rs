@@ -40,6 +40,15 @@ impl Curves {
         self.values.push(values);
     }
 
+    /// What a column holds, from 0 after the time, and its unit: of `root_omega_z_rad_s`, "root omega z" and "rad/s".
+    pub fn quantity(&self, column: usize) -> (String, &'static str) {
+        let name = &self.names[column + 1];
+        let units = [("_rad_s", "rad/s"), ("_m", "m")];
+        let found = units.iter().find_map(|(end, unit)| Some((name.strip_suffix(end)?, *unit)));
+        let (what, unit) = found.unwrap_or((name, ""));
+        (what.replace('_', " "), unit)
+    }
+
     /// Values of a column, from 0 after the time.
     pub fn column(&self, column: usize) -> Vec<f64> {
         self.values.iter().map(|row| row[column]).collect()

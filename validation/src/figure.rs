@@ -110,13 +110,16 @@ impl Line {
     }
 }
 
-const WIDTH: u32 = 1200;
-const HEIGHT: u32 = 560;
-const LETTER: u32 = 22;
+/// In half points of a drawing 1200 wide: the backend rounds to whole numbers, which steps would show.
+const WIDTH: u32 = 2400;
+const HEIGHT: u32 = 1200;
+const LETTER: u32 = 44;
 const INK: RGBColor = RGBColor(26, 33, 41);
 const GRID: RGBColor = RGBColor(226, 231, 236);
-/// The reference first, then the variants; apart in lightness too.
-const COLOURS: [RGBColor; 4] = [INK, RGBColor(31, 95, 168), RGBColor(196, 90, 16), RGBColor(22, 136, 74)];
+/// Colour and width: the reference first, then the variants; apart in lightness too, and narrower one after the other, so that
+/// a line stays visible where the next one hides it.
+const STYLES: [(RGBColor, u32); 4] =
+    [(INK, 14), (RGBColor(31, 95, 168), 8), (RGBColor(196, 90, 16), 5), (RGBColor(22, 136, 74), 3)];
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
@@ -142,45 +145,81 @@ type Drawn = std::result::Result<(), DrawingAreaErrorKind<std::io::Error>>;
 
 fn panel_of(area: &Area<'_>, figure: &Figure, lines: &[Line], (x, y): &([f64; 2], [f64; 2])) -> Drawn {
     let mut chart = ChartBuilder::on(area)
-        .margin_top(56)
-        .margin_right(30)
-        .x_label_area_size(64)
-        .y_label_area_size(110)
+        .margin_top(176)
+        .margin_right(60)
+        .x_label_area_size(128)
+        .y_label_area_size(220)
         .build_cartesian_2d(x[0]..x[1], y[0]..y[1])?;
     let decimals = if y[1] - y[0] > 5.0 { 0 } else { (1.5 - (y[1] - y[0]).log10()).ceil() as usize };
     chart
         .configure_mesh()
-        .bold_line_style(GRID.stroke_width(1))
+        .bold_line_style(GRID.stroke_width(2))
         .light_line_style(TRANSPARENT)
-        .axis_style(INK.stroke_width(1))
+        .axis_style(INK.stroke_width(2))
+        .set_all_tick_mark_size(10)
         .label_style(("sans-serif", LETTER).into_font().color(&INK))
         .x_label_formatter(&|value| format!("{value}"))
         // Without the sign of a rounded zero.
         .y_label_formatter(&|value| format!("{:.decimals$}", if value.abs() < 1e-9 { 0.0 } else { *value }))
         .x_desc(if figure.example == Example::Bend { "load, N" } else { "time, s" })
         .draw()?;
-    for (line, colour) in lines.iter().zip(COLOURS) {
-        // A wide line under narrow ones: the reference stays visible where the others hide it.
-        let width = if colour == INK { 5 } else { 2 };
-        let is_seen = |(at, value): &(f64, f64)| (x[0]..=x[1]).contains(at) && (y[0]..=y[1]).contains(value);
-        for run in line.points.split(|point| !is_seen(point)) {
-            chart.draw_series(LineSeries::new(run.iter().copied(), colour.stroke_width(width)))?;
+    for (line, (colour, width)) in lines.iter().zip(STYLES) {
+        for run in within(&line.points, *x, *y) {
+            chart.draw_series(LineSeries::new(run, colour.stroke_width(width)))?;
         }
     }
-    area.draw(&Text::new(figure.quantity.1, (0, 4), words(HPos::Left)))
+    area.draw(&Text::new(figure.quantity.1, (0, 8), words()))
+}
+
+/// The runs of a line inside a window, up to its border.
+fn within(points: &[(f64, f64)], x: [f64; 2], y: [f64; 2]) -> Vec<Vec<(f64, f64)>> {
+    let mut runs: Vec<Vec<(f64, f64)>> = Vec::new();
+    for (a, b) in points.iter().zip(points.iter().skip(1)) {
+        let step = (b.0 - a.0, b.1 - a.1);
+        // Shares of the step at which it crosses two borders; along a border it is inside or not.
+        let share = |start: f64, step: f64, [low, high]: [f64; 2]| {
+            let ends = [(low - start) / step, (high - start) / step];
+            let inside = if (low..=high).contains(&start) { [0.0, 1.0] } else { [1.0, 0.0] };
+            if step == 0.0 { inside } else { [ends[0].min(ends[1]), ends[0].max(ends[1])] }
+        };
+        let (across, along) = (share(a.0, step.0, x), share(a.1, step.1, y));
+        let (first, last) = (across[0].max(along[0]).max(0.0), across[1].min(along[1]).min(1.0));
+        let place = |share: f64| if share == 1.0 { *b } else { (a.0 + share * step.0, a.1 + share * step.1) };
+        // A line ends where it leaves the window, and before what is no number.
+        if first < last && (step.0 + step.1).is_finite() {
+            match runs.last_mut().filter(|run| first == 0.0 && run.last() == Some(a)) {
+                Some(run) => run.push(place(last)),
+                None => runs.push(vec![place(first), place(last)]),
+            }
+        }
+    }
+    runs
 }
 
 fn legend(area: &Area<'_>, lines: &[Line]) -> Drawn {
-    let mut left = 320;
-    for (line, colour) in lines.iter().zip(COLOURS) {
-        let width = if colour == INK { 5 } else { 2 };
-        area.draw(&PathElement::new([(left, 16), (left + 36, 16)], colour.stroke_width(width)))?;
-        area.draw(&Text::new(line.label.clone(), (left + 44, 4), words(HPos::Left)))?;
-        left += 60 + 11 * line.label.chars().count() as i32;
+    let mut left = 220;
+    for (line, (colour, width)) in lines.iter().zip(STYLES) {
+        area.draw(&PathElement::new([(left, 104), (left + 72, 104)], colour.stroke_width(width)))?;
+        area.draw(&Text::new(line.label.clone(), (left + 88, 80), words()))?;
+        left += 120 + 22 * line.label.chars().count() as i32;
     }
     Ok(())
 }
 
-fn words(across: HPos) -> TextStyle<'static> {
-    ("sans-serif", LETTER).into_font().color(&INK).pos(Pos::new(across, VPos::Top))
+fn words() -> TextStyle<'static> {
+    ("sans-serif", LETTER).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Top))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_end_at_the_border_of_the_window() {
+        let line = [(0.0, 0.0), (1.0, 2.0), (2.0, 0.0), (3.0, 0.5), (4.0, f64::NAN), (5.0, 0.0), (6.0, 0.0)];
+        let runs = within(&line, [0.0, 5.5], [0.0, 1.0]);
+        let expected =
+            [vec![(0.0, 0.0), (0.5, 1.0)], vec![(1.5, 1.0), (2.0, 0.0), (3.0, 0.5)], vec![(5.0, 0.0), (5.5, 0.0)]];
+        assert_eq!(runs, expected);
+    }
 }

@@ -21,7 +21,7 @@ pub struct Frame {
 
 /// Side of a picture, px.
 const SIDE: f64 = 300.0;
-const CAPTION: f64 = 28.0;
+const CAPTION: f64 = 34.0;
 
 /// The frames side by side as SVG: z to the right, x downwards, within a square of the model about a middle.
 pub fn strip(mesh: &HexMesh, frames: &[Frame], middle: [f64; 2], half_width: f64) -> String {
@@ -30,7 +30,7 @@ pub fn strip(mesh: &HexMesh, frames: &[Frame], middle: [f64; 2], half_width: f64
     let (width, height) = (SIDE * frames.len() as f64, SIDE + CAPTION);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" \
-         font-size=\"16\">\n"
+         font-size=\"22\">\n"
     );
     for (number, frame) in frames.iter().enumerate() {
         let left = SIDE * number as f64;
@@ -52,8 +52,7 @@ pub fn strip(mesh: &HexMesh, frames: &[Frame], middle: [f64; 2], half_width: f64
         }
         let _ = writeln!(svg, "<text x=\"{}\" y=\"{}\">{:.2} s</text>", left + 8.0, height - 8.0, frame.time);
     }
-    let _ =
-        writeln!(svg, "<text x=\"{}\" y=\"{}\">deformation up to {largest:.2} mm</text>", width - 240.0, height - 8.0);
+    let _ = writeln!(svg, "<text x=\"8\" y=\"24\">deformation: grey none, orange {largest:.2} mm</text>");
     svg + "</svg>\n"
 }
 

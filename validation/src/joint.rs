@@ -9,6 +9,7 @@
 //! | spherical | three gaps in inertial axes |
 //! | revolute | those, and the axis of a square to two directions across it of b |
 //! | clamp | the three gaps, and the squares of all axes |
+//! | prescribed rotation | those of a clamp, with b's axes turned by the angle at the time |
 //! | prismatic | the gaps across the axis, which turns with b, and the squares of all axes |
 //! | point on a plane | the gap along the normal, which turns with b |
 //!
@@ -17,7 +18,9 @@
 //! rotation) need no multiplier: those coordinates are not free, see [`Support`]. Rows that supports keep already, those of
 //! a revolute joint between nodes held in the plane across its axis, take no part.
 
-use supel_runtime::motion::{IDENTITY_3, Motion, Vector3, Vector6, cross, dot, join, times_3, transposed_times_3};
+use supel_runtime::motion::{
+    IDENTITY_3, Matrix3, Motion, Vector3, Vector6, cross, dot, join, times_3, transposed_times_3,
+};
 
 /// What becomes of one coordinate of a node: translations and rotations about the node's own, turning axes.
 #[derive(Clone, Copy, Debug)]
@@ -65,7 +68,7 @@ pub enum Side {
 }
 
 /// What a joint holds; axes are in inertial axes at the start and may have any length.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub enum Kind {
     /// The point, in all directions.
     Spherical,
@@ -81,6 +84,13 @@ pub enum Kind {
     },
     /// The point and all turns.
     Clamp,
+    /// The point and all turns; the first side has turned against the second by an angle that is prescribed.
+    PrescribedRotation {
+        /// Axis of the turn.
+        axis: Vector3,
+        /// Angle over time, rad; zero at the start, and smooth from a step before it.
+        angle: fn(f64) -> f64,
+    },
     /// The point in a plane that turns with the second side; in a planar mechanism the massless slider with its pin.
     PointOnPlane {
         /// Normal of the plane.
@@ -89,7 +99,7 @@ pub enum Kind {
 }
 
 /// A joint between two sides, in inertial axes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Joint {
     /// What it holds.
     pub kind: Kind,
@@ -109,15 +119,18 @@ pub struct Row {
 }
 
 impl Joint {
-    /// The rows of the joint at a configuration of the nodes at `positions`; nothing is violated at the start.
+    /// The rows of the joint at a time and a configuration of the nodes at `positions`; nothing is violated at the start.
     ///
     /// # Panics
     /// If an axis is zero.
-    pub fn rows(&self, motions: &[Motion], positions: &[Vector3]) -> Vec<Row> {
+    pub fn rows(&self, time: f64, motions: &[Motion], positions: &[Vector3]) -> Vec<Row> {
         let [a, b] = self.sides.map(|side| Grip::new(side, &self.point, motions, positions));
         let gaps = || IDENTITY_3.map(|direction| gap([&a, &b], &direction, &Grip::ground(&self.point)));
         let square = |own: &Vector3, other: &Vector3| square([&a, &b], [own, other]);
-        let squares = |[x, y, z]: [Vector3; 3]| [square(&x, &y), square(&y, &z), square(&z, &x)];
+        let turned_squares = |[x, y, z]: [Vector3; 3], turn: &Matrix3| {
+            [(x, y), (y, z), (z, x)].map(|(own, other)| square(&own, &times_3(turn, &other)))
+        };
+        let squares = |axes: [Vector3; 3]| turned_squares(axes, &IDENTITY_3);
         match &self.kind {
             Kind::Spherical => gaps().into(),
             Kind::Revolute { axis } => {
@@ -130,6 +143,11 @@ impl Joint {
                 across.into_iter().chain(squares(axes)).collect()
             }
             Kind::Clamp => gaps().into_iter().chain(squares(IDENTITY_3)).collect(),
+            Kind::PrescribedRotation { axis, angle } => {
+                let axes = axes(axis);
+                let turn = Motion::exp(&join(&[0.0; 3], &axes[0].map(|x| angle(time) * x))).rotation;
+                gaps().into_iter().chain(turned_squares(axes, &turn)).collect()
+            }
             Kind::PointOnPlane { normal } => vec![gap([&a, &b], &axes(normal)[0], &b)],
         }
     }
@@ -218,6 +236,7 @@ mod tests {
             Kind::Prismatic { axis: AXIS },
             Kind::Clamp,
             Kind::PointOnPlane { normal: AXIS },
+            Kind::PrescribedRotation { axis: AXIS, angle: |time| time },
         ];
         let [a, b] = [Side::Node(0), Side::Node(1)];
         let sides = [[a, b], [b, a], [a, Side::Ground], [Side::Ground, b]];
@@ -235,13 +254,13 @@ mod tests {
         let at = [[0.3, -0.2, 0.1, 0.2, 0.5, -0.4], [-0.1, 0.4, 0.2, -0.3, 0.1, 0.6]].map(|v| Motion::exp(&v));
         let size = 1e-5;
         for joint in joints() {
-            for (number, row) in joint.rows(&at, &POSITIONS).iter().enumerate() {
+            for (number, row) in joint.rows(0.7, &at, &POSITIONS).iter().enumerate() {
                 for (node, d) in [0, 1].into_iter().flat_map(|node| (0..6).map(move |d| (node, d))) {
                     // A step of the node along or about its own axis d.
                     let violation = |step: f64| {
                         let mut increment = [0.0; 6];
                         increment[d] = step;
-                        joint.rows(&moved(&at, node, &increment), &POSITIONS)[number].violation
+                        joint.rows(0.7, &moved(&at, node, &increment), &POSITIONS)[number].violation
                     };
                     let slope = (violation(size) - violation(-size)) / (2.0 * size);
                     let of_node = row.gradient.iter().find(|entry| entry.0 == node);
@@ -256,11 +275,12 @@ mod tests {
     #[test]
     fn joints_allow_what_they_are_named_for() {
         let rest = [Motion::IDENTITY; 2];
-        let counts = [3, 5, 5, 6, 1].into_iter().flat_map(|n| [n; 4]);
+        let counts = [3, 5, 5, 6, 1, 6].into_iter().flat_map(|n| [n; 4]);
         for (joint, n_rows) in joints().zip(counts) {
-            let violations = |motions: &[Motion; 2]| -> Vec<f64> {
-                joint.rows(motions, &POSITIONS).iter().map(|row| row.violation.abs()).collect()
+            let violations_at = |time: f64, motions: &[Motion; 2]| -> Vec<f64> {
+                joint.rows(time, motions, &POSITIONS).iter().map(|row| row.violation.abs()).collect()
             };
+            let violations = |motions: &[Motion; 2]| violations_at(0.0, motions);
             let start = violations(&rest);
             assert_eq!(start.len(), n_rows, "{joint:?}");
             let nodes = joint.sides.map(|side| if let Side::Node(node) = side { Some(node) } else { None });
@@ -275,7 +295,7 @@ mod tests {
                 Kind::Spherical => [false, false, true, true],
                 Kind::Revolute { .. } => [false, false, true, false],
                 Kind::Prismatic { .. } => [true, false, false, false],
-                Kind::Clamp => [false; 4],
+                Kind::Clamp | Kind::PrescribedRotation { .. } => [false; 4],
                 Kind::PointOnPlane { .. } => [false, true, true, true],
             };
             for (motion, allowed) in [slide, across, turns[0], turns[1]].iter().zip(allowed) {
@@ -287,6 +307,13 @@ mod tests {
                 assert!(if allowed { worst < 1e-14 } else { worst > 0.1 }, "{joint:?} {motion:?}: {worst}");
             }
             assert!(start.iter().all(|violation| *violation < 1e-15), "{joint:?}: {start:?}");
+            if let Kind::PrescribedRotation { .. } = joint.kind {
+                // By the angle of the time, one way round for the first side and the other for the second.
+                let angle = if nodes[0].is_some() { 1.0 } else { -1.0 };
+                let turned = |angle: f64| [Motion::exp(&about(unit.map(|x| angle * x))), rest[1]];
+                let turned = if node == 0 { turned(angle) } else { [rest[0], turned(angle)[0]] };
+                assert!(violations_at(1.0, &turned).iter().all(|violation| *violation < 1e-15), "{joint:?}");
+            }
         }
     }
 }

@@ -56,7 +56,9 @@ fn run(arguments: &[String]) -> Result<()> {
     let name = if which == "all" { "index" } else { which };
     let path = folder.join(format!("{name}.html"));
     fs::write(&path, page(&studies, pendulum.as_ref()))?;
-    println!("{}Claims: {}.", summary(&studies), totals(&studies));
+    if !studies.is_empty() {
+        println!("{}Claims: {}.", summary(&studies), totals(&studies));
+    }
     println!("{}", path.display());
     Ok(())
 }

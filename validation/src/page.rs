@@ -17,39 +17,50 @@ const HEAD: &str = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf
 <style>body{font:16px/1.5 sans-serif;color:#1a2129;max-width:1000px;margin:2em auto;padding:0 1em}\n\
 table{border-collapse:collapse;width:100%;margin:1em 0}td,th{border-bottom:1px solid #d5dce3;padding:.4em .6em;\
 text-align:left;vertical-align:top}img{width:100%}.reached{color:#14653a}.partly{color:#8a5a00}.not{color:#a52014}\n\
-.n{text-align:right;white-space:nowrap}figure{margin:1.5em 0}figcaption{color:#55606b}</style></head><body>\n";
+.n{text-align:right}td.n{white-space:nowrap}figure{margin:1.5em 0}figcaption{color:#55606b}</style></head><body>\n";
 
 /// The whole page; figures are taken from the folders of the examples.
 pub fn page(studies: &[Study], pendulum: Option<&Pendulum>) -> String {
     let mut html = HEAD.to_owned();
-    html += "<h1>Validation against the paper</h1>\n<p>The examples of section 5 of Sonneville, Brüls and Bauchau, \
-             <em>Modal Reduction Procedures for Flexible Multibody Dynamics</em>: linear beam models written as matrices, \
-             reduced by supel, moved as modal components. References are fully nonlinear beam models of independent codes \
-             (<code>fixtures/paper</code>). Misfits are shares of the largest value of the reference over its record, \
-             the largest or the root of the mean square.</p>\n";
-    html += &format!(
-        "<p>The paper compares by eye; what its words are taken for here was chosen with the first results in view, once for \
-         all examples. RMS misfits: <em>overall</em> up to {OVERALL} %, <em>accurate</em> up to {ACCURATE} % (<em>poor</em> above), \
-         <em>excellent</em> up to {EXCELLENT} %. Changes of a misfit, as a share of it: none below {SLIGHT}, <em>slight</em> or \
-         <em>marginal</em> up to {NOTICED}, from there <em>noticed</em>, <em>considerable</em>, <em>significant</em>; without a \
-         degree any change counts, and measures are <em>equally</em> accurate where it is not noticed. <em>About n</em> iterations: \
-         at most n + {ABOUT}, with a matrix that never changes; a lower number of iterations is any lower one.</p>\n<p>Claims: {}.</p>\n",
-        totals(studies)
-    );
+    html += "<h1>Validation against the paper</h1>\n";
+    // The bracket alone is compared with nothing of the paper.
+    if !studies.is_empty() {
+        html += &rules(studies);
+    }
     html += &iterations(studies);
     for study in studies {
         // Writing to a text cannot fail.
         let _ = section(&mut html, study);
     }
     html += &pendulum.map_or(String::new(), solid);
-    html + "</body></html>\n"
+    // A number and its sign stay on one line.
+    html.replace(" %", "\u{a0}%") + "</body></html>\n"
+}
+
+/// What is compared with what, and how the paper's words are judged.
+fn rules(studies: &[Study]) -> String {
+    let examples = "<p>The examples of section 5 of Sonneville, Brüls and Bauchau, \
+             <em>Modal Reduction Procedures for Flexible Multibody Dynamics</em>: linear beam models written as matrices, \
+             reduced by supel, moved as modal components. References are fully nonlinear beam models of independent codes \
+             (<code>fixtures/paper</code>). Misfits are shares of the largest value of the reference over its record, \
+             the largest or the root of the mean square.</p>\n";
+    format!(
+        "{examples}<p>The paper compares by eye; what its words are taken for here was chosen with the first results in view, once for \
+         all examples. RMS misfits: <em>overall</em> up to {OVERALL} %, <em>accurate</em> up to {ACCURATE} % (<em>poor</em> above), \
+         <em>excellent</em> up to {EXCELLENT} %. Changes of a misfit, as a share of it: none below {SLIGHT}, <em>slight</em> or \
+         <em>marginal</em> up to {NOTICED}, from there <em>noticed</em>, <em>considerable</em>, <em>significant</em>; without a \
+         degree any change counts, and measures are <em>equally</em> accurate where it is not noticed. <em>About n</em> iterations: \
+         at most n + {ABOUT}, with a matrix that never changes; a lower number of iterations is any lower one.</p>\n<p>Claims: {}.</p>\n",
+        totals(studies)
+    )
 }
 
 /// The solid in large rotation.
 fn solid(pendulum: &Pendulum) -> String {
     let row = |f: Figures| {
+        let away = if f.away > 0.0 { format!("{:.1e}", f.away) } else { "–".to_owned() };
         let numbers =
-            format!("{:.1e}</td><td class=\"n\">{:.1e}</td><td class=\"n\">{:.1e}", f.of_kinetic, f.of_strain, f.away);
+            format!("{:.1e}</td><td class=\"n\">{:.1e}</td><td class=\"n\">{away}", f.of_kinetic, f.of_strain);
         format!(
             "<tr><td>{}</td><td class=\"n\">{numbers}</td><td class=\"n\">{:.2}</td></tr>\n",
             f.n_modes, f.iterations
@@ -151,11 +162,10 @@ fn claim_table(html: &mut String, study: &Study) -> std::fmt::Result {
 }
 
 fn misfit_table(html: &mut String, study: &Study) -> std::fmt::Result {
-    let names = &study.reference.names[1..];
     // A column of the reference that is not drawn is not recorded either.
-    let n = study.runs.first().map_or(0, |run| run.1.curves.names.len() - 1).min(names.len());
+    let n = study.runs.first().map_or(0, |run| run.1.curves.names.len().min(study.reference.names.len()) - 1);
     write!(html, "<table><tr><th>Misfit, largest / RMS</th>")?;
-    names[..n].iter().try_for_each(|name| write!(html, "<th class=\"n\">{}</th>", name.replace('_', " ")))?;
+    (0..n).try_for_each(|column| write!(html, "<th class=\"n\">{}</th>", study.reference.quantity(column).0))?;
     writeln!(html, "</tr>")?;
     for (variant, run) in &study.runs {
         let words = if variant.measures == Measures::MotionBased { "" } else { ", classical" };

@@ -24,7 +24,7 @@ pub(crate) struct Gradients {
 }
 
 impl Gradients {
-    pub(crate) fn new(system: &System, at: &Configuration) -> Self {
+    pub(crate) fn new(system: &System, time: f64, at: &Configuration) -> Self {
         let n = system.n();
         let dense = |gradient: &[(usize, Vector6)]| {
             let mut row = vec![0.0; n];
@@ -33,13 +33,19 @@ impl Gradients {
             }
             row
         };
-        let rows = system.constraints(at).into_iter();
+        let rows = system.constraints(time, at).into_iter();
         let (violations, rows) = rows.map(|row| (row.violation, dense(&row.gradient))).unzip();
         Self { rows, violations }
     }
 
+    /// B x.
     pub(crate) fn times(&self, x: &[f64]) -> Vec<f64> {
         self.rows.iter().map(|row| row.iter().zip(x).map(|(b, x)| b * x).sum()).collect()
+    }
+
+    /// |B| |x|.
+    pub(crate) fn magnitudes(&self, x: &[f64]) -> Vec<f64> {
+        self.rows.iter().map(|row| row.iter().zip(x).map(|(b, x)| (b * x).abs()).sum()).collect()
     }
 
     /// r + Bᵀλ.

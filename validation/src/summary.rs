@@ -40,8 +40,8 @@ fn misfits(study: &Study) -> String {
             format!("{} {words}", study.example.label(*model))
         };
         let found: Vec<String> = models.iter().map(one).collect();
-        let name = study.reference.names[column + 1].replace('_', " ");
-        format!("| {} | {name} | {} |\n", number(study), found.join("; "))
+        let (what, _) = study.reference.quantity(column);
+        format!("| {} | {what} | {} |\n", number(study), found.join("; "))
     };
     drawn.into_iter().map(row).collect()
 }

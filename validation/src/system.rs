@@ -54,6 +54,8 @@ pub struct System {
     pub loads: Vec<Load>,
     /// Acceleration of gravity, in inertial axes.
     pub gravity: Vector3,
+    /// Velocities at the start, which the joints allow.
+    pub initial_velocity: Vec<f64>,
 }
 
 /// Where everything is.
@@ -122,7 +124,16 @@ impl System {
         }
         let mut supports = supports.concat();
         supports.resize(first_amplitude, Support::Free);
-        Ok(Self { positions, bodies, supports, joints: Vec::new(), loads: Vec::new(), gravity: [0.0; 3] })
+        let initial_velocity = vec![0.0; supports.len()];
+        Ok(Self {
+            positions,
+            bodies,
+            supports,
+            joints: Vec::new(),
+            loads: Vec::new(),
+            gravity: [0.0; 3],
+            initial_velocity,
+        })
     }
 
     /// Number of coordinates.
@@ -228,8 +239,8 @@ impl System {
         }
     }
 
-    /// Rows of all joints.
-    pub fn constraints(&self, at: &Configuration) -> Vec<Row> {
-        self.joints.iter().flat_map(|joint| joint.rows(&at.motions, &self.positions)).collect()
+    /// Rows of all joints at a time.
+    pub fn constraints(&self, time: f64, at: &Configuration) -> Vec<Row> {
+        self.joints.iter().flat_map(|joint| joint.rows(time, &at.motions, &self.positions)).collect()
     }
 }

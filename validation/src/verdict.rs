@@ -44,7 +44,8 @@ impl Claim {
     pub fn against(self, study: &Study, columns: &[usize]) -> Self {
         let one = |column: &usize| {
             let largest = study.reference.column(*column).into_iter().fold(0.0_f64, |largest, v| largest.max(v.abs()));
-            format!("{} up to {largest:.4}", study.reference.names[column + 1].replace('_', " "))
+            let (what, unit) = study.reference.quantity(*column);
+            format!("{what} up to {largest:.4}\u{a0}{unit}")
         };
         let columns: Vec<String> = columns.iter().map(one).collect();
         Self { reference: format!("{}; {}", columns.join(", "), study.example.uncertainty()), ..self }

@@ -1,5 +1,7 @@
 //! Evaluations through the C interface.
 
+use alloc::boxed::Box;
+
 use super::{Outcome, SupelComponent, SupelDeadLoad, SupelMotion, SupelState, SupelStatus, SupelWorkspace};
 use super::{failed, guarded, null, values};
 use crate::component::{DeadLoad, ModalComponent, State, Workspace};

@@ -1,5 +1,6 @@
 //! Evaluations of many components at once, by several threads.
 
+use alloc::vec::Vec;
 use std::num::NonZero;
 use std::sync::{Mutex, PoisonError};
 

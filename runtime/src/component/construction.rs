@@ -9,11 +9,14 @@
 //! nodes carry the rigid-body motion, (24); Rubin's in Herting's variables where the internal stiffness is singular has
 //! rigid-body amplitudes, which must not grow with the motion: η' is what they differ from the mean of the nodes.
 
+use alloc::vec::Vec;
+
 use super::dense;
 use super::floating_frame::FrameRounding;
 use super::projection::ActsOn;
 use super::recovery::RecoveryMap;
 use super::{ComponentError, FloatingFrame, Measures, ModalComponent};
+use crate::elementary::sqrt;
 use crate::matrix::Matrix;
 use crate::metadata::{Coordinate, Direction, RigidBodyModes};
 use crate::motion::{
@@ -178,7 +181,7 @@ fn shift(position: &Vector3) -> Matrix6 {
 
 /// D⁻¹ = [I, x̃; 0, I].
 fn unshifted(shift: &Matrix6) -> Matrix6 {
-    std::array::from_fn(|i| std::array::from_fn(|j| if i == j { 1.0 } else { -shift[i][j] }))
+    core::array::from_fn(|i| core::array::from_fn(|j| if i == j { 1.0 } else { -shift[i][j] }))
 }
 
 /// N, a row of six for each modal amplitude.
@@ -186,7 +189,7 @@ fn rigid_amplitudes(superelement: &Superelement) -> Vec<Vector6> {
     let (modes, n_nodal) = (&superelement.tensors().rigid_body_modes, superelement.n_interface());
     let geometric = superelement.metadata().model.rigid_body_modes == RigidBodyModes::Geometric && modes.cols() == 6;
     let entry = |i: usize, a: usize| if geometric { modes[(n_nodal + i, a)] } else { 0.0 };
-    (0..superelement.n_modal()).map(|i| std::array::from_fn(|a| entry(i, a))).collect()
+    (0..superelement.n_modal()).map(|i| core::array::from_fn(|a| entry(i, a))).collect()
 }
 
 /// U of the nodes and zeros for the modal amplitudes, r × 6.
@@ -225,7 +228,7 @@ fn rigid_force(a: &Matrix, magnitudes: &[f64], u: &[Vector6]) -> (f64, usize) {
         let (mut force, mut parts) = (0.0_f64, 0.0_f64);
         let rows = a.as_slice().chunks_exact(r).zip(magnitudes.chunks_exact(r)).enumerate();
         for (i, (row, magnitudes)) in rows.filter(|(i, (_, magnitudes))| magnitudes[*i] > 0.0) {
-            let scale = magnitudes[i].sqrt().recip();
+            let scale = sqrt(magnitudes[i]).recip();
             let terms = row.iter().zip(u).map(|(entry, motion)| scale * entry * motion[column]);
             force = force.max(terms.sum::<f64>().abs());
             parts =
@@ -301,9 +304,9 @@ fn normalisation(product: &Matrix6) -> Result<Matrix6, ComponentError> {
 
 /// The inverse, found in the scale of the diagonal; `None` where it is singular.
 fn inverse_in_scale(a: &Matrix6) -> Option<Matrix6> {
-    let scale: Vector6 = std::array::from_fn(|i| a[i][i].sqrt().recip());
+    let scale: Vector6 = core::array::from_fn(|i| sqrt(a[i][i]).recip());
     let scaled =
-        |a: &Matrix6| -> Matrix6 { std::array::from_fn(|i| std::array::from_fn(|j| scale[i] * a[i][j] * scale[j])) };
+        |a: &Matrix6| -> Matrix6 { core::array::from_fn(|i| core::array::from_fn(|j| scale[i] * a[i][j] * scale[j])) };
     dense::inverse(&scaled(a), SMALLEST_PIVOT).map(|inverse| scaled(&inverse))
 }
 
@@ -320,8 +323,8 @@ fn no_frame(product: &Matrix6) -> ComponentError {
     let hidden = |a: usize| product[a][a] / turned[a][a];
     let axis = (3..6).fold(3, |most, axis| if hidden(axis) > hidden(most) { axis } else { most });
     ComponentError::FarFromOrigin {
-        distance: dot(&centre, &centre).sqrt(),
-        radius: (turned[axis][axis] / mass).sqrt(),
-        limit: SMALLEST_PIVOT.sqrt().recip(),
+        distance: sqrt(dot(&centre, &centre)),
+        radius: sqrt(turned[axis][axis] / mass),
+        limit: sqrt(SMALLEST_PIVOT).recip(),
     }
 }

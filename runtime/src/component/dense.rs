@@ -39,7 +39,7 @@ pub(crate) fn add_scaled(y: &mut [f64], s: f64, x: &[f64]) {
 /// a + s b.
 #[inline]
 pub(crate) fn plus_scaled(a: &Vector6, s: f64, b: &Vector6) -> Vector6 {
-    std::array::from_fn(|i| a[i] + s * b[i])
+    core::array::from_fn(|i| a[i] + s * b[i])
 }
 
 /// xᵀy.
@@ -112,7 +112,7 @@ pub(crate) fn inverse(a: &Matrix6, smallest: f64) -> Option<Matrix6> {
 /// Aᵀ.
 #[inline]
 pub(crate) fn transposed(a: &Matrix6) -> Matrix6 {
-    std::array::from_fn(|i| std::array::from_fn(|j| a[j][i]))
+    core::array::from_fn(|i| core::array::from_fn(|j| a[j][i]))
 }
 
 /// y_i ← S y_i for each of the rows of Y.

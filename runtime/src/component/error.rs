@@ -1,5 +1,8 @@
 //! Why a superelement makes no component, and why a component cannot be evaluated.
 
+use alloc::string::String;
+use alloc::vec::Vec;
+
 use crate::metadata::Direction;
 
 /// Why a superelement cannot undergo large motion.

@@ -147,7 +147,7 @@ impl ModalComponent {
         }
         amplitudes.copy_from_slice(frame_amplitudes);
         for (node, rigid) in workspace.nodes.iter_mut().zip(&self.rigid) {
-            node.excess = std::array::from_fn(|i| dense::plus_scaled(&node.f[i], -1.0, &rigid[i]));
+            node.excess = core::array::from_fn(|i| dense::plus_scaled(&node.f[i], -1.0, &rigid[i]));
         }
         dense::apply_to_rows(&workspace.s, &mut workspace.q);
     }
@@ -192,7 +192,7 @@ impl FrameRounding {
         let way = state.motions.iter().fold(self.extent, |size, motion| size.max(largest(&motion.translation)));
         let [translations, rotations, amplitudes] = &self.weights;
         let amplitude = largest(state.amplitudes);
-        std::array::from_fn(|a| ROUNDING * (translations[a] * way + rotations[a] + amplitudes[a] * amplitude))
+        core::array::from_fn(|a| ROUNDING * (translations[a] * way + rotations[a] + amplitudes[a] * amplitude))
     }
 }
 

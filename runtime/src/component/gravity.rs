@@ -29,7 +29,7 @@ impl ModalComponent {
         let mut moved = [0.0; 3];
         for ((row, e), force) in self.gravity.iter().zip(deformation.iter()).zip(product.iter_mut()) {
             *force = dot(row, &a);
-            moved = std::array::from_fn(|i| moved[i] + e * row[i]);
+            moved = core::array::from_fn(|i| moved[i] + e * row[i]);
         }
         let mut on_frame: Vector6 = join(&[0.0; 3], &cross(&moved, &a));
         for (rigid, g) in self.rigid.iter().zip(product.as_chunks::<6>().0) {

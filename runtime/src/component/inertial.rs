@@ -60,7 +60,7 @@ impl ModalComponent {
 impl Workspace {
     /// Velocities of node j and of the floating frame.
     pub(super) fn node_rates(&self, state: &State<'_>, j: usize) -> NodeRates {
-        let six = |values: &[f64]| std::array::from_fn(|i| values[6 * j + i]);
+        let six = |values: &[f64]| core::array::from_fn(|i| values[6 * j + i]);
         NodeRates { measure: six(&self.deformation_rate), node: six(state.velocities), frame: self.frame_velocity }
     }
 }

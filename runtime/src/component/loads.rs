@@ -27,7 +27,7 @@ impl DeadLoad {
         let force = transposed_times_3(&motion.rotation, &self.force);
         let moment = transposed_times_3(&motion.rotation, &self.moment);
         let lever = cross(position, &force);
-        join(&force, &std::array::from_fn(|i| lever[i] + moment[i]))
+        join(&force, &core::array::from_fn(|i| lever[i] + moment[i]))
     }
 
     /// Load stiffness, −∂f_U/∂U of [`in_node`](Self::in_node): [0, −ã; 0, −(x̃ã + b̃)] with a = Rᵀf, b = Rᵀm. It is added to the
@@ -37,7 +37,7 @@ impl DeadLoad {
         let moment = skew(&transposed_times_3(&motion.rotation, &self.moment));
         let lever = multiply_3(&skew(position), &force);
         let zero = [[0.0; 3]; 3];
-        let lower: Matrix3 = std::array::from_fn(|i| std::array::from_fn(|j| -(lever[i][j] + moment[i][j])));
+        let lower: Matrix3 = core::array::from_fn(|i| core::array::from_fn(|j| -(lever[i][j] + moment[i][j])));
         blocks(&zero, &force.map(|row| row.map(|x| -x)), &zero, &lower)
     }
 }

@@ -75,10 +75,10 @@ impl Measures {
         match self {
             // Ḟ = J̇ − Ė̂.
             Self::MotionBased => {
-                let difference = std::array::from_fn(|i| rates.node[i] - rates.frame[i]);
+                let difference = core::array::from_fn(|i| rates.node[i] - rates.frame[i]);
                 let turned = times_6(&tangent_inverse_rate(&node.e, &rates.measure), &difference);
                 let dragged = times_6(&hat(&rates.measure), &rates.frame);
-                std::array::from_fn(|i| turned[i] + dragged[i])
+                core::array::from_fn(|i| turned[i] + dragged[i])
             }
             Self::Classical => classical_rates_times(node, position, rates),
         }
@@ -100,18 +100,18 @@ impl Measures {
 fn motion_based_rate_matrices(node: &NodeMeasure, rates: &NodeRates) -> RateMatrices {
     let (p_u, p) = split(&node.e);
     let p0 = parameter_cosine(&p);
-    let w: Vector6 = std::array::from_fn(|i| rates.node[i] - rates.frame[i]);
+    let w: Vector6 = core::array::from_fn(|i| rates.node[i] - rates.frame[i]);
     let (w_u, w_p) = split(&w);
     let rho = dot(&p, &p_u) / (4.0 * p0 * p0);
     let dyad = |a: &Vector3, b: &Vector3| -> Matrix3 { a.map(|x| b.map(|y| -x * y / (4.0 * p0))) };
     let along = dyad(&w_p, &p);
-    let across = sum_3(&dyad(&w_u, &p), &dyad(&w_p, &std::array::from_fn(|i| rho * p[i] + p_u[i])));
+    let across = sum_3(&dyad(&w_u, &p), &dyad(&w_p, &core::array::from_fn(|i| rho * p[i] + p_u[i])));
     let dyads = blocks(&along, &across, &ZERO, &along);
     // ½ Ŵ + V̂_F = ½ hat(V + V_F).
-    let turning = hat(&std::array::from_fn(|i| 0.5 * (rates.node[i] + rates.frame[i])));
+    let turning = hat(&core::array::from_fn(|i| 0.5 * (rates.node[i] + rates.frame[i])));
     let j = tangent_inverse_rate(&node.e, &rates.measure);
     let dragging = hat(&rates.measure);
-    let difference = |a: &Matrix6, b: &Matrix6| std::array::from_fn(|i| std::array::from_fn(|c| a[i][c] - b[i][c]));
+    let difference = |a: &Matrix6, b: &Matrix6| core::array::from_fn(|i| core::array::from_fn(|c| a[i][c] - b[i][c]));
     RateMatrices { measure: difference(&dyads, &turning), node: j, frame: difference(&j, &dragging) }
 }
 
@@ -120,7 +120,7 @@ fn motion_based_rate_matrices(node: &NodeMeasure, rates: &NodeRates) -> RateMatr
 fn classical(motion: &Motion, position: &Vector3) -> NodeMeasure {
     let r = &motion.rotation;
     let moved = motion.apply(position);
-    let d = std::array::from_fn(|i| moved[i] - position[i]);
+    let d = core::array::from_fn(|i| moved[i] - position[i]);
     let (node_turn, frame_turn) = skew_part_derivatives(r);
     let negative = |a: Matrix3| a.map(|row| row.map(|x| -x));
     NodeMeasure {
@@ -141,7 +141,7 @@ fn axial(r: &Matrix3) -> Vector3 {
 fn skew_part_derivatives(r: &Matrix3) -> (Matrix3, Matrix3) {
     let trace = r[0][0] + r[1][1] + r[2][2];
     let of = |entry: &dyn Fn(usize, usize) -> f64| -> Matrix3 {
-        std::array::from_fn(|i| std::array::from_fn(|j| 0.5 * (if i == j { trace } else { 0.0 } - entry(i, j))))
+        core::array::from_fn(|i| core::array::from_fn(|j| 0.5 * (if i == j { trace } else { 0.0 } - entry(i, j))))
     };
     (of(&|i, j| r[j][i]), of(&|i, j| r[i][j]))
 }
@@ -149,13 +149,13 @@ fn skew_part_derivatives(r: &Matrix3) -> (Matrix3, Matrix3) {
 /// Angular velocity of the node against the floating frame, in the node: ω − Rᵀω_F.
 fn relative_spin(node: &NodeMeasure, rates: &NodeRates) -> Vector3 {
     let frame_spin = transposed_times_3(&node.motion.rotation, &split(&rates.frame).1);
-    std::array::from_fn(|i| rates.node[3 + i] - frame_spin[i])
+    core::array::from_fn(|i| rates.node[3 + i] - frame_spin[i])
 }
 
 fn classical_rates_times(node: &NodeMeasure, position: &Vector3, rates: &NodeRates) -> Vector6 {
     let matrices = classical_velocity_matrices(node, position, rates);
     let (of_node, of_frame) = (times_6(&matrices[0], &rates.node), times_6(&matrices[1], &rates.frame));
-    std::array::from_fn(|i| of_node[i] - of_frame[i])
+    core::array::from_fn(|i| of_node[i] - of_frame[i])
 }
 
 /// J̇ = [Ṙ, −Ṙ x̃; 0, ½(tr Ṙ I − Ṙᵀ)] and Ḟ = [0, −d̃˙; 0, ½(tr Ṙ I − Ṙ)] with Ṙ = R ω̃_E.
@@ -176,19 +176,19 @@ fn classical_rate_matrices(node: &NodeMeasure, position: &Vector3, rates: &NodeR
     let (v, spin) = split(&rates.node);
     let frame_spin = split(&rates.frame).1;
     let lever = cross(position, &spin);
-    let velocity: Vector3 = std::array::from_fn(|i| v[i] - lever[i]);
+    let velocity: Vector3 = core::array::from_fn(|i| v[i] - lever[i]);
     let kappa = axial(r);
     let translation = multiply_3(r, &skew(&velocity)).map(|row| row.map(|x| -x));
     let (turned, carried) = (skew(&transposed_times_3(r, &spin)), multiply_3(r, &skew(&frame_spin)));
-    let rotation: Matrix3 = std::array::from_fn(|i| {
-        std::array::from_fn(|j| -(spin[i] - frame_spin[i]) * kappa[j] - 0.5 * (turned[i][j] + carried[i][j]))
+    let rotation: Matrix3 = core::array::from_fn(|i| {
+        core::array::from_fn(|j| -(spin[i] - frame_spin[i]) * kappa[j] - 0.5 * (turned[i][j] + carried[i][j]))
     });
     // Derivative of y by ω_E, as columns of a rotation, and ω_E by that of the floating frame.
     let by_spin = blocks(&ZERO, &translation, &ZERO, &rotation);
     let back = |a: &Matrix3| a.map(|row| times_3(r, &row));
     let by_frame_spin = blocks(&ZERO, &back(&translation), &ZERO, &back(&rotation));
     let [j, f] = classical_velocity_matrices(node, position, rates);
-    let sum = |a: &Matrix6, b: &Matrix6| std::array::from_fn(|i| std::array::from_fn(|c| a[i][c] + b[i][c]));
+    let sum = |a: &Matrix6, b: &Matrix6| core::array::from_fn(|i| core::array::from_fn(|c| a[i][c] + b[i][c]));
     let dragging = skew(&frame_spin).map(|row| row.map(|x| -x));
     RateMatrices {
         measure: blocks(&dragging, &ZERO, &ZERO, &ZERO),
@@ -198,5 +198,5 @@ fn classical_rate_matrices(node: &NodeMeasure, position: &Vector3, rates: &NodeR
 }
 
 fn sum_3(a: &Matrix3, b: &Matrix3) -> Matrix3 {
-    std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + b[i][j]))
+    core::array::from_fn(|i| core::array::from_fn(|j| a[i][j] + b[i][j]))
 }

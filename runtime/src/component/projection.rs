@@ -35,7 +35,7 @@ impl ModalComponent {
         let (blocks, amplitudes) = rate.split_at_mut(n_nodal);
         for ((target, x), node) in blocks.as_chunks_mut::<6>().0.iter_mut().zip(x.as_chunks::<6>().0).zip(nodes) {
             let (of_node, of_frame) = (times_6(&node.j, x), times_6(&node.f, x_f));
-            *target = std::array::from_fn(|i| of_node[i] - of_frame[i]);
+            *target = core::array::from_fn(|i| of_node[i] - of_frame[i]);
         }
         amplitudes.copy_from_slice(&x[n_nodal..]);
     }

@@ -3,7 +3,8 @@
 //! The recovery rows are applied to the deformation, d = Ψ A e, and the floating frame carries the node along:
 //! x = R_F (x₀ + d) + u_F, with the rotation R_F exp(θ̃_d). To first order in the deformation it is the linear recovery.
 
-use std::collections::BTreeMap;
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
 
 use super::dense;
 use super::{EvaluationError, ModalComponent, Workspace};
@@ -99,9 +100,9 @@ impl ModalComponent {
             if theta.is_none() && n_rotations > 0 {
                 return Err(incomplete());
             }
-            let moved = frame.apply(&std::array::from_fn(|i| position[i] + d[i]));
+            let moved = frame.apply(&core::array::from_fn(|i| position[i] + d[i]));
             let turn = Motion::exp(&join(&[0.0; 3], &theta.unwrap_or_default())).rotation;
-            node.displacement = std::array::from_fn(|i| moved[i] - position[i]);
+            node.displacement = core::array::from_fn(|i| moved[i] - position[i]);
             node.rotation = multiply_3(&frame.rotation, &turn);
         }
         Ok(())

@@ -124,7 +124,7 @@ impl ModalComponent {
         for (rows, node) in tall.as_chunks_mut::<6>().0.iter_mut().zip(nodes.iter()) {
             *rows = dense::turned_rows(&node.j, rows);
         }
-        let of_frame: Matrix6 = std::array::from_fn(|i| dense::plus_scaled(&self.rigid_mass[i], -1.0, &carried[i]));
+        let of_frame: Matrix6 = core::array::from_fn(|i| dense::plus_scaled(&self.rigid_mass[i], -1.0, &carried[i]));
         let (turning, dragging) = (dense::transposed(&hat(&v_f)), check(&momentum));
         for (row, q) in tall.iter_mut().zip(q.iter()) {
             let moved = dense::plus_scaled(row, 1.0, &times_6(&of_frame, q));
@@ -140,7 +140,7 @@ impl ModalComponent {
     /// Z̄ = Z − (F − U) S YᵀZ, 6k × r.
     fn acceleration_rates(&self, state: &State<'_>, workspace: &mut Workspace) {
         let r = self.n_coordinates();
-        let mut rates = std::mem::take(&mut workspace.scratch.rates);
+        let mut rates = core::mem::take(&mut workspace.scratch.rates);
         dense::transpose(&workspace.q, &mut workspace.scratch.wide[0]);
         let wide_q = &workspace.scratch.wide[0];
         for (j, target) in rates.chunks_exact_mut(6 * r).enumerate() {

@@ -1,5 +1,7 @@
 //! Scratch and results of a component's evaluations, owned by the caller.
 
+use alloc::vec::Vec;
+
 use super::dense;
 use super::measures::NodeMeasure;
 use super::{EvaluationError, ModalComponent};
@@ -99,7 +101,7 @@ pub(super) fn all_finite(values: &[f64]) -> bool {
     let (eights, rest) = values.as_chunks::<8>();
     let mut zeros = [0.0; 8];
     for eight in eights {
-        zeros = std::array::from_fn(|i| zeros[i] + 0.0 * eight[i]);
+        zeros = core::array::from_fn(|i| zeros[i] + 0.0 * eight[i]);
     }
     zeros.iter().chain(rest).all(|value| value.is_finite())
 }

@@ -44,25 +44,25 @@ pub fn skew(a: &Vector3) -> Matrix3 {
 /// A b.
 #[inline]
 pub fn times_3(a: &Matrix3, b: &Vector3) -> Vector3 {
-    std::array::from_fn(|i| dot(&a[i], b))
+    core::array::from_fn(|i| dot(&a[i], b))
 }
 
 /// Aᵀb.
 #[inline]
 pub fn transposed_times_3(a: &Matrix3, b: &Vector3) -> Vector3 {
-    std::array::from_fn(|i| a[0][i] * b[0] + a[1][i] * b[1] + a[2][i] * b[2])
+    core::array::from_fn(|i| a[0][i] * b[0] + a[1][i] * b[1] + a[2][i] * b[2])
 }
 
 /// A B.
 #[inline]
 pub fn multiply_3(a: &Matrix3, b: &Matrix3) -> Matrix3 {
-    std::array::from_fn(|i| transposed_times_3(b, &a[i]))
+    core::array::from_fn(|i| transposed_times_3(b, &a[i]))
 }
 
 /// AᵀB.
 #[inline]
 pub fn multiply_transposed_3(a: &Matrix3, b: &Matrix3) -> Matrix3 {
-    std::array::from_fn(|i| transposed_times_3(b, &[a[0][i], a[1][i], a[2][i]]))
+    core::array::from_fn(|i| transposed_times_3(b, &[a[0][i], a[1][i], a[2][i]]))
 }
 
 /// Translation part and rotation part.
@@ -80,7 +80,7 @@ pub fn join(u: &Vector3, theta: &Vector3) -> Vector6 {
 /// A b.
 #[inline]
 pub fn times_6(a: &Matrix6, b: &Vector6) -> Vector6 {
-    std::array::from_fn(|i| a[i].iter().zip(b).map(|(x, y)| x * y).sum())
+    core::array::from_fn(|i| a[i].iter().zip(b).map(|(x, y)| x * y).sum())
 }
 
 /// Aᵀb.
@@ -98,7 +98,7 @@ pub fn transposed_times_6(a: &Matrix6, b: &Vector6) -> Vector6 {
 /// A B.
 #[inline]
 pub fn multiply_6(a: &Matrix6, b: &Matrix6) -> Matrix6 {
-    std::array::from_fn(|i| transposed_times_6(b, &a[i]))
+    core::array::from_fn(|i| transposed_times_6(b, &a[i]))
 }
 
 /// V̂ = [ω̃, ṽ; 0, ω̃] for V = (v; ω), with Â B = −B̂ A; eq. (54).
@@ -120,5 +120,5 @@ pub fn check(v: &Vector6) -> Matrix6 {
 /// [a, b; c, d].
 #[inline]
 pub(crate) fn blocks(a: &Matrix3, b: &Matrix3, c: &Matrix3, d: &Matrix3) -> Matrix6 {
-    std::array::from_fn(|i| if i < 3 { join(&a[i], &b[i]) } else { join(&c[i - 3], &d[i - 3]) })
+    core::array::from_fn(|i| if i < 3 { join(&a[i], &b[i]) } else { join(&c[i - 3], &d[i - 3]) })
 }

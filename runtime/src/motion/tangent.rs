@@ -7,12 +7,14 @@
 //!
 //! [`Motion::parameters`]: super::Motion::parameters
 
+use crate::elementary::sqrt;
+
 use super::algebra::{Matrix3, Matrix6, Vector3, Vector6, blocks, dot, multiply_3, skew, split};
 
 /// p₀ = cos(φ/2) = √(1 − pᵀp/4) of p = 2 sin(φ/2) n; eq. (99).
 #[inline]
 pub fn parameter_cosine(p: &Vector3) -> f64 {
-    (1.0 - 0.25 * dot(p, p)).sqrt()
+    sqrt(1.0 - 0.25 * dot(p, p))
 }
 
 /// Tangent operator of rotation T(p) = I/p₀ − p̃/2 + p̃p̃/(4p₀); eq. (100).
@@ -89,5 +91,5 @@ fn scaled_identity_plus_half_skew(d: f64, v: &Vector3) -> Matrix3 {
 
 #[inline]
 fn entries(entry: impl Fn(usize, usize) -> f64) -> Matrix3 {
-    std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
+    core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j)))
 }

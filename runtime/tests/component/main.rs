@@ -1,5 +1,6 @@
 //! The modal component in large motion.
 
+#[cfg(feature = "std")]
 mod batch;
 #[path = "../beam/mod.rs"]
 mod beam;
