@@ -9,6 +9,10 @@ matplotlib.use("svg")
 # The same marks for the same data: no random identifiers, text as text.
 matplotlib.rcParams.update({"svg.hashsalt": "supel", "svg.fonttype": "none", "font.size": 9})
 import matplotlib.pyplot as plt
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+# Decades of an axis below which the powers of ten alone say too little.
+FEW_DECADES = 2
 
 
 def write_rows(path, rows, origin):
@@ -32,7 +36,18 @@ def axes(title, x, y, n=1):
     return figure, list(all_axes[0])
 
 
+def label_short_axis(ax):
+    """Plain numbers at 1, 2 and 5 of each decade along an x axis of few decades."""
+    low, high = ax.get_xlim()
+    if high < low * 10**FEW_DECADES:
+        ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        ax.xaxis.set_minor_formatter(NullFormatter())
+
+
 def save(figure, path, origin):
+    for ax in figure.axes:
+        label_short_axis(ax)
     characters = int(22 * figure.get_figwidth())
     lines = [line for name, text in origin for line in textwrap.wrap(f"{name}: {text}", characters)]
     text = "\n".join(lines)
