@@ -1,7 +1,6 @@
 //! Every way a superelement can be refused, one variant each, with the values that explain it.
 
-use alloc::string::String;
-use alloc::vec::Vec;
+use alloc::{string::String, vec::Vec};
 
 #[cfg(feature = "std")]
 use std::path::PathBuf;
