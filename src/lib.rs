@@ -82,11 +82,10 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     observer.stage("rigid-body modes");
     // The analysis asks for the pattern of the matrices alone: it is made beside, and is the first of what a factor needs.
     let (rigid, analysis) = rayon::join(|| rigid::rigid_body_modes(&partition), || Analysis::of(&partition));
-    let (rigid, n_extra) = rigid?;
+    let ((rigid, n_extra), analysis) = (rigid?, analysis?);
     let rank = rigid::interface_rank(&partition, &rigid)?;
 
     observer.stage("factor");
-    let analysis = analysis?;
     let storage = factor::storage_within_memory(&analysis, &partition, job, resources)?;
     let sigma = modes::shift_of_factor(&partition, &rigid);
     let factor = Cholesky::kept(&analysis, (partition.pencil(), sigma), storage, &|dof| partition.name_of(dof))?;
@@ -101,8 +100,9 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let internal = (&k_ii, &m_ii);
     let component = Component::new(&partition, internal, &analysis, &factor, &rigid, &constraint);
     let search = modes::Search::new(component, &job.reduction)?;
-    factor::refuse_beyond_memory(&analysis, &partition, job, resources, (storage, search.n_expected()))?;
-    let found = factor.vouched(search.lowest(modes::SEED))?;
+    let size = (storage, search.n_expected());
+    let at_once = factor::slices_within_memory(&analysis, &partition, job, resources, size)?;
+    let found = factor.vouched(search.with_slices_at_once(at_once).lowest(modes::SEED))?;
 
     observer.stage("certificate");
     let (found, certificate) = modes::certified(&search, &search.problem, found, search.edge(), job.run.certify)?;

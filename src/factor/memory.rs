@@ -3,7 +3,7 @@
 use super::{Analysis, Storage};
 use crate::error::{Error, Result};
 use crate::job::{Certify, Job, ModeSelection, Precision};
-use crate::modes::SLICED_FROM;
+use crate::modes::{SLICE, SLICED_FROM};
 use crate::outcome::Resources;
 use crate::partition::Partition;
 
@@ -37,7 +37,7 @@ pub fn storage_within_memory(
     job: &Job,
     resources: Resources,
 ) -> Result<Storage> {
-    let fits = |storage| refuse_beyond_memory(analysis, partition, job, resources, (storage, None)).map(|()| storage);
+    let fits = |storage| slices_within_memory(analysis, partition, job, resources, (storage, None)).map(|_| storage);
     match job.run.precision {
         Precision::Double => fits(Storage::Double),
         Precision::Mixed => fits(Storage::Single),
@@ -45,49 +45,67 @@ pub fn storage_within_memory(
     }
 }
 
-/// Refuses a run whose forecast exceeds the memory allowed by the job, or else what the machine offers.
+/// How many slices of a band can be searched at the same time: as many as there are threads, or as the memory allowed by the job,
+/// or else what the machine offers, can hold.
 ///
 /// Counted are the matrices, the factors that are kept, what waits for its parent while one is made, the largest front, the
-/// constraint modes, the basis of the eigensolver (three vectors for each mode and eight blocks of eight) and the rows that are recovered. The number
-/// of modes is what a count in the band has found, once there is one.
+/// constraint modes, the modes, the basis of the eigensolver (three vectors for each mode and eight blocks of eight) and the rows
+/// that are recovered. The number of modes is what a count in the band has found, once there is one.
 ///
 /// # Errors
-/// [`Error::MemoryForecast`].
-pub fn refuse_beyond_memory(
+/// [`Error::MemoryForecast`] where there is no room for a single search.
+pub fn slices_within_memory(
     analysis: &Analysis,
     partition: &Partition,
     job: &Job,
     resources: Resources,
     (storage, n_modes): (Storage, Option<usize>),
-) -> Result<()> {
+) -> Result<usize> {
+    let n_threads = rayon::current_num_threads();
     let allowed = job.run.memory_gib.map(|gib| (gib * f64::from(1 << 30)) as u64);
     let Some(available) = allowed.or(resources.memory_bytes) else {
-        return Ok(());
+        return Ok(n_threads);
     };
     let n_modes = match (n_modes, job.reduction.modes) {
         (Some(count), _) | (None, ModeSelection::Count { count }) => (count as u64).min(partition.n_dofs() as u64),
         (None, ModeSelection::UpTo { .. }) => MODES_IN_A_BAND,
     };
-    let forecast = |storage| Forecast::of(analysis, partition, (job.run.certify, n_modes), storage);
-    let Forecast { factors, matrices, vectors } = forecast(storage);
-    if forecast(storage).total() <= available {
-        return Ok(());
+    let forecast = |storage, at_once: usize| {
+        let search = SearchSize { certify: job.run.certify, n_modes, at_once: at_once as u64 };
+        Forecast::of(analysis, partition, search, storage)
+    };
+    if let Some(at_once) = (1..=n_threads).rev().find(|at_once| forecast(storage, *at_once).total() <= available) {
+        return Ok(at_once);
     }
-    let in_single = Some(forecast(Storage::Single).total()).filter(|needed| *needed <= available);
+    let Forecast { factors, matrices, vectors } = forecast(storage, 1);
+    let in_single = Some(forecast(Storage::Single, 1).total()).filter(|needed| *needed <= available);
     Err(Error::MemoryForecast { available, factors, matrices, vectors, in_single })
 }
 
+/// What is looked for, and how much of it at the same time.
+#[derive(Clone, Copy)]
+struct SearchSize {
+    certify: Certify,
+    n_modes: u64,
+    at_once: u64,
+}
+
 impl Forecast {
-    fn of(analysis: &Analysis, partition: &Partition, (certify, n_modes): (Certify, u64), storage: Storage) -> Self {
+    fn of(analysis: &Analysis, partition: &Partition, search: SearchSize, storage: Storage) -> Self {
+        let SearchSize { certify, n_modes, at_once } = search;
         let n = partition.n_dofs() as u64;
         // The partitioned matrices, their internal blocks, and the triangle with wide indices that the analysis makes.
         let entries = (partition.stiffness.nnz() + partition.mass.nnz()) as u64;
-        // A count keeps the pivots alone; a slice keeps the factor of its shift.
+        // A slice keeps the factor of its shift and a basis of its own, beside all modes and the copy that puts them in order.
+        let (in_slices, of_solver) = match n_modes > SLICED_FROM as u64 {
+            true => (at_once, 2 * n_modes + at_once * (5 * SLICE as u64 + 64)),
+            false => (0, 5 * n_modes + 64),
+        };
+        // A count keeps the pivots alone.
         let n_beside = match certify {
             // Those of K − σM and of the proof that it is definite.
-            Certify::Full => 2,
-            Certify::None | Certify::Count if n_modes >= SLICED_FROM as u64 => 1,
-            Certify::None | Certify::Count => 0,
+            Certify::Full => in_slices.max(2),
+            Certify::None | Certify::Count => in_slices,
         };
         let (n_beside, refinement) = match storage {
             Storage::Double => (n_beside, 0),
@@ -95,8 +113,9 @@ impl Forecast {
             Storage::Single => (n_beside + u64::from(partition.n_interface() == 0), REFINEMENT),
         };
         let beside = analysis.factor_bytes(Storage::Double).saturating_mul(n_beside);
-        let factors = analysis.factor_bytes(storage).saturating_add(beside).saturating_add(analysis.stack_bytes());
-        let vectors = 2 * partition.n_interface() as u64 + 5 * n_modes + 64 + refinement;
+        let stacks = analysis.stack_bytes().saturating_mul(in_slices.max(1));
+        let factors = analysis.factor_bytes(storage).saturating_add(beside).saturating_add(stacks);
+        let vectors = 2 * partition.n_interface() as u64 + of_solver + refinement;
         let recovery = COPIES * partition.recovered.len() as u64 * (partition.n_interface() as u64 + n_modes);
         Self { factors, matrices: 3 * ENTRY * entries, vectors: DOUBLE * (n * vectors + recovery) }
     }

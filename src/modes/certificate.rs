@@ -22,7 +22,7 @@
 
 use super::boundary_problem::{BoundaryProblem, ElasticCount, median_ratio};
 use super::finite::{above_all, most_finite};
-use super::slices::{ModeSource, fill, missing};
+use super::slices::{Band, ModeSource, missing};
 use super::{Boundary, Equilibrated, ModeError, Modes, SEED};
 use crate::dense;
 use crate::error::{Error, Result};
@@ -137,7 +137,7 @@ pub fn certified(
     ends.retain(|end| end.inertia.sigma < upper.inertia.sigma);
     ends.push(upper);
     let known = Modes { counts: Vec::new(), ..known };
-    let modes = fill(source, problem, known, &ends)?;
+    let modes = Band { source, problem, at_once: 1 }.fill(known, &ends)?;
     let upper = modes.counts.last().copied().unwrap_or(upper);
     let third = judge(problem, &modes, upper);
     let n_finite = last.n_finite.filter(|_| source.is_exhausted_by(&modes));

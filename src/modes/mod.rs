@@ -15,6 +15,7 @@ mod boundary_problem;
 mod certificate;
 mod cluster;
 mod columns;
+mod counts;
 mod dense_spectrum;
 mod eigenproblem;
 mod equilibration;
@@ -119,20 +120,33 @@ impl Modes {
     }
 
     /// These modes and others, ascending.
-    pub fn joined(self, more: Self) -> Self {
+    pub fn joined(self, more: impl IntoIterator<Item = Self>) -> Self {
         let mut work = self.work;
-        work += more.work;
-        let shapes = dense::beside(self.shapes.as_ref(), more.shapes.as_ref());
-        let lambda = [self.lambda, more.lambda].concat();
-        let errors = [self.errors, more.errors].concat();
-        Self {
-            lambda,
-            shapes,
-            errors,
-            work,
-            ..Self { shapes: Mat::zeros(0, 0), lambda: Vec::new(), errors: Vec::new(), ..self }
+        let parts: Vec<Self> = std::iter::once(self).chain(more).collect();
+        parts[1..].iter().for_each(|part| work += part.work);
+        if let [whole, rest @ ..] = &parts[..]
+            && rest.iter().all(|part| part.count() == 0)
+            && whole.lambda.is_sorted()
+        {
+            return Self { work, ..parts.into_iter().next().expect("the first") };
         }
-        .ascending()
+        let mut order: Vec<(usize, usize)> =
+            parts.iter().enumerate().flat_map(|(part, modes)| (0..modes.count()).map(move |j| (part, j))).collect();
+        order.sort_by(|a, b| parts[a.0].lambda[a.1].total_cmp(&parts[b.0].lambda[b.1]));
+        let n = parts[0].shapes.nrows();
+        let mut shapes = Mat::zeros(n, order.len());
+        for (mut to, (part, j)) in shapes.as_mut().col_iter_mut().zip(&order) {
+            to.copy_from(parts[*part].shapes.as_ref().col(*j));
+        }
+        Self {
+            lambda: order.iter().map(|(part, j)| parts[*part].lambda[*j]).collect(),
+            errors: order.iter().map(|(part, j)| parts[*part].errors[*j]).collect(),
+            shapes,
+            work,
+            searched_to: parts[0].searched_to,
+            next: parts[0].next,
+            counts: parts[0].counts.clone(),
+        }
     }
 
     /// The lowest modes; the first of the others becomes the next eigenvalue above.
@@ -255,9 +269,9 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
         let found = search(problem, eigenproblem, ModeRequest { wanted, ..request })?;
         let n_settled = n_settled(&found, operator.shift());
         if n_settled == found.count() {
-            return Ok(found.joined(known));
+            return Ok(found.joined([known]));
         }
-        known = found.truncated(n_settled).joined(known);
+        known = found.truncated(n_settled).joined([known]);
     }
 }
 

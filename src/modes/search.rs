@@ -4,19 +4,18 @@
 //! one operator at shift zero; more come in slices, each from a shift of its own; most of the spectrum of a small model
 //! comes from a dense decomposition. The certificate judges all of them alike.
 
-use super::boundary_problem::{BoundaryProblem, ElasticCount, ratios};
+use super::boundary_problem::{BoundaryProblem, ElasticCount};
+use super::counts::Counts;
 use super::eigenproblem::{EigenWork, Interval, Wanted, are_clustered, is_above};
-use super::finite::above_all;
-use super::slices::{ModeSource, fill, search_between};
+use super::slices::{Band, ModeSource, SLICE, search_between};
 use super::{Boundary, CLUSTER_GAP, Component, ModeRequest, Modes, dense_spectrum, elastic_modes, indefinite};
 use crate::error::{Error, Result};
 use crate::job::{Eigensolver, ModeSelection, ReductionJob};
 use crate::partition::Partition;
 
-/// More modes than this come in slices: a basis of four vectors a mode stays below a thousand.
-pub const SLICED_FROM: usize = 200;
-/// How far a shift is moved that lies on an eigenvalue, relatively.
-const OFF: f64 = 1e-3;
+/// More modes than this come in slices. On solids of 30,000 and 91,000 dofs 400 modes take 1.1 times as long in slices as in one
+/// go, 800 modes 0.7 and 0.6 times.
+pub const SLICED_FROM: usize = 400;
 
 /// What a job asks of the spectrum of a component, and how it is found.
 #[derive(Clone, Copy, Debug)]
@@ -29,6 +28,8 @@ pub struct Search<'a> {
     eigensolver: Eigensolver,
     /// The count at the end of the band, where a band is asked for and its end is off the eigenvalues.
     edge: Option<ElasticCount>,
+    /// Slices searched at the same time, at most.
+    at_once: usize,
 }
 
 impl<'a> Search<'a> {
@@ -49,7 +50,16 @@ impl<'a> Search<'a> {
             ModeSelection::Count { count } => Some(count),
             ModeSelection::UpTo { .. } => None,
         };
-        Ok(Self { problem, wanted, n_asked, eigensolver: job.eigensolver, edge })
+        Ok(Self { problem, wanted, n_asked, eigensolver: job.eigensolver, edge, at_once: 1 })
+    }
+
+    /// The same search with so many slices at the same time, which changes its time and its memory alone.
+    pub fn with_slices_at_once(self, at_once: usize) -> Self {
+        match self.eigensolver {
+            Eigensolver::Lanczos => Self { at_once, ..self },
+            // One of its iterations keeps all others waiting.
+            Eigensolver::Arpack => self,
+        }
     }
 
     /// The count at the end of the band, where a band is asked for.
@@ -76,44 +86,19 @@ impl<'a> Search<'a> {
 
     fn in_slices(&self) -> Result<Modes> {
         let nothing = Modes::none(self.problem.modal().mass.rows());
-        match (self.wanted, self.edge) {
-            (Wanted::Count(count), _) => {
-                let ends = self.ends_above(count)?;
-                let work = EigenWork { factorisations: ends.len(), ..EigenWork::default() };
-                fill(self, &self.problem, Modes { work, ..nothing }, &ends)
-            }
-            (Wanted::UpTo(_), edge) => fill(self, &self.problem, nothing, edge.as_slice()),
-        }
-    }
-
-    /// Counts up to one with more than `count` modes below it, but not many more, or with all modes there are.
-    fn ends_above(&self, count: usize) -> Result<Vec<ElasticCount>> {
-        const STEPS: usize = 60;
-        let ratios = ratios(self.problem.modal());
-        let top = above_all(&self.problem);
-        // λ of plane and solid meshes grows at least linearly in the number of the mode.
-        let share = count as f64 / self.problem.modal().mass.rows() as f64;
-        let mut sigma = ratios.get(ratios.len() / 2).copied().unwrap_or(1.0) * share;
-        let (mut lower, mut upper): (Vec<ElasticCount>, Option<ElasticCount>) = (Vec::new(), None);
-        for _ in 0..STEPS {
-            match self.problem.count_below(sigma) {
-                Ok(end) if end.n_elastic > count || sigma >= top => upper = Some(end),
-                Ok(end) => lower.push(end),
-                Err(Error::SturmPivot { .. }) => {
-                    sigma *= 1.0 + OFF;
-                    continue;
-                }
-                Err(error) => return Err(error),
-            }
-            let below = lower.last().map_or(0.0, |end| end.inertia.sigma);
-            sigma = match upper {
-                Some(end) if end.n_elastic <= count + SLICED_FROM || end.inertia.sigma < (1.0 + OFF) * below => break,
-                Some(end) => middle(below, end.inertia.sigma),
-                None => 4.0 * sigma,
-            };
-        }
-        lower.extend(upper);
-        Ok(lower)
+        let mut counts = match (self.wanted, self.edge) {
+            (Wanted::Count(count), _) => Counts::up_to(&self.problem, count)?,
+            (Wanted::UpTo(_), Some(edge)) => Counts::between(&self.problem, (0.0, 0), edge),
+            (Wanted::UpTo(_), None) => return Ok(nothing),
+        };
+        let Some(last) = counts.last() else { return Ok(nothing) };
+        // Every other slice is searched at the same time: an odd one would be left over.
+        let n_slices = 2 * last.n_elastic.div_ceil(2 * SLICE);
+        let mut ends = counts.cut_evenly(n_slices, |_| true);
+        ends.push(last);
+        let work = EigenWork { factorisations: counts.n_taken, ..EigenWork::default() };
+        let band = Band { source: self, problem: &self.problem, at_once: self.at_once };
+        band.fill(Modes { work, ..nothing }, &ends)
     }
 
     /// Cuts what a search has found down to what was asked for.
@@ -132,11 +117,6 @@ impl<'a> Search<'a> {
         };
         Modes { searched_to, ..modes.truncated(count) }
     }
-}
-
-/// Half way in frequency, where modes lie more evenly than in λ.
-pub(super) fn middle(from: f64, to: f64) -> f64 {
-    (0.5 * (from.max(0.0).sqrt() + to.sqrt())).powi(2)
 }
 
 impl ModeSource for Search<'_> {

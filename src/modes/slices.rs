@@ -1,35 +1,45 @@
 //! Intervals between two Sturm counts, filled with the modes that the counts say are there.
 //!
 //! ```text
-//! |---- n₁ ----|------- n₂ -------|-- n₃ --|      shifts, with the eigenvalues counted between them
+//! |---- n₁ ----|------- n₂ -------|-- n₃ --|--- n₄ ---|     shifts, with the eigenvalues counted between them
+//!     round 1         round 2        round 1   round 2
 //! ```
-//! An interval with more modes than a search takes at once is cut in two by another count. A search has its shift inside
-//! the interval, the modes known nearby deflated, and is made M-orthogonal to all modes known. An interval in which
-//! modes stay missing is cut further, so that each search has fewer to find, until it is given up by name. The last end is
-//! moved up where it may lie inside a cluster: clusters stay whole.
+//! An interval that lacks more modes than a search takes at once is cut by further counts. A search has
+//! its shift inside the interval, the modes known nearby deflated, and is made M-orthogonal to all modes known. Every other
+//! interval is searched first, each as if there were no others: they do not touch, so that their modes are orthogonal by what lies
+//! between them, and as many are searched side by side as memory allows. Those between them follow, beside the modes of the
+//! first round. How many are searched at the same time changes no result.
+//!
+//! An interval in which modes stay missing is cut further, so that each search has fewer to find, until it is given up by name.
+//! The last end is moved up where it may lie inside a cluster: clusters stay whole.
+
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::Mat;
+use rayon::prelude::*;
 
 use super::boundary_problem::{BoundaryProblem, ElasticCount};
+use super::counts::{Counts, middle};
 use super::eigenproblem::{EigenWork, Interval, Problem, are_clustered};
-use super::search::middle;
 use super::{CLUSTER_GAP, Modes, SEED, judged, pairs_between};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::job::Eigensolver;
 use crate::sparse::product;
 
-/// Modes searched for at once.
+/// Modes searched for at once where a band is cut evenly, and the most of any search.
 pub const SLICE: usize = 120;
-/// Searches of one interval from different start vectors.
+const LARGEST: usize = SLICE + SLICE / 2;
+/// Searches of one interval from different start vectors, after the one of its round.
 const ATTEMPTS: u64 = 2;
-/// Cuts of an interval that still holds too many modes for one search: sixty halve any range of doubles to one mode's.
+/// Cuts of an interval that lacks too many modes for one search: sixty halve any range of doubles to one mode's.
 const CUTS_TO_SIZE: usize = 60;
 /// Cuts of an interval in which modes stay missing.
 const CUTS_TO_FIND: usize = 6;
 
 /// Where modes come from; asked again where a count says that some are missing.
-pub trait ModeSource {
+pub trait ModeSource: Sync {
     /// The modes of the job, from the start vectors of a seed.
     ///
     /// # Errors
@@ -48,75 +58,142 @@ pub trait ModeSource {
     }
 }
 
-/// Finds what the counts say is missing from the known modes; `ends` are ascending, the lowest interval starts at zero. The
-/// counts of the result end where no cluster is cut.
-///
-/// # Errors
-/// [`Error::ModesMissing`] where modes stay missing; those of the source and of the counts.
-pub(super) fn fill(
-    source: &dyn ModeSource,
-    problem: &BoundaryProblem<'_>,
-    known: Modes,
-    ends: &[ElasticCount],
-) -> Result<Modes> {
-    let mut filling = Filling { source, problem, modes: known };
-    let mut lower = (0.0, 0);
-    for end in ends {
-        filling.fill(lower, *end, (CUTS_TO_SIZE, CUTS_TO_FIND))?;
-        lower = (end.inertia.sigma, end.n_elastic);
+/// What is filled, and how many intervals of it may be searched at the same time.
+pub(super) struct Band<'a> {
+    /// Where modes come from.
+    pub source: &'a dyn ModeSource,
+    /// The eigenproblem.
+    pub problem: &'a BoundaryProblem<'a>,
+    /// Searches at the same time, at most.
+    pub at_once: usize,
+}
+
+impl Band<'_> {
+    /// Finds what the counts say is missing from the known modes; `ends` are ascending, the lowest interval starts at zero. The
+    /// counts of the result end where no cluster is cut.
+    ///
+    /// # Errors
+    /// [`Error::ModesMissing`] where modes stay missing; those of the source and of the counts.
+    pub(super) fn fill(&self, known: Modes, ends: &[ElasticCount]) -> Result<Modes> {
+        let mut filling = Filling { band: self, modes: known };
+        let ends = filling.cut_to_size(ends)?;
+        filling.search_every_other(&ends)?;
+        let mut lower = (0.0, 0);
+        for end in &ends {
+            filling.fill(lower, *end, CUTS_TO_FIND)?;
+            lower = end.place();
+        }
+        if let [inner @ .., last] = &ends[..] {
+            let last = filling.end_beyond_cluster(*last)?;
+            filling.modes.counts.extend_from_slice(inner);
+            filling.modes.counts.push(last);
+        }
+        filling.modes.counts.sort_by(|a, b| a.inertia.sigma.total_cmp(&b.inertia.sigma));
+        Ok(filling.modes)
     }
-    if let [inner @ .., last] = ends {
-        let last = filling.end_beyond_cluster(*last)?;
-        filling.modes.counts.extend_from_slice(inner);
-        filling.modes.counts.push(last);
-    }
-    filling.modes.counts.sort_by(|a, b| a.inertia.sigma.total_cmp(&b.inertia.sigma));
-    Ok(filling.modes)
 }
 
 struct Filling<'a> {
-    source: &'a dyn ModeSource,
-    problem: &'a BoundaryProblem<'a>,
+    band: &'a Band<'a>,
     modes: Modes,
 }
 
 impl Filling<'_> {
-    /// Fills the interval from a shift with the count below it up to another; `cuts` are those left to cut it to size and to
-    /// find what stays missing.
-    fn fill(&mut self, lower: (f64, usize), upper: ElasticCount, cuts: (usize, usize)) -> Result<()> {
-        let (from, to) = (lower.0, upper.inertia.sigma);
-        let Some(counted) = upper.n_elastic.checked_sub(lower.1) else {
-            return Err(missing(self.problem, &self.modes, upper));
-        };
-        let too_many = counted > SLICE && cuts.0 > 0;
-        if self.is_filled(from, to, counted, upper)? {
-            return Ok(());
+    /// The ends, with further counts where an interval lacks more modes than a search should find.
+    fn cut_to_size(&mut self, ends: &[ElasticCount]) -> Result<Vec<ElasticCount>> {
+        let mut cut = Vec::new();
+        let mut lower = (0.0, 0);
+        for end in ends {
+            self.cut_until(LARGEST, (lower, *end), &mut cut, CUTS_TO_SIZE)?;
+            cut.push(*end);
+            lower = end.place();
         }
-        if !too_many {
-            for attempt in 0..ATTEMPTS {
-                let count = counted - self.modes.n_between(from, to);
-                let more = self.source.between(Interval { from, to, count }, &self.modes, SEED + 2 + attempt)?;
-                // What is left of a copy of a known mode is rounding, with an eigenvalue anywhere.
-                let more = more.selected(|lambda| from < lambda && lambda < to);
-                let is_progress = more.count() > 0;
-                self.modes = std::mem::replace(&mut self.modes, Modes::none(0)).joined(more);
-                if self.is_filled(from, to, counted, upper)? {
-                    return Ok(());
-                }
-                if !is_progress {
-                    break;
-                }
+        Ok(cut)
+    }
+
+    /// Cuts one interval until none of its parts lacks more modes than `largest`.
+    fn cut_until(
+        &mut self,
+        largest: usize,
+        (lower, upper): ((f64, usize), ElasticCount),
+        cut: &mut Vec<ElasticCount>,
+        cuts: usize,
+    ) -> Result<()> {
+        if self.n_lacking(lower, upper)? > largest
+            && cuts > 0
+            && let Some(middle) = self.cut(lower, upper)
+        {
+            self.cut_until(largest, (lower, middle), cut, cuts - 1)?;
+            cut.push(middle);
+            self.cut_until(largest, (middle.place(), upper), cut, cuts - 1)?;
+        }
+        Ok(())
+    }
+
+    /// Modes counted between two shifts and not known; more modes than counted cannot be mended.
+    fn n_lacking(&self, lower: (f64, usize), upper: ElasticCount) -> Result<usize> {
+        let counted = upper.n_elastic.checked_sub(lower.1);
+        let found = self.modes.n_between(lower.0, upper.inertia.sigma);
+        counted
+            .and_then(|counted| counted.checked_sub(found))
+            .ok_or_else(|| missing(self.band.problem, &self.modes, upper))
+    }
+
+    /// Searches the intervals that lack modes once, every other one first.
+    fn search_every_other(&mut self, ends: &[ElasticCount]) -> Result<()> {
+        let mut lacking = Vec::new();
+        let mut lower = (0.0, 0);
+        for end in ends {
+            let count = self.n_lacking(lower, *end)?;
+            if count > 0 {
+                lacking.push(Interval { from: lower.0, to: end.inertia.sigma, count });
+            }
+            lower = end.place();
+        }
+        for round in 0..2 {
+            let round: Vec<Interval> = lacking.iter().copied().skip(round).step_by(2).collect();
+            let found = side_by_side(&round, self.band.at_once, |interval| {
+                self.band.source.between(interval, &self.modes, SEED + 2)
+            });
+            self.take(&round, found.into_iter().collect::<Result<_>>()?);
+        }
+        Ok(())
+    }
+
+    /// Adds what searches have found in their intervals, and says whether that is anything.
+    fn take(&mut self, intervals: &[Interval], found: Vec<Modes>) -> bool {
+        // What is left of a copy of a known mode is rounding, with an eigenvalue anywhere.
+        let inside = |(interval, modes): (&Interval, Modes)| modes.selected(|lambda| interval.holds(lambda));
+        let found: Vec<Modes> = intervals.iter().zip(found).map(inside).collect();
+        let is_progress = found.iter().any(|modes| modes.count() > 0);
+        self.modes = std::mem::replace(&mut self.modes, Modes::none(0)).joined(found);
+        is_progress
+    }
+
+    /// Fills the interval from a shift with the count below it up to another; `cuts` are those left to find what stays missing.
+    fn fill(&mut self, lower: (f64, usize), upper: ElasticCount, cuts: usize) -> Result<()> {
+        for attempt in 0..ATTEMPTS {
+            let count = self.n_lacking(lower, upper)?;
+            if count == 0 {
+                return Ok(());
+            }
+            let interval = Interval { from: lower.0, to: upper.inertia.sigma, count };
+            let found = self.band.source.between(interval, &self.modes, SEED + 3 + attempt)?;
+            if !self.take(&[interval], vec![found]) {
+                break;
             }
         }
-        let cuts = if too_many { (cuts.0 - 1, cuts.1) } else { (cuts.0, cuts.1.saturating_sub(1)) };
+        if self.n_lacking(lower, upper)? == 0 {
+            return Ok(());
+        }
         match self.cut(lower, upper) {
-            Some(middle) if cuts.1 > 0 => {
-                self.fill(lower, middle, cuts)?;
-                self.fill((middle.inertia.sigma, middle.n_elastic), upper, cuts)?;
+            Some(middle) if cuts > 1 => {
+                self.fill(lower, middle, cuts - 1)?;
+                self.fill(middle.place(), upper, cuts - 1)?;
                 self.modes.counts.push(middle);
                 Ok(())
             }
-            _ => Err(missing(self.problem, &self.modes, upper)),
+            _ => Err(missing(self.band.problem, &self.modes, upper)),
         }
     }
 
@@ -132,9 +209,9 @@ impl Filling<'_> {
             }
             sigma *= 1.0 + 2f64.powi(doubling) * CLUSTER_GAP;
             self.modes.work.factorisations += 1;
-            match self.problem.count_below(sigma) {
+            match self.band.problem.count_below(sigma) {
                 Ok(above) => {
-                    self.fill((end.inertia.sigma, end.n_elastic), above, (CUTS_TO_SIZE, CUTS_TO_FIND))?;
+                    self.fill(end.place(), above, CUTS_TO_FIND)?;
                     end = above;
                 }
                 Err(Error::SturmPivot { .. }) => {}
@@ -144,38 +221,29 @@ impl Filling<'_> {
         Err(Error::SturmPivot { step: 0 })
     }
 
-    /// Whether nothing is missing; more modes than counted cannot be mended.
-    fn is_filled(&self, from: f64, to: f64, counted: usize, upper: ElasticCount) -> Result<bool> {
-        let found = self.modes.n_between(from, to);
-        if found > counted {
-            return Err(missing(self.problem, &self.modes, upper));
-        }
-        Ok(found == counted)
-    }
-
     /// A count near the middle of an interval, off the eigenvalues known.
     fn cut(&mut self, lower: (f64, usize), upper: ElasticCount) -> Option<ElasticCount> {
-        const PLACES: [f64; 5] = [0.5, 0.44, 0.56, 0.38, 0.62];
-        let (from, to) = (lower.0, upper.inertia.sigma);
-        for place in PLACES {
-            let half = middle(from, to);
-            let sigma = if place <= 0.5 {
-                from + 2.0 * place * (half - from)
-            } else {
-                half + (2.0 * place - 1.0) * (to - half)
-            };
-            if !self.modes.is_clear(sigma) {
-                continue;
-            }
-            self.modes.work.factorisations += 1;
-            if let Ok(count) = self.problem.count_below(sigma)
-                && (lower.1..=upper.n_elastic).contains(&count.n_elastic)
-            {
-                return Some(count);
-            }
-        }
-        None
+        let mut counts = Counts::between(self.band.problem, lower, upper);
+        let count = counts.take_near(middle(lower.0, upper.inertia.sigma), |sigma| self.modes.is_clear(sigma));
+        self.modes.work.factorisations += counts.n_taken;
+        count
     }
+}
+
+/// Searches intervals, at most so many at the same time; the answers in their order.
+fn side_by_side<T: Send + Sync>(
+    intervals: &[Interval],
+    at_once: usize,
+    search: impl Fn(Interval) -> T + Sync,
+) -> Vec<T> {
+    let answers: Vec<OnceLock<T>> = intervals.iter().map(|_| OnceLock::new()).collect();
+    let next = AtomicUsize::new(0);
+    (0..at_once.clamp(1, intervals.len().max(1))).into_par_iter().for_each(|_| {
+        while let Some(place) = Some(next.fetch_add(1, Ordering::Relaxed)).filter(|place| *place < intervals.len()) {
+            answers[place].get_or_init(|| search(intervals[place]));
+        }
+    });
+    answers.into_iter().map(|answer| answer.into_inner().expect("each place was taken once")).collect()
 }
 
 /// The error of an interval that is given up.
@@ -205,9 +273,8 @@ pub(super) fn search_between(
     let rigid = modal.rigid.map_or((nothing.as_ref(), nothing.as_ref()), |rigid| {
         (rigid.orthonormal.as_ref(), rigid.mass_orthonormal.as_ref())
     });
-    // Modes further away than the interval is wide are damped by the shift and orthogonalised away at the end.
-    let width = interval.to - interval.from;
-    let near = known.shapes_between(interval.from - width, interval.to + width);
+    // Modes beyond the ends are orthogonalised away at the end: deflating them takes longer than finding them again.
+    let near = known.shapes_between(interval.from, interval.to);
     let q = dense::beside(rigid.0, near.as_ref());
     let mass_q = dense::beside(rigid.1, product(modal.mass, near.as_ref()).as_ref());
     let (modes, n_factorisations) = problem.with_operator_inside(interval, |operator| {

@@ -3,7 +3,7 @@
 use std::process::Command;
 
 use supel::error::Error;
-use supel::factor::{Analysis, Cholesky, Pencil, Storage, refuse_beyond_memory};
+use supel::factor::{Analysis, Cholesky, Pencil, Storage, slices_within_memory};
 use supel::input::{Direction, Dof};
 use supel::job::{Job, Precision};
 use supel::model::Model;
@@ -50,7 +50,7 @@ write     = { superelement = "x.supel" }
     let partition = crate::chain::partition(&spring(5, Ends::Fixed), &[]).expect("a chain");
     let resources = Resources { memory_bytes: Some(16 << 30) };
     let in_double = (Storage::Double, None);
-    let error = refuse_beyond_memory(&analysis, &partition, &job, resources, in_double).expect_err("more than 16 GiB");
+    let error = slices_within_memory(&analysis, &partition, &job, resources, in_double).expect_err("more than 16 GiB");
     assert!(matches!(error, Error::MemoryForecast { factors, .. } if factors >= 8 * exact as u64), "{error}");
     let said = error.to_string();
     assert!(said.contains("– largest first: factors ") && said.ends_with("which needs fewer factors"), "{said}");
@@ -119,7 +119,7 @@ write     = { superelement = "x.supel" }
     let analysis = Analysis::of(&partition).expect("an analysis");
     let needed = |partition: &Partition, storage| {
         let resources = Resources { memory_bytes: Some(1) };
-        match refuse_beyond_memory(&analysis, partition, &job, resources, (storage, None)) {
+        match slices_within_memory(&analysis, partition, &job, resources, (storage, None)) {
             Err(Error::MemoryForecast { factors, matrices, vectors, in_single: None, .. }) => {
                 factors + matrices + vectors
             }

@@ -121,17 +121,17 @@ fn e_03_cut_inside_a_pair() {
 /// The same where the band comes in slices and nothing is known above its end: pairs on the end, clusters across it.
 #[test]
 fn e_03_cut_inside_a_pair_at_the_end_of_the_last_slice() {
-    let integers: Vec<f64> = (1..=700).map(f64::from).collect();
-    let across = [0.6e-6, 1.5e-6, 2.4e-6].map(|gap| 300.0 * (1.0 + gap));
+    let integers: Vec<f64> = (1..=1100).map(f64::from).collect();
+    let across = [0.6e-6, 1.5e-6, 2.4e-6].map(|gap| 500.0 * (1.0 + gap));
     let mut cluster = integers.clone();
-    cluster.splice(299..302, across);
+    cluster.splice(499..502, across);
     let mut pair = integers.clone();
-    pair[300] = 300.0;
+    pair[500] = 500.0;
     for &eigensolver in eigensolvers() {
-        for (exact, found) in [(&integers, 300), (&cluster, 302), (&pair, 301)] {
+        for (exact, found) in [(&integers, 500), (&cluster, 502), (&pair, 501)] {
             let model = known(exact, fnv1a("E-03"));
-            let certified = certify(&model, &[], &held(up_to(300.0), eigensolver)).expect("certified");
-            certified.assert_known(&exact[..found], 700.0);
+            let certified = certify(&model, &[], &held(up_to(500.0), eigensolver)).expect("certified");
+            certified.assert_known(&exact[..found], 1100.0);
             let sigma = certified.certificate.count.sigma * certified.unit;
             assert!(exact[found - 1] < sigma && sigma < exact[found], "counted at {sigma}");
         }
@@ -200,24 +200,46 @@ fn e_05_band_edge_on_a_mode() {
     assert!(on_edge(tenth) && !on_edge(tenth * (1.0 + 1e-5)));
 }
 
-/// k = 0.2 n in slices, k = 0.9 n by a dense decomposition, by ARPACK in slices too, n = 2000.
+/// k = 0.3 n in slices, k = 0.9 n by a dense decomposition, by ARPACK in slices too, n = 2000.
 #[test]
 fn e_06_many_modes() {
     let (n, model) = (2000, bar(2000));
     let exact = bar_spectrum(n);
     for &eigensolver in eigensolvers() {
-        for asked in [400, 1800] {
+        for asked in [600, 1800] {
             let certified = certify(&model, &[], &held(count(asked), eigensolver)).expect("certified");
             certified.assert_lambda(&exact[..asked]);
             assert!(certified.orthogonality <= 1e-11, "{asked}: {:e}", certified.orthogonality);
             let largest = certified.certificate.intervals.iter().map(|interval| interval.n_counted).max();
-            if asked == 400 || eigensolver == Eigensolver::Arpack {
+            if asked == 600 || eigensolver == Eigensolver::Arpack {
                 assert!(largest.is_some_and(|largest| largest <= 2 * SLICE), "{largest:?} modes in one interval");
                 assert!(certified.certificate.intervals.len() > 2, "{:?}", certified.certificate.intervals);
             }
         }
-        let band = held(up_to(0.5 * (exact[299] + exact[300])), eigensolver);
-        certify(&model, &[], &band).expect("certified").assert_lambda(&exact[..300]);
+        let band = held(up_to(0.5 * (exact[499] + exact[500])), eigensolver);
+        certify(&model, &[], &band).expect("certified").assert_lambda(&exact[..500]);
+    }
+}
+
+/// Slices searched side by side give the bits that one after the other gives, and no more or fewer of them are searched.
+#[test]
+fn e_06_slices_at_the_same_time() {
+    // As `supel::reduce` does, for small dense decompositions.
+    faer::set_global_parallelism(faer::Par::Seq);
+    let modes = |at_once: usize| {
+        with_component(&bar(1500), &[], |component| {
+            let search = Search::new(component, &held(count(500), Eigensolver::Lanczos))?;
+            search.with_slices_at_once(at_once).lowest(SEED)
+        })
+        .expect("modes")
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build().expect("threads");
+    let one = modes(1);
+    assert!(one.counts.len() >= 4, "{} slices", one.counts.len());
+    for at_once in [2, 4] {
+        let several = pool.install(|| modes(at_once));
+        assert!(several.lambda == one.lambda && several.shapes == one.shapes, "{at_once} at once");
+        assert_eq!((several.work, several.counts), (one.work, one.counts.clone()));
     }
 }
 

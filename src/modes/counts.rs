@@ -1,0 +1,202 @@
+//! Where Sturm counts are taken, so that intervals hold as many modes as they should.
+//!
+//! N(λ), the number of eigenvalues below λ, grows about like a power of λ: 1/2 along a bar, 1 in a plate, 3/2 in a solid. Between
+//! two counts it is interpolated as such a power, beyond the last one continued; each further count corrects the next place.
+
+use super::boundary_problem::{BoundaryProblem, ElasticCount, ratios};
+use super::finite::above_all;
+use crate::error::{Error, Result};
+
+/// How far a shift is moved that lies on an eigenvalue, relatively.
+const OFF: f64 = 1e-3;
+/// The power of λ that N grows with, where counts do not tell.
+const POWER: f64 = 1.0;
+/// More modes than asked for that the interval above them may hold: a share, and as many as cost as much to find as a count.
+const EXCESS: (f64, usize) = (0.05, 8);
+/// The share of an interval by which it may be larger or smaller than the others.
+const UNEVEN: f64 = 0.25;
+
+/// Half way in frequency, where modes lie more evenly than in λ.
+pub(super) fn middle(from: f64, to: f64) -> f64 {
+    (0.5 * (from.max(0.0).sqrt() + to.sqrt())).powi(2)
+}
+
+impl ElasticCount {
+    /// The shift and the number of eigenvalues below it.
+    pub(super) fn place(self) -> (f64, usize) {
+        (self.inertia.sigma, self.n_elastic)
+    }
+}
+
+/// Counts between a shift whose count is known and another.
+pub(super) struct Counts<'a> {
+    problem: &'a BoundaryProblem<'a>,
+    lower: (f64, usize),
+    /// Ascending.
+    counts: Vec<ElasticCount>,
+    /// Factorisations they took.
+    pub n_taken: usize,
+}
+
+impl<'a> Counts<'a> {
+    /// Nothing but two ends.
+    pub(super) fn between(problem: &'a BoundaryProblem<'a>, lower: (f64, usize), upper: ElasticCount) -> Self {
+        Self { problem, lower, counts: vec![upper], n_taken: 0 }
+    }
+
+    /// Counts from zero up to one with more than `n_modes` modes below it, but not many more, or with all modes there are.
+    ///
+    /// # Errors
+    /// As [`BoundaryProblem::count_below`].
+    pub(super) fn up_to(problem: &'a BoundaryProblem<'a>, n_modes: usize) -> Result<Self> {
+        /// Counts that interpolation takes; after them intervals are halved.
+        const INTERPOLATED: usize = 12;
+        const STEPS: usize = 60;
+        let mut counts = Self { problem, lower: (0.0, 0), counts: Vec::new(), n_taken: 0 };
+        let ratios = ratios(problem.modal());
+        let top = above_all(problem);
+        let excess = (EXCESS.0 * n_modes as f64) as usize + EXCESS.1;
+        let is_above = |end: &ElasticCount| end.n_elastic > n_modes || end.inertia.sigma >= top;
+        let target = n_modes as f64 + 0.5 * excess as f64;
+        // λ of plane and solid meshes grows at least linearly in the number of the mode.
+        let share = n_modes as f64 / problem.modal().mass.rows() as f64;
+        let mut sigma = ratios.get(ratios.len() / 2).copied().unwrap_or(1.0) * share;
+        for step in 0..STEPS {
+            match counts.take(sigma) {
+                Ok(_) => {}
+                Err(Error::SturmPivot { .. }) => {
+                    sigma *= 1.0 + OFF;
+                    continue;
+                }
+                Err(error) => return Err(error),
+            }
+            let n_below = counts.counts.partition_point(|end| !is_above(end));
+            let below = n_below.checked_sub(1).map_or(0.0, |last| counts.counts[last].inertia.sigma);
+            sigma = match counts.counts.get(n_below).map(|end| end.place()) {
+                Some((to, n)) if n <= n_modes + excess || to < (1.0 + OFF) * below => {
+                    counts.counts.truncate(n_below + 1);
+                    break;
+                }
+                Some((to, _)) if step >= INTERPOLATED => middle(below, to),
+                _ => counts.expected_at(target),
+            };
+        }
+        Ok(counts)
+    }
+
+    /// The last of the counts: the upper end.
+    pub(super) fn last(&self) -> Option<ElasticCount> {
+        self.counts.last().copied()
+    }
+
+    /// Cuts what lies below the last count into `n_parts` parts of about as many eigenvalues each; gives the counts between
+    /// them, where `is_clear` allows one.
+    pub(super) fn cut_evenly(&mut self, n_parts: usize, is_clear: impl Fn(f64) -> bool) -> Vec<ElasticCount> {
+        let n_below = self.lower.1;
+        let Some(last) = self.counts.last() else { return Vec::new() };
+        let part = (last.n_elastic - n_below) as f64 / n_parts as f64;
+        let mut cuts: Vec<ElasticCount> = Vec::new();
+        for place in 1..n_parts {
+            let target = n_below as f64 + part * place as f64;
+            let is_near = |count: &ElasticCount| (count.n_elastic as f64 - target).abs() <= UNEVEN * part;
+            // A count nearby serves; a first one corrects the place of a second.
+            for _ in 0..2 {
+                if self.counts.iter().any(is_near) || self.take_near(self.expected_at(target), &is_clear).is_none() {
+                    break;
+                }
+            }
+            let distance = |count: &&ElasticCount| (count.n_elastic as f64 - target).abs();
+            let (_, inner) = self.counts.split_last().expect("the upper end");
+            let nearest = inner.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            let is_further = |count: &&ElasticCount| cuts.last().is_none_or(|last| last.n_elastic < count.n_elastic);
+            cuts.extend(nearest.filter(|count| distance(count) <= 0.5 * part).filter(is_further).copied());
+        }
+        cuts
+    }
+
+    /// A count at a shift or near it, inside the ends.
+    pub(super) fn take_near(&mut self, sigma: f64, is_clear: impl Fn(f64) -> bool) -> Option<ElasticCount> {
+        const PLACES: [f64; 5] = [0.0, -0.12, 0.12, -0.24, 0.24];
+        let (from, to) = (self.lower.0, self.counts.last()?.inertia.sigma);
+        for place in PLACES {
+            let room = if place < 0.0 { sigma - from } else { to - sigma };
+            let sigma = sigma + place * room;
+            if is_clear(sigma)
+                && let Ok(count) = self.take(sigma)
+            {
+                return Some(count);
+            }
+        }
+        None
+    }
+
+    /// Takes a count and keeps it, if it is one: between those on either side.
+    fn take(&mut self, sigma: f64) -> Result<ElasticCount> {
+        self.n_taken += 1;
+        let count = self.problem.count_below(sigma)?;
+        let place = self.counts.partition_point(|other| other.inertia.sigma < sigma);
+        let below = place.checked_sub(1).map_or(self.lower.1, |before| self.counts[before].n_elastic);
+        let above = self.counts.get(place).map_or(usize::MAX, |after| after.n_elastic);
+        if !(below..=above).contains(&count.n_elastic) {
+            return Err(Error::SturmPivot { step: 0 });
+        }
+        self.counts.insert(place, count);
+        Ok(count)
+    }
+
+    /// The shift below which so many eigenvalues are expected.
+    fn expected_at(&self, target: f64) -> f64 {
+        /// A step beyond the last count that may take so many times its λ, no more and no less.
+        const LEAST: f64 = 1.2;
+        const MOST: f64 = 16.0;
+        let above = self.counts.partition_point(|count| (count.n_elastic as f64) < target);
+        let place = |at: usize| self.counts.get(at).map(|count| count.place());
+        let lower = above.checked_sub(1).and_then(place).unwrap_or(self.lower);
+        match place(above) {
+            Some(upper) => between(lower, upper, target),
+            None => {
+                let before = above.checked_sub(2).and_then(place).filter(|before| before.1 > 0 && before.1 < lower.1);
+                let power = before.map_or(POWER, |before| power(before, lower));
+                let grown = if lower.1 == 0 { f64::INFINITY } else { (target / lower.1 as f64).powf(1.0 / power) };
+                lower.0 * grown.clamp(LEAST, MOST)
+            }
+        }
+    }
+}
+
+/// The power of λ with which N grows from one count to another.
+fn power(lower: (f64, usize), upper: (f64, usize)) -> f64 {
+    (upper.1 as f64 / lower.1 as f64).ln() / (upper.0 / lower.0).ln()
+}
+
+/// The shift between two counts below which so many eigenvalues are expected; off both by a tenth of what lies between.
+fn between(lower: (f64, usize), upper: (f64, usize), target: f64) -> f64 {
+    const OFF_ENDS: f64 = 0.1;
+    let power = if lower.1 > 0 && lower.1 < upper.1 { power(lower, upper) } else { POWER };
+    let sigma = upper.0 * (target / upper.1 as f64).powf(1.0 / power);
+    let room = OFF_ENDS * (upper.0 - lower.0);
+    sigma.clamp(lower.0 + room, upper.0 - room)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_power_is_followed_exactly() {
+        // N = 100 λ^(3/2) is 10⁵ at λ = 100.
+        let n = |lambda: f64| (100.0 * lambda.powf(1.5)).round() as usize;
+        let (lower, upper) = ((1.0, n(1.0)), (400.0, n(400.0)));
+        let sigma = between(lower, upper, 1e5);
+        // Both counts are whole numbers already.
+        assert!((sigma / 100.0 - 1.0).abs() < 1e-12, "{sigma}");
+        assert!((power(lower, upper) - 1.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_place_is_off_both_ends() {
+        assert_eq!(between((0.0, 0), (10.0, 1000), 1.0), 1.0, "a tenth, not a thousandth");
+        assert_eq!(between((5.0, 10), (10.0, 10), 10.0), 9.5, "no power without growth");
+        assert_eq!(between((5.0, 0), (10.0, 8), 2.0), 5.5);
+    }
+}
