@@ -15,6 +15,8 @@ const DOUBLE: u64 = 8;
 const MODES_IN_A_BAND: u64 = 50;
 /// Vectors beside the right-hand sides of a solve by a factor in single precision.
 const REFINEMENT: u64 = 72;
+/// Blocks of all modes that basis, projection and verification hold together.
+const BLOCKS_OF_MODES: u64 = 7;
 /// Recovered rows of the basis as numbers, as bytes of their own and as bytes of the file.
 const COPIES: u64 = 3;
 
@@ -49,8 +51,8 @@ pub fn storage_within_memory(
 /// or else what the machine offers, can hold.
 ///
 /// Counted are the matrices, the factors that are kept, what waits for its parent while one is made, the largest front, the
-/// constraint modes, the modes, the basis of the eigensolver (three vectors for each mode and eight blocks of eight) and the rows
-/// that are recovered. The number of modes is what a count in the band has found, once there is one.
+/// constraint modes, the modes, the basis of the eigensolver (four vectors for each mode and eight blocks of eight) or what is
+/// held after it, and the rows that are recovered. The number of modes is what a count in the band has found, once there is one.
 ///
 /// # Errors
 /// [`Error::MemoryForecast`] where there is no room for a single search.
@@ -115,7 +117,7 @@ impl Forecast {
         let beside = analysis.factor_bytes(Storage::Double).saturating_mul(n_beside);
         let stacks = analysis.stack_bytes().saturating_mul(in_slices.max(1));
         let factors = analysis.factor_bytes(storage).saturating_add(beside).saturating_add(stacks);
-        let vectors = 2 * partition.n_interface() as u64 + of_solver + refinement;
+        let vectors = 2 * partition.n_interface() as u64 + of_solver.max(BLOCKS_OF_MODES * n_modes) + refinement;
         let recovery = COPIES * partition.recovered.len() as u64 * (partition.n_interface() as u64 + n_modes);
         Self { factors, matrices: 3 * ENTRY * entries, vectors: DOUBLE * (n * vectors + recovery) }
     }
