@@ -78,7 +78,7 @@ impl<'a> Counts<'a> {
                     break;
                 }
                 Some((to, _)) if step >= INTERPOLATED => middle(below, to),
-                _ => counts.expected_at(target),
+                _ => counts.expected_at(target).min(top),
             };
         }
         Ok(counts)
@@ -89,11 +89,12 @@ impl<'a> Counts<'a> {
         self.counts.last().copied()
     }
 
-    /// Cuts what lies below the last count into `n_parts` parts of about as many eigenvalues each; gives the counts between
-    /// them, where `is_clear` allows one.
+    /// Cuts what lies below the last count into `n_parts` parts of about as many eigenvalues each, and above them one without any
+    /// where the last count is far up; gives the counts between them, where `is_clear` allows one.
     pub(super) fn cut_evenly(&mut self, n_parts: usize, is_clear: impl Fn(f64) -> bool) -> Vec<ElasticCount> {
         let n_below = self.lower.1;
-        let Some(last) = self.counts.last() else { return Vec::new() };
+        let Some(last) = self.last() else { return Vec::new() };
+        let end = self.end_near(last, &is_clear);
         let part = (last.n_elastic - n_below) as f64 / n_parts as f64;
         let mut cuts: Vec<ElasticCount> = Vec::new();
         for place in 1..n_parts {
@@ -106,12 +107,32 @@ impl<'a> Counts<'a> {
                 }
             }
             let distance = |count: &&ElasticCount| (count.n_elastic as f64 - target).abs();
-            let (_, inner) = self.counts.split_last().expect("the upper end");
-            let nearest = inner.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            let inner = self.counts.iter().filter(|count| count.n_elastic < last.n_elastic);
+            let nearest = inner.min_by(|a, b| distance(a).total_cmp(&distance(b)));
             let is_further = |count: &&ElasticCount| cuts.last().is_none_or(|last| last.n_elastic < count.n_elastic);
             cuts.extend(nearest.filter(|count| distance(count) <= 0.5 * part).filter(is_further).copied());
         }
+        cuts.extend(Some(end).filter(|end| end.inertia.sigma < last.inertia.sigma));
         cuts
+    }
+
+    /// A count with as many eigenvalues below it as the last one has, and not much further up than the highest of them: a shift
+    /// inside an interval that holds its eigenvalues at one end alone hardly tells them apart.
+    fn end_near(&mut self, last: ElasticCount, is_clear: impl Fn(f64) -> bool) -> ElasticCount {
+        const NEAR: f64 = 4.0;
+        const STEPS: usize = 60;
+        let mut end = last;
+        for _ in 0..STEPS {
+            let n_fewer = self.counts.partition_point(|count| count.n_elastic < last.n_elastic);
+            let below = n_fewer.checked_sub(1).map_or(self.lower.0, |last| self.counts[last].inertia.sigma);
+            end = self.counts[n_fewer];
+            if end.inertia.sigma <= NEAR * below
+                || self.take_near(middle(below, end.inertia.sigma), &is_clear).is_none()
+            {
+                break;
+            }
+        }
+        end
     }
 
     /// A count at a shift or near it, inside the ends.
@@ -146,21 +167,26 @@ impl<'a> Counts<'a> {
 
     /// The shift below which so many eigenvalues are expected.
     fn expected_at(&self, target: f64) -> f64 {
-        /// A step beyond the last count that may take so many times its λ, no more and no less.
-        const LEAST: f64 = 1.2;
-        const MOST: f64 = 16.0;
         let above = self.counts.partition_point(|count| (count.n_elastic as f64) < target);
         let place = |at: usize| self.counts.get(at).map(|count| count.place());
         let lower = above.checked_sub(1).and_then(place).unwrap_or(self.lower);
         match place(above) {
             Some(upper) => between(lower, upper, target),
-            None => {
-                let before = above.checked_sub(2).and_then(place).filter(|before| before.1 > 0 && before.1 < lower.1);
-                let power = before.map_or(POWER, |before| power(before, lower));
-                let grown = if lower.1 == 0 { f64::INFINITY } else { (target / lower.1 as f64).powf(1.0 / power) };
-                lower.0 * grown.clamp(LEAST, MOST)
-            }
+            None => lower.0 * Self::growth(target, lower, above.checked_sub(2).and_then(place)),
         }
+    }
+
+    /// How many times λ grows from the last count to where so many eigenvalues are expected, by what it and the one before tell.
+    fn growth(target: f64, last: (f64, usize), before: Option<(f64, usize)>) -> f64 {
+        const LEAST: f64 = 1.2;
+        const MOST: f64 = 16.0;
+        let power = match before {
+            // There may be no more.
+            Some(before) if before.1 == last.1 => 0.0,
+            Some(before) if before.1 > 0 => power(before, last),
+            _ => POWER,
+        };
+        if last.1 == 0 { MOST } else { (target / last.1 as f64).powf(1.0 / power).clamp(LEAST, MOST) }
     }
 }
 

@@ -21,15 +21,16 @@ use rayon::prelude::*;
 
 use super::boundary_problem::{BoundaryProblem, ElasticCount};
 use super::counts::{Counts, middle};
-use super::eigenproblem::{EigenWork, Interval, Problem, are_clustered};
-use super::{CLUSTER_GAP, Modes, SEED, judged, pairs_between};
+use super::eigenproblem::{EigenWork, Eigenpairs, Interval, Problem, are_clustered};
+use super::{CLUSTER_GAP, Modes, SEED, SETTLED, judged, pairs_between};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::job::Eigensolver;
-use crate::sparse::product;
+use crate::sparse::{SparseMatrix, product};
 
-/// Modes searched for at once where a band is cut evenly, and the most of any search.
+/// Modes that a slice of a band is to have.
 pub const SLICE: usize = 120;
+/// The most that a search is to find.
 const LARGEST: usize = SLICE + SLICE / 2;
 /// Searches of one interval from different start vectors, after the one of its round.
 const ATTEMPTS: u64 = 2;
@@ -104,28 +105,27 @@ impl Filling<'_> {
         let mut cut = Vec::new();
         let mut lower = (0.0, 0);
         for end in ends {
-            self.cut_until(LARGEST, (lower, *end), &mut cut, CUTS_TO_SIZE)?;
+            self.cut_to_parts((lower, *end), &mut cut, CUTS_TO_SIZE)?;
             cut.push(*end);
             lower = end.place();
         }
         Ok(cut)
     }
 
-    /// Cuts one interval until none of its parts lacks more modes than `largest`.
-    fn cut_until(
+    /// Cuts one interval until none of its parts lacks too many modes.
+    fn cut_to_parts(
         &mut self,
-        largest: usize,
         (lower, upper): ((f64, usize), ElasticCount),
         cut: &mut Vec<ElasticCount>,
         cuts: usize,
     ) -> Result<()> {
-        if self.n_lacking(lower, upper)? > largest
+        if self.n_lacking(lower, upper)? > LARGEST
             && cuts > 0
             && let Some(middle) = self.cut(lower, upper)
         {
-            self.cut_until(largest, (lower, middle), cut, cuts - 1)?;
+            self.cut_to_parts((lower, middle), cut, cuts - 1)?;
             cut.push(middle);
-            self.cut_until(largest, (middle.place(), upper), cut, cuts - 1)?;
+            self.cut_to_parts((middle.place(), upper), cut, cuts - 1)?;
         }
         Ok(())
     }
@@ -280,12 +280,38 @@ pub(super) fn search_between(
     let (modes, n_factorisations) = problem.with_operator_inside(interval, |operator| {
         let deflated = [q.as_ref(), mass_q.as_ref()];
         let mut pairs = pairs_between(Problem { operator, mass: modal.mass, deflated }, interval, solver)?;
-        let along = dense::gram(known.shapes.as_ref(), product(modal.mass, pairs.vectors.as_ref()).as_ref());
-        dense::add_product(pairs.vectors.as_mut(), -1.0, known.shapes.as_ref(), along.as_ref());
+        make_orthogonal(modal.mass, known, &mut pairs.vectors);
         let whole = Problem { operator, mass: modal.mass, deflated: [rigid.0, rigid.1] };
         // Nothing nearer than the ends of the interval is known of the neighbours.
-        Ok(judged(modal, whole, pairs, [Some(interval.from), Some(interval.to)]).ascending())
+        let around = [Some(interval.from), Some(interval.to)];
+        let modes = judged(modal, whole, pairs, around).ascending();
+        if modes.errors.iter().all(|error| error.backward <= SETTLED) {
+            return Ok(modes);
+        }
+        let mut pairs = purified(whole, modes);
+        make_orthogonal(modal.mass, known, &mut pairs.vectors);
+        Ok(judged(modal, whole, pairs, around).ascending())
     })?;
     let work = EigenWork { factorisations: n_factorisations, ..modes.work };
     Ok(Modes { work, next: None, ..modes })
+}
+
+/// X ← X − X_k X_kᵀ M X with the known modes X_k.
+fn make_orthogonal(mass: &SparseMatrix, known: &Modes, vectors: &mut Mat<f64>) {
+    let along = dense::gram(known.shapes.as_ref(), product(mass, vectors.as_ref()).as_ref());
+    dense::add_product(vectors.as_mut(), -1.0, known.shapes.as_ref(), along.as_ref());
+}
+
+/// X = (K − σM)⁻¹ M X (Λ − σI): a step of inverse iteration, which leaves nothing in the modes that M does not see. An iteration
+/// carries it along, unseen by its products with M, and where all eigenvalues lie on one side of the shift and far from it, it grows.
+fn purified(problem: Problem<'_>, modes: Modes) -> Eigenpairs {
+    let mut vectors = product(problem.mass, modes.shapes.as_ref());
+    problem.equilibrate(vectors.as_mut());
+    problem.operator.solve_in_place(vectors.as_mut());
+    problem.deflate(vectors.as_mut());
+    for (column, lambda) in vectors.as_mut().col_iter_mut().zip(&modes.lambda) {
+        column.iter_mut().for_each(|value| *value *= lambda - problem.operator.shift());
+    }
+    let work = EigenWork { solves: modes.work.solves + modes.count(), ..modes.work };
+    Eigenpairs { values: modes.lambda, vectors, next: modes.next, work }
 }

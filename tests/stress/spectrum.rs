@@ -476,6 +476,19 @@ fn c_10_no_further_mode_exists() {
     }
 }
 
+/// The same in slices: of a chain with every third mass 500 modes are left where 600 are asked for, each spring between them a third.
+#[test]
+fn c_10_too_many_modes_in_slices() {
+    let mut model = spring(1502, Ends::Fixed);
+    model.mass.retain(|(row, _, _)| row % 3 == 2);
+    let exact: Vec<f64> = spring_spectrum(500, Ends::Fixed).iter().map(|lambda| lambda / 3.0).collect();
+    let certified = certify(&model, &[], &held(count(600), Eigensolver::Lanczos)).expect("certified");
+    certified.assert_lambda(&exact);
+    assert_eq!(certified.certificate.n_finite, Some(500));
+    // Found 20: those that follow the growth of the spectrum to above all that can be, those that cut it, and a factor for each of six slices.
+    assert!(certified.modes.work.factorisations <= 24, "{:?}", certified.modes.work);
+}
+
 /// A search that loses its last modes says that there are no more; the count above all that can be finds them.
 #[test]
 fn c_10_modes_lost_at_the_end() {
