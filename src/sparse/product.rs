@@ -3,14 +3,14 @@
 //! The matrix is the traffic: it is read once for eight columns. The block is packed row by row first, because then
 //! the eight numbers an entry needs share one cache line.
 //!
-//! Shapes: matrix n × n, x and y n × k.
+//! Shapes: matrix n × n, whole or leading block, x and y n × k.
 
 use faer::prelude::ReborrowMut;
 use faer::{Mat, MatMut, MatRef};
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
-use super::SparseMatrix;
+use super::Leading;
 
 /// Rows of a tile, the unit of parallel work. Fixed: what a thread computes never depends on how many there are.
 const TILE_ROWS: usize = 512;
@@ -20,26 +20,29 @@ const TILE_ROWS: usize = 512;
 ///
 /// # Panics
 /// Where the shapes differ.
-pub fn multiply(matrix: &SparseMatrix, x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
-    sums(matrix, x, [y], |product| [product]);
+pub fn multiply<'a>(matrix: impl Into<Leading<'a>>, x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
+    sums(matrix.into(), x, [y], |product| [product]);
 }
 
 /// A X as a new matrix, n × k.
-pub fn product(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> Mat<f64> {
+pub fn product<'a>(matrix: impl Into<Leading<'a>>, x: MatRef<'_, f64>) -> Mat<f64> {
+    let matrix = matrix.into();
     let mut y = Mat::zeros(matrix.rows(), x.ncols());
     multiply(matrix, x, y.as_mut());
     y
 }
 
 /// |A| |X| as a new matrix, n × k: how large the terms of A X are.
-pub fn absolute_product(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> Mat<f64> {
+pub fn absolute_product<'a>(matrix: impl Into<Leading<'a>>, x: MatRef<'_, f64>) -> Mat<f64> {
+    let matrix = matrix.into();
     let mut y = Mat::zeros(matrix.rows(), x.ncols());
     sums(matrix, x, [y.as_mut()], |product| [product.abs()]);
     y
 }
 
 /// A X and |A| |X|, n × k each, for one reading of A.
-pub fn product_and_terms(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> (Mat<f64>, Mat<f64>) {
+pub fn product_and_terms<'a>(matrix: impl Into<Leading<'a>>, x: MatRef<'_, f64>) -> (Mat<f64>, Mat<f64>) {
+    let matrix = matrix.into();
     let zeros = || Mat::zeros(matrix.rows(), x.ncols());
     let (mut y, mut terms) = (zeros(), zeros());
     sums(matrix, x, [y.as_mut(), terms.as_mut()], |product| [product, product.abs()]);
@@ -48,13 +51,13 @@ pub fn product_and_terms(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> (Mat<f64>
 
 /// N sums over each row: those of what `of` makes of the products of the entries of A with those of x.
 fn sums<const N: usize>(
-    matrix: &SparseMatrix,
+    matrix: Leading<'_>,
     x: MatRef<'_, f64>,
     mut y: [MatMut<'_, f64>; N],
     of: impl Fn(f64) -> [f64; N] + Sync + Copy,
 ) {
     let n = matrix.rows();
-    assert!(x.nrows() == matrix.cols(), "matrix of {} columns times block of {} rows", matrix.cols(), x.nrows());
+    assert!(x.nrows() == n, "matrix of {n} columns times block of {} rows", x.nrows());
     for y in &y {
         assert!(y.nrows() == n && y.ncols() == x.ncols(), "product {n} x {}, block {:?}", x.ncols(), y.shape());
     }
@@ -75,7 +78,7 @@ fn sums<const N: usize>(
 type Group<const W: usize> = [f64; W];
 
 fn group_sums<const W: usize, const N: usize>(
-    matrix: &SparseMatrix,
+    matrix: Leading<'_>,
     x: MatRef<'_, f64>,
     y: [MatMut<'_, f64>; N],
     packed: &mut Vec<Group<W>>,
@@ -83,8 +86,6 @@ fn group_sums<const W: usize, const N: usize>(
 ) {
     pack(x, packed);
     let packed = packed.as_slice();
-    let (indptr, indices, data) = (matrix.indptr(), matrix.indices(), matrix.data());
-    let pointers = indptr.raw_storage();
     let n_rows = matrix.rows();
     let mut tiles = y.map(|y| y.par_row_chunks_mut(TILE_ROWS).collect::<Vec<_>>().into_iter());
     let tiles: Vec<[MatMut<'_, f64>; N]> = (0..n_rows.div_ceil(TILE_ROWS))
@@ -94,14 +95,7 @@ fn group_sums<const W: usize, const N: usize>(
         let first = tile * TILE_ROWS;
         let mut sums = [[[0.0; W]; N]; TILE_ROWS];
         let n_rows = TILE_ROWS.min(n_rows - first);
-        Arch::new().dispatch(RowSums {
-            pointers: &pointers[first..],
-            indices,
-            data,
-            packed,
-            of,
-            sums: &mut sums[..n_rows],
-        });
+        Arch::new().dispatch(RowSums { matrix, first, packed, of, sums: &mut sums[..n_rows] });
         for (kind, mut y) in y.into_iter().enumerate() {
             for (col, y) in y.as_mut().col_iter_mut().enumerate() {
                 for (y, sums) in y.iter_mut().zip(&sums) {
@@ -114,10 +108,9 @@ fn group_sums<const W: usize, const N: usize>(
 
 /// The sums of a tile of rows.
 struct RowSums<'a, const W: usize, const N: usize, F> {
-    /// Of the first row on.
-    pointers: &'a [usize],
-    indices: &'a [u32],
-    data: &'a [f64],
+    matrix: Leading<'a>,
+    /// The first row.
+    first: usize,
     packed: &'a [Group<W>],
     of: F,
     sums: &'a mut [[Group<W>; N]],
@@ -129,11 +122,11 @@ impl<const W: usize, const N: usize, F: Fn(f64) -> [f64; N]> WithSimd for RowSum
     /// In the widest vectors that the processor has; a product and a sum are rounded one by one all the same.
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        for (bounds, sums) in self.pointers.windows(2).zip(self.sums) {
-            let row = bounds[0]..bounds[1];
+        for (row, sums) in (self.first..).zip(self.sums) {
+            let (columns, values) = self.matrix.row(row);
             // Summed in a local, which stays in registers.
             let mut row_sums = [[0.0; W]; N];
-            for (&col, &value) in self.indices[row.clone()].iter().zip(&self.data[row]) {
+            for (&col, &value) in columns.iter().zip(values) {
                 for (w, x) in self.packed[col as usize].iter().enumerate() {
                     let terms = (self.of)(value * x);
                     for (sums, term) in row_sums.iter_mut().zip(terms) {
@@ -165,7 +158,7 @@ mod tests {
     use faer::Mat;
 
     use super::*;
-    use crate::sparse::{Declared, Triplets};
+    use crate::sparse::{Declared, SparseMatrix, Triplets};
 
     /// A banded matrix of integers, more rows than a tile, with a row left empty.
     fn banded(n: u32) -> SparseMatrix {
