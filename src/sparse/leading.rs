@@ -8,10 +8,9 @@ use super::SparseMatrix;
 /// The leading n × n block of a symmetric sparse matrix.
 #[derive(Clone, Copy, Debug)]
 pub struct Leading<'a> {
-    /// Where each row starts and the last one ends, n + 1 values.
-    pointers: &'a [usize],
-    columns: &'a [u32],
-    values: &'a [f64],
+    /// The matrix that stores it.
+    pub(super) whole: &'a SparseMatrix,
+    n: usize,
 }
 
 impl<'a> Leading<'a> {
@@ -19,29 +18,28 @@ impl<'a> Leading<'a> {
     ///
     /// # Panics
     /// Where the matrix has fewer rows.
-    pub fn new(matrix: &'a SparseMatrix, n: usize) -> Self {
-        assert!(n <= matrix.rows(), "block of order {n} in a matrix of {} rows", matrix.rows());
-        let pointers = &matrix.indptr().into_raw_storage()[..=n];
-        Self { pointers, columns: matrix.indices(), values: matrix.data() }
+    pub fn new(whole: &'a SparseMatrix, n: usize) -> Self {
+        assert!(n <= whole.rows(), "block of order {n} in a matrix of {} rows", whole.rows());
+        Self { whole, n }
     }
 
     /// n.
     pub fn rows(self) -> usize {
-        self.pointers.len() - 1
+        self.n
     }
 
     /// Stored entries of the block.
     pub fn nnz(self) -> usize {
-        (0..self.rows()).map(|row| self.row(row).0.len()).sum()
+        (0..self.n).map(|row| self.row(row).0.len()).sum()
     }
 
     /// Columns and values of the entries of a row that lie in the block, columns ascending.
-    #[inline(always)]
     pub fn row(self, row: usize) -> (&'a [u32], &'a [f64]) {
-        let stored = self.pointers[row]..self.pointers[row + 1];
-        let (columns, values) = (&self.columns[stored.clone()], &self.values[stored]);
+        let pointers = self.whole.indptr().into_raw_storage();
+        let stored = pointers[row]..pointers[row + 1];
+        let (columns, values) = (&self.whole.indices()[stored.clone()], &self.whole.data()[stored]);
         // Most rows end before the block does, which their last column tells without a search.
-        let is_inside = |col: &u32| (*col as usize) < self.rows();
+        let is_inside = |col: &u32| (*col as usize) < self.n;
         if columns.last().is_none_or(is_inside) {
             return (columns, values);
         }
@@ -61,19 +59,18 @@ impl<'a> Leading<'a> {
             let (columns, values) = self.row(row);
             columns.binary_search(&(row as u32)).map_or(0.0, |at| values[at])
         };
-        (0..self.rows()).map(of_row).collect()
+        (0..self.n).map(of_row).collect()
     }
 
     /// The block as a matrix of its own, to be changed.
     pub fn to_owned(self) -> SparseMatrix {
-        let n = self.rows();
         let (mut pointers, mut columns, mut values) = (vec![0], Vec::new(), Vec::new());
-        for row in 0..n {
+        for row in 0..self.n {
             columns.extend_from_slice(self.row(row).0);
             values.extend_from_slice(self.row(row).1);
             pointers.push(columns.len());
         }
-        SparseMatrix::new((n, n), pointers, columns, values)
+        SparseMatrix::new((self.n, self.n), pointers, columns, values)
     }
 }
 

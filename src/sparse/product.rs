@@ -1,7 +1,8 @@
 //! Sparse matrix times a block of columns.
 //!
 //! The matrix is the traffic: it is read once for eight columns. The block is packed row by row first, because then
-//! the eight numbers an entry needs share one cache line.
+//! the eight numbers an entry needs share one cache line. For a leading block it goes on with zeros as far as the rows that
+//! store the block do: to add them costs less than to find where each row leaves the block, and changes no bit of a sum.
 //!
 //! Shapes: matrix n × n, whole or leading block, x and y n × k.
 
@@ -84,8 +85,11 @@ fn group_sums<const W: usize, const N: usize>(
     packed: &mut Vec<Group<W>>,
     of: impl Fn(f64) -> [f64; N] + Sync + Copy,
 ) {
-    pack(x, packed);
+    let stored = matrix.whole;
+    pack(x, stored.rows(), packed);
     let packed = packed.as_slice();
+    let (indptr, indices, data) = (stored.indptr(), stored.indices(), stored.data());
+    let pointers = indptr.raw_storage();
     let n_rows = matrix.rows();
     let mut tiles = y.map(|y| y.par_row_chunks_mut(TILE_ROWS).collect::<Vec<_>>().into_iter());
     let tiles: Vec<[MatMut<'_, f64>; N]> = (0..n_rows.div_ceil(TILE_ROWS))
@@ -95,7 +99,14 @@ fn group_sums<const W: usize, const N: usize>(
         let first = tile * TILE_ROWS;
         let mut sums = [[[0.0; W]; N]; TILE_ROWS];
         let n_rows = TILE_ROWS.min(n_rows - first);
-        Arch::new().dispatch(RowSums { matrix, first, packed, of, sums: &mut sums[..n_rows] });
+        Arch::new().dispatch(RowSums {
+            pointers: &pointers[first..],
+            indices,
+            data,
+            packed,
+            of,
+            sums: &mut sums[..n_rows],
+        });
         for (kind, mut y) in y.into_iter().enumerate() {
             for (col, y) in y.as_mut().col_iter_mut().enumerate() {
                 for (y, sums) in y.iter_mut().zip(&sums) {
@@ -108,9 +119,10 @@ fn group_sums<const W: usize, const N: usize>(
 
 /// The sums of a tile of rows.
 struct RowSums<'a, const W: usize, const N: usize, F> {
-    matrix: Leading<'a>,
-    /// The first row.
-    first: usize,
+    /// Of the first row on.
+    pointers: &'a [usize],
+    indices: &'a [u32],
+    data: &'a [f64],
     packed: &'a [Group<W>],
     of: F,
     sums: &'a mut [[Group<W>; N]],
@@ -122,11 +134,11 @@ impl<const W: usize, const N: usize, F: Fn(f64) -> [f64; N]> WithSimd for RowSum
     /// In the widest vectors that the processor has; a product and a sum are rounded one by one all the same.
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        for (row, sums) in (self.first..).zip(self.sums) {
-            let (columns, values) = self.matrix.row(row);
+        for (bounds, sums) in self.pointers.windows(2).zip(self.sums) {
+            let row = bounds[0]..bounds[1];
             // Summed in a local, which stays in registers.
             let mut row_sums = [[0.0; W]; N];
-            for (&col, &value) in columns.iter().zip(values) {
+            for (&col, &value) in self.indices[row.clone()].iter().zip(&self.data[row]) {
                 for (w, x) in self.packed[col as usize].iter().enumerate() {
                     let terms = (self.of)(value * x);
                     for (sums, term) in row_sums.iter_mut().zip(terms) {
@@ -139,11 +151,11 @@ impl<const W: usize, const N: usize, F: Fn(f64) -> [f64; N]> WithSimd for RowSum
     }
 }
 
-/// Copies a block of at most W columns into rows of W, zeros on the right.
-fn pack<const W: usize>(x: MatRef<'_, f64>, packed: &mut Vec<Group<W>>) {
+/// Copies a block of at most W columns into `n_rows` rows of W, zeros on the right and below.
+fn pack<const W: usize>(x: MatRef<'_, f64>, n_rows: usize, packed: &mut Vec<Group<W>>) {
     packed.clear();
-    packed.resize(x.nrows(), [0.0; W]);
-    packed.par_chunks_mut(TILE_ROWS).enumerate().for_each(|(tile, rows)| {
+    packed.resize(n_rows, [0.0; W]);
+    packed[..x.nrows()].par_chunks_mut(TILE_ROWS).enumerate().for_each(|(tile, rows)| {
         let x = x.subrows(tile * TILE_ROWS, rows.len());
         for (col, x) in x.col_iter().enumerate() {
             for (row, x) in rows.iter_mut().zip(x.iter()) {
