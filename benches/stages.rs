@@ -19,7 +19,6 @@ use supel::modes::{Component, ModeSource, Retained, SEED, Search, shift_of_facto
 use supel::partition::Partition;
 use supel::reduction::Reduction;
 use supel::rigid::{RigidBodyModes, rigid_body_modes};
-use supel::sparse::SparseMatrix;
 use supel_models::{Family, Part};
 
 /// Right-hand sides of one solve: a block of the Lanczos iteration.
@@ -30,8 +29,6 @@ struct Prepared {
     job: Job,
     partition: Partition,
     rigid: RigidBodyModes,
-    k_ii: SparseMatrix,
-    m_ii: SparseMatrix,
     sigma: f64,
 }
 
@@ -45,9 +42,8 @@ impl Prepared {
         let model = Model::new(supel::input::read(&job.model).expect("files")).expect("a sound model");
         let partition = Partition::new(model, &job.interfaces).expect("two faces");
         let (rigid, _) = rigid_body_modes(&partition).expect("six of them");
-        let (k_ii, m_ii) = partition.internal();
         let sigma = shift_of_factor(&partition, &rigid);
-        Self { job, partition, rigid, k_ii, m_ii, sigma }
+        Self { job, partition, rigid, sigma }
     }
 
     fn factor<'a>(&'a self, analysis: &'a Analysis) -> Cholesky<'a> {
@@ -61,7 +57,7 @@ impl Prepared {
         factor: &'a Cholesky<'a>,
         constraint: &'a ConstraintModes,
     ) -> Component<'a> {
-        Component::new(&self.partition, (&self.k_ii, &self.m_ii), analysis, factor, &self.rigid, constraint)
+        Component::new(&self.partition, analysis, factor, &self.rigid, constraint)
     }
 
     fn lowest_modes(&self, component: Component<'_>) -> Retained {
@@ -113,7 +109,7 @@ fn measure(criterion: &mut Criterion, family: Family, folder: &Path) {
     let component = prepared.component(&analysis, &factor, &constraint);
     group.bench_function(id("Lanczos"), |b| b.iter(|| prepared.lowest_modes(component)));
     let retained = prepared.lowest_modes(component);
-    let basis = Basis::new(&constraint, retained.columns.clone(), &prepared.m_ii);
+    let basis = Basis::new(&constraint, retained.columns.clone(), partition.internal().mass);
     group.bench_function(id("project"), |b| b.iter(|| Reduction::new(partition, &basis, rigid)));
 
     let outcome = supel::reduce(job, supel::outcome::Resources::default(), &mut ()).expect("reduced");

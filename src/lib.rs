@@ -96,9 +96,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let (rigid, loose) = rigid::with_mechanisms(&partition, &constraint, rigid)?;
 
     observer.stage("modes");
-    let (k_ii, m_ii) = partition.internal();
-    let internal = (&k_ii, &m_ii);
-    let component = Component::new(&partition, internal, &analysis, &factor, &rigid, &constraint);
+    let component = Component::new(&partition, &analysis, &factor, &rigid, &constraint);
     let search = modes::Search::new(component, &job.reduction)?;
     let size = (storage, search.n_expected());
     let at_once = factor::slices_within_memory(&analysis, &partition, job, resources, size)?;
@@ -112,7 +110,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let enclosures = verification::enclosures_where_asked(component, &retained, job.run.certify)?;
 
     observer.stage("basis");
-    let basis = Basis::new(&constraint, retained.columns.clone(), &m_ii);
+    let basis = Basis::new(&constraint, retained.columns.clone(), partition.internal().mass);
 
     observer.stage("projection");
     let reduction = Reduction::new(&partition, &basis, &rigid);
@@ -120,7 +118,6 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     observer.stage("verification");
     let evidence = Evidence {
         partition: &partition,
-        internal,
         factor: &factor,
         rigid: &rigid,
         rank,

@@ -194,8 +194,7 @@ fn enclosed(alter: impl FnOnce(&mut Modes)) -> Enclosures {
     let chain = chain::reduce(&spring(80, Ends::Free), &[chain::rows("ends", &[0, 79])], chain::Method::Herting, 6);
     let mut chain = chain.expect("a sound model");
     alter(&mut chain.modes);
-    let (k, m) = chain.partition.internal();
-    enclosures(&chain.partition, (&k, &m), &chain.rigid, &chain.modes, Boundary::FreeInterface).expect("a metric")
+    enclosures(&chain.partition, &chain.rigid, &chain.modes, Boundary::FreeInterface).expect("a metric")
 }
 
 /// λ of a chain of springs in the scaled units of the partition, which divide K by two and M by one.

@@ -40,7 +40,7 @@ pub fn against_model(superelement: &Superelement, partition: &Partition, facts: 
         return Ok(audit.sorted());
     }
     let scaled = Scaled::of(superelement, partition)?;
-    let analysis = Analysis::new(full::pencil(partition))?;
+    let analysis = Analysis::new(partition.pencil())?;
     let full = Full::new(partition, &analysis)?;
     audit.checks.push(statics::rigid_body_count(&scaled, &full));
     if scaled.u.ncols() == full.rigid.count() {

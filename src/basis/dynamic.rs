@@ -10,7 +10,7 @@ use crate::factor::SolveOperator;
 use crate::modes::{Modes, gram_schmidt};
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
-use crate::sparse::SparseMatrix;
+use crate::sparse::Leading;
 use crate::sparse::product;
 
 /// Columns for Ψ_D before dependent ones are taken out, in the order of the coordinates.
@@ -103,7 +103,7 @@ pub(super) struct Independent {
 /// M_II-orthonormalises the columns in their order, leaving out those that depend on earlier ones.
 ///
 /// The order matters: a column is replaced by what it adds to the columns before it, so the low modes keep their shape.
-pub(super) fn independent(named: DynamicColumns, mass: &SparseMatrix) -> Independent {
+pub(super) fn independent(named: DynamicColumns, mass: Leading<'_>) -> Independent {
     match orthonormalised(named.columns.as_ref(), mass) {
         Some((modes, mixing)) => {
             let kept = (0..modes.ncols()).collect();
@@ -114,7 +114,7 @@ pub(super) fn independent(named: DynamicColumns, mass: &SparseMatrix) -> Indepen
 }
 
 /// The same where columns may depend on each other.
-fn by_panels(named: DynamicColumns, mass: &SparseMatrix) -> Independent {
+fn by_panels(named: DynamicColumns, mass: Leading<'_>) -> Independent {
     let (n, total) = (named.columns.nrows(), named.columns.ncols());
     let mut basis = Mat::zeros(n, total);
     let mut mixing = Mat::zeros(total, total);
@@ -152,7 +152,7 @@ fn by_panels(named: DynamicColumns, mass: &SparseMatrix) -> Independent {
 }
 
 /// Scales columns to unit M_II-length and returns the lengths; a column without mass becomes zero.
-fn scale_to_unit_mass(panel: &mut Mat<f64>, mass: &SparseMatrix) -> Vec<f64> {
+fn scale_to_unit_mass(panel: &mut Mat<f64>, mass: Leading<'_>) -> Vec<f64> {
     let images = product(mass, panel.as_ref());
     let mut lengths = Vec::with_capacity(panel.ncols());
     for j in 0..panel.ncols() {
@@ -174,7 +174,7 @@ struct Step {
 }
 
 /// panel = basis · coefficients + block · coupling, twice over for orthogonality to rounding.
-fn orthonormal_panel(basis: MatRef<'_, f64>, panel: Mat<f64>, mass: &SparseMatrix) -> Step {
+fn orthonormal_panel(basis: MatRef<'_, f64>, panel: Mat<f64>, mass: Leading<'_>) -> Step {
     let width = panel.ncols();
     let mut block = panel;
     let mut coefficients = Mat::zeros(basis.ncols(), width);

@@ -13,6 +13,7 @@ mod orthonormal;
 use faer::Mat;
 
 use crate::modes::Modes;
+use crate::sparse::Leading;
 
 pub use constraint::{ConstraintModes, constraint_modes};
 pub use dynamic::{DynamicColumns, fixed_interface_columns, modal_columns, mode_acceleration_columns};
@@ -58,11 +59,7 @@ pub struct DroppedColumn {
 
 impl Basis {
     /// Puts constraint modes and dynamic columns together; dependent columns are left out by name.
-    pub fn new(
-        constraint: &ConstraintModes,
-        columns: DynamicColumns,
-        internal_mass: &crate::sparse::SparseMatrix,
-    ) -> Self {
+    pub fn new(constraint: &ConstraintModes, columns: DynamicColumns, internal_mass: Leading<'_>) -> Self {
         let independent = dynamic::independent(columns, internal_mass);
         Self {
             constraint_modes: constraint.modes.clone(),

@@ -12,7 +12,7 @@ use faer::{Mat, MatMut, MatRef, Par, Side};
 use rayon::prelude::*;
 
 use crate::dense;
-use crate::sparse::{SparseMatrix, product};
+use crate::sparse::{Leading, product};
 
 /// Share of its length that a column must keep: the square, what Cholesky works with, has half its digits then.
 const HEALTHY: f64 = 1e-4;
@@ -24,7 +24,7 @@ const TILE_ROWS: usize = 1024;
 const PANEL: usize = 32;
 
 /// Q and upper triangular R with X = Q R and QᵀMQ = I; none where a column is not healthy.
-pub(super) fn orthonormalised(columns: MatRef<'_, f64>, mass: &SparseMatrix) -> Option<(Mat<f64>, Mat<f64>)> {
+pub(super) fn orthonormalised(columns: MatRef<'_, f64>, mass: Leading<'_>) -> Option<(Mat<f64>, Mat<f64>)> {
     let k = columns.ncols();
     let mut q = columns.to_owned();
     let mut triangle: Mat<f64> = Mat::identity(k, k);
@@ -47,7 +47,7 @@ pub(super) fn orthonormalised(columns: MatRef<'_, f64>, mass: &SparseMatrix) -> 
 }
 
 /// XᵀMX.
-fn mass_gram(x: MatRef<'_, f64>, mass: &SparseMatrix) -> Mat<f64> {
+fn mass_gram(x: MatRef<'_, f64>, mass: Leading<'_>) -> Mat<f64> {
     let k = x.ncols();
     let mut gram = Mat::zeros(k, k);
     for start in (0..k).step_by(PANEL) {
@@ -75,6 +75,8 @@ fn divide(mut x: MatMut<'_, f64>, lower: MatRef<'_, f64>) {
 mod tests {
     use super::*;
 
+    use crate::sparse::SparseMatrix;
+
     fn diagonal(n: usize) -> SparseMatrix {
         let values = (0..n).map(|i| 1.0 + (i % 7) as f64).collect();
         SparseMatrix::new((n, n), (0..=n).collect(), (0..n as u32).collect(), values)
@@ -88,8 +90,8 @@ mod tests {
     fn columns_are_orthonormal_and_come_back() {
         let (n, k) = (3000, 40);
         let (x, mass) = (columns(n, k), diagonal(n));
-        let (q, r) = orthonormalised(x.as_ref(), &mass).expect("healthy columns");
-        let gram = mass_gram(q.as_ref(), &mass);
+        let (q, r) = orthonormalised(x.as_ref(), Leading::from(&mass)).expect("healthy columns");
+        let gram = mass_gram(q.as_ref(), Leading::from(&mass));
         let back = dense::product(q.as_ref(), r.as_ref());
         for j in 0..k {
             for i in 0..k {
@@ -112,8 +114,8 @@ mod tests {
         let g = Mat::from_fn(k, k, |i, j| if i == j { 1.0 } else { -share });
         let lower = g.llt(Side::Lower).expect("definite").L().to_owned();
         let unit = SparseMatrix::new((k, k), (0..=k).collect(), (0..k as u32).collect(), vec![1.0; k]);
-        let (q, _) = orthonormalised(lower.transpose(), &unit).expect("healthy columns");
-        let gram = mass_gram(q.as_ref(), &unit);
+        let (q, _) = orthonormalised(lower.transpose(), Leading::from(&unit)).expect("healthy columns");
+        let gram = mass_gram(q.as_ref(), Leading::from(&unit));
         let error = Mat::from_fn(k, k, |i, j| (gram[(i, j)] - f64::from(u8::from(i == j))).abs()).norm_max();
         assert!(error <= 4.0 * k as f64 * f64::EPSILON, "{error:e}");
     }
@@ -124,14 +126,14 @@ mod tests {
         let mut x = columns(500, 5);
         let twin: Vec<f64> = dense::column(x.as_ref(), 1).iter().map(|value| 3.0 * value).collect();
         dense::column_mut(x.as_mut(), 4).copy_from_slice(&twin);
-        assert!(orthonormalised(x.as_ref(), &mass).is_none());
+        assert!(orthonormalised(x.as_ref(), Leading::from(&mass)).is_none());
         dense::column_mut(x.as_mut(), 4).fill(0.0);
-        assert!(orthonormalised(x.as_ref(), &mass).is_none());
+        assert!(orthonormalised(x.as_ref(), Leading::from(&mass)).is_none());
     }
 
     #[test]
     fn no_columns_are_orthonormal() {
-        let (q, r) = orthonormalised(Mat::zeros(9, 0).as_ref(), &diagonal(9)).expect("nothing to do");
+        let (q, r) = orthonormalised(Mat::zeros(9, 0).as_ref(), Leading::from(&diagonal(9))).expect("nothing to do");
         assert_eq!((q.shape(), r.shape()), ((9, 0), (0, 0)));
     }
 }

@@ -16,7 +16,6 @@ use super::panels::Shape;
 use super::{Pencil, Storage};
 use crate::error::{Error, Result};
 use crate::partition::Partition;
-use crate::sparse::SparseMatrix;
 use order::{EliminationTree, NONE};
 use supernodes::Supernodes;
 
@@ -266,13 +265,6 @@ fn work_of_supernode((steps, below): (&[usize], &usize)) -> f64 {
     size.powi(3) / 3.0 + size * size * below + size * below * below
 }
 
-/// Columns of the entries in a row of a symmetric matrix.
-fn row_pattern(matrix: &SparseMatrix, row: usize) -> &[u32] {
-    let pointers = matrix.indptr();
-    let pointers = pointers.raw_storage();
-    &matrix.indices()[pointers[row]..pointers[row + 1]]
-}
-
 /// Rows below the triangle of every supernode: those of its children and of the matrix.
 fn rows(pencil: Pencil<'_>, tree: &EliminationTree, supernodes: &Supernodes, rows_at: &[usize]) -> Result<Vec<u32>> {
     let n_rows = rows_at[rows_at.len() - 1];
@@ -299,7 +291,7 @@ fn rows(pencil: Pencil<'_>, tree: &EliminationTree, supernodes: &Supernodes, row
         }
         for dof in &tree.given[steps.clone()] {
             for matrix in [pencil.stiffness, pencil.mass] {
-                row_pattern(matrix, *dof as usize).iter().for_each(|col| take(tree.step[*col as usize], &mut rows));
+                matrix.entries(*dof as usize).for_each(|(col, _)| take(tree.step[col], &mut rows));
             }
         }
         rows[start..].sort_unstable();

@@ -12,7 +12,7 @@ use super::{Analysis, Pencil};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::partition::Partition;
-use crate::sparse::SparseMatrix;
+use crate::sparse::{Leading, SparseMatrix};
 
 /// Numbers of eigenvalues below a shift.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,8 +108,8 @@ fn counted<'a>(
 ///
 /// # Errors
 /// As [`count_below`].
-pub fn count_negative(analysis: &Analysis, stiffness: &SparseMatrix) -> Result<usize> {
-    below_share_of_diagonal(analysis, stiffness, -PIVOT_GAP)
+pub fn count_negative<'a>(analysis: &Analysis, stiffness: impl Into<Leading<'a>>) -> Result<usize> {
+    below_share_of_diagonal(analysis, stiffness.into(), -PIVOT_GAP)
 }
 
 /// The rank of a semidefinite M beyond rounding of its entries, which have a relative `precision`: the eigenvalues relative to
@@ -120,26 +120,24 @@ pub fn count_negative(analysis: &Analysis, stiffness: &SparseMatrix) -> Result<u
 ///
 /// # Panics
 /// The analysis has a border.
-pub fn rank(analysis: &Analysis, mass: &SparseMatrix, precision: f64) -> Result<usize> {
+pub fn rank<'a>(analysis: &Analysis, mass: impl Into<Leading<'a>>, precision: f64) -> Result<usize> {
+    let mass = mass.into();
     assert_eq!(analysis.n_border(), 0, "the rank is that of a whole matrix");
-    let diagonal = crate::model::diagonal(mass);
+    let diagonal = mass.diagonal();
     // A row of a semidefinite matrix without a diagonal is empty.
     let scale: Vec<f64> = diagonal.iter().map(|d| if *d > 0.0 { 1.0 / d.sqrt() } else { 0.0 }).collect();
-    let row_sums = mass
-        .outer_iterator()
-        .enumerate()
-        .map(|(row, view)| scale[row] * view.iter().map(|(col, value)| value.abs() * scale[col]).sum::<f64>());
-    let moved = PIVOT_GAP + precision * row_sums.fold(0.0, f64::max);
+    let row_sum = |row| scale[row] * mass.entries(row).map(|(col, value)| value.abs() * scale[col]).sum::<f64>();
+    let moved = PIVOT_GAP + precision * (0..mass.rows()).map(row_sum).fold(0.0, f64::max);
     Ok(mass.rows() - below_share_of_diagonal(analysis, mass, moved)?)
 }
 
 /// Eigenvalues of A relative to its diagonal below a share; empty rows count as zero.
-fn below_share_of_diagonal(analysis: &Analysis, matrix: &SparseMatrix, share: f64) -> Result<usize> {
+fn below_share_of_diagonal(analysis: &Analysis, matrix: Leading<'_>, share: f64) -> Result<usize> {
     let n = matrix.rows();
     let or_one = |d: f64| if d == 0.0 { 1.0 } else { d.abs() };
-    let diagonal = crate::model::diagonal(matrix).into_iter().map(or_one).collect();
+    let diagonal = matrix.diagonal().into_iter().map(or_one).collect();
     let diagonal = SparseMatrix::new((n, n), (0..=n).collect(), (0..n as u32).collect(), diagonal);
-    let pencil = Pencil { stiffness: matrix, mass: &diagonal };
+    let pencil = Pencil::new(matrix, &diagonal);
     Ok(Indefinite::new(analysis, pencil, share, Keep::Pivots)?.signs()?.negative)
 }
 

@@ -4,7 +4,7 @@ use faer::{Mat, MatMut};
 
 use super::analysis::Supernode;
 use super::{Analysis, Pencil};
-use crate::sparse::SparseMatrix;
+use crate::sparse::Leading;
 
 /// D (K − σM) D with a diagonal D, never formed as a whole.
 #[derive(Clone, Copy, Debug)]
@@ -57,13 +57,13 @@ impl Shifted<'_> {
 
     /// No entry exceeds this: the largest entry of D K D and that of σ D M D together.
     pub(super) fn largest_entry(&self) -> f64 {
-        let largest = |matrix: &SparseMatrix, factor: f64| {
+        let largest = |matrix: Leading<'_>, factor: f64| {
             (0..matrix.rows()).fold(0.0f64, |max, row| {
                 let mut of_row = max;
-                for_each(matrix, row, |col, value| {
+                for (col, value) in matrix.entries(row) {
                     let scale = self.scale.map_or(1.0, |scale| scale[row] * scale[col]);
                     of_row = of_row.max((factor * value * scale).abs());
-                });
+                }
                 of_row
             })
         };
@@ -73,18 +73,9 @@ impl Shifted<'_> {
     /// Gives the terms k and −σm of a row; at one place the term of K comes first.
     fn for_each_in_row(&self, row: usize, mut take: impl FnMut(usize, f64)) {
         let scale = |col: usize| self.scale.map_or(1.0, |scale| scale[row] * scale[col]);
-        for_each(self.pencil.stiffness, row, |col, k| take(col, k * scale(col)));
+        self.pencil.stiffness.entries(row).for_each(|(col, k)| take(col, k * scale(col)));
         if self.sigma != 0.0 {
-            for_each(self.pencil.mass, row, |col, m| take(col, -self.sigma * m * scale(col)));
+            self.pencil.mass.entries(row).for_each(|(col, m)| take(col, -self.sigma * m * scale(col)));
         }
-    }
-}
-
-fn for_each(matrix: &SparseMatrix, row: usize, mut take: impl FnMut(usize, f64)) {
-    let pointers = matrix.indptr();
-    let pointers = pointers.raw_storage();
-    let range = pointers[row]..pointers[row + 1];
-    for (col, value) in matrix.indices()[range.clone()].iter().zip(&matrix.data()[range]) {
-        take(*col as usize, *value);
     }
 }

@@ -29,7 +29,7 @@ mod rows;
 mod solve;
 mod substitution;
 
-use crate::sparse::SparseMatrix;
+use crate::sparse::Leading;
 
 pub use analysis::Analysis;
 pub use cholesky::Cholesky;
@@ -53,7 +53,14 @@ pub enum Storage {
 #[derive(Clone, Copy, Debug)]
 pub struct Pencil<'a> {
     /// K, n × n.
-    pub stiffness: &'a SparseMatrix,
+    pub stiffness: Leading<'a>,
     /// M, n × n.
-    pub mass: &'a SparseMatrix,
+    pub mass: Leading<'a>,
+}
+
+impl<'a> Pencil<'a> {
+    /// Of two matrices or leading blocks.
+    pub fn new(stiffness: impl Into<Leading<'a>>, mass: impl Into<Leading<'a>>) -> Self {
+        Self { stiffness: stiffness.into(), mass: mass.into() }
+    }
 }

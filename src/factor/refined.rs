@@ -302,9 +302,9 @@ mod tests {
         let of_row = |i: u32| neighbours(i).map(move |j| if i == j { 2.0 } else { -1.0 });
         let path = SparseMatrix::new((n as usize, n as usize), pointers, columns, (0..n).flat_map(of_row).collect());
         let unit = SparseMatrix::new(path.shape(), (0..=n as usize).collect(), (0..n).collect(), vec![1.0; n as usize]);
-        let pencil = Pencil { stiffness: &path, mass: &unit };
+        let pencil = Pencil::new(&path, &unit);
         let analysis = Analysis::new(pencil).expect("memory");
-        let other = Pencil { stiffness: &unit, mass: &unit };
+        let other = Pencil::new(&unit, &unit);
         let other = Shifted { pencil: other, sigma: 0.0, scale: None, n_border: 0 };
         let numbers = eliminate(&analysis, &other, Kind::Definite, Keep::Factor).expect("definite");
         let refined = Refined::new(&analysis, (pencil, 0.0), vec![1.0; n as usize], numbers);

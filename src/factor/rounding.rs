@@ -24,9 +24,9 @@ pub fn forming_error(pencil: Pencil<'_>, sigma: f64, scale: &[f64]) -> f64 {
     let n = pencil.stiffness.rows();
     let mut sums = vec![0.0; n];
     for (matrix, factor) in [(pencil.stiffness, 1.0), (pencil.mass, sigma.abs())] {
-        for (row, view) in matrix.outer_iterator().enumerate() {
-            let sum: f64 = view.iter().map(|(col, value)| value.abs() * scale[col]).sum();
-            sums[row] += factor * scale[row] * sum;
+        for (row, sum) in sums.iter_mut().enumerate() {
+            let of_row: f64 = matrix.entries(row).map(|(col, value)| value.abs() * scale[col]).sum();
+            *sum += factor * scale[row] * of_row;
         }
     }
     gamma(3) * largest_row_sum(&sums)

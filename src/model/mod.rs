@@ -13,7 +13,7 @@ use std::collections::HashSet;
 
 use crate::error::{Error, Result};
 use crate::input::{Direction, Dof, DofMap, Input, MatrixInput, Nodes};
-use crate::sparse::SparseMatrix;
+use crate::sparse::{Leading, SparseMatrix};
 
 pub use bodies::{Bodies, node_of_row};
 pub use scaling::Scaling;
@@ -321,10 +321,6 @@ fn is_empty_row(matrix: &SparseMatrix, row: usize) -> bool {
 }
 
 /// The diagonal of a matrix, zero where no entry is stored.
-pub fn diagonal(matrix: &SparseMatrix) -> Vec<f64> {
-    matrix
-        .outer_iterator()
-        .enumerate()
-        .map(|(row, view)| view.indices().binary_search(&(row as u32)).map_or(0.0, |at| view.data()[at]))
-        .collect()
+pub fn diagonal<'a>(matrix: impl Into<Leading<'a>>) -> Vec<f64> {
+    matrix.into().diagonal()
 }

@@ -73,7 +73,7 @@ impl Scaling {
 
 /// Divides by the power of two that brings the largest diagonal entry into [1, 2); returns its exponent.
 fn scale_to_unit(matrix: &mut SparseMatrix) -> i32 {
-    let largest = diagonal(matrix).iter().fold(0.0f64, |max, value| max.max(value.abs()));
+    let largest = diagonal(&*matrix).iter().fold(0.0f64, |max, value| max.max(value.abs()));
     if largest == 0.0 {
         return 0;
     }

@@ -8,7 +8,7 @@ use super::random::SplitMix64;
 use super::{Component, Equilibrated, ModalProblem, SEED, Shifted, shifted};
 use crate::dense;
 use crate::error::{Error, Result};
-use crate::factor::{Analysis, InertiaCount, Pencil, ShiftedFactor, count_below};
+use crate::factor::{Analysis, InertiaCount, ShiftedFactor, count_below};
 use crate::job::Method;
 use crate::model::diagonal;
 use crate::partition::Partition;
@@ -58,15 +58,10 @@ pub(super) const HOLDS_UP: f64 = 1e-8;
 impl<'a> BoundaryProblem<'a> {
     /// K, M and the rigid-body modes of the dofs that are free to move.
     pub fn modal(&self) -> ModalProblem<'a> {
-        let Component { partition, internal, rigid, .. } = self.component;
-        let precision = partition.precision;
+        let Component { partition, rigid, .. } = self.component;
         match self.boundary {
-            Boundary::FixedInterface => {
-                ModalProblem { stiffness: internal.0, mass: internal.1, rigid: None, precision }
-            }
-            Boundary::FreeInterface => {
-                ModalProblem { stiffness: &partition.stiffness, mass: &partition.mass, rigid: Some(rigid), precision }
-            }
+            Boundary::FixedInterface => ModalProblem::of(partition.internal(), None, partition.precision),
+            Boundary::FreeInterface => ModalProblem::of(partition.pencil(), Some(rigid), partition.precision),
         }
     }
 
@@ -230,7 +225,7 @@ pub(super) fn by_shift<T>(
     problem: ModalProblem<'_>,
     solve: impl FnOnce(&Shifted<'_>) -> Result<T>,
 ) -> Result<(T, usize)> {
-    let analysis = Analysis::new(Pencil { stiffness: problem.stiffness, mass: problem.mass })?;
+    let analysis = Analysis::new(problem.pencil())?;
     let shifted = shifted(&analysis, problem, &|dof| partition.name_of(dof))?;
     Ok((solve(&shifted)?, shifted.n_factorisations))
 }
@@ -244,7 +239,7 @@ pub(super) fn median_ratio(problem: ModalProblem<'_>) -> f64 {
 
 /// K_ii / M_ii over the dofs that have both, ascending.
 pub(super) fn ratios(problem: ModalProblem<'_>) -> Vec<f64> {
-    let (k, m) = (diagonal(problem.stiffness), diagonal(problem.mass));
+    let (k, m) = (problem.stiffness.diagonal(), problem.mass.diagonal());
     let mut ratios: Vec<f64> = k.iter().zip(&m).filter(|(k, m)| **k > 0.0 && **m > 0.0).map(|(k, m)| k / m).collect();
     ratios.sort_unstable_by(f64::total_cmp);
     ratios
@@ -266,7 +261,7 @@ pub(super) fn relative_residual(problem: ModalProblem<'_>, operator: &dyn ShiftI
     let motion = dense::gram(mass_q, x.as_ref());
     dense::add_product(x.as_mut(), -1.0, q, motion.as_ref());
     let force = product(problem.stiffness, x.as_ref());
-    let norms = Equilibrated::of(problem.stiffness, problem.mass);
+    let norms = Equilibrated::of(problem.pencil());
     let load = dense::column(load.as_ref(), 0);
     let residual: Vec<f64> = dense::column(force.as_ref(), 0).iter().zip(load).map(|(k, f)| k - f).collect();
     let of = |column: &[f64]| {
@@ -343,12 +338,7 @@ mod tests {
         let schur = constraint.stiffness.as_ref();
         let operator =
             FreeAtZero::new(&factor, &partition.stiffness, constraint.modes.as_ref(), schur, &rigid).expect("no hinge");
-        let problem = ModalProblem {
-            stiffness: &partition.stiffness,
-            mass: &partition.mass,
-            rigid: Some(&rigid),
-            precision: partition.precision,
-        };
+        let problem = ModalProblem::of(partition.pencil(), Some(&rigid), partition.precision);
         // κ of the chain is 60² ≈ 4e3; the residual of a backward stable solve does not grow with it.
         assert!(relative_residual(problem, &operator) < 1e-14);
         // The share itself times ‖f‖ / (‖K‖‖x‖), which is above 1/κ.

@@ -26,9 +26,8 @@ use super::slices::{Band, ModeSource, missing};
 use super::{Boundary, Equilibrated, ModeError, Modes, SEED};
 use crate::dense;
 use crate::error::{Error, Result};
-use crate::factor::InertiaCount;
+use crate::factor::{InertiaCount, Pencil};
 use crate::job::Certify;
-use crate::model::diagonal;
 
 /// Sturm counts against the modes found.
 #[derive(Clone, Debug, PartialEq)]
@@ -235,8 +234,8 @@ fn lower_end(problem: &BoundaryProblem<'_>) -> f64 {
 /// The share of M in the floors φ of the modes at a shift of one: ε ‖M‖ Σ M_ii x_i² / xᵀMx, in units of the diagonal of M.
 fn mass_floors(problem: &BoundaryProblem<'_>, modes: &Modes) -> Vec<f64> {
     let mass = problem.modal().mass;
-    let weights = diagonal(mass);
-    let norm = Equilibrated::of(mass, mass).mass_norm;
+    let weights = mass.diagonal();
+    let norm = Equilibrated::of(Pencil::new(mass, mass)).mass_norm;
     let of_mode = |j: usize| {
         let x = dense::column(modes.shapes.as_ref(), j);
         f64::EPSILON * norm * x.iter().zip(&weights).map(|(x, m)| m * x * x).sum::<f64>()

@@ -10,8 +10,7 @@ use faer::{Mat, MatMut};
 
 use super::ModeError;
 use crate::dense;
-use crate::model::diagonal;
-use crate::sparse::SparseMatrix;
+use crate::sparse::Leading;
 
 /// Eigenvalues nearer than this many roundings ε c of them are one: c adds all roundings with one sign, and neither of the
 /// two is off by more.
@@ -44,8 +43,8 @@ pub(super) fn repeated(lambda: &[f64], errors: &[ModeError]) -> Vec<Range<usize>
 }
 
 /// Turns the modes of every repeated eigenvalue into the basis that the subspace defines.
-pub(super) fn canonicalise(mass: &SparseMatrix, runs: &[Range<usize>], shapes: &mut Mat<f64>) {
-    let weights = if runs.is_empty() { Vec::new() } else { diagonal(mass) };
+pub(super) fn canonicalise(mass: Leading<'_>, runs: &[Range<usize>], shapes: &mut Mat<f64>) {
+    let weights = if runs.is_empty() { Vec::new() } else { mass.diagonal() };
     for run in runs {
         turn(&weights, shapes.as_mut().subcols_mut(run.start, run.len()));
     }
@@ -109,7 +108,7 @@ mod tests {
     #[test]
     fn rotated_pair_comes_back() {
         let n = 7;
-        let mass = SparseMatrix::new((n, n), (0..=n).collect(), (0..n as u32).collect(), vec![1.0; n]);
+        let mass = crate::sparse::SparseMatrix::new((n, n), (0..=n).collect(), (0..n as u32).collect(), vec![1.0; n]);
         let plane = Mat::from_fn(n, 2, |i, j| if i % 2 == j { (1.0 + i as f64) / 9.0 } else { 0.0 });
         let error = ModeError { cancellation: 4.0, ..ModeError::default() };
         let turned = |angle: f64| {
@@ -117,7 +116,7 @@ mod tests {
             let mut x = Mat::from_fn(n, 2, |i, j| {
                 if j == 0 { c * plane[(i, 0)] + s * plane[(i, 1)] } else { c * plane[(i, 1)] - s * plane[(i, 0)] }
             });
-            canonicalise(&mass, &repeated(&[1.0, 1.0], &[error; 2]), &mut x);
+            canonicalise(Leading::from(&mass), &repeated(&[1.0, 1.0], &[error; 2]), &mut x);
             x
         };
         let reference = turned(0.0);

@@ -14,7 +14,7 @@ use super::eigenproblem::{EigenWork, Eigenpairs, Problem};
 use super::{Modes, judged};
 use crate::dense;
 use crate::error::Result;
-use crate::sparse::SparseMatrix;
+use crate::sparse::Leading;
 
 /// Largest order: the decomposition takes some 10 n³ operations, half a minute here.
 const LARGEST: usize = 3000;
@@ -34,7 +34,7 @@ pub(super) fn all_modes(problem: &BoundaryProblem<'_>, wanted: usize) -> Result<
         return Ok(None);
     }
     // Powers of two bring the diagonal of M near one, so that the pivots can be compared.
-    let diagonal = crate::model::diagonal(modal.mass);
+    let diagonal = modal.mass.diagonal();
     let scale: Vec<f64> = diagonal.into_iter().map(dense::power_of_two_root).collect();
     let Some(factor) = definite(scaled(modal.mass, &scale)) else {
         return Ok(None);
@@ -67,10 +67,10 @@ fn definite(mass: Mat<f64>) -> Option<Llt<f64>> {
     is_definite.then_some(factor)
 }
 
-fn scaled(matrix: &SparseMatrix, scale: &[f64]) -> Mat<f64> {
-    let mut full = Mat::zeros(matrix.rows(), matrix.cols());
-    for (row, view) in matrix.outer_iterator().enumerate() {
-        view.iter().for_each(|(col, value)| full[(row, col)] = value * scale[row] * scale[col]);
+fn scaled(matrix: Leading<'_>, scale: &[f64]) -> Mat<f64> {
+    let mut full = Mat::zeros(matrix.rows(), matrix.rows());
+    for row in 0..matrix.rows() {
+        matrix.entries(row).for_each(|(col, value)| full[(row, col)] = value * scale[row] * scale[col]);
     }
     full
 }

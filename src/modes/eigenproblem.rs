@@ -4,7 +4,7 @@ use faer::{Mat, MatMut, MatRef};
 
 use super::operator::ShiftInvert;
 use crate::dense;
-use crate::sparse::{SparseMatrix, product};
+use crate::sparse::{Leading, product};
 
 /// The eigenproblem: K enters through its shift-invert operator.
 #[derive(Clone, Copy)]
@@ -12,7 +12,7 @@ pub struct Problem<'a> {
     /// (K − σM)⁻¹.
     pub operator: &'a dyn ShiftInvert,
     /// M, n × n.
-    pub mass: &'a SparseMatrix,
+    pub mass: Leading<'a>,
     /// Q and MQ, n × n_r each; empty where nothing is deflated.
     pub deflated: [MatRef<'a, f64>; 2],
 }
@@ -113,7 +113,7 @@ pub(super) fn are_clustered(lower: f64, upper: f64) -> bool {
     (upper - lower).abs() <= CLUSTER_GAP * upper.abs()
 }
 
-pub(super) fn mass_norm(mass: &SparseMatrix, vector: &Mat<f64>) -> f64 {
+pub(super) fn mass_norm(mass: Leading<'_>, vector: &Mat<f64>) -> f64 {
     let image = product(mass, vector.as_ref());
     dense::dot(dense::column(vector.as_ref(), 0), dense::column(image.as_ref(), 0)).max(0.0).sqrt()
 }

@@ -7,8 +7,8 @@ use faer::MatRef;
 use rayon::prelude::*;
 
 use crate::dense;
-use crate::model::diagonal;
-use crate::sparse::SparseMatrix;
+use crate::factor::Pencil;
+use crate::sparse::Leading;
 
 /// Rows worth a thread of their own: tens of microseconds of work.
 const ROWS_PER_TASK: usize = 1024;
@@ -26,17 +26,16 @@ pub struct Equilibrated {
 
 impl Equilibrated {
     /// The scaling of a pencil.
-    pub fn of(stiffness: &SparseMatrix, mass: &SparseMatrix) -> Self {
-        Self::with_rows(stiffness, mass).0
+    pub fn of(pencil: Pencil<'_>) -> Self {
+        Self::with_rows(pencil).0
     }
 
     /// The same, and ‖(DKD)_i‖₁ and ‖(DMD)_i‖₁ of each row.
-    pub fn with_rows(stiffness: &SparseMatrix, mass: &SparseMatrix) -> (Self, Vec<[f64; 2]>) {
-        let scale: Vec<f64> = diagonal(stiffness).into_iter().map(dense::power_of_two_root).collect();
-        let norm = |matrix: &SparseMatrix, row: usize| {
-            let entries = matrix.outer_view(row);
-            let sum = entries.map_or(0.0, |view| view.iter().map(|(col, a)| scale[col] * a.abs()).sum::<f64>());
-            scale[row] * sum
+    pub fn with_rows(pencil: Pencil<'_>) -> (Self, Vec<[f64; 2]>) {
+        let Pencil { stiffness, mass } = pencil;
+        let scale: Vec<f64> = stiffness.diagonal().into_iter().map(dense::power_of_two_root).collect();
+        let norm = |matrix: Leading<'_>, row: usize| {
+            scale[row] * matrix.entries(row).map(|(col, a)| scale[col] * a.abs()).sum::<f64>()
         };
         let rows = (0..stiffness.rows()).into_par_iter().with_min_len(ROWS_PER_TASK);
         let rows: Vec<[f64; 2]> = rows.map(|row| [norm(stiffness, row), norm(mass, row)]).collect();

@@ -5,8 +5,8 @@
 
 use super::boundary_problem::{BoundaryProblem, ratios};
 use crate::error::Result;
-use crate::factor::{Analysis, Pencil, rank};
-use crate::sparse::SparseMatrix;
+use crate::factor::{Analysis, rank};
+use crate::sparse::Leading;
 
 /// λ of a mesh is at most this many times the largest K_ii/M_ii: M of an element is within 10² of its diagonal, and a row of
 /// K has at most 10² entries.
@@ -30,11 +30,11 @@ pub(super) fn most_finite(problem: &BoundaryProblem<'_>, n_found: usize) -> Resu
     if n_rows <= n_found {
         return Ok(n_rows);
     }
-    let analysis = Analysis::new(Pencil { stiffness: modal.stiffness, mass: modal.mass })?;
+    let analysis = Analysis::new(modal.pencil())?;
     Ok(rank(&analysis, modal.mass, modal.precision.mass).map_or(n_rows, |rank| rank.min(n_rows)))
 }
 
 /// Rows of M with an entry other than zero.
-pub(super) fn rows_with_mass(mass: &SparseMatrix) -> usize {
-    mass.outer_iterator().filter(|row| row.data().iter().any(|value| *value != 0.0)).count()
+pub(super) fn rows_with_mass(mass: Leading<'_>) -> usize {
+    (0..mass.rows()).filter(|row| mass.row(*row).1.iter().any(|value| *value != 0.0)).count()
 }

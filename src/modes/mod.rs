@@ -37,10 +37,11 @@ use faer::Mat;
 
 use crate::dense;
 use crate::error::Result;
+use crate::factor::Pencil;
 use crate::job::Eigensolver;
 use crate::model::Precision;
 use crate::rigid::RigidBodyModes;
-use crate::sparse::{SparseMatrix, product};
+use crate::sparse::{Leading, product};
 
 pub(crate) use boundary_problem::massive;
 pub use boundary_problem::{AtShift, Boundary, BoundaryProblem, ElasticCount};
@@ -213,13 +214,26 @@ impl Modes {
 #[derive(Clone, Copy, Debug)]
 pub struct ModalProblem<'a> {
     /// K, n × n.
-    pub stiffness: &'a SparseMatrix,
+    pub stiffness: Leading<'a>,
     /// M, n × n.
-    pub mass: &'a SparseMatrix,
+    pub mass: Leading<'a>,
     /// Rigid-body modes of the same dofs, where the component is free.
     pub rigid: Option<&'a RigidBodyModes>,
     /// Relative precision of the data.
     pub precision: Precision,
+}
+
+impl<'a> ModalProblem<'a> {
+    /// That of a pencil, with its rigid-body modes where it is free.
+    pub fn of(pencil: Pencil<'a>, rigid: Option<&'a RigidBodyModes>, precision: Precision) -> Self {
+        let Pencil { stiffness, mass } = pencil;
+        Self { stiffness, mass, rigid, precision }
+    }
+
+    /// K and M.
+    pub fn pencil(&self) -> Pencil<'a> {
+        Pencil { stiffness: self.stiffness, mass: self.mass }
+    }
 }
 
 /// Which modes, by which solver.

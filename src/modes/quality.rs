@@ -6,7 +6,7 @@ use super::eigenproblem::Problem;
 use super::{CLUSTER_GAP, Equilibrated, ModalProblem};
 use crate::dense;
 use crate::rigid::energies_of_terms;
-use crate::sparse::{SparseMatrix, product, product_and_terms};
+use crate::sparse::{Leading, product, product_and_terms};
 
 /// What is known of the error of one mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -33,7 +33,7 @@ const PANEL: usize = 32;
 const ALIKE: f64 = 1e-6;
 
 /// Scales every column to xᵀMx = 1, largest component positive.
-pub(super) fn normalise(mass: &SparseMatrix, shapes: &mut Mat<f64>) {
+pub(super) fn normalise(mass: Leading<'_>, shapes: &mut Mat<f64>) {
     let images = product(mass, shapes.as_ref());
     for j in 0..shapes.ncols() {
         let column = dense::column(shapes.as_ref(), j);
@@ -58,7 +58,7 @@ pub(super) fn rayleigh_quotients(
     };
     let (mut forces, stiffness_terms) = both(problem.stiffness);
     let (momenta, mass_terms) = both(problem.mass);
-    let norms = Equilibrated::of(problem.stiffness, problem.mass);
+    let norms = Equilibrated::of(problem.pencil());
     let rounding = f64::EPSILON;
     let (lambda, errors) = (0..shapes.ncols())
         .map(|j| {
@@ -156,7 +156,8 @@ pub struct MassOrthogonality {
 }
 
 /// Measures it, one panel of modes after the other.
-pub fn mass_orthogonality(mass: &SparseMatrix, shapes: MatRef<'_, f64>) -> MassOrthogonality {
+pub fn mass_orthogonality<'a>(mass: impl Into<Leading<'a>>, shapes: MatRef<'_, f64>) -> MassOrthogonality {
+    let mass = mass.into();
     let mut found = MassOrthogonality::default();
     for start in (0..shapes.ncols()).step_by(PANEL) {
         let panel = shapes.subcols(start, PANEL.min(shapes.ncols() - start));

@@ -7,15 +7,12 @@ use crate::basis::{
 use crate::factor::{Analysis, Cholesky};
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
-use crate::sparse::SparseMatrix;
 
 /// What the modes are computed from.
 #[derive(Clone, Copy, Debug)]
 pub struct Component<'a> {
     /// The matrices in their order.
     pub partition: &'a Partition,
-    /// K_II and M_II.
-    pub internal: (&'a SparseMatrix, &'a SparseMatrix),
     /// The symbolic factorisation of the partition.
     pub analysis: &'a Analysis,
     /// The factor of K_II.
@@ -30,13 +27,12 @@ impl<'a> Component<'a> {
     /// All of it by reference.
     pub fn new(
         partition: &'a Partition,
-        internal: (&'a SparseMatrix, &'a SparseMatrix),
         analysis: &'a Analysis,
         factor: &'a Cholesky<'a>,
         rigid: &'a RigidBodyModes,
         constraint: &'a ConstraintModes,
     ) -> Self {
-        Self { partition, internal, analysis, factor, rigid, constraint }
+        Self { partition, analysis, factor, rigid, constraint }
     }
 }
 

@@ -9,7 +9,7 @@ use super::eigenproblem::Wanted;
 use super::operator::Factored;
 use super::{ModalProblem, ModeError, ModeRequest, Modes, SEED, elastic_modes};
 use crate::error::{Error, Result};
-use crate::factor::{Analysis, Cholesky, Pencil};
+use crate::factor::{Analysis, Cholesky};
 use crate::job::Eigensolver;
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
@@ -56,12 +56,11 @@ pub fn shifted<'a>(
     problem: ModalProblem<'_>,
     name: &dyn Fn(usize) -> String,
 ) -> Result<Shifted<'a>> {
-    let pencil = Pencil { stiffness: problem.stiffness, mass: problem.mass };
     let mut sigma = -FIRST_SHIFT * median_ratio(problem);
     let mut count = LOOK_AT;
     let mut round = 1;
     loop {
-        let factor = Cholesky::new(analysis, pencil, sigma, name)?;
+        let factor = Cholesky::new(analysis, problem.pencil(), sigma, name)?;
         let request = ModeRequest { wanted: Wanted::Count(count), eigensolver: Eigensolver::Lanczos, seed: SEED };
         let lowest = elastic_modes(problem, &Factored::new(&factor, sigma), request)?;
         let n_zero = n_zero(&lowest);
@@ -87,9 +86,7 @@ pub fn shift_of_factor(partition: &Partition, rigid: &RigidBodyModes) -> f64 {
     if partition.n_interface() > 0 || rigid.count() == 0 {
         return 0.0;
     }
-    let precision = partition.precision;
-    let problem = ModalProblem { stiffness: &partition.stiffness, mass: &partition.mass, rigid: None, precision };
-    -FIRST_SHIFT * median_ratio(problem)
+    -FIRST_SHIFT * median_ratio(ModalProblem::of(partition.pencil(), None, partition.precision))
 }
 
 /// Leading modes that are zero within their bars, within rounding of the matrix, or within that of modes they mix with.
@@ -132,6 +129,7 @@ fn refuse_negative(modes: &Modes, first_elastic: Option<f64>) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::factor::Pencil;
     use crate::model::Precision;
     use crate::sparse::SparseMatrix;
 
@@ -157,9 +155,9 @@ mod tests {
     }
 
     fn with_lowest<T>(stiffness: &SparseMatrix, mass: &SparseMatrix, look: impl Fn(Result<Shifted<'_>>) -> T) -> T {
-        let problem = ModalProblem { stiffness, mass, rigid: None, precision: BINARY };
-        let analysis = Analysis::new(Pencil { stiffness, mass }).expect("an analysis");
-        look(shifted(&analysis, problem, &|dof| dof.to_string()))
+        let pencil = Pencil::new(stiffness, mass);
+        let analysis = Analysis::new(pencil).expect("an analysis");
+        look(shifted(&analysis, ModalProblem::of(pencil, None, BINARY), &|dof| dof.to_string()))
     }
 
     #[test]

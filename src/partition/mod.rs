@@ -18,14 +18,12 @@ mod ordering;
 mod region;
 mod transformation;
 
-use rayon::prelude::*;
-
 use crate::error::{Error, Result};
 use crate::factor::Pencil;
 use crate::input::Dof;
 use crate::job::InterfaceJob;
 use crate::model::{Finding, Model, ModelFacts, Precision, Scaling};
-use crate::sparse::{RowStorage, SparseMatrix, filled};
+use crate::sparse::{Leading, SparseMatrix};
 
 pub use interface::{InterfaceNode, recovered_rows};
 pub use transformation::{DofOrigin, ReducedDof, Site, Transformation, TransformationRow};
@@ -127,13 +125,13 @@ impl Partition {
 
     /// K and M.
     pub fn pencil(&self) -> Pencil<'_> {
-        Pencil { stiffness: &self.stiffness, mass: &self.mass }
+        Pencil::new(&self.stiffness, &self.mass)
     }
 
-    /// K_II and M_II as matrices of their own.
-    pub fn internal(&self) -> (SparseMatrix, SparseMatrix) {
-        let block = |matrix| leading_block(matrix, self.n_internal);
-        rayon::join(|| block(&self.stiffness), || block(&self.mass))
+    /// K_II and M_II.
+    pub fn internal(&self) -> Pencil<'_> {
+        let block = |matrix| Leading::new(matrix, self.n_internal);
+        Pencil::new(block(&self.stiffness), block(&self.mass))
     }
 }
 
@@ -144,22 +142,4 @@ fn hanging_dofs(stiffness: &SparseMatrix, partition: &Transformation, interface:
     let hanging: Vec<usize> = (partition.n_internal()..partition.dofs.len()).filter(is_bare).collect();
     let first = *hanging.first()?;
     Some(Finding::HangingInterface { dof: partition.dofs[first].name(interface), n_dofs: hanging.len() })
-}
-
-/// The leading n × n block of a matrix whose rows are sorted.
-fn leading_block(matrix: &SparseMatrix, n: usize) -> SparseMatrix {
-    let pointers = matrix.indptr();
-    let pointers = pointers.raw_storage();
-    let (columns, values) = (matrix.indices(), matrix.data());
-    let inside = |row: usize| {
-        let start = pointers[row];
-        start..start + columns[start..pointers[row + 1]].partition_point(|col| (*col as usize) < n)
-    };
-    let lengths: Vec<usize> = (0..n).into_par_iter().map(|row| inside(row).len()).collect();
-    let copy = |(): &mut (), row: usize, to_columns: &mut [u32], to_values: &mut [f64]| {
-        to_columns.copy_from_slice(&columns[inside(row)]);
-        to_values.copy_from_slice(&values[inside(row)]);
-    };
-    let RowStorage { pointers, indices, values } = filled(&lengths, || (), copy);
-    SparseMatrix::new((n, n), pointers, indices, values)
 }

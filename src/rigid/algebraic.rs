@@ -5,7 +5,7 @@ use faer::Mat;
 use super::{RigidBodyModes, RigidEnergy, RigidSource, energies_of_terms, residuals};
 use crate::dense;
 use crate::error::Result;
-use crate::factor::{Analysis, Pencil, SolveOperator};
+use crate::factor::{Analysis, SolveOperator};
 use crate::modes::{ModalProblem, Shifted, gram_schmidt, shifted};
 use crate::partition::Partition;
 use crate::sparse::{product, product_and_terms};
@@ -22,14 +22,8 @@ pub fn from_matrices(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
 
 /// The same with the first eigenvalue above zero.
 pub(super) fn zero_modes(partition: &Partition) -> Result<(RigidBodyModes, Option<f64>, usize)> {
-    let pencil = Pencil { stiffness: &partition.stiffness, mass: &partition.mass };
-    let analysis = Analysis::new(pencil)?;
-    let problem = ModalProblem {
-        stiffness: &partition.stiffness,
-        mass: &partition.mass,
-        rigid: None,
-        precision: partition.precision,
-    };
+    let analysis = Analysis::new(partition.pencil())?;
+    let problem = ModalProblem::of(partition.pencil(), None, partition.precision);
     let found = shifted(&analysis, problem, &|step| partition.name_of(step))?;
     let orthonormal = without_elastic_rounding(partition, &found);
     let (forces, terms) = product_and_terms(&partition.stiffness, orthonormal.as_ref());

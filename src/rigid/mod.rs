@@ -19,7 +19,7 @@ use faer::{Mat, MatRef};
 use crate::dense;
 use crate::error::Result;
 use crate::partition::Partition;
-use crate::sparse::{SparseMatrix, absolute_product, product, product_and_terms};
+use crate::sparse::{Leading, SparseMatrix, absolute_product, product, product_and_terms};
 
 pub use algebraic::from_matrices;
 pub use mechanism::{Loose, LooseMotions, with_mechanisms};
@@ -148,7 +148,7 @@ pub fn from_coordinates(partition: &Partition) -> Result<Option<RigidBodyModes>>
 }
 
 /// |x|ᵀ|A||x| for each column.
-pub(crate) fn absolute_energy(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> Vec<f64> {
+pub(crate) fn absolute_energy<'a>(matrix: impl Into<Leading<'a>>, x: MatRef<'_, f64>) -> Vec<f64> {
     energies_of_terms(x, absolute_product(matrix, x).as_ref())
 }
 

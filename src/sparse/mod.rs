@@ -7,9 +7,11 @@
 
 mod assembly;
 mod by_rows;
+mod leading;
 mod product;
 
 pub(crate) use by_rows::{RowStorage, balanced_ranges, filled};
+pub use leading::Leading;
 pub use product::{absolute_product, multiply, product, product_and_terms};
 
 /// A symmetric sparse matrix in compressed rows, both triangles stored, indices sorted, no duplicates.

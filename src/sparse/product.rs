@@ -1,16 +1,17 @@
 //! Sparse matrix times a block of columns.
 //!
 //! The matrix is the traffic: it is read once for eight columns. The block is packed row by row first, because then
-//! the eight numbers an entry needs share one cache line.
+//! the eight numbers an entry needs share one cache line. For a leading block it goes on with zeros as far as the rows that
+//! store the block do: to add them costs less than to find where each row leaves the block, and changes no bit of a sum.
 //!
-//! Shapes: matrix n × n, x and y n × k.
+//! Shapes: matrix n × n, whole or leading block, x and y n × k.
 
 use faer::prelude::ReborrowMut;
 use faer::{Mat, MatMut, MatRef};
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
-use super::SparseMatrix;
+use super::Leading;
 
 /// Rows of a tile, the unit of parallel work. Fixed: what a thread computes never depends on how many there are.
 const TILE_ROWS: usize = 512;
@@ -20,26 +21,29 @@ const TILE_ROWS: usize = 512;
 ///
 /// # Panics
 /// Where the shapes differ.
-pub fn multiply(matrix: &SparseMatrix, x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
-    sums(matrix, x, [y], |product| [product]);
+pub fn multiply<'a>(matrix: impl Into<Leading<'a>>, x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
+    sums(matrix.into(), x, [y], |product| [product]);
 }
 
 /// A X as a new matrix, n × k.
-pub fn product(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> Mat<f64> {
+pub fn product<'a>(matrix: impl Into<Leading<'a>>, x: MatRef<'_, f64>) -> Mat<f64> {
+    let matrix = matrix.into();
     let mut y = Mat::zeros(matrix.rows(), x.ncols());
     multiply(matrix, x, y.as_mut());
     y
 }
 
 /// |A| |X| as a new matrix, n × k: how large the terms of A X are.
-pub fn absolute_product(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> Mat<f64> {
+pub fn absolute_product<'a>(matrix: impl Into<Leading<'a>>, x: MatRef<'_, f64>) -> Mat<f64> {
+    let matrix = matrix.into();
     let mut y = Mat::zeros(matrix.rows(), x.ncols());
     sums(matrix, x, [y.as_mut()], |product| [product.abs()]);
     y
 }
 
 /// A X and |A| |X|, n × k each, for one reading of A.
-pub fn product_and_terms(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> (Mat<f64>, Mat<f64>) {
+pub fn product_and_terms<'a>(matrix: impl Into<Leading<'a>>, x: MatRef<'_, f64>) -> (Mat<f64>, Mat<f64>) {
+    let matrix = matrix.into();
     let zeros = || Mat::zeros(matrix.rows(), x.ncols());
     let (mut y, mut terms) = (zeros(), zeros());
     sums(matrix, x, [y.as_mut(), terms.as_mut()], |product| [product, product.abs()]);
@@ -48,13 +52,13 @@ pub fn product_and_terms(matrix: &SparseMatrix, x: MatRef<'_, f64>) -> (Mat<f64>
 
 /// N sums over each row: those of what `of` makes of the products of the entries of A with those of x.
 fn sums<const N: usize>(
-    matrix: &SparseMatrix,
+    matrix: Leading<'_>,
     x: MatRef<'_, f64>,
     mut y: [MatMut<'_, f64>; N],
     of: impl Fn(f64) -> [f64; N] + Sync + Copy,
 ) {
     let n = matrix.rows();
-    assert!(x.nrows() == matrix.cols(), "matrix of {} columns times block of {} rows", matrix.cols(), x.nrows());
+    assert!(x.nrows() == n, "matrix of {n} columns times block of {} rows", x.nrows());
     for y in &y {
         assert!(y.nrows() == n && y.ncols() == x.ncols(), "product {n} x {}, block {:?}", x.ncols(), y.shape());
     }
@@ -75,15 +79,16 @@ fn sums<const N: usize>(
 type Group<const W: usize> = [f64; W];
 
 fn group_sums<const W: usize, const N: usize>(
-    matrix: &SparseMatrix,
+    matrix: Leading<'_>,
     x: MatRef<'_, f64>,
     y: [MatMut<'_, f64>; N],
     packed: &mut Vec<Group<W>>,
     of: impl Fn(f64) -> [f64; N] + Sync + Copy,
 ) {
-    pack(x, packed);
+    let stored = matrix.whole;
+    pack(x, stored.rows(), packed);
     let packed = packed.as_slice();
-    let (indptr, indices, data) = (matrix.indptr(), matrix.indices(), matrix.data());
+    let (indptr, indices, data) = (stored.indptr(), stored.indices(), stored.data());
     let pointers = indptr.raw_storage();
     let n_rows = matrix.rows();
     let mut tiles = y.map(|y| y.par_row_chunks_mut(TILE_ROWS).collect::<Vec<_>>().into_iter());
@@ -146,11 +151,11 @@ impl<const W: usize, const N: usize, F: Fn(f64) -> [f64; N]> WithSimd for RowSum
     }
 }
 
-/// Copies a block of at most W columns into rows of W, zeros on the right.
-fn pack<const W: usize>(x: MatRef<'_, f64>, packed: &mut Vec<Group<W>>) {
+/// Copies a block of at most W columns into `n_rows` rows of W, zeros on the right and below.
+fn pack<const W: usize>(x: MatRef<'_, f64>, n_rows: usize, packed: &mut Vec<Group<W>>) {
     packed.clear();
-    packed.resize(x.nrows(), [0.0; W]);
-    packed.par_chunks_mut(TILE_ROWS).enumerate().for_each(|(tile, rows)| {
+    packed.resize(n_rows, [0.0; W]);
+    packed[..x.nrows()].par_chunks_mut(TILE_ROWS).enumerate().for_each(|(tile, rows)| {
         let x = x.subrows(tile * TILE_ROWS, rows.len());
         for (col, x) in x.col_iter().enumerate() {
             for (row, x) in rows.iter_mut().zip(x.iter()) {
@@ -165,7 +170,7 @@ mod tests {
     use faer::Mat;
 
     use super::*;
-    use crate::sparse::{Declared, Triplets};
+    use crate::sparse::{Declared, SparseMatrix, Triplets};
 
     /// A banded matrix of integers, more rows than a tile, with a row left empty.
     fn banded(n: u32) -> SparseMatrix {

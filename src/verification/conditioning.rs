@@ -16,8 +16,7 @@ use crate::rigid::ILL_CONDITIONED;
 /// The estimate is within a factor of three of the truth in practice.
 pub(super) fn internal_condition(evidence: &Evidence<'_>) -> f64 {
     const MAX_STEPS: usize = 5;
-    let (stiffness, mass) = evidence.internal;
-    let norms = Equilibrated::of(stiffness, mass);
+    let norms = Equilibrated::of(evidence.partition.internal());
     let n = norms.scale.len();
     let solve = |x: &[f64]| -> Vec<f64> {
         let mut block = Mat::from_fn(n, 1, |i, _| x[i] / norms.scale[i]);

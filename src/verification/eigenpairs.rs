@@ -11,8 +11,8 @@ use super::Evidence;
 use super::check::{Check, Limits};
 use super::residual::{AT_REST, Residuals, Rows, Worst};
 use crate::dense;
+use crate::factor::Pencil;
 use crate::modes::{Boundary, MassOrthogonality, ModeError, mass_orthogonality};
-use crate::sparse::SparseMatrix;
 
 /// Modes multiplied by K and M at a time: the memory beside the shapes is five such panels.
 const PANEL: usize = 32;
@@ -36,17 +36,16 @@ pub(super) struct Pairs {
 }
 
 /// K and M of the boundary the modes were computed under.
-pub(super) fn pencil<'a>(evidence: &Evidence<'a>) -> (&'a SparseMatrix, &'a SparseMatrix) {
+pub(super) fn pencil<'a>(evidence: &Evidence<'a>) -> Pencil<'a> {
     match evidence.retained.boundary {
-        Boundary::FixedInterface => evidence.internal,
-        Boundary::FreeInterface => (&evidence.partition.stiffness, &evidence.partition.mass),
+        Boundary::FixedInterface => evidence.partition.internal(),
+        Boundary::FreeInterface => evidence.partition.pencil(),
     }
 }
 
 impl Pairs {
     pub(super) fn of(evidence: &Evidence<'_>) -> Self {
-        let (stiffness, mass) = pencil(evidence);
-        let rows = Rows::of(stiffness, mass);
+        let rows = Rows::of(pencil(evidence));
         let modes = &evidence.retained.modes;
         let mut found =
             Self { backward: Worst::none(), componentwise: Worst::none(), concentration: 1.0, coupling: (0.0, (0, 0)) };
@@ -150,8 +149,8 @@ pub(super) fn componentwise_error(evidence: &Evidence<'_>, pairs: &Pairs) -> Che
 pub(super) fn orthogonality(evidence: &Evidence<'_>) -> Check {
     const FAIL: f64 = 1e-9;
     let shapes = &evidence.retained.modes.shapes;
-    let (mass, all, n_r) = match evidence.retained.boundary {
-        Boundary::FixedInterface => (evidence.internal.1, shapes.clone(), 0),
+    let (all, n_r) = match evidence.retained.boundary {
+        Boundary::FixedInterface => (shapes.clone(), 0),
         Boundary::FreeInterface => {
             // Motions without mass have no length in it.
             let rigid = evidence.rigid.massive();
@@ -159,12 +158,13 @@ pub(super) fn orthogonality(evidence: &Evidence<'_>) -> Check {
             let join = Mat::from_fn(shapes.nrows(), n_r + shapes.ncols(), |i, j| {
                 if j < n_r { rigid[(i, j)] } else { shapes[(i, j - n_r)] }
             });
-            (&evidence.partition.mass, join, n_r)
+            (join, n_r)
         }
     };
     // These rigid-body modes are orthonormal combinations, not unit motions.
     let rigid_name = |i: usize| format!("orthonormal rigid-body mode {}", i + 1);
-    let MassOrthogonality { error: value, pair: (a, b), largest_terms } = mass_orthogonality(mass, all.as_ref());
+    let MassOrthogonality { error: value, pair: (a, b), largest_terms } =
+        mass_orthogonality(pencil(evidence).mass, all.as_ref());
     let name = |i: usize| if i < n_r { rigid_name(i) } else { format!("mode {}", i - n_r + 1) };
     // x_iᵀMx_j of n terms is rounded by ε times their sizes, at most √(m_i m_j) with m = |x|ᵀ|M||x|, and so it is by rounding of
     // the modes themselves. A mode that M nearly lets pass has m ≫ 1.

@@ -21,12 +21,11 @@ use super::Evidence;
 use super::check::{Check, Limits};
 use crate::dense;
 use crate::error::Result;
-use crate::factor::{Analysis, Pencil, whole_count};
+use crate::factor::{Analysis, whole_count};
 use crate::job::Certify;
 use crate::modes::{Boundary, Component, ModeError, Modes, Retained};
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
-use crate::sparse::SparseMatrix;
 
 use bracket::Group;
 use metric::Metric;
@@ -72,30 +71,26 @@ pub fn enclosures_where_asked(
     retained: &Retained,
     certify: Certify,
 ) -> Result<Option<Enclosures>> {
-    let Component { partition, internal, rigid, .. } = component;
+    let Component { partition, rigid, .. } = component;
     match certify {
         Certify::None | Certify::Count => Ok(None),
-        Certify::Full => enclosures(partition, internal, rigid, &retained.modes, retained.boundary).map(Some),
+        Certify::Full => enclosures(partition, rigid, &retained.modes, retained.boundary).map(Some),
     }
 }
 
-/// Encloses modes that were computed under a boundary; `internal` is K_II and M_II.
+/// Encloses modes that were computed under a boundary.
 ///
 /// # Errors
 /// No memory for a factor; σ of the count lies on an eigenvalue.
 pub fn enclosures(
     partition: &Partition,
-    internal: (&SparseMatrix, &SparseMatrix),
     rigid: &RigidBodyModes,
     modes: &Modes,
     boundary: Boundary,
 ) -> Result<Enclosures> {
     let (pencil, zero_modes) = match boundary {
-        Boundary::FreeInterface => {
-            let pencil = Pencil { stiffness: &partition.stiffness, mass: &partition.mass };
-            (pencil, Some(rigid))
-        }
-        Boundary::FixedInterface => (Pencil { stiffness: internal.0, mass: internal.1 }, None),
+        Boundary::FreeInterface => (partition.pencil(), Some(rigid)),
+        Boundary::FixedInterface => (partition.internal(), None),
     };
     let analysis = Analysis::new(pencil)?;
     let (metric, n_metric) = Metric::new(&analysis, pencil, modes.lambda.first().copied())?;

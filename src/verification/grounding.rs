@@ -58,7 +58,7 @@ pub(super) fn groundings(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result
     let directions = Directions::of(evidence);
     let partition = evidence.partition;
     let (forces, terms) = product_and_terms(&partition.stiffness, directions.motions.as_ref());
-    let scale = Equilibrated::of(&partition.stiffness, &partition.mass).scale;
+    let scale = Equilibrated::of(partition.pencil()).scale;
     // Where no elastic mode is known, one in scaled units: the largest K_ii over the largest M_ii.
     let first = spectrum.scale(directions.count().max(evidence.rigid.count())).unwrap_or(1.0);
     // Where K lets fewer motions pass than there are directions, some are held.

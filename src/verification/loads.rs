@@ -11,7 +11,6 @@ use crate::basis::DynamicCoordinate;
 use crate::dense;
 use crate::error::Result;
 use crate::factor::SolveOperator;
-use crate::model::diagonal;
 use crate::sparse::product;
 
 /// Share of each direction's inertia that a mode of the reduced model carries, its interface held.
@@ -35,7 +34,7 @@ pub(super) fn accelerations(evidence: &Evidence<'_>, condition: f64) -> Option<C
     evidence.factor.solve_in_place(full.as_mut());
     let reduced = reduced_deflections(evidence, loads)?;
     let error = &full - &reduced;
-    let forces = product(evidence.internal.0, error.as_ref());
+    let forces = product(partition.internal().stiffness, error.as_ref());
     let mut worst = (0.0, None);
     for j in 0..directions.count() {
         let energy = |a: &Mat<f64>, b: MatRef<'_, f64>| {
@@ -136,8 +135,8 @@ fn interior_masses(evidence: &Evidence<'_>, gamma: MatRef<'_, f64>, start: MatRe
     // Shares are read to three digits; the square of this is what the total is off by.
     const ENOUGH: f64 = 1e-4;
     const MAX_STEPS: usize = 500;
-    let mass = evidence.internal.1;
-    let inverse: Vec<f64> = diagonal(mass).into_iter().map(|m| if m > 0.0 { 1.0 / m } else { 0.0 }).collect();
+    let mass = evidence.partition.internal().mass;
+    let inverse: Vec<f64> = mass.diagonal().into_iter().map(|m| if m > 0.0 { 1.0 / m } else { 0.0 }).collect();
     let precondition = |r: &Mat<f64>| Mat::from_fn(r.nrows(), r.ncols(), |i, j| r[(i, j)] * inverse[i]);
     let dots = |a: &Mat<f64>, b: &Mat<f64>| dense::dots(a.as_ref(), b.as_ref());
     let gamma = gamma.to_owned();

@@ -30,7 +30,6 @@ use crate::modes::{Certificate, Equilibrated, Retained};
 use crate::partition::Partition;
 use crate::reduction::Reduction;
 use crate::rigid::{InterfaceRank, RigidBodyModes};
-use crate::sparse::SparseMatrix;
 
 use check::Check;
 
@@ -45,8 +44,6 @@ pub use rigid_body::MassRoutes;
 pub struct Evidence<'a> {
     /// The partitioned matrices.
     pub partition: &'a Partition,
-    /// K_II and M_II.
-    pub internal: (&'a SparseMatrix, &'a SparseMatrix),
     /// The factor of K_II.
     pub factor: &'a Cholesky<'a>,
     /// The rigid-body modes.

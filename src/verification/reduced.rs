@@ -9,7 +9,7 @@ use super::{Evidence, coordinate_name, data_noise, reduced_norms};
 use crate::dense;
 use crate::modes::{Boundary, Modes, REPEATED_WITHIN};
 use crate::rigid::absolute_energy;
-use crate::sparse::SparseMatrix;
+use crate::sparse::Leading;
 
 /// How large the terms are that the reduced stiffness is summed from: rounding of an entry is ε times these.
 pub(super) struct Terms {
@@ -38,7 +38,7 @@ impl Terms {
         for start in (0..evidence.basis.n_dynamic()).step_by(PANEL) {
             let width = PANEL.min(evidence.basis.n_dynamic() - start);
             let panel = evidence.basis.dynamic_modes.as_ref().subcols(start, width);
-            for (j, terms) in absolute_energy(evidence.internal.0, panel).into_iter().enumerate() {
+            for (j, terms) in absolute_energy(partition.internal().stiffness, panel).into_iter().enumerate() {
                 let at = n_b + start + j;
                 dynamic = dynamic.max(terms / k[(at, at)].abs());
                 largest = largest.max(terms);
@@ -48,7 +48,7 @@ impl Terms {
         let largest = if size > 0.0 { largest / size } else { 1.0 };
         let (psi_s, psi_d) = (evidence.basis.constraint_modes.as_ref(), evidence.basis.dynamic_modes.as_ref());
         // The mass of the interface itself adds to these, and leaving it out excuses less.
-        let terms = [psi_s, psi_d].map(|columns| largest_terms(evidence.internal.1, columns));
+        let terms = [psi_s, psi_d].map(|columns| largest_terms(partition.internal().mass, columns));
         let mass = &evidence.reduction.mass;
         Self {
             interface: evidence.constraint.cancellation,
@@ -60,7 +60,7 @@ impl Terms {
 }
 
 /// max |x|ᵀ|A||x| of the columns: a product xᵀAy is rounded by ε times the root of that of x and of y.
-fn largest_terms(matrix: &SparseMatrix, columns: MatRef<'_, f64>) -> f64 {
+fn largest_terms(matrix: Leading<'_>, columns: MatRef<'_, f64>) -> f64 {
     let starts = (0..columns.ncols()).step_by(PANEL);
     let panels = starts.map(|start| columns.subcols(start, PANEL.min(columns.ncols() - start)));
     panels.flat_map(|panel| absolute_energy(matrix, panel)).fold(0.0, f64::max)

@@ -10,8 +10,9 @@ use faer::{Mat, MatRef};
 
 use super::Evidence;
 use crate::dense;
+use crate::factor::Pencil;
 use crate::modes::Equilibrated;
-use crate::sparse::{SparseMatrix, product_and_terms};
+use crate::sparse::product_and_terms;
 
 /// Share of its own norm below which the terms of a row are at rest: a pair may leave 10⁻¹³ of a row's norm (M-01), which a
 /// row of smaller terms than this could not keep within 10⁻¹¹ of them (M-02).
@@ -19,8 +20,7 @@ pub(super) const AT_REST: f64 = 1e-2;
 
 /// Row norms of a pencil.
 pub(super) struct Rows<'a> {
-    stiffness: &'a SparseMatrix,
-    mass: &'a SparseMatrix,
+    pencil: Pencil<'a>,
     /// D and the norms of the whole.
     pub(super) norms: Equilibrated,
     /// ‖(DKD)_i‖₁ and ‖(DMD)_i‖₁.
@@ -28,17 +28,17 @@ pub(super) struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    pub(super) fn of(stiffness: &'a SparseMatrix, mass: &'a SparseMatrix) -> Self {
-        let (norms, of_row) = Equilibrated::with_rows(stiffness, mass);
-        Self { stiffness, mass, norms, of_row }
+    pub(super) fn of(pencil: Pencil<'a>) -> Self {
+        let (norms, of_row) = Equilibrated::with_rows(pencil);
+        Self { pencil, norms, of_row }
     }
 
     /// What the columns of x, with their λ_j, leave of the pencil.
     pub(super) fn residuals(&self, x: MatRef<'_, f64>, lambda: &[f64]) -> Residuals {
-        let (forces, mut terms) = product_and_terms(self.stiffness, x);
+        let (forces, mut terms) = product_and_terms(self.pencil.stiffness, x);
         let mut residual = forces.clone();
         if lambda.iter().any(|lambda| *lambda != 0.0) {
-            let (momenta, of_mass) = product_and_terms(self.mass, x);
+            let (momenta, of_mass) = product_and_terms(self.pencil.mass, x);
             for (j, lambda) in lambda.iter().enumerate() {
                 let column = dense::column_mut(residual.as_mut(), j);
                 column

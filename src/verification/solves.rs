@@ -24,7 +24,7 @@ const GROUNDED: f64 = 1e-6;
 pub(super) fn static_solves(evidence: &Evidence<'_>) -> Check {
     const FAIL: f64 = 1e-9;
     let partition = evidence.partition;
-    let rows = Rows::of(&partition.stiffness, &partition.mass);
+    let rows = Rows::of(partition.pencil());
     let n_b = partition.n_interface();
     let (combinations, column_is) = if n_b <= FEW {
         (Mat::identity(n_b, n_b), "constraint mode")

@@ -57,13 +57,11 @@ pub(crate) fn with_component<T>(
 ) -> Result<T, Error> {
     let (partition, rigid) = super::rigid_of(model, interfaces)?;
     rigid::interface_rank(&partition, &rigid)?;
-    let (k_ii, m_ii) = partition.internal();
     let analysis = Analysis::of(&partition)?;
     let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof))?;
     let constraint = constraint_modes(&partition, &factor, &rigid);
     look(Component {
         partition: &partition,
-        internal: (&k_ii, &m_ii),
         analysis: &analysis,
         factor: &factor,
         rigid: &rigid,

@@ -114,7 +114,6 @@ pub(crate) fn reduce(
 ) -> Result<Chain, Error> {
     let (partition, rigid) = rigid_of(model, interfaces)?;
     rigid::interface_rank(&partition, &rigid)?;
-    let (k_ii, m_ii) = partition.internal();
     let analysis = Analysis::of(&partition)?;
     let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof))?;
     let constraint = constraint_modes(&partition, &factor, &rigid);
@@ -122,22 +121,22 @@ pub(crate) fn reduce(
     let precision = partition.precision;
     let (modes, named) = match method {
         Method::CraigBampton => {
-            let problem = ModalProblem { stiffness: &k_ii, mass: &m_ii, rigid: None, precision };
+            let problem = ModalProblem::of(partition.internal(), None, precision);
             let modes = elastic_modes(problem, &Factored::new(&factor, 0.0), request)?;
             let named = fixed_interface_columns(&modes);
             (modes, named)
         }
         Method::Herting => {
-            let (k, m) = (&partition.stiffness, &partition.mass);
+            let k = &partition.stiffness;
             let operator =
                 FreeAtZero::new(&factor, k, constraint.modes.as_ref(), constraint.stiffness.as_ref(), &rigid)?;
-            let problem = ModalProblem { stiffness: k, mass: m, rigid: Some(&rigid), precision };
+            let problem = ModalProblem::of(partition.pencil(), Some(&rigid), precision);
             let modes = elastic_modes(problem, &operator, request)?;
             let named = mode_acceleration_columns(&partition, &factor, &constraint, &rigid, &modes);
             (modes, named)
         }
     };
-    let basis = Basis::new(&constraint, named.clone(), &m_ii);
+    let basis = Basis::new(&constraint, named.clone(), partition.internal().mass);
     let reduction = Reduction::new(&partition, &basis, &rigid);
     Ok(Chain { partition, rigid, constraint, modes, named, basis, reduction })
 }

@@ -105,9 +105,8 @@ fn free_modes(pairs: &Path, pair: &Pair, n_modes: usize) -> Result<Found> {
     let model = Model::new(input)?;
     let partition = Partition::new(model, &[])?;
     let (rigid, _) = rigid_body_modes(&partition)?;
-    let (stiffness, mass) = (&partition.stiffness, &partition.mass);
     let analysis = Analysis::of(&partition)?;
-    let problem = ModalProblem { stiffness, mass, rigid: Some(&rigid), precision: partition.precision };
+    let problem = ModalProblem::of(partition.pencil(), Some(&rigid), partition.precision);
     let found = shifted(&analysis, problem, &|dof| partition.name_of(dof))?;
     let request = ModeRequest { wanted: Wanted::Count(n_modes), eigensolver: Eigensolver::Lanczos, seed: SEED };
     let modes = elastic_modes(problem, &Factored::new(&found.factor, found.sigma), request)?;

@@ -1,7 +1,7 @@
 //! A generated model ready for an eigensolver, and the one check every answer has to pass.
 
 use supel::dense;
-use supel::factor::{Analysis, Cholesky, Pencil};
+use supel::factor::{Analysis, Cholesky};
 use supel::input::{Direction, Dof, Input, MatrixInput, Nodes};
 use supel::job::{Eigensolver, InterfaceJob};
 use supel::model::Model;
@@ -35,8 +35,7 @@ impl Component {
 
     pub(crate) fn of(partition: Partition) -> Self {
         let rigid = from_coordinates(&partition).expect("rigid-body modes").unwrap_or_else(|| none(&partition));
-        let pencil = Pencil { stiffness: &partition.stiffness, mass: &partition.mass };
-        let analysis = Analysis::new(pencil).expect("an analysis");
+        let analysis = Analysis::new(partition.pencil()).expect("an analysis");
         Self { partition, rigid, analysis }
     }
 
@@ -47,16 +46,15 @@ impl Component {
 
     /// Elastic modes, checked: at shift zero where the component is held, at a negative shift where it is free.
     pub(crate) fn modes(&self, wanted: Wanted, eigensolver: Eigensolver) -> Modes {
-        let (stiffness, mass) = (&self.partition.stiffness, &self.partition.mass);
         let request = ModeRequest { wanted, eigensolver, seed: SEED };
-        let precision = self.partition.precision;
+        let (pencil, precision) = (self.partition.pencil(), self.partition.precision);
         let name = |step| self.partition.name_of(step);
         let modes = if self.rigid.count() == 0 {
-            let problem = ModalProblem { stiffness, mass, rigid: None, precision };
-            let factor = Cholesky::new(&self.analysis, Pencil { stiffness, mass }, 0.0, &name).expect("a factor");
+            let problem = ModalProblem::of(pencil, None, precision);
+            let factor = Cholesky::new(&self.analysis, pencil, 0.0, &name).expect("a factor");
             elastic_modes(problem, &Factored::new(&factor, 0.0), request)
         } else {
-            let problem = ModalProblem { stiffness, mass, rigid: Some(&self.rigid), precision };
+            let problem = ModalProblem::of(pencil, Some(&self.rigid), precision);
             let found = shifted(&self.analysis, problem, &name).expect("a shift");
             elastic_modes(problem, &Factored::new(&found.factor, found.sigma), request)
         };

@@ -96,8 +96,7 @@ fn arpack_with_solves_that_overflow() {
     }
 
     let partition = crate::chain::partition(&spring(40, Ends::Fixed), &[]).expect("a chain");
-    let (stiffness, mass) = (&partition.stiffness, &partition.mass);
-    let problem = ModalProblem { stiffness, mass, rigid: None, precision: partition.precision };
+    let problem = ModalProblem::of(partition.pencil(), None, partition.precision);
     let request = ModeRequest { wanted: Wanted::Count(3), eigensolver: Eigensolver::Arpack, seed: SEED };
     let error = elastic_modes(problem, &Overflowing, request).expect_err("no numbers");
     assert!(matches!(error, supel::error::Error::Arpack { .. }), "{error}");

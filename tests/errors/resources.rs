@@ -36,7 +36,7 @@ fn star(n: usize) -> SparseMatrix {
 fn i_26_a_factor_beyond_32_bits_is_counted_and_refused() {
     let n = 70_000;
     let star = star(n);
-    let analysis = Analysis::new(Pencil { stiffness: &star, mass: &star }).expect("an analysis");
+    let analysis = Analysis::new(Pencil::new(&star, &star)).expect("an analysis");
     let exact = n * (n + 1) / 2;
     assert!(exact > 1 << 31);
     assert_eq!(analysis.nnz_factor, exact as f64);
@@ -64,7 +64,7 @@ fn a_factor_that_cannot_be_allocated() {
     const LIMITED: &str = "SUPEL_TEST_WITHIN_LIMIT";
     if std::env::var_os(LIMITED).is_some() {
         let star = star(70_000);
-        let pencil = Pencil { stiffness: &star, mass: &star };
+        let pencil = Pencil::new(&star, &star);
         let analysis = Analysis::new(pencil).expect("an analysis");
         let error = Cholesky::new(&analysis, pencil, 0.0, &|dof| dof.to_string()).expect_err("no memory");
         assert!(matches!(error, Error::OutOfMemory { .. }), "{error}");

@@ -14,7 +14,7 @@ use supel::sparse::{SparseMatrix, absolute_product, product};
 use matrices::{diagonal, families, grid, spd};
 
 fn pencil<'a>(stiffness: &'a SparseMatrix, mass: &'a SparseMatrix) -> Pencil<'a> {
-    Pencil { stiffness, mass }
+    Pencil::new(stiffness, mass)
 }
 
 fn unit(n: usize) -> SparseMatrix {

@@ -123,7 +123,7 @@ fn shifted_matrices_of_any_units_are_solved_alike() {
     let plain = symmetric(n as usize, &path, |_, _| -1.0, |_| 2.0);
     let ones = unit(n as usize);
     let solved = |stiffness: &SparseMatrix, mass: &SparseMatrix, unit_of: &dyn Fn(u32) -> f64| {
-        let pencil = Pencil { stiffness, mass };
+        let pencil = Pencil::new(stiffness, mass);
         let analysis = Analysis::new(pencil).expect("an analysis");
         let factor = in_single(&analysis, pencil, -1e-3);
         let b = loads(n as usize, 3);

@@ -85,9 +85,8 @@ fn bars_own_up_to_a_bad_residual() {
     let model = spring(n, Ends::Fixed);
     let exact = spring_spectrum(n, Ends::Fixed);
     with_evidence(input(&model), &[rows("one", &[0])], (Method::CraigBampton, 4), |evidence| {
-        let (stiffness, mass) = (&evidence.partition.stiffness, &evidence.partition.mass);
-        let problem = ModalProblem { stiffness, mass, rigid: None, precision: evidence.partition.precision };
-        let dense = crate::chain::dense(stiffness);
+        let problem = ModalProblem::of(evidence.partition.pencil(), None, evidence.partition.precision);
+        let dense = crate::chain::dense(&evidence.partition.stiffness);
         let sound = Dense(dense);
         let request = ModeRequest { wanted: Wanted::Count(4), eigensolver: Eigensolver::Lanczos, seed: SEED };
         let unit = evidence.partition.scaling.eigenvalue_unit();

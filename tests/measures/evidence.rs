@@ -25,20 +25,17 @@ pub(crate) fn with_evidence<T>(
     let partition = Partition::new(model, interfaces).expect("interfaces of the model");
     let (rigid, _) = rigid::rigid_body_modes(&partition).expect("rigid-body modes");
     let rank = rigid::interface_rank(&partition, &rigid).expect("an interface that reacts them");
-    let (k_ii, m_ii) = partition.internal();
     let analysis = Analysis::of(&partition).expect("memory");
     let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof)).expect("definite");
     let constraint = constraint_modes(&partition, &factor, &rigid);
-    let internal = (&k_ii, &m_ii);
-    let component = Component::new(&partition, internal, &analysis, &factor, &rigid, &constraint);
+    let component = Component::new(&partition, &analysis, &factor, &rigid, &constraint);
     let job = ReductionJob { method, modes: ModeSelection::Count { count }, eigensolver: Eigensolver::Lanczos };
     let search = Search::new(component, &job).expect("a stable component");
     let retained = Retained::new(component, search.problem.boundary, search.lowest(SEED).expect("modes"));
-    let basis = Basis::new(&constraint, retained.columns.clone(), &m_ii);
+    let basis = Basis::new(&constraint, retained.columns.clone(), partition.internal().mass);
     let reduction = Reduction::new(&partition, &basis, &rigid);
     look(Evidence {
         partition: &partition,
-        internal,
         factor: &factor,
         rigid: &rigid,
         rank,

@@ -94,8 +94,7 @@ impl ShiftInvert for Unreliable {
 #[test]
 fn eigensolver_that_does_not_converge() {
     let partition = partition(&spring(200, Ends::Fixed), &[]).expect("a chain");
-    let (stiffness, mass) = (&partition.stiffness, &partition.mass);
-    let problem = ModalProblem { stiffness, mass, rigid: None, precision: partition.precision };
+    let problem = ModalProblem::of(partition.pencil(), None, partition.precision);
     let request = ModeRequest { wanted: Wanted::Count(3), eigensolver: Eigensolver::Lanczos, seed: SEED };
     let operator = Unreliable { n: 200, random: SplitMix64::new(1).into() };
     let error = refusal(elastic_modes(problem, &operator, request));

@@ -8,7 +8,7 @@ use faer::{Mat, MatRef};
 
 use crate::dense;
 use crate::error::Result;
-use crate::factor::{Analysis, Cholesky, Pencil, SolveOperator};
+use crate::factor::{Analysis, Cholesky, SolveOperator};
 use crate::model::diagonal;
 use crate::modes::{ModalProblem, shifted};
 use crate::partition::Partition;
@@ -21,11 +21,6 @@ const MAX_STEPS: usize = 200;
 const SOLVED: f64 = 1e-14;
 /// Steps without progress after which rounding is all that is left.
 const STALLED: usize = 4;
-
-/// The whole pencil.
-pub(super) fn pencil(partition: &Partition) -> Pencil<'_> {
-    Pencil { stiffness: &partition.stiffness, mass: &partition.mass }
-}
 
 /// The full model with a factor of K − σM on all dofs.
 pub(super) struct Full<'a> {
@@ -52,12 +47,7 @@ pub(super) struct Solutions {
 
 impl<'a> Full<'a> {
     pub(super) fn new(partition: &'a Partition, analysis: &'a Analysis) -> Result<Self> {
-        let problem = ModalProblem {
-            stiffness: &partition.stiffness,
-            mass: &partition.mass,
-            rigid: None,
-            precision: partition.precision,
-        };
+        let problem = ModalProblem::of(partition.pencil(), None, partition.precision);
         let found = shifted(analysis, problem, &|dof| partition.name_of(dof))?;
         let shapes = found.lowest.shapes.as_ref().subcols(0, found.n_zero).to_owned();
         let first = found.lowest.lambda.get(found.n_zero).copied().or(found.lowest.next).unwrap_or(1.0);

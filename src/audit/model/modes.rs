@@ -3,16 +3,16 @@
 use faer::Mat;
 use supel_runtime::{Coordinate, Superelement};
 
-use super::full::{Full, pencil};
+use super::full::Full;
 use super::scaled::Scaled;
 use super::statics::Answers;
 use crate::audit::content::boundary;
 use crate::dense;
 use crate::error::Result;
-use crate::factor::{Analysis, Pencil, SolveOperator, whole_count};
+use crate::factor::{Analysis, whole_count};
 use crate::job::Eigensolver;
 use crate::modes::{Boundary, Factored, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes, shifted};
-use crate::sparse::{SparseMatrix, product};
+use crate::sparse::product;
 use crate::verification::check::{Check, Limits};
 
 /// Seed of the start vectors; another one than any the reduction uses.
@@ -30,8 +30,6 @@ pub(super) struct Witness<'a> {
     coordinate_of: Vec<Option<usize>>,
     n_stored: usize,
     n_rigid: usize,
-    /// K_II and M_II, where the interface is held.
-    internal: Option<(SparseMatrix, SparseMatrix)>,
     modes: Modes,
 }
 
@@ -43,30 +41,21 @@ impl<'a> Witness<'a> {
         let eigensolver = if cfg!(feature = "arpack") { Eigensolver::Arpack } else { Eigensolver::Lanczos };
         let request = ModeRequest { wanted: Wanted::Count(n_stored), eigensolver, seed: SEED };
         let precision = partition.precision;
-        let (modes, internal) = match boundary {
+        let modes = match boundary {
             Boundary::FreeInterface => {
-                let problem = ModalProblem {
-                    stiffness: &partition.stiffness,
-                    mass: &partition.mass,
-                    rigid: Some(&full.rigid),
-                    precision,
-                };
-                (elastic_modes(problem, &Factored::new(&full.factor, full.sigma), request)?, None)
+                let problem = ModalProblem::of(partition.pencil(), Some(&full.rigid), precision);
+                elastic_modes(problem, &Factored::new(&full.factor, full.sigma), request)?
             }
             Boundary::FixedInterface => {
-                let (k, m) = partition.internal();
-                let problem = ModalProblem { stiffness: &k, mass: &m, rigid: None, precision };
-                let analysis = Analysis::new(Pencil { stiffness: &k, mass: &m })?;
+                let problem = ModalProblem::of(partition.internal(), None, precision);
+                let analysis = Analysis::new(problem.pencil())?;
                 let found = shifted(&analysis, problem, &|dof| partition.name_of(dof))?;
-                let factor: &dyn SolveOperator = &found.factor;
-                let modes = elastic_modes(problem, &Factored::new(factor, found.sigma), request)?;
-                drop(found);
-                (modes, Some((k, m)))
+                elastic_modes(problem, &Factored::new(&found.factor, found.sigma), request)?
             }
         };
         let n_rigid = full.rigid.count();
         let coordinate_of = coordinates_of_modes(superelement, n_stored);
-        Ok(Self { full, boundary, coordinate_of, n_stored, n_rigid, internal, modes })
+        Ok(Self { full, boundary, coordinate_of, n_stored, n_rigid, modes })
     }
 
     /// M-01: the witness is one.
@@ -118,13 +107,14 @@ impl<'a> Witness<'a> {
             None if top > 0.0 => (1.0 + PLACE) * top,
             None => PLACE * self.full.first,
         };
-        let (count, expected) = match &self.internal {
-            Some((stiffness, mass)) => {
-                let pencil = Pencil { stiffness, mass };
+        let partition = self.full.partition;
+        let (count, expected) = match self.boundary {
+            Boundary::FixedInterface => {
+                let pencil = partition.internal();
                 (whole_count(&Analysis::new(pencil)?, pencil, sigma)?, self.n_stored)
             }
-            None => {
-                let count = whole_count(self.full.analysis, pencil(self.full.partition), sigma)?;
+            Boundary::FreeInterface => {
+                let count = whole_count(self.full.analysis, partition.pencil(), sigma)?;
                 (count, self.n_stored + self.n_rigid)
             }
         };

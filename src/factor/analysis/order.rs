@@ -71,7 +71,7 @@ fn upper_triangle(pencil: Pencil<'_>) -> (Vec<usize>, Vec<usize>) {
     pointers.push(0);
     for col in 0..n {
         let [k, m] = [pencil.stiffness, pencil.mass].map(|matrix| {
-            let rows = super::row_pattern(matrix, col);
+            let (rows, _) = matrix.row(col);
             &rows[..rows.partition_point(|row| *row as usize <= col)]
         });
         let (mut k, mut m) = (k.iter().peekable(), m.iter().peekable());

@@ -110,7 +110,7 @@ mod tests {
         let n = 64;
         for seed in 0..40 {
             let (k, m) = (sparse(&matrix(n, seed)), sparse(&Mat::identity(n, n)));
-            let pencil = Pencil { stiffness: &k, mass: &m };
+            let pencil = Pencil::new(&k, &m);
             let analysis = Analysis::new(pencil).expect("memory");
             let factor = Indefinite::new(&analysis, pencil, 0.0, Keep::Factor).expect("a factor");
             let (pivots, subdiagonal) = (factor.diagonal(), factor.subdiagonal());

@@ -216,7 +216,7 @@ mod tests {
     }
 
     fn with_operator<T>(matrices: &[SparseMatrix; 2], sigma: f64, solve: impl FnOnce(Problem<'_>) -> T) -> T {
-        let pencil = Pencil { stiffness: &matrices[0], mass: &matrices[1] };
+        let pencil = Pencil::new(&matrices[0], &matrices[1]);
         let analysis = Analysis::new(pencil).expect("memory");
         let factor = Cholesky::new(&analysis, pencil, sigma, &|dof| dof.to_string()).expect("definite");
         let nothing = Mat::zeros(pencil.mass.rows(), 0);

@@ -7,7 +7,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 use rayon::prelude::*;
 
-use crate::sparse::SparseMatrix;
+use crate::sparse::Leading;
 
 /// Relative error of a product or a sum of two, far above the proved 2⁻¹⁰⁴.
 pub(super) const UNIT: f64 = 7.9e-31;
@@ -89,14 +89,12 @@ pub(super) struct Product {
     pub(super) terms: Vec<f64>,
 }
 
-pub(super) fn product(matrix: &SparseMatrix, x: &[f64]) -> Product {
+pub(super) fn product(matrix: Leading<'_>, x: &[f64]) -> Product {
     let row = |row: usize| {
         let (mut sum, mut terms) = (Double::default(), 0.0);
-        if let Some(view) = matrix.outer_view(row) {
-            for (col, value) in view.iter() {
-                sum = sum + exact_product(*value, x[col]);
-                terms += (value * x[col]).abs();
-            }
+        for (col, value) in matrix.entries(row) {
+            sum = sum + exact_product(value, x[col]);
+            terms += (value * x[col]).abs();
         }
         (sum, terms)
     };

@@ -3,9 +3,8 @@
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, Cholesky, Pencil, SolveOperator, forming_error};
-use crate::model::diagonal;
 use crate::modes::SplitMix64;
-use crate::sparse::SparseMatrix;
+use crate::sparse::{Leading, SparseMatrix};
 
 /// A definite K_s = K − σM with the proof that it is.
 pub(super) struct Metric<'a> {
@@ -36,7 +35,7 @@ impl<'a> Metric<'a> {
     /// # Errors
     /// No memory.
     pub(super) fn new(analysis: &'a Analysis, pencil: Pencil<'a>, first: Option<f64>) -> Result<(Option<Self>, usize)> {
-        let k_diagonal = diagonal(pencil.stiffness);
+        let k_diagonal = pencil.stiffness.diagonal();
         let scale: Vec<f64> = k_diagonal.iter().map(|d| dense::power_of_two_root(d.abs())).collect();
         let mut n_factorisations = 0;
         for distance in DISTANCES {
@@ -49,7 +48,7 @@ impl<'a> Metric<'a> {
                 let Some(lowered) = lowered(pencil.stiffness, share * least, &scale) else {
                     return Ok((None, n_factorisations));
                 };
-                let pencil_of_proof = Pencil { stiffness: &lowered, mass: pencil.mass };
+                let pencil_of_proof = Pencil::new(&lowered, pencil.mass);
                 n_factorisations += 1;
                 let Some(proof) = factored(analysis, pencil_of_proof, sigma)? else { continue };
                 // K_s − δS⁻² + E = LLᵀ ≽ 0, so that K_s ≽ (δ − ‖SES‖) S⁻². The diagonal was lowered by one operation more.
@@ -101,8 +100,8 @@ fn smallest_eigenvalue(factor: &Cholesky<'_>, scale: &[f64]) -> f64 {
 }
 
 /// K − δS⁻²; none where a diagonal entry is not stored, which is a free particle.
-fn lowered(stiffness: &SparseMatrix, delta: f64, scale: &[f64]) -> Option<SparseMatrix> {
-    let mut lowered = stiffness.clone();
+fn lowered(stiffness: Leading<'_>, delta: f64, scale: &[f64]) -> Option<SparseMatrix> {
+    let mut lowered = stiffness.to_owned();
     for (i, s) in scale.iter().enumerate() {
         *lowered.get_mut(i, i)? -= delta / (s * s);
     }

@@ -86,7 +86,7 @@ impl<'a> Extended<'a> {
         };
         let (stiffness, mass) = (project(&forces), project(&momenta));
         let spectral = Spectral::of(stiffness.as_ref(), mass.as_ref(), super::shift(evidence))?;
-        let scale = Equilibrated::of(&partition.stiffness, &partition.mass).scale;
+        let scale = Equilibrated::of(partition.pencil()).scale;
         Ok(Self { evidence, factor, eta, basis, forces, momenta, stiffness, mass, spectral, scale, steps: 0 })
     }
 
@@ -247,7 +247,7 @@ impl<'a> Extended<'a> {
     /// Columns M_II-orthonormal to one another and to the dynamic columns of the basis; dependent ones are left out.
     fn independent(&self, mut block: Mat<f64>) -> Mat<f64> {
         let (n_i, n_b) = (self.evidence.partition.n_internal, self.evidence.partition.n_interface());
-        let mass = self.evidence.internal.1;
+        let mass = self.evidence.partition.internal().mass;
         let earlier = self.basis.as_ref().submatrix(0, n_b, n_i, self.basis.ncols() - n_b);
         let mut dependent = vec![false; block.ncols()];
         for pass in 0..2 {

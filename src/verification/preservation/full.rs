@@ -60,17 +60,13 @@ impl Supported {
     /// The eigensolver does not converge; no memory.
     pub(super) fn modes_up_to(&self, evidence: &Evidence<'_>, limit: f64, seed: u64) -> Result<Modes> {
         let request = ModeRequest { wanted: Wanted::UpTo(limit), eigensolver: Eigensolver::Lanczos, seed };
-        let problem = ModalProblem {
-            stiffness: &self.stiffness,
-            mass: &self.mass,
-            rigid: Some(&self.rigid),
-            precision: evidence.partition.precision,
-        };
+        let pencil = Pencil::new(&self.stiffness, &self.mass);
+        let problem = ModalProblem::of(pencil, Some(&self.rigid), evidence.partition.precision);
         let modes = self.by_factor(evidence, problem, request)?;
         if modes.errors.iter().all(|error| error.backward <= HOLDS_UP) {
             return Ok(modes);
         }
-        let analysis = Analysis::new(Pencil { stiffness: &self.stiffness, mass: &self.mass })?;
+        let analysis = Analysis::new(pencil)?;
         let shifted = shifted(&analysis, problem, &|dof| evidence.partition.name_of(dof))?;
         elastic_modes(problem, &Factored::new(&shifted.factor, shifted.sigma), request)
     }

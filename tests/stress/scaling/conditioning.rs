@@ -177,7 +177,7 @@ fn c_09_dependent_columns_are_left_out_by_name() {
     let basis = Basis::new(
         &reduced.constraint,
         DynamicColumns { columns, coordinates: coordinates.clone() },
-        &reduced.partition.internal().1,
+        reduced.partition.internal().mass,
     );
     assert_eq!(basis.n_dynamic(), n);
     let dropped: Vec<_> = basis.dropped.iter().map(|column| column.coordinate).collect();
