@@ -96,7 +96,7 @@ impl Forecast {
     fn of(analysis: &Analysis, partition: &Partition, search: SearchSize, storage: Storage) -> Self {
         let SearchSize { certify, n_modes, at_once } = search;
         let n = partition.n_dofs() as u64;
-        // The partitioned matrices, their internal blocks, and the triangle with wide indices that the analysis makes.
+        // The partitioned matrices and the triangle with wide indices that the analysis makes; a proof lowers K in a copy.
         let entries = (partition.stiffness.nnz() + partition.mass.nnz()) as u64;
         // A slice keeps the factor of its shift and a basis of its own, beside all modes and the copy that puts them in order.
         let (in_slices, of_solver) = match n_modes > SLICED_FROM as u64 {
@@ -104,10 +104,10 @@ impl Forecast {
             false => (0, 5 * n_modes + 64),
         };
         // A count keeps the pivots alone.
-        let n_beside = match certify {
+        let (n_beside, n_copies) = match certify {
             // Those of K − σM and of the proof that it is definite.
-            Certify::Full => in_slices.max(2),
-            Certify::None | Certify::Count => in_slices,
+            Certify::Full => (in_slices.max(2), 3),
+            Certify::None | Certify::Count => (in_slices, 2),
         };
         let (n_beside, refinement) = match storage {
             Storage::Double => (n_beside, 0),
@@ -119,7 +119,7 @@ impl Forecast {
         let factors = analysis.factor_bytes(storage).saturating_add(beside).saturating_add(stacks);
         let vectors = 2 * partition.n_interface() as u64 + of_solver.max(BLOCKS_OF_MODES * n_modes) + refinement;
         let recovery = COPIES * partition.recovered.len() as u64 * (partition.n_interface() as u64 + n_modes);
-        Self { factors, matrices: 3 * ENTRY * entries, vectors: DOUBLE * (n * vectors + recovery) }
+        Self { factors, matrices: n_copies * ENTRY * entries, vectors: DOUBLE * (n * vectors + recovery) }
     }
 
     fn total(self) -> u64 {

@@ -26,7 +26,7 @@ use super::{CLUSTER_GAP, Modes, SEED, SETTLED, judged, pairs_between};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::job::Eigensolver;
-use crate::sparse::{SparseMatrix, product};
+use crate::sparse::{Leading, product};
 
 /// Modes that a slice of a band is to have.
 pub const SLICE: usize = 120;
@@ -297,7 +297,7 @@ pub(super) fn search_between(
 }
 
 /// X ← X − X_k X_kᵀ M X with the known modes X_k.
-fn make_orthogonal(mass: &SparseMatrix, known: &Modes, vectors: &mut Mat<f64>) {
+fn make_orthogonal(mass: Leading<'_>, known: &Modes, vectors: &mut Mat<f64>) {
     let along = dense::gram(known.shapes.as_ref(), product(mass, vectors.as_ref()).as_ref());
     dense::add_product(vectors.as_mut(), -1.0, known.shapes.as_ref(), along.as_ref());
 }
