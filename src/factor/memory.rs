@@ -3,7 +3,7 @@
 use super::{Analysis, Storage};
 use crate::error::{Error, Result};
 use crate::job::{Certify, Job, ModeSelection, Precision};
-use crate::modes::{SLICE, SLICED_FROM};
+use crate::modes::{LARGEST_SEARCH, SLICED_FROM};
 use crate::outcome::Resources;
 use crate::partition::Partition;
 
@@ -51,7 +51,7 @@ pub fn storage_within_memory(
 /// or else what the machine offers, can hold.
 ///
 /// Counted are the matrices, the factors that are kept, what waits for its parent while one is made, the largest front, the
-/// constraint modes, the modes, the basis of the eigensolver (four vectors for each mode and eight blocks of eight) or what is
+/// constraint modes, the modes, the basis of the eigensolver (five vectors for each mode and eight blocks of eight) or what is
 /// held after it, and the rows that are recovered. The number of modes is what a count in the band has found, once there is one.
 ///
 /// # Errors
@@ -100,7 +100,7 @@ impl Forecast {
         let entries = (partition.stiffness.nnz() + partition.mass.nnz()) as u64;
         // A slice keeps the factor of its shift and a basis of its own, beside all modes and the copy that puts them in order.
         let (in_slices, of_solver) = match n_modes > SLICED_FROM as u64 {
-            true => (at_once, 2 * n_modes + at_once * (5 * SLICE as u64 + 64)),
+            true => (at_once, 2 * n_modes + at_once * (5 * LARGEST_SEARCH as u64 + 64)),
             false => (0, 5 * n_modes + 64),
         };
         // A count keeps the pivots alone.

@@ -73,14 +73,13 @@ impl<'a> Counts<'a> {
             let n_below = counts.counts.partition_point(|end| !is_above(end));
             let below = n_below.checked_sub(1).map_or(0.0, |last| counts.counts[last].inertia.sigma);
             sigma = match counts.counts.get(n_below).map(|end| end.place()) {
-                Some((to, n)) if n <= n_modes + excess || to < (1.0 + OFF) * below => {
-                    counts.counts.truncate(n_below + 1);
-                    break;
-                }
+                Some((to, n)) if n <= n_modes + excess || to < (1.0 + OFF) * below => break,
                 Some((to, _)) if step >= INTERPOLATED => middle(below, to),
                 _ => counts.expected_at(target).min(top),
             };
         }
+        let n_below = counts.counts.partition_point(|end| !is_above(end));
+        counts.counts.truncate(n_below + 1);
         Ok(counts)
     }
 
@@ -90,11 +89,14 @@ impl<'a> Counts<'a> {
     }
 
     /// Cuts what lies below the last count into `n_parts` parts of about as many eigenvalues each, and above them one without any
-    /// where the last count is far up; gives the counts between them, where `is_clear` allows one.
-    pub(super) fn cut_evenly(&mut self, n_parts: usize, is_clear: impl Fn(f64) -> bool) -> Vec<ElasticCount> {
+    /// where the last count is far up; gives the counts between them.
+    ///
+    /// # Errors
+    /// No memory for a count.
+    pub(super) fn cut_evenly(&mut self, n_parts: usize) -> Result<Vec<ElasticCount>> {
         let n_below = self.lower.1;
-        let Some(last) = self.last() else { return Vec::new() };
-        let end = self.end_near(last, &is_clear);
+        let Some(last) = self.last() else { return Ok(Vec::new()) };
+        let end = self.end_near(last)?;
         let part = (last.n_elastic - n_below) as f64 / n_parts as f64;
         let mut cuts: Vec<ElasticCount> = Vec::new();
         for place in 1..n_parts {
@@ -102,7 +104,7 @@ impl<'a> Counts<'a> {
             let is_near = |count: &ElasticCount| (count.n_elastic as f64 - target).abs() <= UNEVEN * part;
             // A count nearby serves; a first one corrects the place of a second.
             for _ in 0..2 {
-                if self.counts.iter().any(is_near) || self.take_near(self.expected_at(target), &is_clear).is_none() {
+                if self.counts.iter().any(is_near) || self.take_near(self.expected_at(target), |_| true)?.is_none() {
                     break;
                 }
             }
@@ -113,42 +115,53 @@ impl<'a> Counts<'a> {
             cuts.extend(nearest.filter(|count| distance(count) <= 0.5 * part).filter(is_further).copied());
         }
         cuts.extend(Some(end).filter(|end| end.inertia.sigma < last.inertia.sigma));
-        cuts
+        Ok(cuts)
     }
 
     /// A count with as many eigenvalues below it as the last one has, and not much further up than the highest of them: a shift
     /// inside an interval that holds its eigenvalues at one end alone hardly tells them apart.
-    fn end_near(&mut self, last: ElasticCount, is_clear: impl Fn(f64) -> bool) -> ElasticCount {
-        const NEAR: f64 = 4.0;
+    fn end_near(&mut self, last: ElasticCount) -> Result<ElasticCount> {
+        // A count half way in frequency lies at a quarter of the shift.
+        const NEAR: f64 = 5.0;
         const STEPS: usize = 60;
         let mut end = last;
+        if last.n_elastic == self.lower.1 {
+            return Ok(end);
+        }
         for _ in 0..STEPS {
             let n_fewer = self.counts.partition_point(|count| count.n_elastic < last.n_elastic);
-            let below = n_fewer.checked_sub(1).map_or(self.lower.0, |last| self.counts[last].inertia.sigma);
+            let below = n_fewer.checked_sub(1).map_or(self.lower.0, |fewer| self.counts[fewer].inertia.sigma);
             end = self.counts[n_fewer];
-            if end.inertia.sigma <= NEAR * below
-                || self.take_near(middle(below, end.inertia.sigma), &is_clear).is_none()
-            {
+            let sigma = end.inertia.sigma;
+            if sigma <= NEAR * below || self.take_near(middle(below, sigma), |_| true)?.is_none() {
                 break;
             }
         }
-        end
+        Ok(end)
     }
 
-    /// A count at a shift or near it, inside the ends.
-    pub(super) fn take_near(&mut self, sigma: f64, is_clear: impl Fn(f64) -> bool) -> Option<ElasticCount> {
+    /// A count at a shift or near it, between the counts on either side; none where every place lies on an eigenvalue.
+    ///
+    /// # Errors
+    /// No memory for a count.
+    pub(super) fn take_near(&mut self, sigma: f64, is_clear: impl Fn(f64) -> bool) -> Result<Option<ElasticCount>> {
         const PLACES: [f64; 5] = [0.0, -0.12, 0.12, -0.24, 0.24];
-        let (from, to) = (self.lower.0, self.counts.last()?.inertia.sigma);
+        let above = self.counts.partition_point(|count| count.inertia.sigma <= sigma);
+        let from = above.checked_sub(1).map_or(self.lower.0, |below| self.counts[below].inertia.sigma);
+        let to = self.counts.get(above).map_or(sigma, |above| above.inertia.sigma);
         for place in PLACES {
             let room = if place < 0.0 { sigma - from } else { to - sigma };
             let sigma = sigma + place * room;
-            if is_clear(sigma)
-                && let Ok(count) = self.take(sigma)
-            {
-                return Some(count);
+            if !is_clear(sigma) {
+                continue;
+            }
+            match self.take(sigma) {
+                Ok(count) => return Ok(Some(count)),
+                Err(Error::SturmPivot { .. } | Error::ModesMissing { .. }) => {}
+                Err(error) => return Err(error),
             }
         }
-        None
+        Ok(None)
     }
 
     /// Takes a count and keeps it, if it is one: between those on either side.

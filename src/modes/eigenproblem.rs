@@ -78,6 +78,16 @@ pub struct Eigenpairs {
     pub work: EigenWork,
 }
 
+impl Eigenpairs {
+    /// The same pairs in ascending order.
+    pub(super) fn ascending(self) -> Self {
+        let mut order: Vec<usize> = (0..self.values.len()).collect();
+        order.sort_by(|a, b| self.values[*a].total_cmp(&self.values[*b]));
+        let vectors = Mat::from_fn(self.vectors.nrows(), order.len(), |i, j| self.vectors[(i, order[j])]);
+        Self { values: order.iter().map(|j| self.values[*j]).collect(), vectors, ..self }
+    }
+}
+
 /// Work counters of an eigensolution.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct EigenWork {

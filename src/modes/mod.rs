@@ -57,7 +57,7 @@ pub(crate) use random::SplitMix64;
 pub use retained::{Component, Retained};
 pub use search::{SLICED_FROM, Search};
 pub use shifted::{Shifted, shift_of_factor, shifted};
-pub use slices::{ModeSource, SLICE};
+pub use slices::{LARGEST_SEARCH, ModeSource, SLICE};
 
 /// Elastic modes of one boundary condition.
 #[derive(Clone, Debug)]
@@ -338,14 +338,15 @@ fn by_arpack(_: Problem<'_>, _: ModeRequest) -> Result<Eigenpairs> {
     Err(crate::error::Error::EigensolverMissing)
 }
 
-/// Eigenpairs between two shifts, around the shift of the operator.
+/// Eigenpairs between two shifts, around the shift of the operator, ascending.
 fn pairs_between(problem: Problem<'_>, interval: Interval, solver: (Eigensolver, u64)) -> Result<Eigenpairs> {
     let (eigensolver, seed) = solver;
-    match eigensolver {
+    let pairs = match eigensolver {
         Eigensolver::Lanczos => lanczos_between(problem, interval, seed),
         #[cfg(feature = "arpack")]
         Eigensolver::Arpack => arpack::arpack_between(problem, interval, seed),
         #[cfg(not(feature = "arpack"))]
         Eigensolver::Arpack => Err(crate::error::Error::EigensolverMissing),
-    }
+    };
+    pairs.map(Eigenpairs::ascending)
 }

@@ -5,7 +5,7 @@
 //!     round 1         round 2        round 1   round 2
 //! ```
 //! An interval that lacks more modes than a search takes at once is cut by further counts. A search has
-//! its shift inside the interval, the modes known nearby deflated, and is made M-orthogonal to all modes known. Every other
+//! its shift inside the interval, the modes known inside it deflated, and is made M-orthogonal to all modes known. Every other
 //! interval is searched first, each as if there were no others: they do not touch, so that their modes are orthogonal by what lies
 //! between them, and as many are searched side by side as memory allows. Those between them follow, beside the modes of the
 //! first round. How many are searched at the same time changes no result.
@@ -22,7 +22,7 @@ use rayon::prelude::*;
 use super::boundary_problem::{BoundaryProblem, ElasticCount};
 use super::counts::{Counts, middle};
 use super::eigenproblem::{EigenWork, Eigenpairs, Interval, Problem, are_clustered};
-use super::{CLUSTER_GAP, Modes, SEED, SETTLED, judged, pairs_between};
+use super::{CLUSTER_GAP, Modes, SEED, SETTLED, gram_schmidt, judged, pairs_between};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::job::Eigensolver;
@@ -31,7 +31,7 @@ use crate::sparse::{Leading, product};
 /// Modes that a slice of a band is to have.
 pub const SLICE: usize = 120;
 /// The most that a search is to find.
-const LARGEST: usize = SLICE + SLICE / 2;
+pub const LARGEST_SEARCH: usize = SLICE + SLICE / 2;
 /// Searches of one interval from different start vectors, after the one of its round.
 const ATTEMPTS: u64 = 2;
 /// Cuts of an interval that lacks too many modes for one search: sixty halve any range of doubles to one mode's.
@@ -119,15 +119,17 @@ impl Filling<'_> {
         cut: &mut Vec<ElasticCount>,
         cuts: usize,
     ) -> Result<()> {
-        if self.n_lacking(lower, upper)? > LARGEST
-            && cuts > 0
-            && let Some(middle) = self.cut(lower, upper)
-        {
-            self.cut_to_parts((lower, middle), cut, cuts - 1)?;
-            cut.push(middle);
-            self.cut_to_parts((middle.place(), upper), cut, cuts - 1)?;
+        if self.n_lacking(lower, upper)? <= LARGEST_SEARCH {
+            return Ok(());
         }
-        Ok(())
+        match self.cut(lower, upper)? {
+            Some(middle) if cuts > 0 => {
+                self.cut_to_parts((lower, middle), cut, cuts - 1)?;
+                cut.push(middle);
+                self.cut_to_parts((middle.place(), upper), cut, cuts - 1)
+            }
+            _ => Err(missing(self.band.problem, &self.modes, upper)),
+        }
     }
 
     /// Modes counted between two shifts and not known; more modes than counted cannot be mended.
@@ -186,7 +188,7 @@ impl Filling<'_> {
         if self.n_lacking(lower, upper)? == 0 {
             return Ok(());
         }
-        match self.cut(lower, upper) {
+        match self.cut(lower, upper)? {
             Some(middle) if cuts > 1 => {
                 self.fill(lower, middle, cuts - 1)?;
                 self.fill(middle.place(), upper, cuts - 1)?;
@@ -222,11 +224,11 @@ impl Filling<'_> {
     }
 
     /// A count near the middle of an interval, off the eigenvalues known.
-    fn cut(&mut self, lower: (f64, usize), upper: ElasticCount) -> Option<ElasticCount> {
+    fn cut(&mut self, lower: (f64, usize), upper: ElasticCount) -> Result<Option<ElasticCount>> {
         let mut counts = Counts::between(self.band.problem, lower, upper);
-        let count = counts.take_near(middle(lower.0, upper.inertia.sigma), |sigma| self.modes.is_clear(sigma));
+        let count = counts.take_near(middle(lower.0, upper.inertia.sigma), |sigma| self.modes.is_clear(sigma))?;
         self.modes.work.factorisations += counts.n_taken;
-        count
+        Ok(count)
     }
 }
 
@@ -288,7 +290,7 @@ pub(super) fn search_between(
         if modes.errors.iter().all(|error| error.backward <= SETTLED) {
             return Ok(modes);
         }
-        let mut pairs = purified(whole, modes);
+        let mut pairs = purified(whole, &modes);
         make_orthogonal(modal.mass, known, &mut pairs.vectors);
         Ok(judged(modal, whole, pairs, around).ascending())
     })?;
@@ -302,16 +304,30 @@ fn make_orthogonal(mass: Leading<'_>, known: &Modes, vectors: &mut Mat<f64>) {
     dense::add_product(vectors.as_mut(), -1.0, known.shapes.as_ref(), along.as_ref());
 }
 
-/// X = (K − σM)⁻¹ M X (Λ − σI): a step of inverse iteration, which leaves nothing in the modes that M does not see. An iteration
-/// carries it along, unseen by its products with M, and where all eigenvalues lie on one side of the shift and far from it, it grows.
-fn purified(problem: Problem<'_>, modes: Modes) -> Eigenpairs {
-    let mut vectors = product(problem.mass, modes.shapes.as_ref());
-    problem.equilibrate(vectors.as_mut());
-    problem.operator.solve_in_place(vectors.as_mut());
-    problem.deflate(vectors.as_mut());
-    for (column, lambda) in vectors.as_mut().col_iter_mut().zip(&modes.lambda) {
-        column.iter_mut().for_each(|value| *value *= lambda - problem.operator.shift());
+/// X = (K − σM)⁻¹ M X (Λ − σI) for the modes that lack digits: a step of inverse iteration, which leaves nothing in them that M does
+/// not see. An iteration carries it along, unseen by its products with M, and where all eigenvalues lie on one side of the shift
+/// and far from it, it grows. Errors of a step lie along the modes nearest to the shift, and Gram-Schmidt from those on takes them out.
+fn purified(problem: Problem<'_>, modes: &Modes) -> Eigenpairs {
+    let sigma = problem.operator.shift();
+    let mut order: Vec<usize> = (0..modes.count()).collect();
+    order.sort_by(|a, b| (modes.lambda[*a] - sigma).abs().total_cmp(&(modes.lambda[*b] - sigma).abs()));
+    let doubtful: Vec<usize> = order.iter().copied().filter(|j| modes.errors[*j].backward > SETTLED).collect();
+    let columns = |of: &[usize]| Mat::from_fn(modes.shapes.nrows(), of.len(), |i, j| modes.shapes[(i, of[j])]);
+    let mut image = product(problem.mass, columns(&doubtful).as_ref());
+    problem.equilibrate(image.as_mut());
+    problem.operator.solve_in_place(image.as_mut());
+    problem.deflate(image.as_mut());
+    let mut vectors = columns(&order);
+    for (column, j) in image.col_iter().zip(&doubtful) {
+        let place = order.iter().position(|other| other == j).expect("one of them");
+        let to = dense::column_mut(vectors.as_mut(), place);
+        to.iter_mut().zip(column.iter()).for_each(|(to, x)| *to = x * (modes.lambda[*j] - sigma));
     }
-    let work = EigenWork { solves: modes.work.solves + modes.count(), ..modes.work };
-    Eigenpairs { values: modes.lambda, vectors, next: modes.next, work }
+    for _ in 0..2 {
+        let mut momenta = product(problem.mass, vectors.as_ref());
+        gram_schmidt(&mut vectors, &mut momenta, 0.0, &mut vec![false; order.len()]);
+    }
+    let work = EigenWork { solves: modes.work.solves + doubtful.len(), ..modes.work };
+    let values = order.iter().map(|j| modes.lambda[*j]).collect();
+    Eigenpairs { values, vectors, next: modes.next, work }.ascending()
 }

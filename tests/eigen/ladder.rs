@@ -120,8 +120,8 @@ fn a_mode_too_many_does_not_hide_one_that_is_missing() {
     .expect("certified");
 }
 
-/// Modes on either side of a count, nearer to each other than to any other, are found in slices of their own: their residuals of 1e-14
-/// over a gap of 2e-6 leave them orthogonal to 1e-10 alone, unless the second is made so.
+/// Modes on either side of a count, nearer to each other than to any other, are found in slices of their own: rounding of 1e-16 over a
+/// gap of 2e-6 leaves them orthogonal to 5e-11 alone, unless the second is made so.
 #[test]
 fn modes_of_slices_that_touch_are_orthogonal() {
     struct Torn<'a>(&'a Search<'a>);

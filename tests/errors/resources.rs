@@ -136,6 +136,28 @@ write     = { superelement = "x.supel" }
     job
 }
 
+/// As many slices at the same time as there are threads, fewer where memory holds fewer, and an error where it holds none.
+#[test]
+fn slices_at_the_same_time_are_those_that_memory_holds() {
+    let place = Place::with(&brick([10, 9, 8], [1.0, 0.9, 0.8], &Material::STEEL_SI));
+    let job = Job { run: Default::default(), ..limited_job(&place) };
+    let model = Model::new(supel::input::read(&job.model).expect("files")).expect("a sound model");
+    let partition = Partition::new(model, &job.interfaces).expect("a foot");
+    let analysis = Analysis::of(&partition).expect("an analysis");
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build().expect("threads");
+    let at_once = |memory_bytes| {
+        let resources = Resources { memory_bytes };
+        pool.install(|| slices_within_memory(&analysis, &partition, &job, resources, (Storage::Double, Some(800))))
+    };
+    let Err(Error::MemoryForecast { factors, matrices, vectors, .. }) = at_once(Some(1)) else { panic!("a byte") };
+    let one = factors + matrices + vectors;
+    assert!(at_once(Some(one - 1)).is_err());
+    let held: Vec<usize> = (0..=200).map(|part| at_once(Some(one + one * part / 100)).expect("enough")).collect();
+    assert!(held.is_sorted() && held[0] == 1 && held[200] == 4, "{held:?}");
+    assert!(held.contains(&2) && held.contains(&3), "{held:?}");
+    assert_eq!(at_once(None).expect("no limit"), 4);
+}
+
 /// The same frequencies within their bars and the same verdicts, or a refusal that says what to do, and never silently.
 #[test]
 fn a_job_that_fits_in_mixed_precision_alone() {

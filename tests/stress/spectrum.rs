@@ -11,8 +11,8 @@ use supel::error::Error;
 use supel::factor::{Analysis, Cholesky, Pencil};
 use supel::job::Eigensolver;
 use supel::modes::{
-    AtShift, Boundary, BoundaryProblem, Component, Factored, ModeRequest, ModeSource, Modes, SEED, SLICE, Search,
-    Wanted, elastic_modes,
+    AtShift, Boundary, BoundaryProblem, Component, Factored, LARGEST_SEARCH, ModeRequest, ModeSource, Modes, SEED,
+    Search, Wanted, elastic_modes,
 };
 use supel_models::transform::grounded;
 use supel_models::*;
@@ -212,7 +212,7 @@ fn e_06_many_modes() {
             assert!(certified.orthogonality <= 1e-11, "{asked}: {:e}", certified.orthogonality);
             let largest = certified.certificate.intervals.iter().map(|interval| interval.n_counted).max();
             if asked == 600 || eigensolver == Eigensolver::Arpack {
-                assert!(largest.is_some_and(|largest| largest <= 2 * SLICE), "{largest:?} modes in one interval");
+                assert!(largest.is_some_and(|largest| largest <= LARGEST_SEARCH), "{largest:?} modes in one interval");
                 assert!(certified.certificate.intervals.len() > 2, "{:?}", certified.certificate.intervals);
             }
         }
@@ -259,7 +259,7 @@ fn e_06_two_thousand_modes_of_a_hundred_thousand_dofs() {
     );
     certified.assert_lambda(&exact[..k]);
     assert!(certified.orthogonality <= 1e-11, "{:e}", certified.orthogonality);
-    assert!(certified.certificate.intervals.iter().all(|interval| interval.n_counted <= 2 * SLICE));
+    assert!(certified.certificate.intervals.iter().all(|interval| interval.n_counted <= LARGEST_SEARCH));
 }
 
 #[test]
