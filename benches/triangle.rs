@@ -8,8 +8,8 @@
 
 use std::time::Instant;
 
-use pulp::{Arch, Simd, WithSimd};
-use supel::sparse::SparseMatrix;
+use pulp::Arch;
+use supel::sparse::{Leading, SparseMatrix};
 use supel_models::{Family, Part};
 
 const REPEATS: usize = 15;
@@ -45,10 +45,10 @@ fn measure<const W: usize>(mass: &SparseMatrix) {
     let mut seconds = [Vec::new(), Vec::new()];
     for _ in 0..REPEATS {
         let start = Instant::now();
-        Arch::new().dispatch(Both { matrix: mass, x: &x, y: &mut sums[0] });
+        Arch::new().dispatch(|| both(mass.into(), &x, &mut sums[0]));
         seconds[0].push(start.elapsed().as_secs_f64());
         let start = Instant::now();
-        Arch::new().dispatch(Upper { matrix: &upper, x: &x, y: &mut sums[1] });
+        Arch::new().dispatch(|| one(Leading::from(&upper), &x, &mut sums[1]));
         seconds[1].push(start.elapsed().as_secs_f64());
     }
     let [both, one] = &sums;
@@ -77,58 +77,33 @@ fn upper_triangle(matrix: &SparseMatrix) -> SparseMatrix {
     SparseMatrix::new((matrix.rows(), matrix.cols()), pointers, indices, values)
 }
 
-/// The entries of a row.
-fn row(matrix: &SparseMatrix, row: usize) -> impl Iterator<Item = (usize, f64)> {
-    let bounds = matrix.indptr().outer_inds_sz(row);
-    let columns = matrix.indices()[bounds.clone()].iter().map(|col| *col as usize);
-    columns.zip(matrix.data()[bounds].iter().copied())
-}
-
 /// Y = M X with every entry stored.
-struct Both<'a, const W: usize> {
-    matrix: &'a SparseMatrix,
-    x: &'a [[f64; W]],
-    y: &'a mut [[f64; W]],
-}
-
-impl<const W: usize> WithSimd for Both<'_, W> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        for (i, y) in self.y.iter_mut().enumerate() {
-            let mut sums = [0.0; W];
-            for (j, value) in row(self.matrix, i) {
-                sums.iter_mut().zip(&self.x[j]).for_each(|(sum, x)| *sum += value * x);
-            }
-            *y = sums;
+#[inline(always)]
+fn both<const W: usize>(matrix: Leading<'_>, x: &[[f64; W]], y: &mut [[f64; W]]) {
+    for (i, y) in y.iter_mut().enumerate() {
+        let mut sums = [0.0; W];
+        let (columns, values) = matrix.row(i);
+        for (j, value) in columns.iter().zip(values) {
+            sums.iter_mut().zip(&x[*j as usize]).for_each(|(sum, x)| *sum += value * x);
         }
+        *y = sums;
     }
 }
 
 /// Y = M X with the upper triangle stored: an entry off the diagonal serves its row and its column.
-struct Upper<'a, const W: usize> {
-    matrix: &'a SparseMatrix,
-    x: &'a [[f64; W]],
-    y: &'a mut [[f64; W]],
-}
-
-impl<const W: usize> WithSimd for Upper<'_, W> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        self.y.fill([0.0; W]);
-        for i in 0..self.y.len() {
-            let (own, mut sums) = (self.x[i], [0.0; W]);
-            for (j, value) in row(self.matrix, i) {
-                sums.iter_mut().zip(&self.x[j]).for_each(|(sum, x)| *sum += value * x);
-                if j != i {
-                    self.y[j].iter_mut().zip(&own).for_each(|(sum, x)| *sum += value * x);
-                }
+#[inline(always)]
+fn one<const W: usize>(upper: Leading<'_>, x: &[[f64; W]], y: &mut [[f64; W]]) {
+    y.fill([0.0; W]);
+    for (i, own) in x.iter().enumerate() {
+        let mut sums = [0.0; W];
+        let (columns, values) = upper.row(i);
+        for (j, value) in columns.iter().map(|j| *j as usize).zip(values) {
+            sums.iter_mut().zip(&x[j]).for_each(|(sum, x)| *sum += value * x);
+            if j != i {
+                y[j].iter_mut().zip(own).for_each(|(sum, x)| *sum += value * x);
             }
-            self.y[i].iter_mut().zip(&sums).for_each(|(y, sum)| *y += sum);
         }
+        y[i].iter_mut().zip(&sums).for_each(|(y, sum)| *y += sum);
     }
 }
 

@@ -41,6 +41,11 @@ pub fn gram(x: MatRef<'_, f64>, y: MatRef<'_, f64>) -> Mat<f64> {
     sum
 }
 
+/// The columns of X with these numbers, in their order.
+pub fn columns(x: MatRef<'_, f64>, numbers: &[usize]) -> Mat<f64> {
+    Mat::from_fn(x.nrows(), numbers.len(), |i, j| x[(i, numbers[j])])
+}
+
 /// X C.
 pub fn product(x: MatRef<'_, f64>, c: MatRef<'_, f64>) -> Mat<f64> {
     let mut out = Mat::zeros(x.nrows(), c.ncols());

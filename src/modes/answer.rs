@@ -4,11 +4,9 @@ use faer::Mat;
 
 use super::eigenproblem::{Eigenpairs, Interval, Wanted, is_above};
 use super::lanczos::{Basis, MAX_RESTARTS};
-use super::orthogonalisation::gram_schmidt;
 use super::ritz::Ritz;
 use crate::dense;
 use crate::error::{Error, Result};
-use crate::sparse::product;
 
 /// What an iteration looks for.
 #[derive(Clone, Copy)]
@@ -59,7 +57,7 @@ impl Basis<'_> {
     /// block, and the step costs a solve.
     pub(super) fn extract(&self, ritz: &Ritz, taken: &[usize]) -> Eigenpairs {
         let sigma = self.problem.operator.shift();
-        let s = Mat::from_fn(ritz.s.nrows(), taken.len(), |i, j| ritz.s[(i, taken[j])]);
+        let s = dense::columns(ritz.s.as_ref(), taken);
         let over_theta = |block: &mut Mat<f64>| {
             for (j, pair) in taken.iter().enumerate() {
                 block.as_mut().col_mut(j).iter_mut().for_each(|value| *value /= ritz.theta[*pair]);
@@ -67,8 +65,11 @@ impl Basis<'_> {
         };
         let (mut vectors, mut work) = (dense::product(self.v(), s.as_ref()), self.work);
         if self.is_exhausted() {
+            // Orthonormalising a whole space blows up from rounding what M hardly sees.
             work.solves += taken.len();
-            vectors = self.after_a_solve(&vectors, over_theta);
+            vectors = self.problem.step(vectors.as_ref());
+            over_theta(&mut vectors);
+            self.problem.orthonormalise(&mut vectors);
         } else {
             let mut correction = dense::product(self.coupling.as_ref(), s.as_ref());
             over_theta(&mut correction);
@@ -83,20 +84,5 @@ impl Basis<'_> {
             next: (beyond < ritz.n_finite()).then(|| ritz.lambda(beyond, sigma)),
             work,
         }
-    }
-
-    /// X = OP X / θ, which takes out what M hardly sees: orthonormalising a whole space blows it up from rounding. Errors of OP
-    /// lie along the low modes, and Gram-Schmidt in the order of θ takes them out; against the high ones nothing is owed.
-    fn after_a_solve(&self, vectors: &Mat<f64>, over_theta: impl Fn(&mut Mat<f64>)) -> Mat<f64> {
-        let mut image = product(self.problem.mass, vectors.as_ref());
-        self.problem.equilibrate(image.as_mut());
-        self.problem.operator.solve_in_place(image.as_mut());
-        self.problem.deflate(image.as_mut());
-        over_theta(&mut image);
-        for _ in 0..2 {
-            let mut momenta = product(self.problem.mass, image.as_ref());
-            gram_schmidt(&mut image, &mut momenta, 0.0, &mut vec![false; vectors.ncols()]);
-        }
-        image
     }
 }

@@ -157,13 +157,10 @@ impl<'a> Search<'a> {
     }
 
     /// Replaces M x by OP x, without s.
-    fn apply(&mut self, mut block: MatMut<'_, f64>) {
+    fn apply(&mut self, block: MatMut<'_, f64>) {
         self.work.solves += 1;
         self.work.steps += 1;
-        let problem = self.remaining();
-        problem.equilibrate(block.as_mut());
-        problem.operator.solve_in_place(block.as_mut());
-        problem.deflate(block);
+        self.remaining().apply(block);
     }
 
     /// A random vector after one application of OP, at unit length, and how long OP makes it, negative where it turns it

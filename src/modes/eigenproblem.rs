@@ -3,6 +3,7 @@
 use faer::{Mat, MatMut, MatRef};
 
 use super::operator::ShiftInvert;
+use super::orthogonalisation::gram_schmidt;
 use crate::dense;
 use crate::sparse::{Leading, product};
 
@@ -24,6 +25,30 @@ impl Problem<'_> {
         if q.ncols() > 0 {
             let resultant = dense::gram(q, forces.as_ref());
             dense::add_product(forces, -1.0, mass_q, resultant.as_ref());
+        }
+    }
+
+    /// F ← P (K − σM)⁻¹ Pᵀ F: displacements of forces, both without rigid-body motion.
+    pub(super) fn apply(&self, mut block: MatMut<'_, f64>) {
+        self.equilibrate(block.as_mut());
+        self.operator.solve_in_place(block.as_mut());
+        self.deflate(block);
+    }
+
+    /// OP X, a step of inverse iteration but for its scale, which leaves nothing in X that M does not see.
+    pub(super) fn step(&self, vectors: MatRef<'_, f64>) -> Mat<f64> {
+        let mut image = product(self.mass, vectors);
+        self.apply(image.as_mut());
+        image
+    }
+
+    /// M-orthonormalises vectors, twice over. Errors of OP lie along the modes nearest to its shift, and where these come first
+    /// they are taken out of the others; against those further away nothing is owed.
+    pub(super) fn orthonormalise(&self, vectors: &mut Mat<f64>) {
+        for _ in 0..2 {
+            let mut momenta = product(self.mass, vectors.as_ref());
+            let mut dependent = vec![false; vectors.ncols()];
+            gram_schmidt(vectors, &mut momenta, 0.0, &mut dependent);
         }
     }
 
@@ -83,7 +108,7 @@ impl Eigenpairs {
     pub(super) fn ascending(self) -> Self {
         let mut order: Vec<usize> = (0..self.values.len()).collect();
         order.sort_by(|a, b| self.values[*a].total_cmp(&self.values[*b]));
-        let vectors = Mat::from_fn(self.vectors.nrows(), order.len(), |i, j| self.vectors[(i, order[j])]);
+        let vectors = dense::columns(self.vectors.as_ref(), &order);
         Self { values: order.iter().map(|j| self.values[*j]).collect(), vectors, ..self }
     }
 }

@@ -157,9 +157,7 @@ impl<'a> Basis<'a> {
     /// Replaces M v by OP v.
     pub(super) fn apply(&mut self, block: &mut Mat<f64>) {
         self.work.solves += block.ncols();
-        self.problem.equilibrate(block.as_mut());
-        self.problem.operator.solve_in_place(block.as_mut());
-        self.problem.deflate(block.as_mut());
+        self.problem.apply(block.as_mut());
     }
 
     /// One block step: V grows by W, a new W is found.
@@ -201,7 +199,7 @@ impl<'a> Basis<'a> {
         let m = ascending.len();
         let mut order: Vec<usize> = (0..m).rev().collect();
         order.sort_by(|a, b| ascending[*b].abs().total_cmp(&ascending[*a].abs()));
-        let s = Mat::from_fn(m, m, |i, j| vectors[(i, order[j])]);
+        let s = dense::columns(vectors.as_ref(), &order);
         let coupled = dense::product(self.coupling.as_ref(), s.as_ref());
         let residuals = (0..m).map(|j| dense::norm(dense::column(coupled.as_ref(), j))).collect();
         Ok(Ritz { theta: order.iter().map(|j| ascending[*j]).collect(), s, residuals })

@@ -190,7 +190,7 @@ impl Modes {
         Self {
             lambda: order.iter().map(|j| self.lambda[*j]).collect(),
             errors: order.iter().map(|j| self.errors[*j]).collect(),
-            shapes: Mat::from_fn(self.shapes.nrows(), order.len(), |i, j| self.shapes[(i, order[j])]),
+            shapes: dense::columns(self.shapes.as_ref(), order),
             searched_to: self.searched_to,
             next: self.next,
             counts: self.counts.clone(),

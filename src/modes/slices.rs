@@ -22,11 +22,11 @@ use rayon::prelude::*;
 use super::boundary_problem::{BoundaryProblem, ElasticCount};
 use super::counts::{Counts, middle};
 use super::eigenproblem::{EigenWork, Eigenpairs, Interval, Problem, are_clustered};
-use super::{CLUSTER_GAP, Modes, SEED, SETTLED, gram_schmidt, judged, pairs_between};
+use super::{CLUSTER_GAP, Modes, SEED, SETTLED, judged, pairs_between};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::job::Eigensolver;
-use crate::sparse::{Leading, product};
+use crate::sparse::product;
 
 /// Modes that a slice of a band is to have.
 pub const SLICE: usize = 120;
@@ -79,10 +79,8 @@ impl Band<'_> {
         let mut filling = Filling { band: self, modes: known };
         let ends = filling.cut_to_size(ends)?;
         filling.search_every_other(&ends)?;
-        let mut lower = (0.0, 0);
-        for end in &ends {
-            filling.fill(lower, *end, CUTS_TO_FIND)?;
-            lower = end.place();
+        for (lower, upper) in intervals(&ends) {
+            filling.fill(lower, upper, CUTS_TO_FIND)?;
         }
         if let [inner @ .., last] = &ends[..] {
             let last = filling.end_beyond_cluster(*last)?;
@@ -94,6 +92,12 @@ impl Band<'_> {
     }
 }
 
+/// The intervals below ascending ends: a shift with the count below it, zero for the first, and the count at the other end.
+fn intervals(ends: &[ElasticCount]) -> impl Iterator<Item = ((f64, usize), ElasticCount)> {
+    let lower = std::iter::once((0.0, 0)).chain(ends.iter().map(|end| end.place()));
+    lower.zip(ends.iter().copied())
+}
+
 struct Filling<'a> {
     band: &'a Band<'a>,
     modes: Modes,
@@ -103,11 +107,9 @@ impl Filling<'_> {
     /// The ends, with further counts where an interval lacks more modes than a search should find.
     fn cut_to_size(&mut self, ends: &[ElasticCount]) -> Result<Vec<ElasticCount>> {
         let mut cut = Vec::new();
-        let mut lower = (0.0, 0);
-        for end in ends {
-            self.cut_to_parts((lower, *end), &mut cut, CUTS_TO_SIZE)?;
-            cut.push(*end);
-            lower = end.place();
+        for (lower, upper) in intervals(ends) {
+            self.cut_to_parts((lower, upper), &mut cut, CUTS_TO_SIZE)?;
+            cut.push(upper);
         }
         Ok(cut)
     }
@@ -144,13 +146,11 @@ impl Filling<'_> {
     /// Searches the intervals that lack modes once, every other one first.
     fn search_every_other(&mut self, ends: &[ElasticCount]) -> Result<()> {
         let mut lacking = Vec::new();
-        let mut lower = (0.0, 0);
-        for end in ends {
-            let count = self.n_lacking(lower, *end)?;
+        for (lower, upper) in intervals(ends) {
+            let count = self.n_lacking(lower, upper)?;
             if count > 0 {
-                lacking.push(Interval { from: lower.0, to: end.inertia.sigma, count });
+                lacking.push(Interval { from: lower.0, to: upper.inertia.sigma, count });
             }
-            lower = end.place();
         }
         for round in 0..2 {
             let round: Vec<Interval> = lacking.iter().copied().skip(round).step_by(2).collect();
@@ -281,53 +281,40 @@ pub(super) fn search_between(
     let mass_q = dense::beside(rigid.1, product(modal.mass, near.as_ref()).as_ref());
     let (modes, n_factorisations) = problem.with_operator_inside(interval, |operator| {
         let deflated = [q.as_ref(), mass_q.as_ref()];
-        let mut pairs = pairs_between(Problem { operator, mass: modal.mass, deflated }, interval, solver)?;
-        make_orthogonal(modal.mass, known, &mut pairs.vectors);
+        let pairs = pairs_between(Problem { operator, mass: modal.mass, deflated }, interval, solver)?;
         let whole = Problem { operator, mass: modal.mass, deflated: [rigid.0, rigid.1] };
         // Nothing nearer than the ends of the interval is known of the neighbours.
         let around = [Some(interval.from), Some(interval.to)];
-        let modes = judged(modal, whole, pairs, around).ascending();
+        let judged = |mut pairs: Eigenpairs| {
+            let along = dense::gram(known.shapes.as_ref(), product(modal.mass, pairs.vectors.as_ref()).as_ref());
+            dense::add_product(pairs.vectors.as_mut(), -1.0, known.shapes.as_ref(), along.as_ref());
+            judged(modal, whole, pairs, around).ascending()
+        };
+        let modes = judged(pairs);
         if modes.errors.iter().all(|error| error.backward <= SETTLED) {
             return Ok(modes);
         }
-        let mut pairs = purified(whole, &modes);
-        make_orthogonal(modal.mass, known, &mut pairs.vectors);
-        Ok(judged(modal, whole, pairs, around).ascending())
+        Ok(judged(purified(whole, &modes)))
     })?;
     let work = EigenWork { factorisations: n_factorisations, ..modes.work };
     Ok(Modes { work, next: None, ..modes })
 }
 
-/// X ← X − X_k X_kᵀ M X with the known modes X_k.
-fn make_orthogonal(mass: Leading<'_>, known: &Modes, vectors: &mut Mat<f64>) {
-    let along = dense::gram(known.shapes.as_ref(), product(mass, vectors.as_ref()).as_ref());
-    dense::add_product(vectors.as_mut(), -1.0, known.shapes.as_ref(), along.as_ref());
-}
-
 /// X = (K − σM)⁻¹ M X (Λ − σI) for the modes that lack digits: a step of inverse iteration, which leaves nothing in them that M does
 /// not see. An iteration carries it along, unseen by its products with M, and where all eigenvalues lie on one side of the shift
-/// and far from it, it grows. Errors of a step lie along the modes nearest to the shift, and Gram-Schmidt from those on takes them out.
+/// and far from it, it grows.
 fn purified(problem: Problem<'_>, modes: &Modes) -> Eigenpairs {
     let sigma = problem.operator.shift();
     let mut order: Vec<usize> = (0..modes.count()).collect();
     order.sort_by(|a, b| (modes.lambda[*a] - sigma).abs().total_cmp(&(modes.lambda[*b] - sigma).abs()));
-    let doubtful: Vec<usize> = order.iter().copied().filter(|j| modes.errors[*j].backward > SETTLED).collect();
-    let columns = |of: &[usize]| Mat::from_fn(modes.shapes.nrows(), of.len(), |i, j| modes.shapes[(i, of[j])]);
-    let mut image = product(problem.mass, columns(&doubtful).as_ref());
-    problem.equilibrate(image.as_mut());
-    problem.operator.solve_in_place(image.as_mut());
-    problem.deflate(image.as_mut());
-    let mut vectors = columns(&order);
-    for (column, j) in image.col_iter().zip(&doubtful) {
-        let place = order.iter().position(|other| other == j).expect("one of them");
-        let to = dense::column_mut(vectors.as_mut(), place);
-        to.iter_mut().zip(column.iter()).for_each(|(to, x)| *to = x * (modes.lambda[*j] - sigma));
+    let Modes { lambda: values, shapes: mut vectors, errors, next, mut work, .. } = modes.in_order(&order);
+    let doubtful: Vec<usize> = (0..values.len()).filter(|j| errors[*j].backward > SETTLED).collect();
+    work.solves += doubtful.len();
+    let image = problem.step(dense::columns(vectors.as_ref(), &doubtful).as_ref());
+    for (x, j) in image.col_iter().zip(doubtful) {
+        let column = dense::column_mut(vectors.as_mut(), j);
+        column.iter_mut().zip(x.iter()).for_each(|(to, x)| *to = x * (values[j] - sigma));
     }
-    for _ in 0..2 {
-        let mut momenta = product(problem.mass, vectors.as_ref());
-        gram_schmidt(&mut vectors, &mut momenta, 0.0, &mut vec![false; order.len()]);
-    }
-    let work = EigenWork { solves: modes.work.solves + doubtful.len(), ..modes.work };
-    let values = order.iter().map(|j| modes.lambda[*j]).collect();
-    Eigenpairs { values, vectors, next: modes.next, work }.ascending()
+    problem.orthonormalise(&mut vectors);
+    Eigenpairs { values, vectors, next, work }.ascending()
 }

@@ -7,7 +7,7 @@ use supel::job::{Certify, Eigensolver};
 use supel::modes::{Boundary, Interval, Mending, ModeSource, Modes, SEED, Search, certified};
 use supel_models::*;
 
-use crate::chain::certified::{count, free, held, judge, with_component};
+use crate::chain::certified::{Certified, count, free, held, judge, with_component};
 use crate::chain::direct;
 
 /// A search that loses one mode as often as it is told to.
@@ -82,76 +82,67 @@ fn each_rung_of_the_ladder_finds_what_the_one_before_has_lost() {
     }
 }
 
-/// A mode missing below a count and one too many above it: the total is right and the intervals are not.
-#[test]
-fn a_mode_too_many_does_not_hide_one_that_is_missing() {
-    struct Swapping<'a>(&'a Search<'a>);
-    impl ModeSource for Swapping<'_> {
-        fn lowest(&self, seed: u64) -> Result<Modes, Error> {
-            let mut modes = self.0.lowest(seed)?;
-            modes.counts.push(self.0.problem.count_below(0.5 * (modes.lambda[5] + modes.lambda[6]))?);
-            if seed != SEED {
-                return Ok(modes);
-            }
-            let last = modes.count() - 1;
-            let copy = Modes {
-                lambda: vec![modes.lambda[last]],
-                errors: vec![modes.errors[last]],
-                shapes: modes.shapes.as_ref().subcols(last, 1).to_owned(),
-                ..Modes::none(modes.shapes.nrows())
-            };
-            Ok(modes.without(2).joined([copy]))
-        }
+/// A search with a count between its sixth mode and the seventh, whose modes are changed.
+struct Changed<'a, F> {
+    search: &'a Search<'a>,
+    change: F,
+}
 
-        fn between(&self, interval: Interval, known: &Modes, seed: u64) -> Result<Modes, Error> {
-            self.0.between(interval, known, seed)
-        }
+impl<F: Fn(Modes, u64) -> Modes + Sync> ModeSource for Changed<'_, F> {
+    fn lowest(&self, seed: u64) -> Result<Modes, Error> {
+        let mut modes = self.search.lowest(seed)?;
+        modes.counts.push(self.search.problem.count_below(0.5 * (modes.lambda[5] + modes.lambda[6]))?);
+        Ok((self.change)(modes, seed))
     }
-    with_component(&bar(120), &[], |component| {
+
+    fn between(&self, interval: Interval, known: &Modes, seed: u64) -> Result<Modes, Error> {
+        self.search.between(interval, known, seed)
+    }
+}
+
+/// Twelve modes of a held model whose search is changed so, in two intervals that were mended as expected.
+fn mended(model: &Model, change: impl Fn(Modes, u64) -> Modes + Sync, expected: Mending) -> Certified {
+    with_component(model, &[], |component| {
         let search = Search::new(component, &held(count(12), Eigensolver::Lanczos))?;
-        let source = Swapping(&search);
+        let source = Changed { search: &search, change };
         let found = source.lowest(SEED)?;
         let (modes, certificate) = certified(&source, &search.problem, found, search.edge(), Certify::Count)?;
         let certificate = certificate.expect("a count was asked for");
-        assert_eq!((certificate.mending, certificate.intervals.len()), (Mending::Restart, 2));
-        judge(&search, modes, certificate).assert_lambda(&bar_spectrum(120)[..12]);
-        Ok(())
+        assert_eq!((certificate.mending, certificate.intervals.len()), (expected, 2));
+        Ok(judge(&search, modes, certificate))
     })
-    .expect("certified");
+    .expect("certified")
+}
+
+/// A mode missing below a count and one too many above it: the total is right and the intervals are not.
+#[test]
+fn a_mode_too_many_does_not_hide_one_that_is_missing() {
+    let swap = |modes: Modes, seed: u64| {
+        if seed != SEED {
+            return modes;
+        }
+        let last = modes.count() - 1;
+        let copy = Modes {
+            lambda: vec![modes.lambda[last]],
+            errors: vec![modes.errors[last]],
+            shapes: modes.shapes.as_ref().subcols(last, 1).to_owned(),
+            ..Modes::none(modes.shapes.nrows())
+        };
+        modes.without(2).joined([copy])
+    };
+    mended(&bar(120), swap, Mending::Restart).assert_lambda(&bar_spectrum(120)[..12]);
 }
 
 /// Modes on either side of a count, nearer to each other than to any other, are found in slices of their own: rounding of 1e-16 over a
 /// gap of 2e-6 leaves them orthogonal to 5e-11 alone, unless the second is made so.
 #[test]
 fn modes_of_slices_that_touch_are_orthogonal() {
-    struct Torn<'a>(&'a Search<'a>);
-    impl ModeSource for Torn<'_> {
-        fn lowest(&self, seed: u64) -> Result<Modes, Error> {
-            let mut modes = self.0.lowest(seed)?;
-            modes.counts.push(self.0.problem.count_below(0.5 * (modes.lambda[5] + modes.lambda[6]))?);
-            Ok(modes.without(6).without(5))
-        }
-
-        fn between(&self, interval: Interval, known: &Modes, seed: u64) -> Result<Modes, Error> {
-            self.0.between(interval, known, seed)
-        }
-    }
     let mut exact: Vec<f64> = (1..=90).map(f64::from).collect();
     exact[6] = 6.0 * (1.0 + 2e-6);
-    with_component(&known(&exact, fnv1a("torn")), &[], |component| {
-        let search = Search::new(component, &held(count(12), Eigensolver::Lanczos))?;
-        let source = Torn(&search);
-        let found = source.lowest(SEED)?;
-        let (modes, certificate) = certified(&source, &search.problem, found, search.edge(), Certify::Count)?;
-        let certificate = certificate.expect("a count was asked for");
-        assert_eq!((certificate.mending, certificate.intervals.len()), (Mending::Slices, 2));
-        let certified = judge(&search, modes, certificate);
-        // Rounding of a product of vectors of 90 numbers, some twenty times.
-        assert!(certified.orthogonality <= 4e-13, "{:e}", certified.orthogonality);
-        certified.assert_known(&exact[..12], 90.0);
-        Ok(())
-    })
-    .expect("certified");
+    let certified = mended(&known(&exact, fnv1a("torn")), |modes, _| modes.without(6).without(5), Mending::Slices);
+    // Rounding of a product of vectors of 90 numbers, some twenty times.
+    assert!(certified.orthogonality <= 4e-13, "{:e}", certified.orthogonality);
+    certified.assert_known(&exact[..12], 90.0);
 }
 
 #[test]

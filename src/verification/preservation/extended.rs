@@ -267,7 +267,7 @@ impl<'a> Extended<'a> {
             gram_schmidt(&mut block, &mut image, least, &mut dependent);
         }
         let kept: Vec<usize> = (0..block.ncols()).filter(|j| !dependent[*j]).collect();
-        Mat::from_fn(n_i, kept.len(), |i, j| block[(i, kept[j])])
+        dense::columns(block.as_ref(), &kept)
     }
 
     /// The response matrix of the full model at a frequency, unit forces on the interface dofs, in scaled units.
