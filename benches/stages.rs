@@ -63,7 +63,7 @@ impl Prepared {
     fn lowest_modes(&self, component: Component<'_>) -> Retained {
         let search = Search::new(component, &self.job.reduction).expect("a search");
         let modes = search.lowest(SEED).expect("it converges");
-        Retained::new(component, search.problem.boundary, modes)
+        Retained { modes, boundary: search.problem.boundary }
     }
 }
 
@@ -109,7 +109,7 @@ fn measure(criterion: &mut Criterion, family: Family, folder: &Path) {
     let component = prepared.component(&analysis, &factor, &constraint);
     group.bench_function(id("Lanczos"), |b| b.iter(|| prepared.lowest_modes(component)));
     let retained = prepared.lowest_modes(component);
-    let basis = Basis::new(&constraint, retained.columns.clone(), partition.internal().mass);
+    let basis = Basis::new(&constraint, retained.columns(component), partition.internal().mass);
     group.bench_function(id("project"), |b| b.iter(|| Reduction::new(partition, &basis, rigid)));
 
     let outcome = supel::reduce(job, supel::outcome::Resources::default(), &mut ()).expect("reduced");

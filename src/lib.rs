@@ -104,13 +104,13 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
 
     observer.stage("certificate");
     let (found, certificate) = modes::certified(&search, &search.problem, found, search.edge(), job.run.certify)?;
-    let retained = Retained::new(component, search.problem.boundary, found);
+    let retained = Retained { modes: found, boundary: search.problem.boundary };
 
     observer.stage("enclosures");
     let enclosures = verification::enclosures_where_asked(component, &retained, job.run.certify)?;
 
     observer.stage("basis");
-    let basis = Basis::new(&constraint, retained.columns.clone(), partition.internal().mass);
+    let basis = Basis::new(&constraint, retained.columns(component), partition.internal().mass);
 
     observer.stage("projection");
     let reduction = Reduction::new(&partition, &basis, &rigid);

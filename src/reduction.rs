@@ -18,8 +18,7 @@ use crate::basis::Basis;
 use crate::dense;
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
-use crate::sparse::SparseMatrix;
-use crate::sparse::product;
+use crate::sparse::{SparseMatrix, panels, product};
 
 /// The reduced matrices, in scaled units.
 #[derive(Clone, Debug)]
@@ -50,9 +49,6 @@ pub struct Projection {
     /// max |M̂ − M̂ᵀ| / max |M̂|.
     pub mass_asymmetry: f64,
 }
-
-/// Columns of Ψ that are multiplied by K and M at a time: the memory beside Ψ is three such panels.
-const PANEL: usize = 32;
 
 impl Reduction {
     /// Projects the partition's matrices on the basis.
@@ -105,25 +101,24 @@ impl Reduction {
 fn project(matrix: &SparseMatrix, basis: &Basis) -> Mat<f64> {
     let r = basis.n_reduced();
     let mut projected = Mat::zeros(r, r);
-    for start in (0..r).step_by(PANEL) {
-        let width = PANEL.min(r - start);
-        let image = product(matrix, panel_of(basis, start, width).as_ref());
-        projected.as_mut().subcols_mut(start, width).copy_from(transpose_apply(basis, image.as_ref()));
+    for columns in panels(r) {
+        let image = product(matrix, panel_of(basis, columns.clone()).as_ref());
+        projected.as_mut().get_mut(.., columns).copy_from(transpose_apply(basis, image.as_ref()));
     }
     projected
 }
 
-/// Columns start .. start + width of Ψ, n' × width.
-pub(crate) fn panel_of(basis: &Basis, start: usize, width: usize) -> Mat<f64> {
+/// Some columns of Ψ, n' × k.
+pub(crate) fn panel_of(basis: &Basis, columns: Range<usize>) -> Mat<f64> {
     let (n_i, n_b) = (basis.constraint_modes.nrows(), basis.constraint_modes.ncols());
-    let mut panel = Mat::zeros(n_i + n_b, width);
-    for j in 0..width {
+    let mut panel = Mat::zeros(n_i + n_b, columns.len());
+    for (j, psi) in columns.enumerate() {
         let column = dense::column_mut(panel.as_mut(), j);
-        let source = if start + j < n_b {
-            column[n_i + start + j] = 1.0;
-            dense::column(basis.constraint_modes.as_ref(), start + j)
+        let source = if psi < n_b {
+            column[n_i + psi] = 1.0;
+            dense::column(basis.constraint_modes.as_ref(), psi)
         } else {
-            dense::column(basis.dynamic_modes.as_ref(), start + j - n_b)
+            dense::column(basis.dynamic_modes.as_ref(), psi - n_b)
         };
         column[..n_i].copy_from_slice(source);
     }

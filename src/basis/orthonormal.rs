@@ -12,7 +12,7 @@ use faer::{Mat, MatMut, MatRef, Par, Side};
 use rayon::prelude::*;
 
 use crate::dense;
-use crate::sparse::{Leading, product};
+use crate::sparse::{Leading, panels, product};
 
 /// Share of its length that a column must keep: the square, what Cholesky works with, has half its digits then.
 const HEALTHY: f64 = 1e-4;
@@ -20,8 +20,6 @@ const HEALTHY: f64 = 1e-4;
 const NEARLY: f64 = 0.1;
 /// Rows solved by one task.
 const TILE_ROWS: usize = 1024;
-/// Columns multiplied by M at a time.
-const PANEL: usize = 32;
 
 /// Q and upper triangular R with X = Q R and QᵀMQ = I; none where a column is not healthy.
 pub(super) fn orthonormalised(columns: MatRef<'_, f64>, mass: Leading<'_>) -> Option<(Mat<f64>, Mat<f64>)> {
@@ -50,11 +48,10 @@ pub(super) fn orthonormalised(columns: MatRef<'_, f64>, mass: Leading<'_>) -> Op
 fn mass_gram(x: MatRef<'_, f64>, mass: Leading<'_>) -> Mat<f64> {
     let k = x.ncols();
     let mut gram = Mat::zeros(k, k);
-    for start in (0..k).step_by(PANEL) {
-        let width = PANEL.min(k - start);
-        let below = x.subcols(start, k - start);
-        let panel = dense::gram(below, product(mass, x.subcols(start, width)).as_ref());
-        gram.as_mut().submatrix_mut(start, start, k - start, width).copy_from(&panel);
+    for columns in panels(k) {
+        let (below, panel) = (x.get(.., columns.start..), x.get(.., columns.clone()));
+        let products = dense::gram(below, product(mass, panel).as_ref());
+        gram.as_mut().get_mut(columns.start.., columns).copy_from(&products);
     }
     for j in 0..k {
         for i in 0..j {

@@ -6,7 +6,7 @@ use super::eigenproblem::Problem;
 use super::{CLUSTER_GAP, Equilibrated, ModalProblem};
 use crate::dense;
 use crate::rigid::energies_of_terms;
-use crate::sparse::{Leading, product, product_and_terms};
+use crate::sparse::{Leading, panels, product, product_and_terms};
 
 /// What is known of the error of one mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,8 +26,6 @@ pub struct ModeError {
     pub rounding_floor: f64,
 }
 
-/// Modes multiplied by M at a time.
-const PANEL: usize = 32;
 /// Components of a mode nearer than this, relatively, are of one size: far above the error of a mode, far below what differs
 /// by design.
 const ALIKE: f64 = 1e-6;
@@ -159,11 +157,11 @@ pub struct MassOrthogonality {
 pub fn mass_orthogonality<'a>(mass: impl Into<Leading<'a>>, shapes: MatRef<'_, f64>) -> MassOrthogonality {
     let mass = mass.into();
     let mut found = MassOrthogonality::default();
-    for start in (0..shapes.ncols()).step_by(PANEL) {
-        let panel = shapes.subcols(start, PANEL.min(shapes.ncols() - start));
+    for columns in panels(shapes.ncols()) {
+        let (start, panel) = (columns.start, shapes.get(.., columns.clone()));
         let (images, terms) = product_and_terms(mass, panel);
         found.largest_terms = energies_of_terms(panel, terms.as_ref()).into_iter().fold(found.largest_terms, f64::max);
-        let products = dense::gram(shapes.subcols(0, start + panel.ncols()), images.as_ref());
+        let products = dense::gram(shapes.subcols(0, columns.end), images.as_ref());
         for j in 0..panel.ncols() {
             for i in 0..=start + j {
                 let error = (products[(i, j)] - f64::from(u8::from(i == start + j))).abs();

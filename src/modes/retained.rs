@@ -36,15 +36,13 @@ impl<'a> Component<'a> {
     }
 }
 
-/// The modes a method retains, and the columns of Ψ_D that they make.
+/// The modes a method retains.
 #[derive(Clone, Debug)]
 pub struct Retained {
     /// The elastic modes.
     pub modes: Modes,
     /// The boundary they were computed under.
     pub boundary: Boundary,
-    /// The columns of Ψ_D.
-    pub columns: DynamicColumns,
 }
 
 impl Component<'_> {
@@ -55,15 +53,14 @@ impl Component<'_> {
 }
 
 impl Retained {
-    /// The columns of Ψ_D that modes under a boundary make: Craig and Bampton keep the fixed-interface modes as they are,
-    /// Herting's method accelerates the free-free ones.
-    pub fn new(component: Component<'_>, boundary: Boundary, modes: Modes) -> Self {
+    /// The columns of Ψ_D that they make: Craig and Bampton keep the fixed-interface modes as they are, Herting's method
+    /// accelerates the free-free ones.
+    pub fn columns(&self, component: Component<'_>) -> DynamicColumns {
         let Component { partition, factor, rigid, constraint, .. } = component;
-        let columns = match boundary {
-            Boundary::FixedInterface => fixed_interface_columns(&modes),
-            Boundary::FreeInterface if component.is_modal() => modal_columns(rigid, &modes),
-            Boundary::FreeInterface => mode_acceleration_columns(partition, factor, constraint, rigid, &modes),
-        };
-        Self { modes, boundary, columns }
+        match self.boundary {
+            Boundary::FixedInterface => fixed_interface_columns(&self.modes),
+            Boundary::FreeInterface if component.is_modal() => modal_columns(rigid, &self.modes),
+            Boundary::FreeInterface => mode_acceleration_columns(partition, factor, constraint, rigid, &self.modes),
+        }
     }
 }

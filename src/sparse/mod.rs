@@ -12,7 +12,7 @@ mod product;
 
 pub(crate) use by_rows::{RowStorage, balanced_ranges, filled};
 pub use leading::Leading;
-pub use product::{absolute_product, multiply, product, product_and_terms};
+pub use product::{absolute_product, multiply, panels, product, product_and_terms};
 
 /// A symmetric sparse matrix in compressed rows, both triangles stored, indices sorted, no duplicates.
 pub type SparseMatrix = sprs::CsMatI<f64, u32, usize>;

@@ -6,6 +6,8 @@
 //!
 //! Shapes: matrix n × n, whole or leading block, x and y n × k.
 
+use std::ops::Range;
+
 use faer::prelude::ReborrowMut;
 use faer::{Mat, MatMut, MatRef};
 use pulp::{Arch, Simd, WithSimd};
@@ -15,6 +17,8 @@ use super::Leading;
 
 /// Rows of a tile, the unit of parallel work. Fixed: what a thread computes never depends on how many there are.
 const TILE_ROWS: usize = 512;
+/// Columns that one reading of the matrix serves.
+const WIDEST: usize = 8;
 
 /// y = A x for an n × k block x. The sum of a row runs over its entries in order, so that every element of y has the
 /// same bits whatever the number of threads and whatever the other columns.
@@ -50,6 +54,14 @@ pub fn product_and_terms<'a>(matrix: impl Into<Leading<'a>>, x: MatRef<'_, f64>)
     (y, terms)
 }
 
+/// Some columns as ranges of those to be multiplied together: an eighth of all, so that what is held of a product is small beside the
+/// columns themselves, in whole groups of eight. More than four groups save no time.
+pub fn panels(n_columns: usize) -> impl Iterator<Item = Range<usize>> {
+    const PANELS: usize = 8;
+    let width = WIDEST * n_columns.div_ceil(PANELS * WIDEST).clamp(1, 4);
+    (0..n_columns).step_by(width).map(move |start| start..n_columns.min(start + width))
+}
+
 /// N sums over each row: those of what `of` makes of the products of the entries of A with those of x.
 fn sums<const N: usize>(
     matrix: Leading<'_>,
@@ -62,15 +74,15 @@ fn sums<const N: usize>(
     for y in &y {
         assert!(y.nrows() == n && y.ncols() == x.ncols(), "product {n} x {}, block {:?}", x.ncols(), y.shape());
     }
-    let mut packed: Vec<Group<8>> = Vec::new();
-    for col in (0..x.ncols()).step_by(8) {
-        let width = (x.ncols() - col).min(8);
+    let mut packed: Vec<Group<WIDEST>> = Vec::new();
+    for col in (0..x.ncols()).step_by(WIDEST) {
+        let width = (x.ncols() - col).min(WIDEST);
         let (x, y) = (x.subcols(col, width), y.each_mut().map(|y| y.rb_mut().subcols_mut(col, width)));
         match width {
             1 => group_sums::<1, N>(matrix, x, y, &mut Vec::new(), of),
             2 => group_sums::<2, N>(matrix, x, y, &mut Vec::new(), of),
             3 | 4 => group_sums::<4, N>(matrix, x, y, &mut Vec::new(), of),
-            _ => group_sums::<8, N>(matrix, x, y, &mut packed, of),
+            _ => group_sums::<WIDEST, N>(matrix, x, y, &mut packed, of),
         }
     }
 }
@@ -237,6 +249,15 @@ mod tests {
             let expected = product(&sizes, absolute.as_ref());
             assert!(absolute_product(&matrix, x.as_ref()) == expected, "{k} columns");
             assert!(product_and_terms(&matrix, x.as_ref()) == (product(&matrix, x.as_ref()), expected), "{k} columns");
+        }
+    }
+
+    #[test]
+    fn panels_are_all_columns_in_order() {
+        for (n_columns, width) in [(0, 0), (1, 1), (8, 8), (62, 8), (65, 16), (800, 32)] {
+            let panels: Vec<Range<usize>> = panels(n_columns).collect();
+            assert!(panels.iter().cloned().flatten().eq(0..n_columns), "{n_columns} columns");
+            assert_eq!(panels.first().map_or(0, Range::len), width, "{n_columns} columns");
         }
     }
 

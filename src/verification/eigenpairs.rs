@@ -13,9 +13,7 @@ use super::residual::{AT_REST, Residuals, Rows, Worst};
 use crate::dense;
 use crate::factor::Pencil;
 use crate::modes::{Boundary, MassOrthogonality, ModeError, mass_orthogonality};
-
-/// Modes multiplied by K and M at a time: the memory beside the shapes is five such panels.
-const PANEL: usize = 32;
+use crate::sparse::panels;
 
 /// Residual of a solve beyond which the free modes are computed by another factor ([`crate::modes`] says why).
 const SOLVE_HOLDS_UP: f64 = 1e-8;
@@ -49,10 +47,11 @@ impl Pairs {
         let modes = &evidence.retained.modes;
         let mut found =
             Self { backward: Worst::none(), componentwise: Worst::none(), concentration: 1.0, coupling: (0.0, (0, 0)) };
-        for start in (0..modes.count()).step_by(PANEL) {
-            let width = PANEL.min(modes.count() - start);
-            let shapes = modes.shapes.as_ref().subcols(start, width);
-            let lambda = &modes.lambda[start..start + width];
+        // The memory beside the shapes is five such panels.
+        for panel in panels(modes.count()) {
+            let (start, end) = (panel.start, panel.end);
+            let shapes = modes.shapes.as_ref().get(.., panel.clone());
+            let lambda = &modes.lambda[panel];
             let Residuals { forces, residual, terms } = rows.residuals(shapes, lambda);
             for (j, lambda) in lambda.iter().enumerate() {
                 let (x, r) = (dense::column(shapes, j), dense::column(residual.as_ref(), j));
@@ -63,7 +62,7 @@ impl Pairs {
                 let largest = x.iter().zip(&rows.norms.scale).fold(0.0f64, |max, (x, d)| max.max((x / d).abs()));
                 found.concentration = found.concentration.max(rows.norms.scaled_norm(x) / largest);
             }
-            let energies = dense::gram(modes.shapes.as_ref().subcols(0, start + width), forces.as_ref());
+            let energies = dense::gram(modes.shapes.as_ref().subcols(0, end), forces.as_ref());
             found.couple(&energies, start, &modes.lambda);
         }
         found
@@ -148,23 +147,24 @@ pub(super) fn componentwise_error(evidence: &Evidence<'_>, pairs: &Pairs) -> Che
 /// M-03.
 pub(super) fn orthogonality(evidence: &Evidence<'_>) -> Check {
     const FAIL: f64 = 1e-9;
-    let shapes = &evidence.retained.modes.shapes;
-    let (all, n_r) = match evidence.retained.boundary {
-        Boundary::FixedInterface => (shapes.clone(), 0),
+    let shapes = evidence.retained.modes.shapes.as_ref();
+    let (joined, n_r) = match evidence.retained.boundary {
+        Boundary::FixedInterface => (None, 0),
         Boundary::FreeInterface => {
             // Motions without mass have no length in it.
             let rigid = evidence.rigid.massive();
             let n_r = rigid.ncols();
-            let join = Mat::from_fn(shapes.nrows(), n_r + shapes.ncols(), |i, j| {
-                if j < n_r { rigid[(i, j)] } else { shapes[(i, j - n_r)] }
-            });
-            (join, n_r)
+            let mut joined = Mat::zeros(shapes.nrows(), n_r + shapes.ncols());
+            joined.as_mut().subcols_mut(0, n_r).copy_from(rigid);
+            joined.as_mut().subcols_mut(n_r, shapes.ncols()).copy_from(shapes);
+            (Some(joined), n_r)
         }
     };
+    let all = joined.as_ref().map_or(shapes, Mat::as_ref);
     // These rigid-body modes are orthonormal combinations, not unit motions.
     let rigid_name = |i: usize| format!("orthonormal rigid-body mode {}", i + 1);
     let MassOrthogonality { error: value, pair: (a, b), largest_terms } =
-        mass_orthogonality(pencil(evidence).mass, all.as_ref());
+        mass_orthogonality(pencil(evidence).mass, all);
     let name = |i: usize| if i < n_r { rigid_name(i) } else { format!("mode {}", i - n_r + 1) };
     // x_iᵀMx_j of n terms is rounded by ε times their sizes, at most √(m_i m_j) with m = |x|ᵀ|M||x|, and so it is by rounding of
     // the modes themselves. A mode that M nearly lets pass has m ≫ 1.

@@ -9,7 +9,7 @@ use super::{Evidence, coordinate_name, data_noise, reduced_norms};
 use crate::dense;
 use crate::modes::{Boundary, Modes, REPEATED_WITHIN};
 use crate::rigid::absolute_energy;
-use crate::sparse::Leading;
+use crate::sparse::{Leading, panels};
 
 /// How large the terms are that the reduced stiffness is summed from: rounding of an entry is ε times these.
 pub(super) struct Terms {
@@ -35,11 +35,10 @@ impl Terms {
             let uncondensed = partition.stiffness.get(partition.n_internal + i, partition.n_internal + i);
             largest = largest.max(evidence.constraint.cancellation * uncondensed.copied().unwrap_or(0.0));
         }
-        for start in (0..evidence.basis.n_dynamic()).step_by(PANEL) {
-            let width = PANEL.min(evidence.basis.n_dynamic() - start);
-            let panel = evidence.basis.dynamic_modes.as_ref().subcols(start, width);
-            for (j, terms) in absolute_energy(partition.internal().stiffness, panel).into_iter().enumerate() {
-                let at = n_b + start + j;
+        for columns in panels(evidence.basis.n_dynamic()) {
+            let panel = evidence.basis.dynamic_modes.as_ref().get(.., columns.clone());
+            for (column, terms) in columns.zip(absolute_energy(partition.internal().stiffness, panel)) {
+                let at = n_b + column;
                 dynamic = dynamic.max(terms / k[(at, at)].abs());
                 largest = largest.max(terms);
             }
@@ -61,13 +60,8 @@ impl Terms {
 
 /// max |x|ᵀ|A||x| of the columns: a product xᵀAy is rounded by ε times the root of that of x and of y.
 fn largest_terms(matrix: Leading<'_>, columns: MatRef<'_, f64>) -> f64 {
-    let starts = (0..columns.ncols()).step_by(PANEL);
-    let panels = starts.map(|start| columns.subcols(start, PANEL.min(columns.ncols() - start)));
-    panels.flat_map(|panel| absolute_energy(matrix, panel)).fold(0.0, f64::max)
+    panels(columns.ncols()).flat_map(|panel| absolute_energy(matrix, columns.get(.., panel))).fold(0.0, f64::max)
 }
-
-/// Columns of Ψ multiplied at a time.
-const PANEL: usize = 32;
 
 /// M-13, equation (29).
 pub(super) fn block_coupling(evidence: &Evidence<'_>, terms: &Terms) -> Check {

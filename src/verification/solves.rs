@@ -6,6 +6,7 @@ use super::check::{Check, Limits};
 use super::residual::{AT_REST, Residuals, Rows, Worst};
 use super::{Evidence, data_noise};
 use crate::dense;
+use crate::sparse::panels;
 
 /// Constraint modes that are all looked at; of more, random combinations are.
 const FEW: usize = 64;
@@ -14,8 +15,6 @@ const FEW: usize = 64;
 const PROBES: usize = 8;
 /// How far roundings of one sign may exceed their typical sum.
 const NOISE_FACTOR: f64 = 10.0;
-/// Columns multiplied at a time.
-const PANEL: usize = 32;
 
 /// Relative force of rigid-body motion at which M-05 fails.
 const GROUNDED: f64 = 1e-6;
@@ -32,17 +31,16 @@ pub(super) fn static_solves(evidence: &Evidence<'_>) -> Check {
         (gaussian(n_b, &rows.norms.scale[partition.n_internal..]), "random combination")
     };
     let mut worst = Worst::none();
-    for start in (0..combinations.ncols()).step_by(PANEL) {
-        let width = PANEL.min(combinations.ncols() - start);
-        let panel = constraint_panel(evidence, combinations.as_ref().subcols(start, width));
-        let Residuals { mut residual, terms, .. } = rows.residuals(panel.as_ref(), &vec![0.0; width]);
+    for columns in panels(combinations.ncols()) {
+        let panel = constraint_panel(evidence, combinations.as_ref().get(.., columns.clone()));
+        let Residuals { mut residual, terms, .. } = rows.residuals(panel.as_ref(), &vec![0.0; columns.len()]);
         // The rows of the interface carry its reactions.
         residual.as_mut().subrows_mut(partition.n_internal, n_b).fill(0.0);
-        for j in 0..width {
+        for (j, column) in columns.enumerate() {
             let x = dense::column(panel.as_ref(), j);
             let (error, at) =
                 rows.componentwise(0.0, x, dense::column(residual.as_ref(), j), dense::column(terms.as_ref(), j));
-            worst.take(error, start + j, at);
+            worst.take(error, column, at);
         }
     }
     // The correction makes the interface carry rigid-body motion and leaves (K U)_I U_B⁺ of the equilibrium, relative to the norms

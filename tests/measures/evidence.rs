@@ -31,8 +31,8 @@ pub(crate) fn with_evidence<T>(
     let component = Component::new(&partition, &analysis, &factor, &rigid, &constraint);
     let job = ReductionJob { method, modes: ModeSelection::Count { count }, eigensolver: Eigensolver::Lanczos };
     let search = Search::new(component, &job).expect("a stable component");
-    let retained = Retained::new(component, search.problem.boundary, search.lowest(SEED).expect("modes"));
-    let basis = Basis::new(&constraint, retained.columns.clone(), partition.internal().mass);
+    let retained = Retained { modes: search.lowest(SEED).expect("modes"), boundary: search.problem.boundary };
+    let basis = Basis::new(&constraint, retained.columns(component), partition.internal().mass);
     let reduction = Reduction::new(&partition, &basis, &rigid);
     look(Evidence {
         partition: &partition,

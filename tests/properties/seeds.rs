@@ -39,8 +39,8 @@ fn built(method: Method, count: usize, seed: u64) -> Built {
     let job = ReductionJob { method, modes: ModeSelection::Count { count }, eigensolver: Eigensolver::Lanczos };
     let search = Search::new(component, &job).expect("counts");
     let found = search.lowest(seed).expect("converges");
-    let retained = Retained::new(component, search.problem.boundary, found);
-    let basis = Basis::new(&constraint, retained.columns.clone(), partition.internal().mass);
+    let retained = Retained { modes: found, boundary: search.problem.boundary };
+    let basis = Basis::new(&constraint, retained.columns(component), partition.internal().mass);
     let reduction = Reduction::new(&partition, &basis, &rigid);
     drop(factor);
     Built { reduction, retained, partition }

@@ -76,7 +76,7 @@ impl<'a> Extended<'a> {
     /// A projected pencil that is not definite.
     pub(super) fn new(evidence: &'a Evidence<'a>, factor: &'a dyn SolveOperator, eta: f64) -> Result<Self> {
         let partition = evidence.partition;
-        let basis = panel_of(evidence.basis, 0, evidence.basis.n_reduced());
+        let basis = panel_of(evidence.basis, 0..evidence.basis.n_reduced());
         let (forces, momenta) =
             rayon::join(|| product(&partition.stiffness, basis.as_ref()), || product(&partition.mass, basis.as_ref()));
         let project = |image: &Mat<f64>| {
