@@ -7,7 +7,7 @@ use super::orthonormal::orthonormalised;
 use super::{ConstraintModes, DroppedColumn, DynamicCoordinate};
 use crate::dense;
 use crate::factor::SolveOperator;
-use crate::modes::{Modes, gram_schmidt};
+use crate::modes::{Modes, mass_qr};
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
 use crate::sparse::Leading;
@@ -187,7 +187,7 @@ fn orthonormal_panel(basis: MatRef<'_, f64>, panel: Mat<f64>, mass: Leading<'_>)
         dense::add_product(coefficients.as_mut(), 1.0, c.as_ref(), coupling.as_ref());
         let mut image = product(mass, block.as_ref());
         let least = if pass == 0 { INDEPENDENT } else { 0.0 };
-        let r = gram_schmidt(&mut block, &mut image, least, &mut dependent);
+        let r = mass_qr(&mut block, &mut image, least, &mut dependent);
         if pass == 0 {
             remaining = (0..width).map(|j| r[(j, j)]).collect();
         }

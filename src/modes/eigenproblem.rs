@@ -3,7 +3,7 @@
 use faer::{Mat, MatMut, MatRef};
 
 use super::operator::ShiftInvert;
-use super::orthogonalisation::gram_schmidt;
+use super::orthogonalisation::mass_qr;
 use crate::dense;
 use crate::sparse::{Leading, product};
 
@@ -48,7 +48,7 @@ impl Problem<'_> {
         for _ in 0..2 {
             let mut momenta = product(self.mass, vectors.as_ref());
             let mut dependent = vec![false; vectors.ncols()];
-            gram_schmidt(vectors, &mut momenta, 0.0, &mut dependent);
+            mass_qr(vectors, &mut momenta, 0.0, &mut dependent);
         }
     }
 

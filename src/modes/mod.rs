@@ -51,7 +51,7 @@ pub use eigenproblem::{CLUSTER_GAP, EigenWork, Eigenpairs, Interval, Problem, Wa
 pub use equilibration::Equilibrated;
 pub use lanczos::{lanczos, lanczos_between};
 pub use operator::{Factored, FreeAtZero, ShiftInvert};
-pub use orthogonalisation::gram_schmidt;
+pub use orthogonalisation::mass_qr;
 pub use quality::{MassOrthogonality, ModeError, mass_orthogonality};
 pub(crate) use random::SplitMix64;
 pub use retained::{Component, Retained};

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::eigenproblem::mass_norm;
 use super::lanczos::Basis;
-use super::orthogonalisation::gram_schmidt;
+use super::orthogonalisation::mass_qr;
 use crate::dense;
 use crate::sparse::product;
 
@@ -56,7 +56,7 @@ impl Basis<'_> {
             // What was blown up took its rounding along: rigid-body motion, and the difference between M W and what is carried.
             self.problem.deflate(block.as_mut());
             mass_block = product(self.problem.mass, block.as_ref());
-            let r = gram_schmidt(&mut block, &mut mass_block, least, &mut dependent);
+            let r = mass_qr(&mut block, &mut mass_block, least, &mut dependent);
             coupling = dense::product(r.as_ref(), coupling.as_ref());
             if pass > 0 && (0..width).all(|j| dependent[j] || r[(j, j)] > CLEAN) {
                 break;
@@ -148,7 +148,7 @@ impl Basis<'_> {
     }
 }
 
-/// Whether Gram-Schmidt left less of a column than is good for what was carried along with it; `r` is its triangle.
+/// Whether a column kept less beside those before it than is good for what was carried along with it; `r` is their triangle.
 fn shrinks(r: &Mat<f64>) -> bool {
     (0..r.ncols()).any(|j| r[(j, j)] < SHRINKS * dense::norm(dense::column(r.as_ref(), j)))
 }

@@ -6,7 +6,7 @@ use super::{RigidBodyModes, RigidEnergy, RigidSource, energies_of_terms, residua
 use crate::dense;
 use crate::error::Result;
 use crate::factor::{Analysis, SolveOperator};
-use crate::modes::{ModalProblem, Shifted, gram_schmidt, shifted};
+use crate::modes::{ModalProblem, Shifted, mass_qr, shifted};
 use crate::partition::Partition;
 use crate::sparse::{product, product_and_terms};
 
@@ -61,7 +61,7 @@ fn without_elastic_rounding(partition: &Partition, found: &Shifted<'_>) -> Mat<f
     // Twice is enough for orthogonality to rounding; modes this near to orthonormal depend on none of the others.
     for _ in 0..2 {
         momenta = product(&partition.mass, zero.as_ref());
-        gram_schmidt(&mut zero, &mut momenta, 0.0, &mut vec![false; found.n_zero]);
+        mass_qr(&mut zero, &mut momenta, 0.0, &mut vec![false; found.n_zero]);
     }
     zero
 }

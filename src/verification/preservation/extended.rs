@@ -20,7 +20,7 @@ use super::super::Evidence;
 use crate::dense;
 use crate::error::Result;
 use crate::factor::SolveOperator;
-use crate::modes::{Equilibrated, gram_schmidt};
+use crate::modes::{Equilibrated, mass_qr};
 use crate::reduction::panel_of;
 use crate::sparse::product;
 use crate::verification::pencil::{Spectral, complex_shift};
@@ -264,7 +264,7 @@ impl<'a> Extended<'a> {
             dense::add_product(block.as_mut(), -1.0, earlier, coefficients.as_ref());
             image = product(mass, block.as_ref());
             let least = if pass == 0 { INDEPENDENT } else { 0.0 };
-            gram_schmidt(&mut block, &mut image, least, &mut dependent);
+            mass_qr(&mut block, &mut image, least, &mut dependent);
         }
         let kept: Vec<usize> = (0..block.ncols()).filter(|j| !dependent[*j]).collect();
         dense::columns(block.as_ref(), &kept)
