@@ -17,7 +17,7 @@ const PARALLEL_ABOVE: usize = 1 << 18;
 
 /// Rows of a tile of [`gram`]: fixed, so that the order of the sum never depends on the number of threads.
 const GRAM_ROWS: usize = 4096;
-/// Rows of a tile of [`add_product`].
+/// Rows of a tile of [`add_product`] and [`divide`].
 const PRODUCT_ROWS: usize = 1024;
 
 /// Xᵀ Y for tall X and Y: tile by tile in parallel, the tiles summed in order.
@@ -68,6 +68,14 @@ pub fn add_product(mut y: MatMut<'_, f64>, alpha: f64, x: MatRef<'_, f64>, c: Ma
     for first in (0..n).step_by(PRODUCT_ROWS) {
         tile(first, y.as_mut().subrows_mut(first, PRODUCT_ROWS.min(n - first)));
     }
+}
+
+/// X ← X L⁻ᵀ.
+pub fn divide(x: MatMut<'_, f64>, lower: MatRef<'_, f64>) {
+    use rayon::prelude::*;
+    x.par_row_chunks_mut(PRODUCT_ROWS).for_each(|tile| {
+        faer::linalg::triangular_solve::solve_lower_triangular_in_place(lower, tile.transpose_mut(), Par::Seq);
+    });
 }
 
 /// L⁻¹ A L⁻ᵀ of a symmetric matrix by the Cholesky factor L of another: the pencil of the two in standard form. Symmetric to rounding.

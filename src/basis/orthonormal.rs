@@ -7,9 +7,7 @@
 //! The first pass leaves ε κ(G) of orthogonality, the second ε. A column that keeps little of its length beside the columns before
 //! it is for the panels of [`super::dynamic`], which tell dependent ones.
 
-use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-use faer::{Mat, MatMut, MatRef, Par, Side};
-use rayon::prelude::*;
+use faer::{Mat, MatRef, Side};
 
 use crate::dense;
 use crate::sparse::{Leading, panels, product};
@@ -18,8 +16,6 @@ use crate::sparse::{Leading, panels, product};
 const HEALTHY: f64 = 1e-4;
 /// Distance of G from the identity, in its row sums, at which a pass leaves no more than rounding: κ(G) is 1.1/0.9 at most.
 const NEARLY: f64 = 0.1;
-/// Rows solved by one task.
-const TILE_ROWS: usize = 1024;
 
 /// Q and upper triangular R with X = Q R and QᵀMQ = I; none where a column is not healthy.
 pub(super) fn orthonormalised(columns: MatRef<'_, f64>, mass: Leading<'_>) -> Option<(Mat<f64>, Mat<f64>)> {
@@ -34,7 +30,7 @@ pub(super) fn orthonormalised(columns: MatRef<'_, f64>, mass: Leading<'_>) -> Op
         if !is_healthy {
             return None;
         }
-        divide(q.as_mut(), lower);
+        dense::divide(q.as_mut(), lower);
         triangle = dense::product(lower.transpose(), triangle.as_ref());
         let distance = |j: usize| (0..k).map(|i| (gram[(i, j)] - f64::from(u8::from(i == j))).abs()).sum::<f64>();
         if (0..k).all(|j| distance(j) <= NEARLY) {
@@ -59,13 +55,6 @@ fn mass_gram(x: MatRef<'_, f64>, mass: Leading<'_>) -> Mat<f64> {
         }
     }
     gram
-}
-
-/// X ← X L⁻ᵀ.
-fn divide(mut x: MatMut<'_, f64>, lower: MatRef<'_, f64>) {
-    x.as_mut().par_row_chunks_mut(TILE_ROWS).for_each(|mut tile| {
-        solve_lower_triangular_in_place(lower, tile.as_mut().transpose_mut(), Par::Seq);
-    });
 }
 
 #[cfg(test)]

@@ -285,16 +285,17 @@ pub(super) fn search_between(
         let whole = Problem { operator, mass: modal.mass, deflated: [rigid.0, rigid.1] };
         // Nothing nearer than the ends of the interval is known of the neighbours.
         let around = [Some(interval.from), Some(interval.to)];
-        let judged = |mut pairs: Eigenpairs| {
+        // What the neighbours' searches found already is taken out: their modes and these come of different starts.
+        let orthogonal_and_judged = |mut pairs: Eigenpairs| {
             let along = dense::gram(known.shapes.as_ref(), product(modal.mass, pairs.vectors.as_ref()).as_ref());
             dense::add_product(pairs.vectors.as_mut(), -1.0, known.shapes.as_ref(), along.as_ref());
             judged(modal, whole, pairs, around).ascending()
         };
-        let modes = judged(pairs);
+        let modes = orthogonal_and_judged(pairs);
         if modes.errors.iter().all(|error| error.backward <= SETTLED) {
             return Ok(modes);
         }
-        Ok(judged(purified(whole, &modes)))
+        Ok(orthogonal_and_judged(purified(whole, &modes)))
     })?;
     let work = EigenWork { factorisations: n_factorisations, ..modes.work };
     Ok(Modes { work, next: None, ..modes })

@@ -61,7 +61,7 @@ impl Directions {
         let moving: Vec<usize> = (0..6).filter(|j| masses[*j] > NOTHING * of_kind[j / 3]).collect();
         Self {
             names: moving.iter().map(|j| NAMES[*j].to_owned()).collect(),
-            motions: Mat::from_fn(sites.len(), moving.len(), |i, j| motions[(i, moving[j])]),
+            motions: dense::columns(motions.as_ref(), &moving),
             masses: moving.iter().map(|j| masses[*j]).collect(),
         }
     }
@@ -71,7 +71,7 @@ impl Directions {
         let chosen: Vec<usize> = (0..self.count()).filter(|j| self.names[*j].starts_with("translation")).collect();
         (!chosen.is_empty()).then(|| Self {
             names: chosen.iter().map(|j| self.names[*j].clone()).collect(),
-            motions: Mat::from_fn(self.motions.nrows(), chosen.len(), |i, j| self.motions[(i, chosen[j])]),
+            motions: dense::columns(self.motions.as_ref(), &chosen),
             masses: chosen.iter().map(|j| self.masses[*j]).collect(),
         })
     }

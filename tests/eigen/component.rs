@@ -74,7 +74,7 @@ impl Component {
             let bar = taken_at + mass.rows() as f64 * f64::EPSILON;
             assert!(error.backward <= bar, "mode {j}: backward error {:e} above {bar:e}", error.backward);
         }
-        // Two passes of Gram-Schmidt leave a few ε for each of the k vectors.
+        // Two passes of orthonormalisation leave a few ε for each of the k vectors.
         let MassOrthogonality { error: worst, pair, .. } = mass_orthogonality(mass, modes.shapes.as_ref());
         assert!(worst <= 1e-12, "modes {pair:?} are orthogonal to {worst:e} only");
         let rigid = dense::gram(self.rigid.mass_orthonormal.as_ref(), modes.shapes.as_ref());

@@ -95,7 +95,7 @@ fn dynamic_modes_give_the_named_columns_back() {
         assert!(chain.basis.dropped.is_empty(), "{}: {:?}", case.name, chain.basis.dropped);
         let psi_d = chain.basis.dynamic_modes.as_ref();
         let n_eta = psi_d.ncols();
-        // Two passes of Gram-Schmidt: n_I products and n_η subtractions each.
+        // Two passes of orthonormalisation: n_I products and n_η subtractions each.
         let bound = 4.0 * (twin.n_i + n_eta) as f64 * EPS;
         let back = psi_d * &chain.basis.mixing;
         let error = column_difference(back.as_ref(), chain.named.columns.as_ref());

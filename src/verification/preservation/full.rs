@@ -76,8 +76,7 @@ impl Supported {
         if self.free.is_empty() {
             return elastic_modes(problem, &Factored::new(factor, 0.0), request);
         }
-        let (n_i, n_f) = (evidence.partition.n_internal, self.free.len());
-        let psi_s = Mat::from_fn(n_i, n_f, |i, j| constraint.modes[(i, self.free[j])]);
+        let (n_f, psi_s) = (self.free.len(), dense::columns(constraint.modes.as_ref(), &self.free));
         let schur = Mat::from_fn(n_f, n_f, |i, j| constraint.stiffness[(self.free[i], self.free[j])]);
         let operator = FreeAtZero::new(factor, &self.stiffness, psi_s.as_ref(), schur.as_ref(), &self.rigid)?;
         elastic_modes(problem, &operator, request)
