@@ -2,6 +2,7 @@
 
 use faer::prelude::ReborrowMut;
 use faer::{Mat, MatRef};
+use rayon::prelude::*;
 
 use super::orthonormal::orthonormalised;
 use super::{ConstraintModes, DroppedColumn, DynamicCoordinate};
@@ -67,28 +68,20 @@ pub fn mode_acceleration_columns(
     let mut accelerated = columns.as_mut().subcols_mut(n_r, modes.count());
     accelerated.copy_from(x_i);
     dense::add_product(accelerated.rb_mut(), -1.0, constraint.modes.as_ref(), x_b);
-    let sizes = |j: usize| following_sizes(dense::column(x_i, j), constraint.modes.as_ref(), dense::column(x_b, j));
-    let stiffness = |i: usize| partition.stiffness.get(i, i).copied().unwrap_or(0.0).abs();
-    for j in 0..modes.count() {
-        let column = dense::column_mut(accelerated.rb_mut(), j);
-        let length = |column: &[f64]| (0..n_i).map(|i| stiffness(i) * column[i].powi(2)).sum::<f64>().sqrt();
-        // The interior follows the interface statically: what is left is rounding, which scaled to unit length would be a
-        // column that no one asked for.
-        if length(column) <= INDEPENDENT * length(&sizes(j)) {
+    let stiffness = partition.internal().stiffness.diagonal();
+    let length = |column: &[f64]| column.iter().zip(&stiffness).map(|(x, k)| k.abs() * x * x).sum::<f64>().sqrt();
+    let of_psi_s: Vec<f64> = (0..n_b).map(|b| length(dense::column(constraint.modes.as_ref(), b))).collect();
+    accelerated.par_col_iter_mut().enumerate().for_each(|(j, column)| {
+        let column = column.try_as_col_major_mut().expect("stored by columns").as_slice_mut();
+        let following = dense::column(x_b, j).iter().zip(&of_psi_s).map(|(x, length)| x.abs() * length).sum::<f64>();
+        // The interior follows the interface statically: what is left is rounding of X_I and Ψ_S X_B, which scaled to unit length
+        // would be a column that no one asked for.
+        if length(column) <= INDEPENDENT * (length(dense::column(x_i, j)) + following) {
             column.fill(0.0);
         }
-    }
+    });
     let relief = (0..n_r).map(DynamicCoordinate::InertiaRelief);
     DynamicColumns { columns, coordinates: relief.chain((0..modes.count()).map(DynamicCoordinate::FreeFree)).collect() }
-}
-
-/// |x_I| + |Ψ_S||x_B|: the terms that a mode-accelerated column is the difference of.
-fn following_sizes(x_i: &[f64], psi_s: MatRef<'_, f64>, x_b: &[f64]) -> Vec<f64> {
-    let mut sizes: Vec<f64> = x_i.iter().map(|value| value.abs()).collect();
-    for (b, weight) in x_b.iter().enumerate() {
-        sizes.iter_mut().zip(dense::column(psi_s, b)).for_each(|(size, value)| *size += (value * weight).abs());
-    }
-    sizes
 }
 
 /// Columns that are M_II-orthonormal, with the triangle that gives the named ones back.

@@ -16,7 +16,7 @@ const MODES_IN_A_BAND: u64 = 50;
 /// Vectors beside the right-hand sides of a solve by a factor in single precision.
 const REFINEMENT: u64 = 72;
 /// Blocks of all modes that basis, projection, verification and comparison hold together: 5.9 with 800 fixed-interface modes of a
-/// slender solid of 30,000 dofs, 6.0 with Herting's.
+/// slender solid of 30,000 dofs, 5.0 with Herting's.
 const BLOCKS_OF_MODES: u64 = 6;
 /// Recovered rows of the basis as numbers, as bytes of their own and as bytes of the file.
 const COPIES: u64 = 3;
