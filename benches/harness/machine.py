@@ -49,7 +49,9 @@ def programs():
 
 
 def commit():
-    changed = said(["git", "-C", str(ROOT), "status", "--porcelain", "--untracked-files=no"])
+    """The commit that was measured; results that were written since change nothing of it."""
+    sources = [".", ":!benches/results"]
+    changed = said(["git", "-C", str(ROOT), "status", "--porcelain", "--untracked-files=no", "--", *sources])
     return said(["git", "-C", str(ROOT), "rev-parse", "--short=12", "HEAD"]) + (" with changes" if changed else "")
 
 
