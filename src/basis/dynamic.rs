@@ -39,11 +39,8 @@ pub fn fixed_interface_columns(modes: &Modes) -> DynamicColumns {
 
 /// Without an interface: the rigid-body modes and the elastic modes themselves, V = \[U X\] of (22).
 pub fn modal_columns(rigid: &RigidBodyModes, modes: &Modes) -> DynamicColumns {
-    let (n, n_r) = (modes.shapes.nrows(), rigid.count());
-    let mut columns = Mat::zeros(n, n_r + modes.count());
-    columns.as_mut().subcols_mut(0, n_r).copy_from(&rigid.modes);
-    columns.as_mut().subcols_mut(n_r, modes.count()).copy_from(&modes.shapes);
-    let zero = (0..n_r).map(DynamicCoordinate::RigidBody);
+    let columns = dense::beside(rigid.modes.as_ref(), modes.shapes.as_ref());
+    let zero = (0..rigid.count()).map(DynamicCoordinate::RigidBody);
     DynamicColumns { columns, coordinates: zero.chain((0..modes.count()).map(DynamicCoordinate::FreeFree)).collect() }
 }
 
@@ -71,8 +68,8 @@ pub fn mode_acceleration_columns(
     let stiffness = partition.internal().stiffness.diagonal();
     let length = |column: &[f64]| column.iter().zip(&stiffness).map(|(x, k)| k.abs() * x * x).sum::<f64>().sqrt();
     let of_psi_s: Vec<f64> = (0..n_b).map(|b| length(dense::column(constraint.modes.as_ref(), b))).collect();
-    accelerated.par_col_iter_mut().enumerate().for_each(|(j, column)| {
-        let column = column.try_as_col_major_mut().expect("stored by columns").as_slice_mut();
+    accelerated.par_col_chunks_mut(1).enumerate().for_each(|(j, column)| {
+        let column = dense::column_mut(column, 0);
         let following = dense::column(x_b, j).iter().zip(&of_psi_s).map(|(x, length)| x.abs() * length).sum::<f64>();
         // The interior follows the interface statically: what is left is rounding of X_I and Ψ_S X_B, which scaled to unit length
         // would be a column that no one asked for.

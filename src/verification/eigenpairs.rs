@@ -153,11 +153,7 @@ pub(super) fn orthogonality(evidence: &Evidence<'_>) -> Check {
         Boundary::FreeInterface => {
             // Motions without mass have no length in it.
             let rigid = evidence.rigid.massive();
-            let n_r = rigid.ncols();
-            let mut joined = Mat::zeros(shapes.nrows(), n_r + shapes.ncols());
-            joined.as_mut().subcols_mut(0, n_r).copy_from(rigid);
-            joined.as_mut().subcols_mut(n_r, shapes.ncols()).copy_from(shapes);
-            (Some(joined), n_r)
+            (Some(dense::beside(rigid, shapes)), rigid.ncols())
         }
     };
     let all = joined.as_ref().map_or(shapes, Mat::as_ref);
