@@ -65,6 +65,13 @@ fn evaluation(criterion: &mut Criterion) {
                 }
             });
         });
+        group.bench_function(BenchmarkId::new("exact tangents", n_modal), |bencher| {
+            bencher.iter(|| {
+                for state in &case.states() {
+                    case.component.exact_tangents(black_box(state), &mut workspace).expect("a small deformation");
+                }
+            });
+        });
     }
     group.finish();
 }

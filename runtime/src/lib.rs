@@ -85,7 +85,7 @@
 //! let state = State { motions: &motions, amplitudes: &amplitudes, velocities: &rest, accelerations: &rest };
 //! bracket.evaluate(&state, &mut workspace)?;
 //!
-//! let mut external = bracket.gravity_forces(&[0.0, 0.0, -9.81], &mut workspace).to_vec();
+//! let mut external = bracket.gravity_forces(&[0.0, 0.0, -9.81], &mut workspace)?.to_vec();
 //! let load = DeadLoad { node: 0, force: [0.0, 100.0, 0.0], moment: [0.0; 3] };
 //! bracket.add_load(&load, &motions, &mut external)?;
 //! let (elastic, inertial, damping) =
@@ -96,6 +96,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! Where the deformation is large or the rotation fast, [`exact_tangents`](component::ModalComponent::exact_tangents) gives the whole
+//! derivative of the forces, for Newton's method and for vibration about a steady motion. What no tangent gives is stress
+//! stiffening inside a component: [what a component leaves out](component#what-a-component-leaves-out).
+//!
 //! A component cannot be changed and an evaluation allocates nothing: threads share components and have one workspace for
 //! each component, and the results have the same bits for any number of threads.
 //!
@@ -103,7 +107,7 @@
 //!
 //! # Without the standard library
 //!
-//! With `default-features = false` the crate needs `core` and `alloc` alone, for controllers without an operating system: bytes
+//! With `default-features = false` the crate needs `core`, `alloc` and an atomic counter, for controllers without an operating system: bytes
 //! become a superelement by [`Superelement::from_bytes`], and everything of the component and of [`motion`] is there. What is missing are
 //! files ([`Superelement::open`], [`Superelement::write`], [`StagedFile`]) and the threads of
 //! [`evaluate_all`](component::evaluate_all). Only [`Motion::exp`](motion::Motion::exp) may differ in its last bits: its sine is that of `libm`.

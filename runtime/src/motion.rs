@@ -13,6 +13,7 @@
 //! Source: paper, section 3 and Appendix A.
 
 mod algebra;
+mod point;
 mod tangent;
 
 use crate::elementary::{sin, sqrt};
@@ -22,6 +23,7 @@ pub use algebra::{
     IDENTITY_3, IDENTITY_6, Matrix3, Matrix6, Vector3, Vector6, check, cross, dot, hat, join, multiply_3, multiply_6,
     multiply_transposed_3, skew, split, times_3, times_6, transposed_times_3, transposed_times_6,
 };
+pub use point::{force_to_origin, force_to_point, velocity_to_origin, velocity_to_point};
 pub use tangent::{
     parameter_cosine, tangent, tangent_3, tangent_inverse, tangent_inverse_3, tangent_inverse_rate,
     tangent_inverse_rate_3,

@@ -1,13 +1,14 @@
 //! Lie-group generalised-α method with a constant iteration matrix.
 //!
 //! ```text
-//! S   n × n   β' M + K of the first configuration, without gyroscopic terms and without the tangent operator of the
-//!             increment; factored once
+//! S   n × n   β' M + γ' C + K of the first configuration, without gyroscopic terms, without the skew part of the damping C and
+//!             without the tangent operator of the increment; factored once
 //! B   m × n   gradients of the joints; those of the iteration matrix are renewed once per step because they turn with the nodes
 //! ```
 //!
 //! Reactions act along the gradients of the configuration itself, so that those of two nodes balance. The iteration converges
-//! linearly: gyroscopic terms and the tangent operator, which S lacks, leave a part of the order φ̇ h of the error each time.
+//! linearly: gyroscopic terms, those of a skew damping and the tangent operator, which S lacks, leave a part of the order φ̇ h of
+//! the error each time; S remains positive definite.
 //! Against them the derivative of Bᵀλ, which S lacks too, does not count: it is of the order h².
 //!
 //! Source: Brüls and Cardona's scheme as the corrected section 2.5 of the paper's equations has it.
@@ -17,7 +18,7 @@ use faer::Mat;
 use crate::Result;
 use crate::joint::Support;
 use crate::saddle::{Gradients, Saddle};
-use crate::system::{Configuration, System};
+use crate::system::{Configuration, Matrices, System};
 
 /// Step, damping and when a step has converged.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +29,7 @@ pub struct Scheme {
     pub n_steps: usize,
     /// Spectral radius at infinite frequency ϱ∞.
     pub spectral_radius: f64,
-    /// A step has converged when |r| ≤ tolerance · (|f_E| + |f_I| + |f_ext| + floor).
+    /// A step has converged when |r| ≤ tolerance · (|f_E| + |f_I| + |f_D| + |f_ext| + floor).
     pub tolerance: f64,
     /// Force below which differences do not count, N: rounding of a stiff component's forces at rest.
     pub floor: f64,
@@ -94,6 +95,8 @@ pub fn simulate(system: &mut System, scheme: &Scheme, mut look: impl FnMut(&Syst
     let mut now = start(system, scheme.step)?;
     let mut newton = Newton::new(system, scheme, &now.at)?;
     let mut effort = Effort::default();
+    // Whoever looks at the start asks for its energies, not for those of the matrices' state of rest.
+    system.forces(now.time, &now.at, &now.velocity, &now.acceleration)?;
     look(system, &now);
     for step in 1..=scheme.n_steps {
         let time = step as f64 * scheme.step;
@@ -107,7 +110,7 @@ pub fn simulate(system: &mut System, scheme: &Scheme, mut look: impl FnMut(&Syst
     Ok(effort)
 }
 
-/// The accelerations that loads, drives and the initial velocity give: M v̇ + Bᵀλ = f, B v̇ = −g″ with g″ the second derivative of
+/// The accelerations that loads, drives, damping and the initial velocity give: M v̇ + Bᵀλ = f, B v̇ = −g″ with g″ the second derivative of
 /// the violations on the way with constant velocity.
 fn start(system: &mut System, step: f64) -> Result<Instant> {
     let (n, at) = (system.n(), system.initial());
@@ -119,7 +122,7 @@ fn start(system: &mut System, step: f64) -> Result<Instant> {
     }
     let velocity = system.initial_velocity.clone();
     let residual = system.forces(0.0, &at, &velocity, &acceleration)?.residual();
-    let mass = system.matrices(&at)?.mass;
+    let mass = system.matrices_at_rest(&at)?.mass;
     let kkt = Saddle::new(&mass, system.free())?;
     let joints = Gradients::new(system, 0.0, &at);
     let faster = violation_acceleration(system, step, &joints)?;
@@ -207,12 +210,13 @@ impl<'a> Newton<'a> {
     }
 
     fn factored(system: &mut System, at: &Configuration, coefficients: Coefficients) -> Result<(Saddle, f64)> {
-        let matrices = system.matrices(at)?;
-        let factor = coefficients.acceleration();
+        let Matrices { stiffness, mass, damping, .. } = system.matrices_at_rest(at)?;
+        let (factor, of_rate) = (coefficients.acceleration(), coefficients.velocity());
         let n = system.n();
-        let s = Mat::from_fn(n, n, |i, j| factor * matrices.mass[(i, j)] + matrices.stiffness[(i, j)]);
+        let braked = |i: usize, j: usize| 0.5 * of_rate * (damping[(i, j)] + damping[(j, i)]);
+        let s = Mat::from_fn(n, n, |i, j| factor * mass[(i, j)] + braked(i, j) + stiffness[(i, j)]);
         let free = system.free();
-        let mean = free.iter().map(|i| matrices.mass[(*i, *i)]).sum::<f64>() / free.len() as f64;
+        let mean = free.iter().map(|i| mass[(*i, *i)]).sum::<f64>() / free.len() as f64;
         Ok((Saddle::new(&s, free)?, factor * mean))
     }
 
@@ -230,7 +234,8 @@ impl<'a> Newton<'a> {
             let size = |v: &[f64]| free.iter().map(|i| v[*i] * v[*i]).sum::<f64>().sqrt();
             let gap = violation.iter().map(|g| (self.constraint_scale * g).powi(2)).sum::<f64>();
             let error = (size(&residual).powi(2) + gap).sqrt();
-            let scale = size(&forces.elastic) + size(&forces.inertial) + size(&forces.applied) + self.scheme.floor;
+            let sizes = [&forces.elastic, &forces.inertial, &forces.damping, &forces.applied].map(|force| size(force));
+            let scale = sizes.iter().sum::<f64>() + self.scheme.floor;
             if !error.is_finite() {
                 break;
             }

@@ -224,6 +224,8 @@ fn minus(x: &Vector3, y: &Vector3) -> Vector3 {
 
 #[cfg(test)]
 mod tests {
+    use supel_runtime::motion::velocity_to_origin;
+
     use super::*;
 
     const AXIS: Vector3 = [0.3, -0.8, 0.5];
@@ -245,7 +247,7 @@ mod tests {
 
     fn moved(motions: &[Motion; 2], node: usize, own: &Vector6) -> [Motion; 2] {
         let mut moved = *motions;
-        moved[node] = motions[node].compose(&Motion::exp(&crate::body::to_origin(&POSITIONS[node], own)));
+        moved[node] = motions[node].compose(&Motion::exp(&velocity_to_origin(&POSITIONS[node], own)));
         moved
     }
 

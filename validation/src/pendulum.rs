@@ -97,11 +97,15 @@ pub fn swing(superelement: &Superelement, scheme: &Scheme, steps_of_frame: usize
                 Err(why) => failed = Some(why),
             }
         }
-        let energies = system.energies();
-        let mut row = system.position(&now.at, 0).to_vec();
-        row.extend(energies);
-        row.push(energies.iter().sum());
-        curves.push(now.time, row);
+        match system.energies() {
+            Ok(energies) => {
+                let mut row = system.position(&now.at, 0).to_vec();
+                row.extend(energies);
+                row.push(energies.iter().sum());
+                curves.push(now.time, row);
+            }
+            Err(why) => failed = Some(why),
+        }
     })?;
     match failed {
         None => Ok(Swing { curves, effort, frames }),

@@ -7,11 +7,11 @@
 //! ```
 //! The mode-acceleration column of a mode is X_I − Ψ_S X_B (23), up to its length: in reduced coordinates just its part
 //! x_η. So TᵀK̂T and TᵀM̂T are the superelement of the named modes alone, without inertia-relief modes; with no mode
-//! at all it is Guyan's.
+//! at all it is Guyan's. Damping, gravity, loads and recovered rows go along.
 
 use faer::{Mat, Side};
 use supel::dense;
-use supel_runtime::{Coordinate, Matrix, Metadata, Method, Superelement, Tensors};
+use supel_runtime::{Coordinate, Matrix, Metadata, Method, Recovery, Superelement, Tensors};
 
 use crate::Result;
 
@@ -49,11 +49,16 @@ pub fn selected(rich: &Superelement, modes: Modes) -> Result<Superelement> {
         mass: congruence(&tensors.mass, &transform),
         // Ψ_S U_B = U_I: rigid-body motion has no amplitudes.
         rigid_body_modes: rows(&tensors.rigid_body_modes),
+        damping: tensors.damping.as_ref().map(|damping| on_both_sides(damping, &transform)),
+        gravity: tensors.gravity.as_ref().map(|gravity| projected(gravity, &transform)),
+        load_vectors: tensors.load_vectors.as_ref().map(|loads| projected(loads, &transform)),
+        recovery: tensors.recovery.as_ref().map(|recovery| recovered(recovery, &transform)).transpose()?,
         rigid_body_mass: tensors.rigid_body_mass.clone(),
         interface_positions: tensors.interface_positions.clone(),
         interface_frames: tensors.interface_frames.clone(),
         frequencies: found.frequencies.clone(),
-        ..Tensors::default()
+        // The modes are not mixed.
+        mixing: None,
     };
     Ok(Superelement::new(tensors, metadata(rich, modes, &found.frequencies))?)
 }
@@ -118,9 +123,32 @@ fn generalised_eigen(stiffness: &Mat<f64>, mass: &Mat<f64>) -> Result<(Vec<f64>,
     Ok((values, Mat::from_fn(n, n, |i, j| vectors[(i, j)] * scale[i])))
 }
 
+fn columns(a: &Matrix) -> Mat<f64> {
+    Mat::from_fn(a.rows(), a.cols(), |i, j| a[(i, j)])
+}
+
+fn plain(a: &Mat<f64>) -> Matrix {
+    Matrix::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)])
+}
+
 /// TᵀAT, symmetric to the bit.
 fn congruence(a: &Matrix, t: &Mat<f64>) -> Matrix {
-    let a = Mat::from_fn(a.rows(), a.cols(), |i, j| a[(i, j)]);
-    let product = dense::gram(t.as_ref(), dense::product(a.as_ref(), t.as_ref()).as_ref());
+    let product = on_both_sides(a, t);
     Matrix::from_fn(t.ncols(), t.ncols(), |i, j| product[(i.max(j), i.min(j))])
+}
+
+/// TᵀAT.
+fn on_both_sides(a: &Matrix, t: &Mat<f64>) -> Matrix {
+    plain(&dense::gram(t.as_ref(), dense::product(columns(a).as_ref(), t.as_ref()).as_ref()))
+}
+
+/// TᵀB.
+fn projected(b: &Matrix, t: &Mat<f64>) -> Matrix {
+    plain(&dense::gram(t.as_ref(), columns(b).as_ref()))
+}
+
+/// Rows W T.
+fn recovered(recovery: &Recovery, t: &Mat<f64>) -> Result<Recovery> {
+    let rows = dense::product(columns(recovery.rows()).as_ref(), t.as_ref());
+    Ok(Recovery::new(plain(&rows), recovery.dofs().to_vec(), recovery.precision())?)
 }

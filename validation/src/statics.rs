@@ -1,14 +1,14 @@
 //! Static equilibrium under dead loads, load step after load step.
 //!
-//! The tangent is K_T of the components (82), which leaves out the derivative of J_P, plus the stiffness of the loads: a
-//! dead force turns in the axes of its node, δ(Rᵀf) = (Rᵀf)~ δθ. Without the latter the iteration fails at large loads;
-//! without the former it converges linearly.
+//! The tangent is K_T of the components (82), which leaves out the derivative of J_P, or their exact stiffness, plus the
+//! stiffness of the loads: a dead force turns in the axes of its node, δ(Rᵀf) = (Rᵀf)~ δθ. Without the latter the iteration
+//! fails at large loads; with K_T it converges linearly, with the exact stiffness quadratically, once it is close.
 
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 
 use crate::Result;
-use crate::system::{Configuration, Forces, System};
+use crate::system::{Configuration, Forces, Matrices, System};
 
 /// Largest turn of a node in one iteration, rad: larger ones leave the region where the iteration converges.
 const LARGEST_TURN: f64 = 0.7;
@@ -20,6 +20,19 @@ const MOST_ITERATIONS: usize = 200;
 /// EA/l times the rounding of positions of 100 m against loads of 100 N.
 const TOLERANCE: f64 = 1e-9;
 
+/// Stiffness of the components in an iteration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tangent {
+    /// K_T (82).
+    Papers,
+    /// K_T from afar, where Newton's method may leave the equilibrium, then the derivative of their forces.
+    Exact,
+}
+
+/// Share of the forces below which the residual is close enough for the exact tangent: from farther away Newton's method with four
+/// elements strays among states whose axial forces are a thousand times the load.
+const CLOSE: f64 = 0.1;
+
 /// Equilibrium under the loads at "time" 1, 2, … `n_steps`; `look` sees each with its number of iterations.
 ///
 /// # Errors
@@ -27,6 +40,7 @@ const TOLERANCE: f64 = 1e-9;
 pub fn equilibria(
     system: &mut System,
     n_steps: usize,
+    tangent: Tangent,
     mut look: impl FnMut(&System, &Configuration, usize),
 ) -> Result<()> {
     if !system.joints.is_empty() {
@@ -34,25 +48,29 @@ pub fn equilibria(
     }
     let mut at = system.initial();
     for step in 1..=n_steps {
-        let iterations = equilibrium(system, &mut at, step as f64).map_err(|why| format!("load step {step}: {why}"))?;
+        let iterations = equilibrium(system, &mut at, (step as f64, tangent));
+        let iterations = iterations.map_err(|why| format!("load step {step}: {why}"))?;
         look(system, &at, iterations);
     }
     Ok(())
 }
 
-fn equilibrium(system: &mut System, at: &mut Configuration, time: f64) -> Result<usize> {
+fn equilibrium(system: &mut System, at: &mut Configuration, (time, tangent): (f64, Tangent)) -> Result<usize> {
     let free = system.free();
     let rest = vec![0.0; system.n()];
     for iteration in 0..=MOST_ITERATIONS {
         let Forces { elastic, applied, .. } = system.forces(time, at, &rest, &rest)?;
         let size = |v: &dyn Fn(usize) -> f64| free.iter().map(|i| v(*i) * v(*i)).sum::<f64>().sqrt();
         let residual = size(&|i| elastic[i] - applied[i]);
-        if residual <= TOLERANCE * (size(&|i| elastic[i]) + size(&|i| applied[i])) {
+        let forces = size(&|i| elastic[i]) + size(&|i| applied[i]);
+        if residual <= TOLERANCE * forces {
             return Ok(iteration);
         }
-        let mut tangent = system.matrices(at)?.stiffness;
-        system.add_load_stiffness(at, time, &mut tangent);
-        let reduced = Mat::from_fn(free.len(), free.len(), |i, j| tangent[(free[i], free[j])]);
+        let Matrices { stiffness, exact_stiffness, .. } = system.matrices_at_rest(at)?;
+        let is_exact = tangent == Tangent::Exact && residual < CLOSE * forces;
+        let mut matrix = if is_exact { exact_stiffness } else { stiffness };
+        system.add_load_stiffness(at, time, &mut matrix);
+        let reduced = Mat::from_fn(free.len(), free.len(), |i, j| matrix[(free[i], free[j])]);
         let load = Mat::from_fn(free.len(), 1, |i, _| applied[free[i]] - elastic[free[i]]);
         let change = reduced.partial_piv_lu().solve(&load);
         let mut increment = rest.clone();

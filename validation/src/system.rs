@@ -4,16 +4,15 @@
 //! q   n = 6 k + Σ n_η   nodes of the mechanism, six each, then the amplitudes of each component
 //! ```
 //! A node's velocity is taken at the node and in its own axes, (Rᵀẋ; ω), so that "the node stays" is "the first three are
-//! zero". The component takes the velocity of the point at the inertial origin (motion formalism, corrected eq. 92):
-//! V = S v with S = \[I x̃₀; 0 I\] of the node's first position x₀; forces go back by Sᵀ.
+//! zero"; the component changes them to those of the point at the inertial origin, and its forces back.
 
 use faer::Mat;
 use supel_runtime::Superelement;
 use supel_runtime::component::{DeadLoad, FloatingFrame, Measures, RecoveredNode};
-use supel_runtime::motion::{Motion, Vector3};
+use supel_runtime::motion::{Motion, Vector3, velocity_to_origin};
 
 use crate::Result;
-use crate::body::{Body, to_origin};
+use crate::body::Body;
 use crate::joint::{Joint, Row, Support, Supports};
 
 /// A dead load on a node of the mechanism, times a function of time.
@@ -74,25 +73,40 @@ pub struct Forces {
     pub elastic: Vec<f64>,
     /// f_I (84).
     pub inertial: Vec<f64>,
+    /// Of the components' damping.
+    pub damping: Vec<f64>,
     /// Loads and gravity.
     pub applied: Vec<f64>,
 }
 
 impl Forces {
-    /// f_E + f_I − f_ext.
+    /// f_E + f_I + f_D − f_ext.
     pub fn residual(&self) -> Vec<f64> {
-        let sums = self.elastic.iter().zip(&self.inertial).map(|(elastic, inertial)| elastic + inertial);
+        let sums = self.elastic.iter().zip(&self.inertial).zip(&self.damping).map(|((e, i), d)| e + i + d);
         sums.zip(&self.applied).map(|(sum, applied)| sum - applied).collect()
     }
 }
 
-/// Tangent matrices, n × n.
+/// Tangent matrices of the components, n × n.
 #[derive(Clone, Debug)]
 pub struct Matrices {
     /// K_T (82).
     pub stiffness: Mat<f64>,
+    /// Derivative of f_E + f_I + f_D by the place.
+    pub exact_stiffness: Mat<f64>,
     /// M_I (86).
     pub mass: Mat<f64>,
+    /// Derivative of f_I by the velocities.
+    pub gyroscopic: Mat<f64>,
+    /// Derivative of f_D by the velocities.
+    pub damping: Mat<f64>,
+}
+
+impl Matrices {
+    fn zeros(n: usize) -> Self {
+        let zeros = || Mat::zeros(n, n);
+        Self { stiffness: zeros(), exact_stiffness: zeros(), mass: zeros(), gyroscopic: zeros(), damping: zeros() }
+    }
 }
 
 /// How a component defines its floating frame and its deformation.
@@ -108,7 +122,7 @@ impl System {
     /// A mechanism at rest of components, each with the nodes of the mechanism that its interface nodes are.
     ///
     /// # Errors
-    /// A superelement that the component refuses.
+    /// A superelement that the component refuses; a node that is not where the interface node is.
     pub fn new(
         positions: Vec<Vector3>,
         supports: &[Supports],
@@ -118,7 +132,7 @@ impl System {
         let mut first_amplitude = 6 * positions.len();
         let mut bodies = Vec::new();
         for &(superelement, nodes) in parts {
-            let body = Body::new(superelement, nodes, first_amplitude, formulation)?;
+            let body = Body::new(superelement, nodes, &positions, first_amplitude, formulation)?;
             first_amplitude += superelement.n_modal();
             bodies.push(body);
         }
@@ -156,7 +170,8 @@ impl System {
     pub fn moved(&self, from: &Configuration, increment: &[f64]) -> Configuration {
         let n_nodes = self.positions.len();
         let node = |j: usize| {
-            from.motions[j].compose(&Motion::exp(&to_origin(&self.positions[j], &increment[6 * j..6 * j + 6])))
+            let at_node = std::array::from_fn(|i| increment[6 * j + i]);
+            from.motions[j].compose(&Motion::exp(&velocity_to_origin(&self.positions[j], &at_node)))
         };
         let amplitudes = from.amplitudes.iter().zip(&increment[6 * n_nodes..]).map(|(eta, step)| eta + step);
         Configuration { motions: (0..n_nodes).map(node).collect(), amplitudes: amplitudes.collect() }
@@ -174,37 +189,55 @@ impl System {
     pub fn forces(&mut self, time: f64, at: &Configuration, velocity: &[f64], acceleration: &[f64]) -> Result<Forces> {
         let n = self.n();
         let applied = self.loaded(at, time);
-        let mut forces = Forces { elastic: vec![0.0; n], inertial: vec![0.0; n], applied };
-        let (positions, gravity) = (&self.positions, self.gravity);
+        let mut forces = Forces { elastic: vec![0.0; n], inertial: vec![0.0; n], damping: vec![0.0; n], applied };
         for body in &mut self.bodies {
-            body.place(positions, at, velocity, acceleration);
+            body.place(at, velocity, acceleration)?;
             body.evaluate()?;
-            body.add_forces(positions, &gravity, &mut forces);
+            body.add_forces(&self.gravity, &mut forces)?;
         }
         Ok(forces)
     }
 
-    /// K_T = Jᵀ_P K J_P and M_I at a configuration, at rest; n × n.
+    /// Tangent matrices at a configuration, velocity and acceleration.
     ///
     /// # Errors
     /// As [`Self::forces`].
-    pub fn matrices(&mut self, at: &Configuration) -> Result<Matrices> {
-        let n = self.n();
-        let (rest, positions) = (vec![0.0; n], &self.positions);
-        let mut matrices = Matrices { stiffness: Mat::zeros(n, n), mass: Mat::zeros(n, n) };
+    pub fn matrices(&mut self, at: &Configuration, velocity: &[f64], acceleration: &[f64]) -> Result<Matrices> {
+        let mut matrices = Matrices::zeros(self.n());
         for body in &mut self.bodies {
-            body.place(positions, at, &rest, &rest);
+            body.place(at, velocity, acceleration)?;
             body.tangents()?;
-            body.add_matrices(positions, &mut matrices);
+            body.add_matrices(&mut matrices)?;
         }
         Ok(matrices)
     }
 
+    /// Tangent matrices at a configuration, at rest.
+    ///
+    /// # Errors
+    /// As [`Self::forces`].
+    pub fn matrices_at_rest(&mut self, at: &Configuration) -> Result<Matrices> {
+        let rest = vec![0.0; self.n()];
+        self.matrices(at, &rest, &rest)
+    }
+
     /// Kinetic, strain and potential energy in gravity in the state last evaluated; the last is zero with all mass at the
     /// inertial origin.
-    pub fn energies(&self) -> [f64; 3] {
-        let of = |body: &Body| body.energies(&self.gravity);
-        self.bodies.iter().map(of).fold([0.0; 3], |sum, e| std::array::from_fn(|i| sum[i] + e[i]))
+    ///
+    /// # Errors
+    /// A superelement whose loads of gravity are the weight of no body.
+    pub fn energies(&self) -> Result<[f64; 3]> {
+        let mut sum = [0.0; 3];
+        for body in &self.bodies {
+            let own = body.energies(&self.gravity)?;
+            sum = std::array::from_fn(|i| sum[i] + own[i]);
+        }
+        Ok(sum)
+    }
+
+    /// Power that the damping of all components takes in the state last evaluated, W.
+    pub fn dissipated_power(&self) -> f64 {
+        self.bodies.iter().map(Body::dissipated_power).sum()
     }
 
     /// Displacements of the nodes inside a body that its superelement recovers, and the body's floating frame, in the state

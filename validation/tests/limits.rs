@@ -3,8 +3,9 @@
 
 use supel_runtime::Superelement;
 use validation::curve::Curves;
-use validation::examples::{Example, Run, Variant, classical, motion_based, reduced_parts, rotating};
+use validation::examples::{Example, Run, Variant, bend, classical, motion_based, reduced_parts, rotating};
 use validation::integrator::Scheme;
+use validation::statics::Tangent;
 
 fn parts(example: Example, layout: usize) -> Vec<Superelement> {
     let folder = tempfile::tempdir().expect("folder");
@@ -51,6 +52,26 @@ fn bend_has_the_tip_of_the_independent_implementation() {
             assert!((found - expected).abs() <= 1e-2, "{layout} elements: {last:?} for {tip:?}");
         }
     }
+}
+
+/// With the exact stiffness the same equilibria in a third of the iterations.
+#[test]
+fn bend_takes_few_iterations_with_the_exact_tangent() {
+    let means: Vec<[f64; 2]> = [1, 2, 4]
+        .map(|layout| {
+            let (parts, variant) = (parts(Example::Bend, layout), motion_based(layout, 0));
+            let [papers, exact] = [Tangent::Papers, Tangent::Exact]
+                .map(|tangent| bend::run(&parts, &variant, tangent).expect("accepted"));
+            assert!(papers.stopped.is_none() && exact.stopped.is_none(), "{:?} {:?}", papers.stopped, exact.stopped);
+            for (own, other) in exact.curves.values.iter().zip(&papers.curves.values) {
+                // Both end within 1e-9 of the forces; the beam is as soft as 60 m under its load.
+                assert!(own.iter().zip(other).all(|(a, b)| (a - b).abs() < 1e-6), "{own:?} for {other:?}");
+            }
+            [exact, papers].map(|run| run.effort.mean())
+        })
+        .to_vec();
+    println!("{means:?}");
+    assert!(means.iter().all(|[exact, papers]| *exact <= 6.0 && 2.0 * exact < *papers), "{means:?}");
 }
 
 #[test]

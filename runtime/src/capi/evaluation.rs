@@ -146,6 +146,7 @@ pub unsafe extern "C" fn supel_add_gravity(
         // SAFETY: not null, and as long as the component has coordinates by the promise of the caller.
         let forces = unsafe { std::slice::from_raw_parts_mut(forces, component.n_coordinates()) };
         let added = component.gravity_forces(&[gravity[0], gravity[1], gravity[2]], workspace);
+        let added = added.map_err(|error| failed(SupelStatus::State)(&error))?;
         forces.iter_mut().zip(added).for_each(|(sum, force)| *sum += force);
         Ok(())
     })

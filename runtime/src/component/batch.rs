@@ -49,6 +49,15 @@ pub fn tangents_all(evaluations: &mut [Evaluation<'_>], threads: NonZero<usize>)
     shared(evaluations, threads, ModalComponent::tangents)
 }
 
+/// [`ModalComponent::exact_tangents`] of all `evaluations`, as in [`evaluate_all`].
+///
+/// # Errors
+///
+/// Those of [`evaluate_all`].
+pub fn exact_tangents_all(evaluations: &mut [Evaluation<'_>], threads: NonZero<usize>) -> Result<(), BatchError> {
+    shared(evaluations, threads, ModalComponent::exact_tangents)
+}
+
 type Evaluate = fn(&ModalComponent, &State<'_>, &mut Workspace) -> Result<(), EvaluationError>;
 
 /// Parts per thread: components of different size spread evenly, and threads seldom meet at the queue.

@@ -13,6 +13,8 @@ use alloc::vec::Vec;
 
 use super::dense;
 use super::floating_frame::FrameRounding;
+use super::gravity::Weight;
+use super::identity::Identity;
 use super::projection::ActsOn;
 use super::recovery::RecoveryMap;
 use super::{ComponentError, FloatingFrame, Measures, ModalComponent};
@@ -90,8 +92,9 @@ impl ModalComponent {
         let shifts: Vec<Matrix6> = positions.iter().map(shift).collect();
         let in_modes = rigid_amplitudes(superelement);
         let rigid_modes = [shifts.as_flattened(), &in_modes].concat();
-        let (residual, motion) =
-            rigid_force(&tensors.stiffness, &magnitudes(&tensors.stiffness, superelement), &rigid_modes);
+        let magnitudes = magnitudes(&tensors.stiffness, superelement);
+        let units: Vec<f64> = magnitudes.iter().step_by(magnitudes.len().isqrt() + 1).copied().collect();
+        let (residual, motion) = rigid_force(&tensors.stiffness, &magnitudes, &units, &rigid_modes);
         if residual > FREE {
             return Err(ComponentError::NotFree { motion: MOTIONS[motion], residual, limit: FREE });
         }
@@ -120,14 +123,19 @@ impl ModalComponent {
             Some(gravity) => transposed_product(&change, gravity),
             None => momenta.iter().map(|row| [row[0], row[1], row[2]]).collect(),
         };
+        let damping_is_symmetric = matrices.damping.as_ref().is_none_or(|c| dense::is_symmetric(c, n_nodal + n_modal));
+        let rigid_mass = dense::block_sum(&momenta, rigid.iter());
         Ok(Self {
+            identity: Identity::new(),
             measures,
             n_modal,
-            rigid_mass: dense::block_sum(&momenta, rigid.iter()),
+            weight: Weight::of(&gravity, &rigid, &rigid_mass),
+            rigid_mass,
             recovery: tensors.recovery.as_ref().map(|recovery| RecoveryMap::new(recovery, &change)),
             unloaded: superelement.metadata().validity.unloaded.clone(),
             rigid_motion_residual: residual,
             frame_rounding: FrameRounding::new(&frame, &positions),
+            damping_is_symmetric,
             damping_acts_on: damping_acts_on(superelement, &rigid_modes, residual),
             positions,
             nodal,
@@ -197,13 +205,15 @@ fn with_zeros(rigid: &[Matrix6], n_modal: usize) -> Vec<Vector6> {
     [rigid.as_flattened(), &vec![[0.0; 6]; n_modal]].concat()
 }
 
-/// On the whole motion where the damping of the file resists rigid-body motion, by more than what `residual` says of the
-/// accuracy of the stiffness.
+/// On the whole motion where the damping of the file resists rigid-body motion, or makes forces on it, C U or CᵀU, by more
+/// than what `residual` says of the accuracy of the stiffness.
 fn damping_acts_on(superelement: &Superelement, rigid_modes: &[Vector6], residual: f64) -> ActsOn {
     let limit = UNDAMPED.max(ABOVE_THE_STIFFNESS * residual);
     let Some(damping) = &superelement.tensors().damping else { return ActsOn::Deformation };
-    let (force, _) = rigid_force(damping, &magnitudes(damping, superelement), rigid_modes);
-    if force > limit { ActsOn::Motion } else { ActsOn::Deformation }
+    let transposed = Matrix::from_fn(damping.cols(), damping.rows(), |i, j| damping[(j, i)]);
+    let units = units(superelement);
+    let force = |c: &Matrix| rigid_force(c, &magnitudes(c, superelement), &units, rigid_modes).0;
+    if force(damping).max(force(&transposed)) > limit { ActsOn::Motion } else { ActsOn::Deformation }
 }
 
 /// What the entries of a stiffness or damping A are measured by, r × r: |A|, and |A| + λ|M| for a component that one node just
@@ -220,15 +230,24 @@ fn magnitudes(a: &Matrix, superelement: &Superelement) -> Vec<f64> {
     a.as_slice().iter().zip(m.as_slice()).map(|(a, m)| a.abs() + inertia * m.abs()).collect()
 }
 
+/// K_ii + λ M_ii with λ the largest K_jj / M_jj: by their roots forces of all kinds become comparable. The diagonal of a damping
+/// will not do, which a skew matrix has not, nor that of K alone, which is rounding where one node just holds the component.
+fn units(superelement: &Superelement) -> Vec<f64> {
+    let (k, m) = (&superelement.tensors().stiffness, &superelement.tensors().mass);
+    let quotients = (0..k.rows()).map(|i| k[(i, i)] / m[(i, i)]);
+    let largest = quotients.filter(|quotient| *quotient > 0.0 && quotient.is_finite()).reduce(f64::max);
+    (0..k.rows()).map(|i| k[(i, i)] + largest.unwrap_or(1.0) * m[(i, i)]).collect()
+}
+
 /// Largest force that a column of U makes, relative to the sum of the magnitudes of its parts, r × r, and that column. Each
-/// row is measured in the unit of the diagonal entry of those.
-fn rigid_force(a: &Matrix, magnitudes: &[f64], u: &[Vector6]) -> (f64, usize) {
+/// row is measured by the root of its entry of `units`.
+fn rigid_force(a: &Matrix, magnitudes: &[f64], units: &[f64], u: &[Vector6]) -> (f64, usize) {
     let r = u.len();
     let ratio = |column: usize| {
         let (mut force, mut parts) = (0.0_f64, 0.0_f64);
-        let rows = a.as_slice().chunks_exact(r).zip(magnitudes.chunks_exact(r)).enumerate();
-        for (i, (row, magnitudes)) in rows.filter(|(i, (_, magnitudes))| magnitudes[*i] > 0.0) {
-            let scale = sqrt(magnitudes[i]).recip();
+        let rows = a.as_slice().chunks_exact(r).zip(magnitudes.chunks_exact(r)).zip(units);
+        for ((row, magnitudes), unit) in rows.filter(|(_, unit)| **unit > 0.0) {
+            let scale = sqrt(*unit).recip();
             let terms = row.iter().zip(u).map(|(entry, motion)| scale * entry * motion[column]);
             force = force.max(terms.sum::<f64>().abs());
             parts =
@@ -277,14 +296,18 @@ fn transposed_times(change: &[f64], b: &[f64], cols: usize) -> Vec<f64> {
     product
 }
 
-/// AᵀKA for symmetric K, symmetric to the bit.
+/// AᵀKA; symmetric to the bit where K is.
 fn congruence(k: &Matrix, change: &[f64]) -> Vec<f64> {
     let r = k.rows();
-    // (AᵀK)ᵀ = K A.
+    let transposed = |a: &[f64]| -> Vec<f64> { (0..r * r).map(|i| a[i % r * r + i / r]).collect() };
+    // Aᵀ(AᵀK)ᵀ = (AᵀKA)ᵀ.
     let half = transposed_times(change, k.as_slice(), r);
-    let turned: Vec<f64> = (0..r * r).map(|i| half[i % r * r + i / r]).collect();
-    let product = transposed_times(change, &turned, r);
-    (0..r * r).map(|i| 0.5 * (product[i] + product[i % r * r + i / r])).collect()
+    let product = transposed(&transposed_times(change, &transposed(&half), r));
+    if dense::is_symmetric(k.as_slice(), r) {
+        let mirrored = transposed(&product);
+        return product.iter().zip(&mirrored).map(|(a, b)| 0.5 * (a + b)).collect();
+    }
+    product
 }
 
 /// AᵀĜ, a row of three for each coordinate.

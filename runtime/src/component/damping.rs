@@ -1,8 +1,11 @@
 //! Damping forces f_D = (J − W Q)ᵀC (J − W Q) v of a linear damping matrix C.
 //!
-//! A matrix that resists rigid-body motion, the mass-proportional part of Rayleigh's, acts on the whole motion, as seen
-//! from the floating frame; any other one on the deformation rate alone, so that rounding in C U does not brake a fast
-//! rotation.
+//! C need not be symmetric: its symmetric part takes the power ẋᵀC ẋ from the motion ẋ = (J − W Q) v, its skew part, as of a
+//! rotor that spins inside, turns the motion and takes none.
+//!
+//! A matrix that resists rigid-body motion or makes forces on it, as the mass-proportional part of Rayleigh's, acts on the
+//! whole motion, as seen from the floating frame; any other one on the deformation rate alone, so that rounding in C U does
+//! not brake a fast rotation.
 
 use super::ModalComponent;
 use super::dense;
@@ -14,12 +17,15 @@ impl ModalComponent {
         let Some(damping) = &self.matrices().damping else {
             return;
         };
-        let Workspace { nodes, q, deformation_rate, velocity, product, results, .. } = workspace;
+        let Workspace { nodes, q, deformation_rate, velocity, product, results, load, .. } = workspace;
         let rate = match self.damping_acts_on {
             ActsOn::Deformation => deformation_rate,
             ActsOn::Motion => velocity,
         };
-        dense::symmetric_times(damping, rate, product);
-        self.project(product, &[0.0; 6], self.damping_acts_on, &Projector { nodes, q }, &mut results.damping_forces);
+        dense::times(damping, rate, product);
+        results.dissipated_power = dense::dot(rate, product);
+        let (on, projector) = (self.damping_acts_on, Projector { nodes, q });
+        let on_frame = self.project(product, &[0.0; 6], on, &projector, &mut results.damping_forces);
+        load.add(product, &on_frame);
     }
 }

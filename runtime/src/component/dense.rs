@@ -2,7 +2,7 @@
 //!
 //! | symbol | meaning | layout |
 //! |---|---|---|
-//! | A | symmetric, r × r | row by row |
+//! | A | r × r | row by row |
 //! | Q, Y | r × 6 | one array of six for each of the r coordinates |
 //! | J, F | 6 × 6 for each interface node; the identity and zero at the modal amplitudes | [`Matrix6`] |
 
@@ -25,6 +25,26 @@ pub(crate) fn symmetric_times(a: &[f64], x: &[f64], product: &mut [f64]) {
     }
     for (row, factor) in rows.remainder().chunks_exact(r).zip(factors.remainder()) {
         add_scaled(product, *factor, row);
+    }
+}
+
+/// A x for any A, r × r. Four rows at a time, whose sums do not wait for each other.
+pub(crate) fn times(a: &[f64], x: &[f64], product: &mut [f64]) {
+    let r = x.len();
+    let mut rows = a.chunks_exact(4 * r);
+    let mut targets = product.chunks_exact_mut(4);
+    for (four, target) in rows.by_ref().zip(targets.by_ref()) {
+        let (first, rest) = four.split_at(r);
+        let (second, rest) = rest.split_at(r);
+        let (third, fourth) = rest.split_at(r);
+        let mut sums = [0.0; 4];
+        for ((x, (a, b)), (c, d)) in x.iter().zip(first.iter().zip(second)).zip(third.iter().zip(fourth)) {
+            sums = [sums[0] + a * x, sums[1] + b * x, sums[2] + c * x, sums[3] + d * x];
+        }
+        target.copy_from_slice(&sums);
+    }
+    for (row, target) in rows.remainder().chunks_exact(r).zip(targets.into_remainder()) {
+        *target = dot(row, x);
     }
 }
 
@@ -144,6 +164,11 @@ pub(crate) fn add_six(y: &mut [f64], f: &Vector6, rows: &[f64], skip: usize) {
     for (i, sum) in y.iter_mut().enumerate() {
         *sum += (f[0] * x0[i] + f[1] * x1[i] + f[2] * x2[i]) + (f[3] * x3[i] + f[4] * x4[i] + f[5] * x5[i]);
     }
+}
+
+/// Whether an r × r matrix is that of its transpose, to the bit.
+pub(crate) fn is_symmetric(a: &[f64], r: usize) -> bool {
+    (0..r).all(|i| (0..i).all(|j| a[i * r + j] == a[j * r + i]))
 }
 
 /// Copies the upper triangle of an r × r matrix to the lower one.

@@ -7,9 +7,11 @@ use super::workspace::Workspace;
 
 impl ModalComponent {
     pub(super) fn elastic_forces(&self, workspace: &mut Workspace) {
-        let Workspace { nodes, q, deformation, product, results, .. } = workspace;
+        let Workspace { nodes, q, deformation, product, results, load, .. } = workspace;
         dense::symmetric_times(&self.matrices().stiffness, deformation, product);
         results.strain_energy = 0.5 * dense::dot(deformation, product);
-        self.project(product, &[0.0; 6], ActsOn::Deformation, &Projector { nodes, q }, &mut results.elastic);
+        let projector = Projector { nodes, q };
+        let on_frame = self.project(product, &[0.0; 6], ActsOn::Deformation, &projector, &mut results.elastic);
+        load.set(product, &on_frame);
     }
 }

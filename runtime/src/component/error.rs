@@ -101,6 +101,19 @@ pub enum EvaluationError {
         /// Number of its entry.
         index: usize,
     },
+    /// The workspace was made by another component, of whatever size.
+    #[error(
+        "the workspace was made by another component; evaluate each component in workspaces that it has made itself"
+    )]
+    ForeignWorkspace,
+    /// There is no state to which the question belongs.
+    #[error("the last evaluation in the workspace failed, so that it holds no state; evaluate one first")]
+    NoState,
+    /// The loads of gravity in the file are the weight of no body.
+    #[error(
+        "the loads of gravity in the file are not the weight of a body, the same mass along each axis at one centre, so that they have no potential; use their forces, or write the file without them"
+    )]
+    NoPotential,
     /// The rotation of a node is not a rotation matrix.
     #[error("the rotation of interface node {node} (from 0) is not a rotation matrix; orthonormalise it")]
     NotRotation {

@@ -1,42 +1,203 @@
-//! Forces of a uniform gravity field, exact gradients of its potential.
+//! Forces of a uniform gravity field, their potential and their stiffness.
 //!
-//! With the field a = R_Fᵀg in the floating frame and the loads Ĝ of a unit field (r × 3), the mass moved by the
-//! deformation is Ĝᵀe, and the potential −gᵀ[R_F (m c + Ĝᵀe) + m u_F] gives
+//! With the field a = R_Fᵀg in the floating frame and the loads Ĝ of a unit field (r × 3), the moment of mass that the
+//! deformation moves is s = Ĝᵀe. UᵀĜ = (m I; x̃_m) of a component of mass m with the moment of mass x_m; then
 //!
-//! f = (J P_⊥)ᵀ Ĝ a + Qᵀ [UᵀĜ a + (0; Ĝᵀe × a)].
+//! | | |
+//! |---|---|
+//! | potential | −gᵀ[R_F (x_m + s) + m u_F] |
+//! | its forces | f = (J P_⊥)ᵀ Ĝ a + Qᵀ [UᵀĜ a + (0; s × a)] = Jᵀh |
+//! | their stiffness −∂f | −[(∂J)ᵀh − Qᵀ(∂F)ᵀh] − L ã Q_θ − Qᵀ[UᵀĜ ã Q_θ + (0; s̃ ã Q_θ − ã Lᵀ)] |
+//!
+//! with L = (J P_⊥)ᵀĜ, and Q_θ the rotation rows of Q: ∂a = ã Q_θ, ∂s = Lᵀ.
 
-use super::ModalComponent;
 use super::dense;
 use super::projection::{ActsOn, Projector};
-use super::workspace::Workspace;
-use crate::motion::{Vector3, Vector6, cross, dot, join, transposed_times_3, transposed_times_6};
+use super::workspace::{Scratch, Workspace, check_finite};
+use super::{EvaluationError, ModalComponent};
+use crate::elementary::sqrt;
+use crate::motion::{
+    Matrix6, Vector3, Vector6, cross, dot, join, skew, split, times_3, times_6, transposed_times_3, transposed_times_6,
+};
+
+/// What the entries of UᵀĜ may differ from those of a weight: loads of gravity may be printed with six digits.
+const OF_A_WEIGHT: f64 = 1e-5;
+
+/// Mass m and moment of mass x_m that loads of gravity are the weight of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Weight {
+    mass: f64,
+    moment: Vector3,
+}
+
+impl Weight {
+    /// From Ĝ, rows of three, and U of the nodes; `None` where UᵀĜ is not (m I; x̃_m). `rigid_mass` gives the size of x_m.
+    pub(super) fn of(gravity: &[Vector3], rigid: &[Matrix6], rigid_mass: &Matrix6) -> Option<Self> {
+        let columns: [Vector6; 3] = core::array::from_fn(|c| on_frame(gravity, rigid, |row| row[c]));
+        let entry = |i: usize, c: usize| columns[c][i];
+        let mass = (entry(0, 0) + entry(1, 1) + entry(2, 2)) / 3.0;
+        let moment = [(5, 1), (3, 2), (4, 0)].map(|(i, c)| 0.5 * (entry(i, c) - entry(c + 3, i - 3)));
+        let arms = (3..6).map(|i| rigid_mass[i][i].abs()).sum::<f64>() * mass.abs();
+        let limits = [OF_A_WEIGHT * mass.abs(), OF_A_WEIGHT * sqrt(arms)];
+        let turned = skew(&moment);
+        let is_weight = (0..3).all(|i| {
+            let straight = |c: usize| if i == c { mass } else { 0.0 };
+            (0..3).all(|c| {
+                (entry(i, c) - straight(c)).abs() <= limits[0] && (entry(3 + i, c) - turned[i][c]).abs() <= limits[1]
+            })
+        });
+        is_weight.then_some(Self { mass, moment })
+    }
+}
+
+/// Σ U_jᵀ f_j of a load with one value for each coordinate.
+fn on_frame(gravity: &[Vector3], rigid: &[Matrix6], value: impl Fn(&Vector3) -> f64) -> Vector6 {
+    let mut sum = [0.0; 6];
+    for (rigid, rows) in rigid.iter().zip(gravity.as_chunks::<6>().0) {
+        sum = dense::plus_scaled(&sum, 1.0, &transposed_times_6(rigid, &rows.each_ref().map(&value)));
+    }
+    sum
+}
 
 impl ModalComponent {
     /// Forces on the coordinates (r) of the gravity field `g`, an acceleration in inertial axes, in the state that was
     /// last evaluated in the workspace.
     ///
-    /// They are the gradient of a potential; in the reference configuration they are the file's `gravity` times g, or M̂Û g
-    /// where the file has none.
+    /// In the reference configuration they are the file's `gravity` times g, or M̂Û g where the file has none. It allocates
+    /// nothing.
     ///
-    /// # Panics
+    /// # Errors
     ///
-    /// Panics on the workspace of a component with other numbers of nodes or coordinates.
-    pub fn gravity_forces<'w>(&self, g: &Vector3, workspace: &'w mut Workspace) -> &'w [f64] {
-        let fit = self.check_workspace(workspace);
-        assert_eq!(fit, Ok(()), "the workspace is that of the component");
+    /// [`EvaluationError::ForeignWorkspace`]; [`EvaluationError::NoState`] after an evaluation that failed;
+    /// [`EvaluationError::NotFinite`] for `g`; [`EvaluationError::Overflow`].
+    pub fn gravity_forces<'w>(&self, g: &Vector3, workspace: &'w mut Workspace) -> Result<&'w [f64], EvaluationError> {
+        self.gravity_load(g, workspace)?;
+        check_finite([("forces of gravity", &workspace.results.gravity)])?;
+        Ok(&workspace.results.gravity)
+    }
+
+    /// Potential energy −gᵀ∫x dm in the gravity field `g`, in the state that was last evaluated in the workspace; its
+    /// gradient is minus [`gravity_forces`](Self::gravity_forces). It is zero with all mass at the inertial origin.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`gravity_forces`](Self::gravity_forces); [`EvaluationError::NoPotential`] where the loads of gravity in the
+    /// file are those of no mass.
+    pub fn gravity_potential(&self, g: &Vector3, workspace: &Workspace) -> Result<f64, EvaluationError> {
+        self.check_gravity(g, workspace)?;
+        let Weight { mass, mut moment } = self.weight.ok_or(EvaluationError::NoPotential)?;
+        for (row, e) in self.gravity.iter().zip(workspace.deformation()) {
+            moment = core::array::from_fn(|i| moment[i] + e * row[i]);
+        }
+        let frame = workspace.floating_frame();
+        let turned = times_3(&frame.rotation, &moment);
+        let potential = -(0..3).map(|i| g[i] * (turned[i] + mass * frame.translation[i])).sum::<f64>();
+        check_finite([("potential of gravity", &[potential])])?;
+        Ok(potential)
+    }
+
+    /// Adds the stiffness −∂f/∂U of [`gravity_forces`](Self::gravity_forces) to `stiffness` (r × r, row by row), in the
+    /// state that was last evaluated in the workspace. It allocates nothing.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`gravity_forces`](Self::gravity_forces); [`EvaluationError::WrongLength`] for `stiffness`.
+    pub fn add_gravity_stiffness(
+        &self,
+        g: &Vector3,
+        workspace: &mut Workspace,
+        stiffness: &mut [f64],
+    ) -> Result<(), EvaluationError> {
+        let r = self.n_coordinates();
+        if stiffness.len() != r * r {
+            let (what, found, expected) = ("entries of the result", stiffness.len(), r * r);
+            return Err(EvaluationError::WrongLength { what, found, expected });
+        }
+        let load = self.gravity_load(g, workspace)?;
+        self.frame_rows_of_gravity(&load, workspace);
+        let of_frame = times_6(&dense::transposed(&workspace.s), &load.on_frame);
+        let Workspace { nodes, q, product, scratch, .. } = workspace;
+        let Scratch { square, wide: [wide_q, columns, _, on_frame], .. } = scratch;
+        dense::transpose(q, wide_q);
+        // ∂f.
+        square.fill(0.0);
+        self.add_by_place(&Projector { nodes, q }, (product, &of_frame), wide_q, square, on_frame);
+        for (row, column) in square.chunks_exact_mut(r).zip(columns.as_chunks::<3>().0) {
+            let factors = cross(column, &load.field);
+            dense::add_six(row, &join(&[0.0; 3], &factors), wide_q, 0);
+        }
+        self.subtract_frame_rows(q, on_frame, square);
+        check_finite([("stiffness of gravity", square)])?;
+        dense::add_scaled(stiffness, -1.0, square);
+        Ok(())
+    }
+
+    fn check_gravity(&self, g: &Vector3, workspace: &Workspace) -> Result<(), EvaluationError> {
+        self.check_workspace(workspace)?;
+        workspace.check_state()?;
+        match g.iter().position(|value| !value.is_finite()) {
+            Some(index) => Err(EvaluationError::NotFinite { what: "acceleration of gravity", index }),
+            None => Ok(()),
+        }
+    }
+
+    /// The forces of gravity, with Ĝ a in the place of the product.
+    fn gravity_load(&self, g: &Vector3, workspace: &mut Workspace) -> Result<GravityLoad, EvaluationError> {
+        self.check_gravity(g, workspace)?;
         let Workspace { floating_frame, nodes, q, deformation, product, results, .. } = workspace;
-        let a = transposed_times_3(&floating_frame.rotation, g);
+        let field = transposed_times_3(&floating_frame.rotation, g);
         let mut moved = [0.0; 3];
         for ((row, e), force) in self.gravity.iter().zip(deformation.iter()).zip(product.iter_mut()) {
-            *force = dot(row, &a);
+            *force = dot(row, &field);
             moved = core::array::from_fn(|i| moved[i] + e * row[i]);
         }
-        let mut on_frame: Vector6 = join(&[0.0; 3], &cross(&moved, &a));
-        for (rigid, g) in self.rigid.iter().zip(product.as_chunks::<6>().0) {
-            on_frame = dense::plus_scaled(&on_frame, 1.0, &transposed_times_6(rigid, g));
-        }
-        let reaction = on_frame.map(|x| -x);
-        self.project(product, &reaction, ActsOn::Deformation, &Projector { nodes, q }, &mut results.gravity);
-        &results.gravity
+        let whole = self.gravity_on_frame(|row| dot(row, &field));
+        let reaction = dense::plus_scaled(&whole, 1.0, &join(&[0.0; 3], &cross(&moved, &field))).map(|x| -x);
+        let projector = Projector { nodes, q };
+        let on_frame = self.project(product, &reaction, ActsOn::Deformation, &projector, &mut results.gravity);
+        Ok(GravityLoad { field, moved, on_frame })
     }
+
+    /// L, a row of three for each coordinate, in the second and −[UᵀĜ ã Q_θ + (0; s̃ ã Q_θ − ã Lᵀ)] in the last wide scratch.
+    fn frame_rows_of_gravity(&self, load: &GravityLoad, workspace: &mut Workspace) {
+        let Workspace { nodes, q, scratch, .. } = workspace;
+        let Scratch { wide: [_, columns, _, on_frame], tall, .. } = scratch;
+        let columns = columns.as_chunks_mut::<3>().0;
+        // JᵀĜ, and FᵀĜ as three columns.
+        columns[..self.gravity.len()].copy_from_slice(&self.gravity);
+        let mut carried = [[0.0; 6]; 3];
+        let blocks = self.gravity.as_chunks::<6>().0.iter().zip(columns.as_chunks_mut::<6>().0);
+        for ((rows, targets), node) in blocks.zip(nodes.iter()) {
+            for c in 0..3 {
+                let column = rows.each_ref().map(|row| row[c]);
+                let turned = transposed_times_6(&node.j, &column);
+                targets.iter_mut().zip(turned).for_each(|(target, value)| target[c] = value);
+                carried[c] = dense::plus_scaled(&carried[c], 1.0, &transposed_times_6(&node.f, &column));
+            }
+        }
+        let whole: [Vector6; 3] = core::array::from_fn(|c| self.gravity_on_frame(|row| row[c]));
+        for ((column, q), target) in columns.iter_mut().zip(q.iter()).zip(tall.iter_mut()) {
+            *column = core::array::from_fn(|c| column[c] - dense::dot(q, &carried[c]));
+            let change = cross(&load.field, &split(q).1);
+            let (turned, dragged) = (cross(&load.moved, &change), cross(&load.field, column));
+            let moment = join(&[0.0; 3], &core::array::from_fn(|i| turned[i] - dragged[i]));
+            *target = core::array::from_fn(|i| -moment[i] - (0..3).map(|c| whole[c][i] * change[c]).sum::<f64>());
+        }
+        dense::transpose(tall, on_frame);
+    }
+
+    /// UᵀĜ times what `value` takes of each row.
+    fn gravity_on_frame(&self, value: impl Fn(&Vector3) -> f64) -> Vector6 {
+        on_frame(&self.gravity, &self.rigid, value)
+    }
+}
+
+/// Forces of gravity in a state.
+struct GravityLoad {
+    /// a.
+    field: Vector3,
+    /// s.
+    moved: Vector3,
+    /// What the floating frame has of them.
+    on_frame: Vector6,
 }

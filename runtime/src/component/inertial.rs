@@ -27,7 +27,7 @@ impl ModalComponent {
         // y, in the place of the product, and the sum Yᵀy over the nodes.
         let mut sum = [0.0; 6];
         for (j, node) in workspace.nodes.iter().enumerate() {
-            let rates = workspace.node_rates(state, j);
+            let rates = NodeRates::of(j, &workspace.deformation_rate, state.velocities, &v_f);
             let y = self.measures.rates_times(node, &self.positions[j], &rates);
             workspace.product[6 * j..6 * j + 6].copy_from_slice(&y);
             sum = dense::plus_scaled(&sum, 1.0, &dense::columns_times(&self.frame[6 * j..6 * j + 6], &y));
@@ -35,7 +35,8 @@ impl ModalComponent {
         workspace.product[n_nodal..].fill(0.0);
         let from_rates = times_6(&workspace.s, &sum);
         let frame_acceleration = dense::plus_scaled(&workspace.frame_part(state.accelerations), 1.0, &from_rates);
-        let Workspace { nodes, q, deformation_rate, velocity, acceleration, product, results, .. } = workspace;
+        workspace.frame_acceleration = frame_acceleration;
+        let Workspace { nodes, q, deformation_rate, velocity, acceleration, product, results, load, .. } = workspace;
         let projector = Projector { nodes, q };
         self.measure_rate(state.accelerations, &frame_acceleration, nodes, acceleration);
         dense::add_scaled(product, 1.0, acceleration);
@@ -44,23 +45,16 @@ impl ModalComponent {
         let mass = &self.matrices().mass;
         dense::symmetric_times(mass, velocity, product);
         results.kinetic_energy = 0.5 * dense::dot(velocity, product);
-        let momentum = self.momentum(&v_f, deformation_rate);
-        let turning = transposed_times_6(&hat(&v_f), &momentum);
+        results.frame_momentum = self.momentum(&v_f, deformation_rate);
+        let turning = transposed_times_6(&hat(&v_f), &results.frame_momentum);
         dense::symmetric_times(mass, acceleration, product);
-        self.project(product, &turning, ActsOn::Motion, &projector, &mut results.inertial);
+        let on_frame = self.project(product, &turning, ActsOn::Motion, &projector, &mut results.inertial);
+        load.add(product, &on_frame);
     }
 
     /// P_F = M_F V_F + UᵀM ė.
     pub(super) fn momentum(&self, v_f: &Vector6, deformation_rate: &[f64]) -> Vector6 {
         let of_deformation = dense::columns_times(&self.momenta, deformation_rate);
         dense::plus_scaled(&times_6(&self.rigid_mass, v_f), 1.0, &of_deformation)
-    }
-}
-
-impl Workspace {
-    /// Velocities of node j and of the floating frame.
-    pub(super) fn node_rates(&self, state: &State<'_>, j: usize) -> NodeRates {
-        let six = |values: &[f64]| core::array::from_fn(|i| values[6 * j + i]);
-        NodeRates { measure: six(&self.deformation_rate), node: six(state.velocities), frame: self.frame_velocity }
     }
 }

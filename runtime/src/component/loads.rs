@@ -1,9 +1,10 @@
 //! Loads on interface nodes that keep their direction in space.
 
+use super::workspace::check_finite;
 use super::{EvaluationError, ModalComponent};
 use crate::metadata::InterfaceDof;
 use crate::motion::{
-    Matrix3, Matrix6, Motion, Vector3, Vector6, blocks, cross, join, multiply_3, skew, transposed_times_3,
+    Matrix3, Matrix6, Motion, Vector3, Vector6, blocks, force_to_origin, join, multiply_3, skew, transposed_times_3,
 };
 
 /// A load that should have no component along a dof has one of rounding, 1e-16 and the drift of the rotation; moments also that
@@ -26,8 +27,7 @@ impl DeadLoad {
     pub fn in_node(&self, motion: &Motion, position: &Vector3) -> Vector6 {
         let force = transposed_times_3(&motion.rotation, &self.force);
         let moment = transposed_times_3(&motion.rotation, &self.moment);
-        let lever = cross(position, &force);
-        join(&force, &core::array::from_fn(|i| lever[i] + moment[i]))
+        force_to_origin(position, &join(&force, &moment))
     }
 
     /// Load stiffness, −∂f_U/∂U of [`in_node`](Self::in_node): [0, −ã; 0, −(x̃ã + b̃)] with a = Rᵀf, b = Rᵀm. It is added to the
@@ -48,11 +48,12 @@ impl ModalComponent {
     /// # Errors
     ///
     /// [`EvaluationError::UnknownNode`], [`EvaluationError::WrongLength`], [`EvaluationError::NotRotation`],
-    /// [`EvaluationError::NotFinite`]; [`EvaluationError::UnloadedDof`] for a load along a dof of which the file says that
+    /// [`EvaluationError::NotFinite`]; [`EvaluationError::Overflow`]; [`EvaluationError::UnloadedDof`] for a load along a dof of which the file says that
     /// none acts.
     pub fn add_load(&self, load: &DeadLoad, motions: &[Motion], forces: &mut [f64]) -> Result<(), EvaluationError> {
         self.check_load(load, motions, forces.len(), self.n_coordinates())?;
         let f = load.in_node(&motions[load.node], &self.positions[load.node]);
+        check_finite([("load at the origin", &f)])?;
         for (sum, value) in forces[6 * load.node..].iter_mut().zip(f) {
             *sum += value;
         }
@@ -74,6 +75,7 @@ impl ModalComponent {
         self.check_load(load, motions, stiffness.len(), r * r)?;
         let first = 6 * load.node;
         let block = load.stiffness_in_node(&motions[load.node], &self.positions[load.node]);
+        check_finite([("load stiffness", block.as_flattened())])?;
         for (row, block_row) in stiffness.chunks_exact_mut(r).skip(first).zip(&block) {
             for (sum, value) in row[first..].iter_mut().zip(block_row) {
                 *sum += value;

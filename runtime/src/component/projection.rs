@@ -3,6 +3,8 @@
 //! The component moves by ė in its floating frame, and by ε = ė + U V_F altogether; both are (J − W Q) v, with W = F for
 //! the first and W = F − U for the second, because V_F = Q v.
 
+use alloc::vec::Vec;
+
 use super::ModalComponent;
 use super::dense;
 use super::measures::NodeMeasure;
@@ -51,8 +53,16 @@ impl ModalComponent {
         amplitudes.copy_from_slice(&x[n_nodal..]);
     }
 
-    /// (J − W Q)ᵀg − Qᵀg_F, r: forces on the coordinates, from those on the deformation or motion and on the frame.
-    pub(super) fn project(&self, g: &[f64], g_f: &Vector6, on: ActsOn, projector: &Projector<'_>, forces: &mut [f64]) {
+    /// (J − W Q)ᵀg − Qᵀg_F, r: forces on the coordinates, from those on the deformation or motion and on the frame. All that
+    /// the frame has of them, Wᵀg + g_F, is returned.
+    pub(super) fn project(
+        &self,
+        g: &[f64],
+        g_f: &Vector6,
+        on: ActsOn,
+        projector: &Projector<'_>,
+        forces: &mut [f64],
+    ) -> Vector6 {
         let n_nodal = 6 * self.n_nodes();
         let (blocks, amplitudes) = forces.split_at_mut(n_nodal);
         let mut on_frame = *g_f;
@@ -65,6 +75,7 @@ impl ModalComponent {
         for (force, q) in forces.iter_mut().zip(projector.q) {
             *force -= dense::dot(q, &on_frame);
         }
+        on_frame
     }
 }
 
@@ -73,4 +84,25 @@ impl ModalComponent {
 pub(super) struct Projector<'a> {
     pub(super) nodes: &'a [NodeMeasure],
     pub(super) q: &'a [Vector6],
+}
+
+/// Sum of what acts on the coordinates by [`ModalComponent::project`].
+#[derive(Clone, Debug)]
+pub(super) struct Load {
+    /// g, r.
+    pub(super) on_deformation: Vec<f64>,
+    /// Wᵀg + g_F.
+    pub(super) on_frame: Vector6,
+}
+
+impl Load {
+    pub(super) fn set(&mut self, g: &[f64], on_frame: &Vector6) {
+        self.on_deformation.copy_from_slice(g);
+        self.on_frame = *on_frame;
+    }
+
+    pub(super) fn add(&mut self, g: &[f64], on_frame: &Vector6) {
+        dense::add_scaled(&mut self.on_deformation, 1.0, g);
+        self.on_frame = dense::plus_scaled(&self.on_frame, 1.0, on_frame);
+    }
 }

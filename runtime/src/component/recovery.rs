@@ -7,6 +7,7 @@ use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use super::dense;
+use super::workspace::check_finite;
 use super::{EvaluationError, ModalComponent, Workspace};
 use crate::motion::{Matrix3, Motion, Vector3, join, multiply_3};
 use crate::superelement::Recovery;
@@ -71,7 +72,9 @@ impl ModalComponent {
     ///
     /// # Errors
     ///
-    /// [`EvaluationError::WrongLength`]; [`EvaluationError::IncompleteRecovery`] where the file recovers only some of the
+    /// [`EvaluationError::ForeignWorkspace`]; [`EvaluationError::NoState`] after an evaluation that failed;
+    /// [`EvaluationError::WrongLength`]; [`EvaluationError::NotFinite`] for `positions`; [`EvaluationError::Overflow`];
+    /// [`EvaluationError::IncompleteRecovery`] where the file recovers only some of the
     /// three translations of a node, or only some of its rotations: they cannot be turned with the floating frame. The tool
     /// writes the directions that a node of the model has, which may be fewer: one such node makes this function refuse
     /// the file as a whole, and the job must leave it out of `recovery`.
@@ -82,11 +85,15 @@ impl ModalComponent {
         nodes: &mut [RecoveredNode],
     ) -> Result<(), EvaluationError> {
         self.check_workspace(workspace)?;
+        workspace.check_state()?;
         let expected = self.recovered_labels().len();
         for (what, found) in [("positions of recovered nodes", positions.len()), ("recovered nodes", nodes.len())] {
             if found != expected {
                 return Err(EvaluationError::WrongLength { what, found, expected });
             }
+        }
+        if let Some(index) = positions.as_flattened().iter().position(|value| !value.is_finite()) {
+            return Err(EvaluationError::NotFinite { what: "positions of recovered nodes", index });
         }
         let Some(recovery) = &self.recovery else {
             return Ok(());
@@ -104,6 +111,7 @@ impl ModalComponent {
             let turn = Motion::exp(&join(&[0.0; 3], &theta.unwrap_or_default())).rotation;
             node.displacement = core::array::from_fn(|i| moved[i] - position[i]);
             node.rotation = multiply_3(&frame.rotation, &turn);
+            check_finite([("displacements of recovered nodes", &node.displacement)])?;
         }
         Ok(())
     }

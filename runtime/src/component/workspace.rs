@@ -3,7 +3,10 @@
 use alloc::vec::Vec;
 
 use super::dense;
+use super::exact::PlaceTerms;
+use super::identity::Identity;
 use super::measures::NodeMeasure;
+use super::projection::Load;
 use super::{EvaluationError, ModalComponent};
 use crate::motion::{IDENTITY_6, Matrix6, Motion, Vector6};
 
@@ -13,6 +16,10 @@ use crate::motion::{IDENTITY_6, Matrix6, Motion, Vector6};
 /// of the forces.
 #[derive(Clone, Debug)]
 pub struct Workspace {
+    /// The component that it is for.
+    pub(super) component: Identity,
+    /// Whether the last evaluation came to its end, so that there is a state to which the results belong.
+    pub(super) has_state: bool,
     pub(super) floating_frame: Motion,
     /// The floating frame seen from node 0, which a rigid-body motion leaves as it is.
     pub(super) frame_in_node: Motion,
@@ -26,10 +33,14 @@ pub struct Workspace {
     pub(super) deformation: Vec<f64>,
     pub(super) deformation_rate: Vec<f64>,
     pub(super) frame_velocity: Vector6,
+    /// V̇_F of the forces last evaluated.
+    pub(super) frame_acceleration: Vector6,
     /// Velocity and acceleration ε = ė + U V_F of the component in its floating frame.
     pub(super) velocity: Vec<f64>,
     pub(super) acceleration: Vec<f64>,
     pub(super) product: Vec<f64>,
+    /// Of the elastic, inertial and damping forces last evaluated.
+    pub(super) load: Load,
     pub(super) results: Results,
     pub(super) scratch: Scratch,
 }
@@ -43,11 +54,15 @@ pub(super) struct Results {
     pub(super) gravity: Vec<f64>,
     pub(super) strain_energy: f64,
     pub(super) kinetic_energy: f64,
+    pub(super) dissipated_power: f64,
+    /// P_F.
+    pub(super) frame_momentum: Vector6,
     pub(super) stiffness: Vec<f64>,
     pub(super) mass: Vec<f64>,
     pub(super) damping: Vec<f64>,
     pub(super) gyroscopic: Vec<f64>,
     pub(super) frame_gyroscopic: Vec<f64>,
+    pub(super) exact_stiffness: Vec<f64>,
 }
 
 /// Intermediate matrices of the tangents.
@@ -57,8 +72,10 @@ pub(super) struct Scratch {
     pub(super) square: Vec<f64>,
     /// 6k × r.
     pub(super) rates: Vec<f64>,
-    /// Two 6 × r, row by row.
-    pub(super) wide: [Vec<f64>; 2],
+    /// k.
+    pub(super) terms: Vec<PlaceTerms>,
+    /// Four 6 × r, row by row.
+    pub(super) wide: [Vec<f64>; 4],
     /// r × 6.
     pub(super) tall: Vec<Vector6>,
 }
@@ -72,6 +89,7 @@ impl Results {
             ("damping forces", &self.damping_forces),
             ("strain energy", &[self.strain_energy]),
             ("kinetic energy", &[self.kinetic_energy]),
+            ("dissipated power", &[self.dissipated_power]),
         ];
         check_finite(each)
     }
@@ -87,9 +105,14 @@ impl Results {
         ];
         check_finite(each)
     }
+
+    /// An exact stiffness of numbers.
+    pub(super) fn check_exact_stiffness(&self) -> Result<(), EvaluationError> {
+        check_finite([("exact stiffness", &self.exact_stiffness)])
+    }
 }
 
-fn check_finite<const N: usize>(each: [(&'static str, &[f64]); N]) -> Result<(), EvaluationError> {
+pub(super) fn check_finite<const N: usize>(each: [(&'static str, &[f64]); N]) -> Result<(), EvaluationError> {
     match each.into_iter().find(|(_, values)| !all_finite(values)) {
         Some((what, _)) => Err(EvaluationError::Overflow { what }),
         None => Ok(()),
@@ -120,15 +143,19 @@ impl Workspace {
             damping: component.reference_damping().unwrap_or_default().to_vec(),
             gyroscopic: matrix(),
             frame_gyroscopic: matrix(),
+            exact_stiffness: component.reference_stiffness().to_vec(),
             ..Results::default()
         };
         let scratch = Scratch {
             square: matrix(),
             rates: vec![0.0; 6 * k * r],
-            wide: [vec![0.0; 6 * r], vec![0.0; 6 * r]],
+            terms: vec![PlaceTerms::ZERO; k],
+            wide: core::array::from_fn(|_| vec![0.0; 6 * r]),
             tall: columns(),
         };
         let mut workspace = Self {
+            component: component.identity,
+            has_state: true,
             floating_frame: Motion::IDENTITY,
             frame_in_node: Motion::IDENTITY,
             given_frame: None,
@@ -138,14 +165,21 @@ impl Workspace {
             deformation: vector(),
             deformation_rate: vector(),
             frame_velocity: [0.0; 6],
+            frame_acceleration: [0.0; 6],
             velocity: vector(),
             acceleration: vector(),
             product: vector(),
+            load: Load { on_deformation: vector(), on_frame: [0.0; 6] },
             results,
             scratch,
         };
         component.project_frame(&mut workspace);
         workspace
+    }
+
+    /// That the last evaluation succeeded.
+    pub(super) fn check_state(&self) -> Result<(), EvaluationError> {
+        if self.has_state { Ok(()) } else { Err(EvaluationError::NoState) }
     }
 
     /// Starts the next search for the floating frame from `frame`: after a jump of the state, or to repeat a run. The next
@@ -189,6 +223,11 @@ impl Workspace {
         &self.results.damping_forces
     }
 
+    /// Power ẋᵀC ẋ that the damping takes from the motion; the skew part of C takes none. Zero where the file has no damping.
+    pub fn dissipated_power(&self) -> f64 {
+        self.results.dissipated_power
+    }
+
     /// Strain energy ½ eᵀK e.
     pub fn strain_energy(&self) -> f64 {
         self.results.strain_energy
@@ -199,8 +238,17 @@ impl Workspace {
         self.results.kinetic_energy
     }
 
-    /// Tangent stiffness (J P_⊥)ᵀK J P_⊥, r × r, symmetric; eq. (82). It lacks the derivative of J P_⊥, which vanishes
-    /// with the deformation.
+    /// Momentum P_F = M_F V_F + UᵀM ė of the component in its floating frame: linear momentum, then angular momentum about the
+    /// frame's origin.
+    ///
+    /// A free component keeps it in inertial axes: R_F p, and R_F l + u_F × R_F p about the inertial origin.
+    pub fn frame_momentum(&self) -> &Vector6 {
+        &self.results.frame_momentum
+    }
+
+    /// Tangent stiffness (J P_⊥)ᵀK J P_⊥, r × r, symmetric; eq. (82). It lacks the derivative of J P_⊥ and that of the inertial
+    /// and damping forces by the place, which [`exact_stiffness`](Self::exact_stiffness) has: enough for Newton's method on
+    /// small deformation, but not for linear vibration about a fast rotation.
     pub fn stiffness(&self) -> &[f64] {
         &self.results.stiffness
     }
@@ -221,7 +269,16 @@ impl Workspace {
         &self.results.frame_gyroscopic
     }
 
-    /// Derivative of the damping forces by the velocities, r × r, symmetric; empty where the file has no damping.
+    /// Derivative of the elastic, inertial and damping forces by the place, r × r: the increments ΔU_j of the nodes and those of
+    /// the amplitudes, at fixed velocities and accelerations. It is not symmetric, but without deformation at rest.
+    ///
+    /// It belongs to the state last given to [`exact_tangents`](ModalComponent::exact_tangents).
+    pub fn exact_stiffness(&self) -> &[f64] {
+        &self.results.exact_stiffness
+    }
+
+    /// Derivative of the damping forces by the velocities, r × r, symmetric where the damping is; empty where the file has no
+    /// damping.
     pub fn damping(&self) -> &[f64] {
         &self.results.damping
     }

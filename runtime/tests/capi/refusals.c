@@ -73,13 +73,13 @@ int main(int argc, char **argv)
     EXPECT(supel_component_open_with(argv[2], SUPEL_RIGID, SUPEL_CLASSICAL, &other), SUPEL_STATUS_OK, "");
     EXPECT(supel_workspace_new(other, &foreign), SUPEL_STATUS_OK, "");
     REQUIRE(supel_n_coordinates(other) == n && supel_n_nodes(other) == 1);
-    EXPECT(supel_evaluate(component, &state, foreign), SUPEL_STATUS_ARGUMENT, "nodes of the workspace");
-    EXPECT(supel_tangents(component, &state, foreign), SUPEL_STATUS_ARGUMENT, "nodes of the workspace");
-    EXPECT(supel_add_gravity(component, gravity, foreign, forces), SUPEL_STATUS_ARGUMENT, "nodes of the workspace");
+    EXPECT(supel_evaluate(component, &state, foreign), SUPEL_STATUS_ARGUMENT, "another component");
+    EXPECT(supel_tangents(component, &state, foreign), SUPEL_STATUS_ARGUMENT, "another component");
+    EXPECT(supel_add_gravity(component, gravity, foreign, forces), SUPEL_STATUS_ARGUMENT, "another component");
 
     double position[3] = {0, 0, 0};
     SupelRecoveredNode node;
-    EXPECT(supel_recover(component, foreign, position, &node), SUPEL_STATUS_ARGUMENT, "nodes of the workspace");
+    EXPECT(supel_recover(component, foreign, position, &node), SUPEL_STATUS_ARGUMENT, "another component");
     EXPECT(supel_recover(NULL, workspace, position, &node), SUPEL_STATUS_ARGUMENT, "component is null");
     EXPECT(supel_recover(component, NULL, position, &node), SUPEL_STATUS_ARGUMENT, "workspace is null");
     EXPECT(supel_recover(component, workspace, NULL, &node), SUPEL_STATUS_ARGUMENT, "positions is null");

@@ -3,7 +3,7 @@
 use std::num::NonZero;
 
 use supel_runtime::component::{
-    BatchError, Evaluation, EvaluationError, ModalComponent, Workspace, evaluate_all, tangents_all,
+    BatchError, Evaluation, EvaluationError, ModalComponent, Workspace, evaluate_all, exact_tangents_all, tangents_all,
 };
 
 use crate::situation::{Situation, components};
@@ -44,6 +44,12 @@ fn a_batch_has_the_bits_of_single_evaluations_for_any_number_of_threads() {
         for ((found, component), situation) in workspaces.iter().zip(&components).zip(&situations) {
             let expected = situation.tangents(component);
             assert_eq!((found.stiffness(), found.gyroscopic()), (expected.stiffness(), expected.gyroscopic()));
+        }
+        let mut workspaces: Vec<_> = components.iter().map(ModalComponent::workspace).collect();
+        let mut all = evaluations(&components, &situations, &mut workspaces);
+        exact_tangents_all(&mut all, threads).expect("moderate states");
+        for ((found, component), situation) in workspaces.iter().zip(&components).zip(&situations) {
+            assert_eq!(found.exact_stiffness(), situation.exact_tangents(component).exact_stiffness());
         }
     }
 }

@@ -2,10 +2,11 @@
 
 use supel_runtime::component::{FloatingFrame, ModalComponent, Workspace};
 use supel_runtime::motion::{Motion, Vector6};
+use supel_runtime::{Matrix, Superelement};
 
 use crate::beam::{self, Square};
 use crate::random::Random;
-use crate::situation::{CHOICES, Situation, components, largest, times};
+use crate::situation::{CHOICES, Situation, components, largest, random_skew, times};
 
 /// For motion of size s the forces are s (K q, M q̈) up to s².
 #[test]
@@ -78,8 +79,9 @@ impl Integrator<'_> {
                 (0..r).map(|i| start.velocities[i] + h * ((1.0 - gamma) * previous[i] + gamma * self.a[i])).collect();
             let state = self.situation.state();
             self.component.evaluate(&state, &mut self.workspace).expect("a moderate deformation");
-            let (f_e, f_i) = (self.workspace.elastic_forces(), self.workspace.inertial_forces());
-            let residual: Vec<f64> = (0..r).map(|i| f_e[i] + f_i[i]).collect();
+            let (f_e, f_i, f_d) =
+                (self.workspace.elastic_forces(), self.workspace.inertial_forces(), self.workspace.damping_forces());
+            let residual: Vec<f64> = (0..r).map(|i| f_e[i] + f_i[i] + f_d[i]).collect();
             if largest(&residual) <= 1e-10 * (largest(f_e) + largest(f_i) + 1.0) {
                 return;
             }
@@ -88,7 +90,8 @@ impl Integrator<'_> {
             let (by_place, by_velocity) = (h * h * beta * factor, h * gamma * factor);
             let entry = |i: usize| {
                 let w = &self.workspace;
-                w.mass()[i] + by_velocity * w.gyroscopic()[i] + by_place * w.stiffness()[i]
+                let damping = w.damping().get(i).unwrap_or(&0.0);
+                w.mass()[i] + by_velocity * (w.gyroscopic()[i] + damping) + by_place * w.stiffness()[i]
             };
             let system = Square { n: r, data: (0..r * r).map(entry).collect() };
             let correction = system.solve(&residual);
@@ -102,8 +105,18 @@ impl Integrator<'_> {
     }
 }
 
-/// Largest change of the energy, relative, of a beam thrown spinning and vibrating, in half a second.
-fn energy_error(component: &ModalComponent, step: f64) -> f64 {
+/// What half a second of flight shows, as shares of the energy at the start.
+struct Flight {
+    /// Largest change of the energy and of what the damping has taken of it, together.
+    change: f64,
+    /// What the damping has taken.
+    taken: f64,
+    /// Where node 0 is at the end.
+    place: [f64; 3],
+}
+
+/// A beam thrown spinning and vibrating.
+fn flown(component: &ModalComponent, step: f64) -> Flight {
     let (k, r) = (component.n_nodes(), component.n_coordinates());
     let mut situation = Situation::random(component, 0.0, 3);
     situation.motions.fill(Motion::IDENTITY);
@@ -114,18 +127,59 @@ fn energy_error(component: &ModalComponent, step: f64) -> f64 {
     situation.velocities = (0..r).map(|i| if i < 6 * k { spin[i % 6] + stir[i] } else { stir[i] }).collect();
     situation.accelerations.fill(0.0);
     let workspace = situation.evaluated(component);
-    // M v̇ = −f_I(v̇ = 0) without deformation.
+    // M v̇ = −f_I(v̇ = 0) − f_D without deformation.
     let mass = Square { n: r, data: component.reference_mass().to_vec() };
-    let load: Vec<f64> = workspace.inertial_forces().iter().map(|f| -f).collect();
+    let forces = workspace.inertial_forces().iter().zip(workspace.damping_forces());
+    let load: Vec<f64> = forces.map(|(inertial, damping)| -inertial - damping).collect();
     situation.accelerations = mass.solve(&load);
     let a = situation.accelerations.clone();
     let mut flight = Integrator { component, workspace, situation, a, step };
     let start = flight.energy();
     let n_steps = (0.5 / step).round() as usize;
-    (0..n_steps).fold(0.0, |worst: f64, _| {
+    let (mut change, mut taken) = (0.0_f64, 0.0);
+    for _ in 0..n_steps {
+        let before = flight.workspace.dissipated_power();
         flight.advance();
-        worst.max((flight.energy() - start).abs() / start)
-    })
+        taken += 0.5 * step * (before + flight.workspace.dissipated_power());
+        change = change.max((flight.energy() + taken - start).abs() / start);
+    }
+    let place = flight.situation.motions[0].apply(&component.positions()[0]);
+    Flight { change, taken: taken / start, place }
+}
+
+fn energy_error(component: &ModalComponent, step: f64) -> f64 {
+    flown(component, step).change
+}
+
+/// Damped by 2e-4 K + M/10 and a rotor's forces, or by those alone.
+#[test]
+fn damping_takes_the_energy_that_is_missing() {
+    let arc = |brake: f64, rotor: f64| {
+        let (mut tensors, metadata, _) = beam::reduced_parts(&beam::arc_nodes(), &beam::SOFT, &[0, 8], 3);
+        let (k, m, skew, r) = (&tensors.stiffness, &tensors.mass, random_skew(15), 15);
+        let half = Matrix::from_fn(r, r, |i, j| (0..r).map(|c| skew[(i, c)] * m[(c, j)]).sum());
+        let turning = |i, j| (0..r).map(|c| m[(i, c)] * half[(c, j)]).sum::<f64>();
+        let damping = |i, j| brake * (2e-4 * k[(i, j)] + 0.1 * m[(i, j)]) + rotor * turning(i, j);
+        tensors.damping = Some(Matrix::from_fn(r, r, damping));
+        let superelement = Superelement::new(tensors, metadata).expect("the parts fit");
+        ModalComponent::new(&superelement, FloatingFrame::MassWeighted).expect("a free body")
+    };
+    let free = flown(&arc(0.0, 0.0), 1e-3);
+    for (brake, rotor) in [(1.0, 0.0), (1.0, 3.0), (0.0, 3.0)] {
+        let component = arc(brake, rotor);
+        let [coarse, fine] = [2e-3, 1e-3].map(|step| flown(&component, step));
+        let ratio = coarse.change / fine.change;
+        println!("{brake}, {rotor}: {:e} {ratio}, {:e} taken", fine.change, fine.taken);
+        // Of the second order, as without damping.
+        assert!((3.9..4.1).contains(&ratio), "{brake}, {rotor}: {ratio}");
+        // Half a second of a rate of 0.1 takes a tenth of the kinetic energy or less; a rotor takes nothing, but moves the beam.
+        match brake {
+            0.0 => assert!(fine.taken.abs() < 1e-13, "{:e}", fine.taken),
+            _ => assert!((0.03..0.15).contains(&fine.taken), "{}", fine.taken),
+        }
+        let apart = fine.place.iter().zip(free.place).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+        assert!(apart > 1e-2, "{brake}, {rotor}: {apart:e}");
+    }
 }
 
 #[test]

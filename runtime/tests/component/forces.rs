@@ -1,11 +1,13 @@
 //! Forces and tangents against energies and differences.
 
 use supel_runtime::component::{Measures, ModalComponent};
-use supel_runtime::motion::{check, cross, hat, times_3, times_6, transposed_times_6};
-use supel_runtime::{Matrix, Superelement};
+use supel_runtime::motion::{check, hat, times_6, transposed_times_6};
 
 use crate::random::Random;
-use crate::situation::{CHOICES, Situation, assert_close, components, dot, file_matrix, largest, superelements, times};
+use crate::situation::{
+    CHOICES, Situation, assert_close, central_difference, components, dot, file_matrix, gradient, largest,
+    superelements, times, units,
+};
 
 /// Deformation in the tests, rad and length, of each entry at each node: nodes turn by up to 0.8 rad against each other.
 const LARGE: f64 = 0.25;
@@ -14,27 +16,15 @@ const LARGE: f64 = 0.25;
 const STEP: f64 = 1e-5;
 const DIFFERENCE_TOLERANCE: f64 = 1e-8;
 
-/// r directions, the columns of the identity.
-fn units(r: usize) -> Vec<Vec<f64>> {
-    (0..r).map(|i| (0..r).map(|j| f64::from(u8::from(i == j))).collect()).collect()
-}
-
-/// (f(STEP) − f(−STEP)) / (2 STEP).
 fn difference(f: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
-    f(STEP).iter().zip(f(-STEP)).map(|(ahead, behind)| (ahead - behind) / (2.0 * STEP)).collect()
-}
-
-/// The gradient of a scalar of the configuration.
-fn gradient(situation: &Situation, energy: impl Fn(&Situation) -> f64) -> Vec<f64> {
-    let r = situation.velocities.len();
-    units(r).iter().flat_map(|unit| difference(|s| vec![energy(&situation.moved(s, unit))])).collect()
+    central_difference(STEP, f)
 }
 
 #[test]
 fn elastic_forces_are_the_gradient_of_the_strain_energy() {
     for component in components().iter().filter(|component| component.n_nodes() > 1) {
         let situation = Situation::random(component, LARGE, 1);
-        let expected = gradient(&situation, |moved| moved.evaluated(component).strain_energy());
+        let expected = gradient(STEP, &situation, |moved| moved.evaluated(component).strain_energy());
         assert_close(situation.evaluated(component).elastic_forces(), &expected, DIFFERENCE_TOLERANCE);
     }
 }
@@ -105,7 +95,7 @@ fn inertial_forces_are_those_of_the_euler_lagrange_equation() {
                 momentum(&moved)
             })
             .collect();
-        let by_place = gradient(&situation, |moved| moved.evaluated(&component).kinetic_energy());
+        let by_place = gradient(STEP, &situation, |moved| moved.evaluated(&component).kinetic_energy());
         let p = momentum(&situation);
         let mut expected: Vec<f64> =
             (0..p.len()).map(|i| (path[0][i] - path[1][i]) / (2.0 * STEP) - by_place[i]).collect();
@@ -207,114 +197,4 @@ fn tangents_without_deformation_are_the_reference_matrices() {
             assert_close(workspace.damping(), damping, 1e-12);
         }
     }
-}
-
-#[test]
-fn damping_forces_are_those_of_the_damping_matrix_and_take_energy() {
-    for component in components() {
-        let situation = Situation::random(&component, LARGE, 10);
-        let (forces, v) = (situation.evaluated(&component), &situation.velocities);
-        if component.reference_damping().is_none() {
-            assert!(forces.damping_forces().iter().all(|force| *force == 0.0));
-            assert!(situation.tangents(&component).damping().is_empty());
-            continue;
-        }
-        assert_close(forces.damping_forces(), &times(situation.tangents(&component).damping(), v), 1e-12);
-        assert!(dot(forces.damping_forces(), v) > 0.0);
-    }
-}
-
-#[test]
-fn only_a_damping_of_rigid_motion_brakes_it() {
-    for component in components().iter().filter(|component| component.reference_damping().is_some()) {
-        let mut situation = Situation::random(component, 0.0, 11);
-        situation.amplitudes.fill(0.0);
-        situation.velocities.fill(0.0);
-        // All nodes with one material velocity.
-        (0..6 * component.n_nodes()).for_each(|i| situation.velocities[i] = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0][i % 6]);
-        let forces = situation.evaluated(component);
-        let brake = dot(forces.damping_forces(), &situation.velocities);
-        // Three nodes: damped in proportion to the mass; two: in proportion to the stiffness.
-        match component.n_nodes() {
-            3 => assert_close(&[brake], &[2.0 * forces.kinetic_energy()], 1e-12),
-            _ => assert!(largest(forces.damping_forces()) <= 1e-13, "{:?}", forces.damping_forces()),
-        }
-    }
-}
-
-#[test]
-fn gravity_forces_are_the_gradient_of_the_potential() {
-    let g = [1.0, -2.0, 3.0];
-    // Random masses have no centre, and no potential.
-    for superelement in [crate::beam::arc(5).superelement] {
-        for (frame, measures) in CHOICES {
-            let component = ModalComponent::with_measures(&superelement, frame, measures).expect("a free body");
-            let situation = Situation::random(&component, LARGE, 12);
-            let m_f = component.rigid_mass();
-            let (mass, moment) = (m_f[0][0], [m_f[1][5], m_f[2][3], m_f[0][4]]);
-            // M̂Û of the translations, in the coordinates of the measures: those of the file have the same columns.
-            let in_nodes = times_unit_translations(&component);
-            let in_file: Vec<[f64; 3]> = {
-                let mass = file_matrix(&superelement, |tensors| &tensors.mass);
-                let r = component.n_coordinates();
-                let entry = |i: usize, a: usize| (0..component.n_nodes()).map(|j| mass[i * r + 6 * j + a]).sum();
-                (0..r).map(|i| std::array::from_fn(|a| entry(i, a))).collect()
-            };
-            let loads = if measures == Measures::MotionBased { in_nodes } else { in_file };
-            let potential = |at: &Situation| {
-                let workspace = at.evaluated(&component);
-                let (h, e) = (workspace.floating_frame(), workspace.deformation());
-                let moved: [f64; 3] =
-                    std::array::from_fn(|a| moment[a] + loads.iter().zip(e).map(|(row, e)| row[a] * e).sum::<f64>());
-                let turned = times_3(&h.rotation, &moved);
-                -(0..3).map(|a| g[a] * (turned[a] + mass * h.translation[a])).sum::<f64>()
-            };
-            let expected: Vec<f64> = gradient(&situation, potential).iter().map(|x| -x).collect();
-            let mut workspace = situation.evaluated(&component);
-            assert_close(component.gravity_forces(&g, &mut workspace), &expected, DIFFERENCE_TOLERANCE);
-        }
-    }
-}
-
-/// The file's own loads of gravity, which are not M̂Û here, as where the mass is lumped otherwise than in the model.
-#[test]
-fn gravity_of_the_file_is_taken_in_every_choice() {
-    let (mut tensors, metadata, _) =
-        crate::beam::reduced_parts(&crate::beam::arc_nodes(), &crate::beam::SOFT, &[0, 8], 3);
-    let mut random = Random(14);
-    let own = Matrix::from_fn(15, 3, |_, _| random.next());
-    tensors.gravity = Some(own.clone());
-    let superelement = Superelement::new(tensors, metadata).expect("the parts fit");
-    let g = [1.0, -2.0, 3.0];
-    // Loads on displacements at the nodes; the coordinates of the component have the moment about the origin.
-    let mut expected: Vec<f64> = (0..15).map(|i| (0..3).map(|a| own[(i, a)] * g[a]).sum()).collect();
-    for (six, x) in expected[..12].as_chunks_mut::<6>().0.iter_mut().zip(&superelement.tensors().interface_positions) {
-        let lever = cross(x, &[six[0], six[1], six[2]]);
-        (0..3).for_each(|i| six[3 + i] += lever[i]);
-    }
-    for (frame, measures) in CHOICES {
-        let component = ModalComponent::with_measures(&superelement, frame, measures).expect("a free body");
-        // In the reference configuration every motion of the nodes is a deformation or a rigid motion, of which Ĝ has both.
-        assert_close(component.gravity_forces(&g, &mut component.workspace()), &expected, 1e-12);
-    }
-}
-
-fn times_unit_translations(component: &ModalComponent) -> Vec<[f64; 3]> {
-    let r = component.n_coordinates();
-    let m = component.reference_mass();
-    let entry = |i: usize, a: usize| (0..component.n_nodes()).map(|j| m[i * r + 6 * j + a]).sum();
-    (0..r).map(|i| std::array::from_fn(|a| entry(i, a))).collect()
-}
-
-#[test]
-fn gravity_of_a_rigid_beam_is_its_weight_at_its_centre() {
-    let component = ModalComponent::new(&crate::beam::arc(3).superelement, CHOICES[0].0).expect("a free body");
-    let mut workspace = component.workspace();
-    let g = [0.0, 0.0, -10.0];
-    let forces = component.gravity_forces(&g, &mut workspace);
-    let sum: [f64; 6] = std::array::from_fn(|a| forces[a] + forces[6 + a]);
-    let m_f = component.rigid_mass();
-    let (mass, moment) = (m_f[0][0], [m_f[1][5], m_f[2][3], m_f[0][4]]);
-    let torque = cross(&moment, &g);
-    assert_close(&sum, &[0.0, 0.0, -10.0 * mass, torque[0], torque[1], torque[2]], 1e-12);
 }

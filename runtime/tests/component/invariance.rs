@@ -167,6 +167,7 @@ fn components_and_workspaces_may_go_to_other_threads() {
 fn refusal(component: &ModalComponent, state: &State<'_>) -> EvaluationError {
     let error = component.evaluate(state, &mut component.workspace()).expect_err("an invalid state");
     assert_eq!(component.tangents(state, &mut component.workspace()), Err(error.clone()));
+    assert_eq!(component.exact_tangents(state, &mut component.workspace()), Err(error.clone()));
     error
 }
 
@@ -186,33 +187,55 @@ fn arguments_of_the_wrong_length_are_refused() {
     assert_eq!(refusal(&component, &short), wrong("accelerations", 0, 17));
 }
 
+/// A workspace that has the same size holds the results of another body all the same.
 #[test]
 fn the_workspace_of_another_component_is_refused() {
-    let (component, other) = (arc(), ModalComponent::new(&beam::arc(2).superelement, FloatingFrame::Rigid));
-    let mut workspace = other.expect("a free body").workspace();
+    let (component, same_size) = (arc(), arc());
+    let smaller = ModalComponent::new(&beam::arc(2).superelement, FloatingFrame::Rigid).expect("a free body");
     let situation = Situation::random(&component, 0.1, 9);
-    let expected = Err(EvaluationError::WrongLength { what: "coordinates of the workspace", found: 14, expected: 17 });
-    assert_eq!(component.evaluate(&situation.state(), &mut workspace), expected);
-    assert_eq!(component.tangents(&situation.state(), &mut workspace), expected);
-    // One without room for damping, in which the forces of another would stay.
-    let (mut tensors, metadata, _) = beam::reduced_parts(&beam::arc_nodes(), &beam::SOFT, &[0, 8], 5);
-    tensors.damping = Some(tensors.mass.clone());
-    let superelement = Superelement::new(tensors, metadata).expect("the parts fit");
-    let damped = ModalComponent::new(&superelement, FloatingFrame::Rigid).expect("a free body");
-    let what = "entries of the workspace's damping matrix";
-    let expected = |found, expected| Err(EvaluationError::WrongLength { what, found, expected });
-    assert_eq!(damped.tangents(&situation.state(), &mut component.workspace()), expected(0, 289));
-    assert_eq!(component.evaluate(&situation.state(), &mut damped.workspace()), expected(289, 0));
+    let refused = Err(EvaluationError::ForeignWorkspace);
+    for other in [&smaller, &same_size] {
+        let mut workspace = other.workspace();
+        assert_eq!(component.evaluate(&situation.state(), &mut workspace), refused);
+        assert_eq!(component.tangents(&situation.state(), &mut workspace), refused);
+        assert_eq!(component.exact_tangents(&situation.state(), &mut workspace), refused);
+        let g = [0.0, 0.0, -9.81];
+        assert_eq!(component.gravity_forces(&g, &mut workspace), Err(EvaluationError::ForeignWorkspace));
+        assert_eq!(component.gravity_potential(&g, &workspace), Err(EvaluationError::ForeignWorkspace));
+        assert_eq!(component.add_gravity_stiffness(&g, &mut workspace, &mut [0.0; 289]), refused);
+        assert_eq!(component.recover(&workspace, &[], &mut []), refused);
+        // Its own component finds it unharmed.
+        assert!(other.gravity_forces(&g, &mut workspace).is_ok());
+    }
+    // A copy of a component is the same component, and so is a copy of a workspace.
+    let mut workspace = component.workspace().clone();
+    assert_eq!(component.clone().evaluate(&situation.state(), &mut workspace), Ok(()));
 }
 
-/// One node with six amplitudes and two nodes with none have twelve coordinates.
+/// After a failure there are no results to ask further questions of.
 #[test]
-#[should_panic(expected = "nodes of the workspace")]
-fn gravity_in_a_workspace_with_other_nodes_panics() {
-    let one = Superelement::new(beam::random_parts(1, 6, 3).0, beam::random_parts(1, 6, 3).1).expect("the parts fit");
-    let one = ModalComponent::new(&one, FloatingFrame::Rigid).expect("a free body");
-    let two = ModalComponent::new(&beam::arc(0).superelement, FloatingFrame::Rigid).expect("a free body");
-    two.gravity_forces(&[0.0, 0.0, -9.81], &mut one.workspace());
+fn a_workspace_without_a_state_is_refused_until_the_next_evaluation() {
+    let component = arc();
+    let good = Situation::random(&component, 0.1, 9);
+    let mut bad = good.clone();
+    bad.velocities[2] = f64::NAN;
+    let mut huge = good.clone();
+    huge.velocities.iter_mut().for_each(|v| *v *= 1.7e308);
+    let g = [0.0, 0.0, -9.81];
+    let mut workspace = component.workspace();
+    type Evaluate = fn(&ModalComponent, &State<'_>, &mut Workspace) -> Result<(), EvaluationError>;
+    let evaluations: [Evaluate; 3] =
+        [ModalComponent::evaluate, ModalComponent::tangents, ModalComponent::exact_tangents];
+    for (evaluate, state) in evaluations.into_iter().flat_map(|evaluate| [(evaluate, &bad), (evaluate, &huge)]) {
+        assert!(evaluate(&component, &state.state(), &mut workspace).is_err());
+        let refused = Err(EvaluationError::NoState);
+        assert_eq!(component.gravity_forces(&g, &mut workspace), Err(EvaluationError::NoState));
+        assert_eq!(component.gravity_potential(&g, &workspace), Err(EvaluationError::NoState));
+        assert_eq!(component.add_gravity_stiffness(&g, &mut workspace, &mut [0.0; 289]), refused);
+        assert_eq!(component.recover(&workspace, &[], &mut []), refused);
+        evaluate(&component, &good.state(), &mut workspace).expect("a moderate deformation");
+        assert!(component.gravity_forces(&g, &mut workspace).is_ok());
+    }
 }
 
 #[test]
@@ -336,6 +359,9 @@ fn states_of_any_finite_size_give_finite_results_or_an_error() {
             }
             if component.tangents(&situation.state(), &mut workspace).is_ok() {
                 assert!(finite(&[workspace.stiffness(), workspace.mass(), workspace.gyroscopic()]));
+            }
+            if component.exact_tangents(&situation.state(), &mut workspace).is_ok() {
+                assert!(finite(&[workspace.exact_stiffness(), workspace.frame_momentum()]));
             }
         }
     }

@@ -111,6 +111,11 @@ fn impossible_loads_are_refused() {
     assert_eq!(refusal(infinite, 14, 2), EvaluationError::NotFinite { what: "force", index: 1 });
     let nothing = DeadLoad { moment: [f64::NAN, 0.0, 0.0], ..LOAD };
     assert_eq!(refusal(nothing, 14, 2), EvaluationError::NotFinite { what: "moment", index: 0 });
+    let overflow = |what| EvaluationError::Overflow { what };
+    let huge = DeadLoad { force: [1.7e308; 3], ..LOAD };
+    assert_eq!(refusal(huge, 14, 2), overflow("load at the origin"));
+    let outcome = component.add_load_stiffness(&huge, &situation.motions, &mut vec![0.0; 196]);
+    assert_eq!(outcome, Err(overflow("load stiffness")));
     let mut small = vec![0.0; 14];
     let outcome = component.add_load_stiffness(&LOAD, &situation.motions, &mut small);
     assert_eq!(outcome, Err(wrong("entries of the result", 14, 196)));

@@ -97,6 +97,16 @@ fn what_cannot_be_recovered_is_refused() {
         component.recover(&workspace, &vec![[0.0; 3]; positions], &mut vec![EMPTY; nodes]).expect_err("impossible")
     };
     let wrong = |what, found| EvaluationError::WrongLength { what, found, expected: 2 };
+    let whole = component(&WHOLE);
+    let at = |positions: [Vector3; 2]| whole.recover(&whole.workspace(), &positions, &mut [EMPTY; 2]);
+    let not_finite = EvaluationError::NotFinite { what: "positions of recovered nodes", index: 4 };
+    assert_eq!(at([[0.0; 3], [0.0, f64::NAN, 0.0]]), Err(not_finite));
+    let mut far = whole.workspace();
+    let mut situation = Situation::random(&whole, 0.0, 1);
+    situation.motions.iter_mut().for_each(|motion| motion.translation = [0.0, 1e308, 0.0]);
+    whole.evaluate(&situation.state(), &mut far).expect("a rigid motion");
+    let overflow = Err(EvaluationError::Overflow { what: "displacements of recovered nodes" });
+    assert_eq!(whole.recover(&far, &[[1.7e308; 3]; 2], &mut [EMPTY; 2]), overflow);
     assert_eq!(refusal(&component(&WHOLE), 1, 2), wrong("positions of recovered nodes", 1));
     assert_eq!(refusal(&component(&WHOLE), 2, 3), wrong("recovered nodes", 3));
     let incomplete = EvaluationError::IncompleteRecovery { label: 3 };

@@ -2,7 +2,7 @@
 
 use supel_runtime::component::{FloatingFrame, Measures, ModalComponent, State, Workspace};
 use supel_runtime::motion::{Motion, Vector6};
-use supel_runtime::{Superelement, Tensors};
+use supel_runtime::{Matrix, Superelement, Tensors};
 
 use crate::beam;
 use crate::random::Random;
@@ -58,6 +58,13 @@ impl Situation {
         workspace
     }
 
+    /// Forces, tangent matrices and exact stiffness.
+    pub(crate) fn exact_tangents(&self, component: &ModalComponent) -> Workspace {
+        let mut workspace = component.workspace();
+        component.exact_tangents(&self.state(), &mut workspace).expect("a moderate deformation");
+        workspace
+    }
+
     /// Tangent matrices.
     pub(crate) fn tangents(&self, component: &ModalComponent) -> Workspace {
         let mut workspace = component.workspace();
@@ -74,19 +81,44 @@ pub(crate) const CHOICES: [(FloatingFrame, Measures); 4] = [
     (FloatingFrame::Rigid, Measures::Classical),
 ];
 
-/// Superelements of random numbers, one of them damped with and one without its rigid-body motion, and a beam.
+/// Superelements of random numbers, damped with and without their rigid-body motion, and a beam.
 pub(crate) fn superelements() -> Vec<Superelement> {
     let build = |(tensors, metadata)| Superelement::new(tensors, metadata).expect("the parts fit");
-    let (mut tensors, metadata) = beam::random_parts(3, 4, 11);
-    tensors.damping = Some(tensors.mass.clone());
-    let rayleigh = build((tensors, metadata));
-    let (mut tensors, metadata) = beam::random_parts(2, 3, 12);
-    tensors.damping = Some(tensors.stiffness.clone());
-    let structural = build((tensors, metadata));
-    vec![rayleigh, structural, beam::arc(5).superelement, build(beam::random_parts(1, 2, 13))]
+    let damped = |(n_nodes, n_modal, seed), damping: fn(&Tensors) -> Matrix| {
+        let (mut tensors, metadata) = beam::random_parts(n_nodes, n_modal, seed);
+        tensors.damping = Some(damping(&tensors));
+        build((tensors, metadata))
+    };
+    vec![
+        damped((3, 4, 11), |tensors| tensors.mass.clone()),
+        damped((2, 3, 12), |tensors| tensors.stiffness.clone()),
+        damped((3, 1, 14), unsymmetric_motion),
+        damped((2, 2, 15), unsymmetric_deformation),
+        beam::arc(5).superelement,
+        build(beam::random_parts(1, 2, 13)),
+    ]
 }
 
-/// The same in every choice of floating frame and measures.
+/// M and a skew matrix that acts on rigid-body motion, too.
+pub(crate) fn unsymmetric_motion(tensors: &Tensors) -> Matrix {
+    let (skew, m) = (random_skew(tensors.mass.rows()), &tensors.mass);
+    Matrix::from_fn(m.rows(), m.cols(), |i, j| m[(i, j)] + skew[(i, j)])
+}
+
+/// K + K S K with a skew S, which neither resists rigid-body motion nor makes forces on it.
+pub(crate) fn unsymmetric_deformation(tensors: &Tensors) -> Matrix {
+    let (k, r) = (&tensors.stiffness, tensors.stiffness.rows());
+    let skew = random_skew(r);
+    let half = Matrix::from_fn(r, r, |i, j| (0..r).map(|c| skew[(i, c)] * k[(c, j)]).sum());
+    Matrix::from_fn(r, r, |i, j| k[(i, j)] + (0..r).map(|c| k[(i, c)] * half[(c, j)]).sum::<f64>())
+}
+
+pub(crate) fn random_skew(r: usize) -> Matrix {
+    let entries = Random(16).vector(r * r, 0.5);
+    Matrix::from_fn(r, r, |i, j| entries[i * r + j] - entries[j * r + i])
+}
+
+/// All of them in every choice of floating frame and measures.
 pub(crate) fn components() -> Vec<ModalComponent> {
     let of = |superelement: &Superelement| {
         CHOICES.map(|(frame, measures)| {
@@ -122,6 +154,22 @@ pub(crate) fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) {
 }
 
 /// A matrix of the file in row-major order, by name.
-pub(crate) fn file_matrix(superelement: &Superelement, of: impl Fn(&Tensors) -> &supel_runtime::Matrix) -> Vec<f64> {
+pub(crate) fn file_matrix(superelement: &Superelement, of: impl Fn(&Tensors) -> &Matrix) -> Vec<f64> {
     of(superelement.tensors()).as_slice().to_vec()
+}
+
+/// Columns of the identity, r × r.
+pub(crate) fn units(r: usize) -> Vec<Vec<f64>> {
+    (0..r).map(|i| (0..r).map(|j| f64::from(u8::from(i == j))).collect()).collect()
+}
+
+/// (f(step) − f(−step)) / (2 step).
+pub(crate) fn central_difference(step: f64, f: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
+    f(step).iter().zip(f(-step)).map(|(ahead, behind)| (ahead - behind) / (2.0 * step)).collect()
+}
+
+/// The gradient of a scalar of the configuration, by central differences.
+pub(crate) fn gradient(step: f64, situation: &Situation, energy: impl Fn(&Situation) -> f64) -> Vec<f64> {
+    let each = units(situation.velocities.len());
+    each.iter().flat_map(|unit| central_difference(step, |s| vec![energy(&situation.moved(s, unit))])).collect()
 }

@@ -13,7 +13,7 @@ use crate::integrator::Effort;
 use crate::joint::{CLAMPED, FREE};
 use crate::part::Part;
 use crate::selection::{Modes, selected};
-use crate::statics::equilibria;
+use crate::statics::{Tangent, equilibria};
 use crate::system::{Formulation, Load, System};
 
 const RADIUS: f64 = 100.0;
@@ -53,7 +53,7 @@ pub fn parts(layout: usize) -> Vec<Part> {
 ///
 /// # Errors
 /// A superelement that the component refuses.
-pub fn run(parts: &[Superelement], variant: &Variant) -> Result<Run> {
+pub fn run(parts: &[Superelement], variant: &Variant, tangent: Tangent) -> Result<Run> {
     let static_ones = |part: &Superelement| selected(part, Modes::Free(0));
     let positions = ends(parts);
     let parts: Vec<Superelement> = parts.iter().map(static_ones).collect::<Result<_>>()?;
@@ -67,7 +67,7 @@ pub fn run(parts: &[Superelement], variant: &Variant) -> Result<Run> {
     system.loads = vec![Load::force(tip, [0.0, 0.0, LOAD], |step| step)];
     let mut curves = Curves::new(&["load_N", "ux_m", "uy_m", "uz_m"]);
     let mut effort = Effort::default();
-    let outcome = equilibria(&mut system, STEPS, |system, at, iterations| {
+    let outcome = equilibria(&mut system, STEPS, tangent, |system, at, iterations| {
         let place = system.position(at, tip);
         let displacement = (0..3).map(|d| place[d] - system.positions[tip][d]).collect();
         effort.steps += 1;

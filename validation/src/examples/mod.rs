@@ -16,6 +16,7 @@ use crate::Result;
 use crate::curve::Curves;
 use crate::integrator::{Effort, Instant, Scheme, simulate};
 use crate::part::{Part, reduced};
+use crate::statics::Tangent;
 use crate::system::System;
 
 /// One of the examples.
@@ -150,7 +151,7 @@ impl Example {
     pub fn run(self, parts: &[Superelement], variant: &Variant, scheme: Option<Scheme>) -> Result<Run> {
         let or = |own: Scheme| scheme.unwrap_or(own);
         match self {
-            Self::Bend => bend::run(parts, variant),
+            Self::Bend => bend::run(parts, variant, Tangent::Papers),
             Self::Rotating => rotating::run(parts, variant, &or(rotating::SCHEME)),
             Self::Spherical => spherical::run(parts, variant, &or(spherical::SCHEME)),
             Self::Crank => crank::run(parts, variant, &or(crank::SCHEME)),
