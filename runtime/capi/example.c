@@ -36,6 +36,11 @@ int main(int argc, char **argv)
     }
     require(supel_component_open(argv[1], SUPEL_MASS_WEIGHTED, &component));
     require(supel_workspace_new(component, &workspace));
+    SupelVerdict verdict;
+    require(supel_verdict(component, &verdict));
+    if (verdict == SUPEL_VERDICT_FAIL) {
+        fprintf(stderr, "%s: its verification failed; `supel inspect` says where\n", argv[1]);
+    }
 
     size_t nodes = supel_n_nodes(component), n = supel_n_coordinates(component);
     SupelMotion identity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};

@@ -12,11 +12,19 @@
 
 #![allow(unsafe_code)]
 
+mod at_nodes;
 mod evaluation;
+mod file;
+mod loads;
+mod opening;
 mod recovery;
 mod results;
 
+pub use at_nodes::*;
 pub use evaluation::*;
+pub use file::*;
+pub use loads::*;
+pub use opening::*;
 pub use recovery::*;
 pub use results::*;
 
@@ -26,11 +34,9 @@ use std::any::Any;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
 
-use crate::component::{FloatingFrame, Measures, ModalComponent, Workspace};
+use crate::component::{ModalComponent, Workspace};
 use crate::motion::Motion;
-use crate::superelement::Superelement;
 
 /// What a call says.
 #[repr(C)]
@@ -99,8 +105,13 @@ pub struct SupelDeadLoad {
 }
 
 /// A superelement in large motion.
+///
+/// Its deformation is linear in its floating frame: inside a component there is no stress stiffening, whatever the tangent. A
+/// slender part that turns fast or carries a large load is divided into several components.
 pub struct SupelComponent {
     component: ModalComponent,
+    /// What the file says besides the matrices.
+    said: Said,
 }
 
 /// Scratch and results of one thread's evaluations of one component.
@@ -125,10 +136,13 @@ fn guarded(body: impl FnOnce() -> Outcome) -> SupelStatus {
         Ok(Err(failure)) => failure,
         Err(panic) => (SupelStatus::Internal, internal(panic.as_ref())),
     };
-    // A reason with a zero byte inside, from a file's name, would end there.
-    let reason = CString::new(reason.replace('\0', " ")).unwrap_or_default();
-    LAST_ERROR.with(|last| *last.borrow_mut() = reason);
+    LAST_ERROR.with(|last| *last.borrow_mut() = c_string(&reason));
     status
+}
+
+/// The text for C; a zero byte inside, of a file's making, would end it there.
+fn c_string(text: &str) -> CString {
+    CString::new(text.replace('\0', " ")).unwrap_or_default()
 }
 
 fn internal(panic: &(dyn Any + Send)) -> String {
@@ -166,65 +180,33 @@ unsafe fn values<'a, T>(pointer: *const T, n: usize, what: &str) -> Result<&'a [
     }
 }
 
+/// `n` values at `pointer` to write to.
+///
+/// # Safety
+///
+/// `pointer` is null or points to `n` values that nobody else uses as long as the slice is.
+unsafe fn values_mut<'a, T>(pointer: *mut T, n: usize, what: &str) -> Result<&'a mut [T], (SupelStatus, String)> {
+    if pointer.is_null() {
+        return Err(null(what));
+    }
+    // SAFETY: not null, and `n` values long by the promise of the caller.
+    Ok(unsafe { std::slice::from_raw_parts_mut(pointer, n) })
+}
+
+/// Version of the library, `1.2.3`.
+#[unsafe(no_mangle)]
+pub extern "C" fn supel_version() -> *const c_char {
+    const VERSION: &CStr = match CStr::from_bytes_with_nul(concat!(env!("CARGO_PKG_VERSION"), "\0").as_bytes()) {
+        Ok(version) => version,
+        Err(_) => c"",
+    };
+    VERSION.as_ptr()
+}
+
 /// Reason of the last failure on this thread; valid until the next one.
 #[unsafe(no_mangle)]
 pub extern "C" fn supel_last_error() -> *const c_char {
     LAST_ERROR.with(|last| last.borrow().as_ptr())
-}
-
-/// Reads a superelement file and makes a component of it with motion-based measures, to be freed by
-/// `supel_component_free`.
-///
-/// # Safety
-///
-/// `path` is a string that ends with a zero byte, `component` points to a pointer.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn supel_component_open(
-    path: *const c_char,
-    frame: u32,
-    component: *mut *mut SupelComponent,
-) -> SupelStatus {
-    // SAFETY: the same promises.
-    unsafe { supel_component_open_with(path, frame, SUPEL_MOTION_BASED, component) }
-}
-
-/// As `supel_component_open`, with a choice of measures: `SUPEL_MOTION_BASED` or `SUPEL_CLASSICAL`.
-///
-/// # Safety
-///
-/// As of `supel_component_open`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn supel_component_open_with(
-    path: *const c_char,
-    frame: u32,
-    measures: u32,
-    component: *mut *mut SupelComponent,
-) -> SupelStatus {
-    guarded(|| {
-        if path.is_null() || component.is_null() {
-            return Err(null(if path.is_null() { "path" } else { "component" }));
-        }
-        // SAFETY: not null, and a string by the promise of the caller.
-        let path = unsafe { CStr::from_ptr(path) };
-        let path =
-            path.to_str().map_err(|error| (SupelStatus::File, format!("path is not UTF-8, as expected: {error}")))?;
-        let superelement = Superelement::open(Path::new(path)).map_err(|error| failed(SupelStatus::File)(&error))?;
-        let frame = match frame {
-            SUPEL_MASS_WEIGHTED => FloatingFrame::MassWeighted,
-            SUPEL_RIGID => FloatingFrame::Rigid,
-            other => return Err(unknown("floating frame", other, "0 (SUPEL_MASS_WEIGHTED) or 1 (SUPEL_RIGID)")),
-        };
-        let measures = match measures {
-            SUPEL_MOTION_BASED => Measures::MotionBased,
-            SUPEL_CLASSICAL => Measures::Classical,
-            other => return Err(unknown("measures", other, "0 (SUPEL_MOTION_BASED) or 1 (SUPEL_CLASSICAL)")),
-        };
-        let made = ModalComponent::with_measures(&superelement, frame, measures);
-        let made = made.map_err(|error| failed(SupelStatus::Component)(&error))?;
-        // SAFETY: not null, and a place for a pointer by the promise of the caller.
-        unsafe { component.write(Box::into_raw(Box::new(SupelComponent { component: made }))) };
-        Ok(())
-    })
 }
 
 /// Frees a component; null is allowed.
@@ -284,6 +266,17 @@ pub unsafe extern "C" fn supel_positions(component: *const SupelComponent) -> *c
     pointer(unsafe { component.as_ref() }.map(|component| component.component.positions().as_flattened()))
 }
 
+/// Rigid-body mass about the inertial origin, 6 x 6, row by row; null for null.
+///
+/// # Safety
+///
+/// `component` is null or comes from `supel_component_open`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn supel_rigid_mass(component: *const SupelComponent) -> *const f64 {
+    // SAFETY: null or a component by the promise of the caller.
+    pointer(unsafe { component.as_ref() }.map(|component| component.component.rigid_mass().as_flattened()))
+}
+
 /// Stiffness without deformation; null for null.
 ///
 /// # Safety
@@ -319,4 +312,18 @@ pub unsafe extern "C" fn supel_reference_mass(component: *const SupelComponent) 
 
 fn pointer(values: Option<&[f64]>) -> *const f64 {
     values.map_or(std::ptr::null(), <[f64]>::as_ptr)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn panics_do_not_cross_the_border() {
+        let status = guarded(|| panic!("a bug of the library"));
+        assert_eq!(status, SupelStatus::Internal);
+        // SAFETY: the library's own string, which no other call of this thread replaces.
+        let reason = unsafe { CStr::from_ptr(supel_last_error()) }.to_str().expect("a text");
+        assert!(reason.contains("a bug of the library"), "{reason}");
+    }
 }

@@ -2,9 +2,9 @@
 
 use alloc::boxed::Box;
 
-use super::{Outcome, SupelComponent, SupelDeadLoad, SupelMotion, SupelState, SupelStatus, SupelWorkspace};
+use super::{Outcome, SupelComponent, SupelMotion, SupelState, SupelStatus, SupelWorkspace};
 use super::{failed, guarded, null, values};
-use crate::component::{DeadLoad, ModalComponent, State, Workspace};
+use crate::component::{EvaluationError, ModalComponent, State, Workspace};
 use crate::motion::Motion;
 
 /// Room for the evaluations of a component by one thread, to be freed by `supel_workspace_free`.
@@ -48,12 +48,7 @@ pub(super) fn check_workspace(component: &ModalComponent, workspace: &Workspace)
     component.check_workspace(workspace).map_err(|error| failed(SupelStatus::Argument)(&error))
 }
 
-/// What an evaluation fills.
-#[derive(Clone, Copy)]
-enum Wanted {
-    Forces,
-    Tangents,
-}
+type Evaluate = fn(&ModalComponent, &State<'_>, &mut Workspace) -> Result<(), EvaluationError>;
 
 /// # Safety
 ///
@@ -62,7 +57,7 @@ unsafe fn evaluate(
     component: *const SupelComponent,
     state: *const SupelState,
     workspace: *mut SupelWorkspace,
-    wanted: Wanted,
+    wanted: Evaluate,
 ) -> Outcome {
     // SAFETY: null, or what their names say and not used by others, by the promise of the caller.
     let (component, state, workspace) = unsafe { (component.as_ref(), state.as_ref(), workspace.as_mut()) };
@@ -81,11 +76,7 @@ unsafe fn evaluate(
     };
     let state = State { motions, amplitudes, velocities, accelerations };
     check_workspace(component, workspace)?;
-    let outcome = match wanted {
-        Wanted::Forces => component.evaluate(&state, workspace),
-        Wanted::Tangents => component.tangents(&state, workspace),
-    };
-    outcome.map_err(|error| failed(SupelStatus::State)(&error))
+    wanted(component, &state, workspace).map_err(|error| failed(SupelStatus::State)(&error))
 }
 
 /// Floating frame, deformation, forces and energies of a state.
@@ -101,10 +92,10 @@ pub unsafe extern "C" fn supel_evaluate(
     workspace: *mut SupelWorkspace,
 ) -> SupelStatus {
     // SAFETY: the same promises.
-    guarded(|| unsafe { evaluate(component, state, workspace, Wanted::Forces) })
+    guarded(|| unsafe { evaluate(component, state, workspace, ModalComponent::evaluate) })
 }
 
-/// Stiffness, mass and gyroscopic matrix of a state.
+/// Stiffness, mass, gyroscopic and damping matrix of a state, as the paper has them.
 ///
 /// # Safety
 ///
@@ -116,106 +107,26 @@ pub unsafe extern "C" fn supel_tangents(
     workspace: *mut SupelWorkspace,
 ) -> SupelStatus {
     // SAFETY: the same promises.
-    guarded(|| unsafe { evaluate(component, state, workspace, Wanted::Tangents) })
+    guarded(|| unsafe { evaluate(component, state, workspace, ModalComponent::tangents) })
 }
 
-/// Adds the forces of gravity, an acceleration in inertial axes, in the state last evaluated in the workspace.
+/// Forces, tangents and exact stiffness of a state: all derivatives of elastic, inertial and damping forces, by the place
+/// (`supel_exact_stiffness`), by the velocities (`supel_gyroscopic`, `supel_damping`) and by the accelerations (`supel_mass`).
+///
+/// `supel_stiffness` has no derivative of inertial forces and no geometric part: use this for linear vibration about a fast
+/// rotation. A component has no stress stiffening inside, neither here nor there.
 ///
 /// # Safety
 ///
-/// `component` and `workspace` as of `supel_evaluate`; `gravity` points to three values, `forces` to as many as the
-/// component has coordinates. Each may be null.
+/// As of `supel_evaluate`.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn supel_add_gravity(
+pub unsafe extern "C" fn supel_exact_tangents(
     component: *const SupelComponent,
-    gravity: *const f64,
+    state: *const SupelState,
     workspace: *mut SupelWorkspace,
-    forces: *mut f64,
-) -> SupelStatus {
-    guarded(|| {
-        // SAFETY: null, or what their names say and not used by others, by the promise of the caller.
-        let (component, workspace) = unsafe { (component.as_ref(), workspace.as_mut()) };
-        let component = &component.ok_or_else(|| null("component"))?.component;
-        let workspace = &mut workspace.ok_or_else(|| null("workspace"))?.workspace;
-        check_workspace(component, workspace)?;
-        // SAFETY: three values by the promise of the caller.
-        let gravity = unsafe { values(gravity, 3, "gravity")? };
-        if forces.is_null() {
-            return Err(null("forces"));
-        }
-        // SAFETY: not null, and as long as the component has coordinates by the promise of the caller.
-        let forces = unsafe { std::slice::from_raw_parts_mut(forces, component.n_coordinates()) };
-        let added = component.gravity_forces(&[gravity[0], gravity[1], gravity[2]], workspace);
-        let added = added.map_err(|error| failed(SupelStatus::State)(&error))?;
-        forces.iter_mut().zip(added).for_each(|(sum, force)| *sum += force);
-        Ok(())
-    })
-}
-
-/// Adds a dead load to `forces`.
-///
-/// # Safety
-///
-/// `component` comes from this library, `load` points to a load, `motions` to as many motions as the component has nodes,
-/// `forces` to as many values as it has coordinates. Each may be null.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn supel_add_load(
-    component: *const SupelComponent,
-    load: *const SupelDeadLoad,
-    motions: *const SupelMotion,
-    forces: *mut f64,
 ) -> SupelStatus {
     // SAFETY: the same promises.
-    guarded(|| unsafe { add_load(component, load, motions, forces, Wanted::Forces) })
-}
-
-/// Adds the load stiffness of a dead load to `stiffness`, a matrix.
-///
-/// # Safety
-///
-/// As of `supel_add_load`, `stiffness` being a matrix.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn supel_add_load_stiffness(
-    component: *const SupelComponent,
-    load: *const SupelDeadLoad,
-    motions: *const SupelMotion,
-    stiffness: *mut f64,
-) -> SupelStatus {
-    // SAFETY: the same promises.
-    guarded(|| unsafe { add_load(component, load, motions, stiffness, Wanted::Tangents) })
-}
-
-/// # Safety
-///
-/// As of [`supel_add_load`], `result` being a matrix where tangents are wanted.
-unsafe fn add_load(
-    component: *const SupelComponent,
-    load: *const SupelDeadLoad,
-    motions: *const SupelMotion,
-    result: *mut f64,
-    wanted: Wanted,
-) -> Outcome {
-    // SAFETY: null, or what their names say by the promise of the caller.
-    let (component, load) = unsafe { (component.as_ref(), load.as_ref()) };
-    let component = &component.ok_or_else(|| null("component"))?.component;
-    let load = load.ok_or_else(|| null("load"))?;
-    if result.is_null() {
-        return Err(null("result"));
-    }
-    // SAFETY: as many motions as nodes by the promise of the caller.
-    let motions = unsafe { values(motions.cast::<Motion>(), component.n_nodes(), "motions")? };
-    let load = DeadLoad { node: load.node, force: load.force, moment: load.moment };
-    let r = component.n_coordinates();
-    // SAFETY: not null, and a vector or a matrix by the promise of the caller.
-    let outcome = unsafe {
-        match wanted {
-            Wanted::Forces => component.add_load(&load, motions, std::slice::from_raw_parts_mut(result, r)),
-            Wanted::Tangents => {
-                component.add_load_stiffness(&load, motions, std::slice::from_raw_parts_mut(result, r * r))
-            }
-        }
-    };
-    outcome.map_err(|error| failed(SupelStatus::State)(&error))
+    guarded(|| unsafe { evaluate(component, state, workspace, ModalComponent::exact_tangents) })
 }
 
 /// Change of configuration of the floating frame.

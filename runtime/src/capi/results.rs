@@ -94,7 +94,8 @@ pub unsafe extern "C" fn supel_damping_forces(workspace: *const SupelWorkspace) 
     pointer(unsafe { workspace.as_ref() }.map(|workspace| workspace.workspace.damping_forces()))
 }
 
-/// Tangent stiffness of the state whose tangents were last asked for, a matrix; null for null.
+/// Tangent stiffness of the state whose tangents were last asked for, a symmetric matrix without the derivative of inertial
+/// forces by the place; null for null.
 ///
 /// # Safety
 ///
@@ -103,6 +104,17 @@ pub unsafe extern "C" fn supel_damping_forces(workspace: *const SupelWorkspace) 
 pub unsafe extern "C" fn supel_stiffness(workspace: *const SupelWorkspace) -> *const f64 {
     // SAFETY: null or a workspace by the promise of the caller.
     pointer(unsafe { workspace.as_ref() }.map(|workspace| workspace.workspace.stiffness()))
+}
+
+/// Exact stiffness of the state last given to `supel_exact_tangents`, a matrix that is not symmetric; null for null.
+///
+/// # Safety
+///
+/// `workspace` is null or comes from `supel_workspace_new`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn supel_exact_stiffness(workspace: *const SupelWorkspace) -> *const f64 {
+    // SAFETY: null or a workspace by the promise of the caller.
+    pointer(unsafe { workspace.as_ref() }.map(|workspace| workspace.workspace.exact_stiffness()))
 }
 
 /// Mass of the state whose tangents were last asked for, a matrix; null for null.
@@ -125,6 +137,28 @@ pub unsafe extern "C" fn supel_mass(workspace: *const SupelWorkspace) -> *const 
 pub unsafe extern "C" fn supel_gyroscopic(workspace: *const SupelWorkspace) -> *const f64 {
     // SAFETY: null or a workspace by the promise of the caller.
     pointer(unsafe { workspace.as_ref() }.map(|workspace| workspace.workspace.gyroscopic()))
+}
+
+/// Momentum of the state last evaluated in the floating frame: linear, then angular about the frame's origin; null for null.
+///
+/// # Safety
+///
+/// `workspace` is null or comes from `supel_workspace_new`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn supel_frame_momentum(workspace: *const SupelWorkspace) -> *const f64 {
+    // SAFETY: null or a workspace by the promise of the caller.
+    pointer(unsafe { workspace.as_ref() }.map(|workspace| workspace.workspace.frame_momentum().as_slice()))
+}
+
+/// Power that the damping takes from the motion in the state last evaluated; not a number for null.
+///
+/// # Safety
+///
+/// `workspace` is null or comes from `supel_workspace_new`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn supel_dissipated_power(workspace: *const SupelWorkspace) -> f64 {
+    // SAFETY: null or a workspace by the promise of the caller.
+    unsafe { workspace.as_ref() }.map_or(f64::NAN, |workspace| workspace.workspace.dissipated_power())
 }
 
 /// Strain energy of the state last evaluated; not a number for null.

@@ -10,11 +10,24 @@ use std::process::{Command, Output};
 
 use supel_runtime::component::{DeadLoad, FloatingFrame, ModalComponent, State};
 use supel_runtime::motion::Motion;
-use supel_runtime::{Direction, Matrix, Precision, RecoveredDof, Recovery, Superelement};
+use supel_runtime::{
+    CheckSummary, Direction, Flag, Matrix, Precision, RecoveredDof, Recovery, Superelement, Verdict, Verification,
+};
 
 fn in_crate(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
+
+/// What a reader has to know before the first function.
+const LIMIT: &str = "
+/* The modal component of a superelement file: forces and tangent matrices in large motion with small deformation.
+ *
+ * Deformation is linear in the floating frame of a component. Inside a component there is therefore no stress stiffening, and
+ * its inertia is that of the undeformed shape, whatever the tangent: a slender part that turns fast or carries a large load is
+ * divided into several components.
+ *
+ * Coordinates are material: of each interface node the velocity of the material point that was at the inertial origin, in the
+ * node's axes; supel_velocities_to_origin, supel_forces_to_nodes and supel_matrix_to_nodes change to those at the node. */";
 
 fn header() -> String {
     let mut config = cbindgen::Config {
@@ -26,13 +39,15 @@ fn header() -> String {
         ),
         documentation_style: cbindgen::DocumentationStyle::C99,
         line_length: 120,
+        after_includes: Some(LIMIT.to_owned()),
         no_includes: true,
         sys_includes: ["stddef.h", "stdint.h"].map(String::from).to_vec(),
         usize_is_size_t: true,
         ..cbindgen::Config::default()
     };
     config.enumeration.rename_variants = cbindgen::RenameRule::QualifiedScreamingSnakeCase;
-    let sources = ["src/capi.rs", "src/capi/evaluation.rs", "src/capi/recovery.rs", "src/capi/results.rs"];
+    let modules = ["opening", "file", "evaluation", "loads", "at_nodes", "recovery", "results"];
+    let sources = [vec!["src/capi.rs".to_owned()], modules.map(|name| format!("src/capi/{name}.rs")).to_vec()].concat();
     let builder = cbindgen::Builder::new().with_config(config);
     let bindings = sources.iter().fold(builder, |builder, source| builder.with_src(in_crate(source))).generate();
     let mut text = Vec::new();
@@ -47,6 +62,35 @@ fn the_header_is_that_of_the_source() {
         std::fs::write(&path, header()).expect("the header can be written");
     }
     assert_eq!(std::fs::read_to_string(path).expect("the header is there"), header());
+}
+
+/// Names of the functions that the header declares.
+fn functions() -> Vec<String> {
+    let header = header();
+    let calls = header.match_indices("supel_").filter_map(|(at, _)| {
+        let name = header[at..].split(|c: char| !c.is_ascii_alphanumeric() && c != '_').next()?;
+        header[at + name.len()..].starts_with('(').then(|| name.to_owned())
+    });
+    calls.collect()
+}
+
+/// Each function has words above it, and a C program of these tests calls it.
+#[test]
+fn every_function_of_the_header_is_described_and_called() {
+    let (header, functions) = (header(), functions());
+    assert!(functions.len() > 50, "{functions:?}");
+    let programs = ["tests/capi/refusals.c", "tests/capi/results.c", "capi/example.c"];
+    let source: String =
+        programs.iter().map(|path| std::fs::read_to_string(in_crate(path)).expect("a program")).collect();
+    for name in functions {
+        assert!(source.contains(&format!("{name}(")), "no program calls {name}");
+        let lines: Vec<&str> = header.lines().collect();
+        let declared = lines.iter().position(|line| line.contains(&format!("{name}("))).expect("a declaration");
+        let words: Vec<&str> =
+            lines[..declared].iter().rev().take_while(|line| line.starts_with("//")).copied().collect();
+        let first = words.last().map_or("", |line| line.trim_start_matches(['/', ' ']));
+        assert!(first.len() > 10 && !first.starts_with('#'), "{name} is not described: {first}");
+    }
 }
 
 /// The static library, built as the header's users build it.
@@ -91,10 +135,21 @@ fn recovery(node: i64, directions: &[Direction], rows: Matrix) -> Option<Recover
 
 /// A damped arc that recovers the node in its middle.
 fn arc() -> Superelement {
-    let (mut tensors, metadata, basis) = beam::reduced_parts(&beam::arc_nodes(), &beam::SOFT, &[0, 8], 3);
+    let (mut tensors, mut metadata, basis) = beam::reduced_parts(&beam::arc_nodes(), &beam::SOFT, &[0, 8], 3);
     tensors.damping = Some(tensors.mass.clone());
     let rows = Matrix::from_fn(6, 15, |i, j| basis[(6 * 4 + i) * 15 + j]);
     tensors.recovery = recovery(4, &Direction::ALL, rows);
+    let turned = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+    tensors.interface_frames[1] = turned;
+    metadata.interface_nodes[0].name = "hub \0 à gauche".into();
+    metadata.interface_nodes[0].label = Some(7);
+    metadata.units = Some("m-kg-s".into());
+    metadata.validity.band_hz = Some([0.0, 250.0]);
+    metadata.validity.assumptions = vec!["nobody pulls".into()];
+    metadata.flags.insert(Flag::SingularMass);
+    let check = |id: &str, value, verdict| CheckSummary { id: id.into(), value, limit: 0.5, verdict };
+    let checks = vec![check("M-01", Some(0.25), Verdict::Pass), check("M-05", None, Verdict::Fail)];
+    metadata.verification = Verification { verdict: Verdict::Fail, checks };
     Superelement::new(tensors, metadata).expect("the parts fit")
 }
 
@@ -117,6 +172,9 @@ fn c_programs_get_the_same_bits_and_reasons() {
 
     let refusals = run("tests/capi/refusals.c", &library, folder.path(), &[&file, &other]);
     assert!(refusals.status.success(), "{}", String::from_utf8_lossy(&refusals.stderr));
+
+    let results = run("tests/capi/results.c", &library, folder.path(), &[&file, &other]);
+    assert!(results.status.success(), "{}", String::from_utf8_lossy(&results.stderr));
 
     let example = run("capi/example.c", &library, folder.path(), &[&file]);
     assert!(example.status.success(), "{}", String::from_utf8_lossy(&example.stderr));

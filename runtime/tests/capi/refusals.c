@@ -30,12 +30,34 @@ int main(int argc, char **argv)
     EXPECT(supel_component_open_with(argv[1], SUPEL_RIGID, 2, &component), SUPEL_STATUS_ARGUMENT, "measures 2, expected 0");
     EXPECT(supel_component_open("no.supel", SUPEL_RIGID, &component), SUPEL_STATUS_FILE, "no.supel");
     EXPECT(supel_component_open("\xff", SUPEL_RIGID, &component), SUPEL_STATUS_FILE, "path is not UTF-8");
+    unsigned char bytes[3] = {1, 2, 3};
+    EXPECT(supel_component_open_bytes(NULL, 3, SUPEL_RIGID, SUPEL_CLASSICAL, &component), SUPEL_STATUS_ARGUMENT, "bytes is null");
+    EXPECT(supel_component_open_bytes(bytes, 3, SUPEL_RIGID, SUPEL_CLASSICAL, NULL), SUPEL_STATUS_ARGUMENT, "component is null");
+    EXPECT(supel_component_open_bytes(bytes, 3, 2, SUPEL_CLASSICAL, &component), SUPEL_STATUS_ARGUMENT, "floating frame 2");
+    EXPECT(supel_component_open_bytes(bytes, 3, SUPEL_RIGID, 2, &component), SUPEL_STATUS_ARGUMENT, "measures 2");
+    EXPECT(supel_component_open_bytes(bytes, SIZE_MAX, SUPEL_RIGID, 0, &component), SUPEL_STATUS_ARGUMENT, "more than memory");
+    EXPECT(supel_component_open_bytes(bytes, 3, SUPEL_RIGID, SUPEL_CLASSICAL, &component), SUPEL_STATUS_FILE, "3 bytes");
+    EXPECT(supel_component_open_bytes(NULL, 0, SUPEL_RIGID, SUPEL_CLASSICAL, &component), SUPEL_STATUS_FILE, "0 bytes");
     REQUIRE(component == NULL);
+    SupelVerdict verdict;
+    SupelCheck check;
+    EXPECT(supel_verdict(NULL, &verdict), SUPEL_STATUS_ARGUMENT, "component is null");
+    EXPECT(supel_check(NULL, 0, &check), SUPEL_STATUS_ARGUMENT, "component is null");
+    REQUIRE(supel_interface_name(NULL, 0) == NULL && supel_interface_label(NULL, 0) == NULL);
+    REQUIRE(supel_interface_frames(NULL) == NULL && supel_units(NULL) == NULL && supel_band_hz(NULL) == NULL);
+    REQUIRE(supel_n_assumptions(NULL) == 0 && supel_assumption(NULL, 0) == NULL && supel_flags(NULL) == 0);
+    REQUIRE(supel_n_checks(NULL) == 0 && supel_rigid_mass(NULL) == NULL && supel_exact_stiffness(NULL) == NULL);
+    REQUIRE(supel_frame_momentum(NULL) == NULL && isnan(supel_dissipated_power(NULL)));
     EXPECT(supel_component_open(argv[1], SUPEL_RIGID, &component), SUPEL_STATUS_OK, "");
     EXPECT(supel_workspace_new(NULL, &workspace), SUPEL_STATUS_ARGUMENT, "component is null");
     EXPECT(supel_workspace_new(component, NULL), SUPEL_STATUS_ARGUMENT, "workspace is null");
     EXPECT(supel_workspace_new(component, &workspace), SUPEL_STATUS_OK, "");
 
+    EXPECT(supel_verdict(component, NULL), SUPEL_STATUS_ARGUMENT, "verdict is null");
+    EXPECT(supel_check(component, 0, NULL), SUPEL_STATUS_ARGUMENT, "check is null");
+    EXPECT(supel_check(component, 2, &check), SUPEL_STATUS_ARGUMENT, "check 2 (from 0), the file has 2");
+    REQUIRE(supel_interface_name(component, 2) == NULL && supel_interface_label(component, 2) == NULL);
+    REQUIRE(supel_assumption(component, 1) == NULL);
     size_t nodes = supel_n_nodes(component), n = supel_n_coordinates(component);
     REQUIRE(nodes == 2 && n == 12 + supel_n_modal(component));
     SupelMotion identity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}}, frame;
@@ -52,11 +74,27 @@ int main(int argc, char **argv)
     EXPECT(supel_evaluate(component, &missing, workspace), SUPEL_STATUS_ARGUMENT, "state.velocities is null");
     EXPECT(supel_tangents(component, &missing, workspace), SUPEL_STATUS_ARGUMENT, "state.velocities is null");
     EXPECT(supel_tangents(component, &state, workspace), SUPEL_STATUS_OK, "");
+    double potential = 0.0, nowhere[3] = {0, NAN, 0};
+    EXPECT(supel_exact_tangents(NULL, &state, workspace), SUPEL_STATUS_ARGUMENT, "component is null");
+    EXPECT(supel_exact_tangents(component, &missing, workspace), SUPEL_STATUS_ARGUMENT, "state.velocities is null");
+    EXPECT(supel_add_gravity(component, nowhere, workspace, forces), SUPEL_STATUS_STATE, "entry 1 (from 0) of the acceleration");
+    EXPECT(supel_add_gravity(NULL, gravity, workspace, forces), SUPEL_STATUS_ARGUMENT, "component is null");
+    EXPECT(supel_add_gravity(component, gravity, NULL, forces), SUPEL_STATUS_ARGUMENT, "workspace is null");
+    EXPECT(supel_add_gravity_stiffness(component, nowhere, workspace, forces), SUPEL_STATUS_STATE, "entry 1 (from 0)");
+    EXPECT(supel_add_gravity_stiffness(component, gravity, workspace, NULL), SUPEL_STATUS_ARGUMENT, "stiffness is null");
+    EXPECT(supel_gravity_potential(component, nowhere, workspace, &potential), SUPEL_STATUS_STATE, "entry 1 (from 0)");
+    EXPECT(supel_gravity_potential(component, gravity, workspace, NULL), SUPEL_STATUS_ARGUMENT, "potential is null");
+    EXPECT(supel_gravity_potential(component, gravity, NULL, &potential), SUPEL_STATUS_ARGUMENT, "workspace is null");
+    EXPECT(supel_velocities_to_origin(NULL, forces), SUPEL_STATUS_ARGUMENT, "component is null");
+    EXPECT(supel_velocities_to_origin(component, NULL), SUPEL_STATUS_ARGUMENT, "velocities is null");
+    EXPECT(supel_velocities_to_nodes(component, NULL), SUPEL_STATUS_ARGUMENT, "velocities is null");
+    EXPECT(supel_forces_to_nodes(component, NULL), SUPEL_STATUS_ARGUMENT, "forces is null");
+    EXPECT(supel_matrix_to_nodes(component, NULL), SUPEL_STATUS_ARGUMENT, "matrix is null");
     EXPECT(supel_add_gravity(component, NULL, workspace, forces), SUPEL_STATUS_ARGUMENT, "gravity is null");
     EXPECT(supel_add_gravity(component, gravity, workspace, NULL), SUPEL_STATUS_ARGUMENT, "forces is null");
     EXPECT(supel_add_load(component, NULL, motions, forces), SUPEL_STATUS_ARGUMENT, "load is null");
     EXPECT(supel_add_load(component, &load, NULL, forces), SUPEL_STATUS_ARGUMENT, "motions is null");
-    EXPECT(supel_add_load(component, &load, motions, NULL), SUPEL_STATUS_ARGUMENT, "result is null");
+    EXPECT(supel_add_load(component, &load, motions, NULL), SUPEL_STATUS_ARGUMENT, "forces is null");
     EXPECT(supel_add_load(component, &load, motions, forces), SUPEL_STATUS_STATE, "interface node 2");
     EXPECT(supel_add_load_stiffness(component, &load, motions, forces), SUPEL_STATUS_STATE, "interface node 2");
     EXPECT(supel_floating_frame(NULL, &frame), SUPEL_STATUS_ARGUMENT, "workspace is null");
@@ -75,6 +113,21 @@ int main(int argc, char **argv)
     REQUIRE(supel_n_coordinates(other) == n && supel_n_nodes(other) == 1);
     EXPECT(supel_evaluate(component, &state, foreign), SUPEL_STATUS_ARGUMENT, "another component");
     EXPECT(supel_tangents(component, &state, foreign), SUPEL_STATUS_ARGUMENT, "another component");
+    EXPECT(supel_exact_tangents(component, &state, foreign), SUPEL_STATUS_ARGUMENT, "another component");
+    EXPECT(supel_add_gravity_stiffness(component, gravity, foreign, forces), SUPEL_STATUS_ARGUMENT, "another component");
+    EXPECT(supel_gravity_potential(component, gravity, foreign, &potential), SUPEL_STATUS_ARGUMENT, "another component");
+
+    /* The same file opened twice: a second component, whose workspaces are its own. */
+    SupelComponent *twin = NULL;
+    SupelWorkspace *of_twin = NULL;
+    EXPECT(supel_component_open(argv[1], SUPEL_RIGID, &twin), SUPEL_STATUS_OK, "");
+    EXPECT(supel_workspace_new(twin, &of_twin), SUPEL_STATUS_OK, "");
+    REQUIRE(supel_n_coordinates(twin) == n && supel_n_nodes(twin) == nodes);
+    EXPECT(supel_evaluate(component, &state, of_twin), SUPEL_STATUS_ARGUMENT, "another component");
+    EXPECT(supel_evaluate(twin, &state, of_twin), SUPEL_STATUS_OK, "");
+    EXPECT(supel_add_gravity(component, gravity, of_twin, forces), SUPEL_STATUS_ARGUMENT, "another component");
+    supel_workspace_free(of_twin);
+    supel_component_free(twin);
     EXPECT(supel_add_gravity(component, gravity, foreign, forces), SUPEL_STATUS_ARGUMENT, "another component");
 
     double position[3] = {0, 0, 0};
@@ -118,6 +171,9 @@ int main(int argc, char **argv)
 
     motions[1].rotation[0][0] = 0.5;
     EXPECT(supel_evaluate(component, &state, workspace), SUPEL_STATUS_STATE, "not a rotation matrix");
+    EXPECT(supel_add_gravity(component, gravity, workspace, forces), SUPEL_STATUS_STATE, "holds no state");
+    EXPECT(supel_gravity_potential(component, gravity, workspace, &potential), SUPEL_STATUS_STATE, "holds no state");
+    EXPECT(supel_recover(component, workspace, position, &node), SUPEL_STATUS_STATE, "holds no state");
     REQUIRE(supel_n_nodes(NULL) == 0 && supel_positions(NULL) == NULL && supel_mass(NULL) == NULL);
     REQUIRE(isnan(supel_kinetic_energy(NULL)));
 
