@@ -99,6 +99,7 @@
 //! Where the deformation is large or the rotation fast, [`exact_tangents`](component::ModalComponent::exact_tangents) gives the whole
 //! derivative of the forces, for Newton's method and for vibration about a steady motion. What no tangent gives is stress
 //! stiffening inside a component: [what a component leaves out](component#what-a-component-leaves-out).
+//! `examples/own_integrator.rs` is one component under an integrator of the client's own.
 //!
 //! A component cannot be changed and an evaluation allocates nothing: threads share components and have one workspace for
 //! each component, and the results have the same bits for any number of threads.
