@@ -18,6 +18,7 @@ pub mod part;
 pub mod pendulum;
 mod saddle;
 pub mod selection;
+pub mod spinning;
 pub mod statics;
 pub mod study;
 pub mod summary;

@@ -72,6 +72,13 @@ fn bend_takes_few_iterations_with_the_exact_tangent() {
         .to_vec();
     println!("{means:?}");
     assert!(means.iter().all(|[exact, papers]| *exact <= 6.0 && 2.0 * exact < *papers), "{means:?}");
+    let readme = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).expect("README");
+    let readme = readme.split_whitespace().collect::<Vec<_>>().join(" ");
+    let [[a, d], [b, e], [c, f]] = [means[0], means[1], means[2]];
+    let words = format!(
+        "{a:.1}, {b:.1} and {c:.1} iterations per load with 1, 2 and 4 elements instead of {d:.1}, {e:.1} and {f:.1}"
+    );
+    assert!(readme.contains(&words), "README.md lacks: {words}");
 }
 
 #[test]
