@@ -93,7 +93,7 @@ fn iterations(studies: &[Study]) -> String {
     if rows.is_empty() { rows } else { format!("<table>{head}\n{rows}</table>\n") }
 }
 
-/// The figures of an example: name of the file and drawing.
+/// The curves of an example, as in the figures of the paper: name of the file and drawing.
 ///
 /// # Errors
 /// A drawing fails.
@@ -135,7 +135,8 @@ fn section(html: &mut String, study: &Study) -> std::fmt::Result {
         let words = if measures == Measures::MotionBased { "motion-based measures" } else { "classical measures" };
         writeln!(
             html,
-            "<figure><img src=\"{}/{file}\" alt=\"{}\"><figcaption>Figure {} of the paper, {words}.</figcaption></figure>",
+            "<figure><img src=\"{}/{file}\" alt=\"{}\"><figcaption>As figure {} of the paper, computed here: {words}; \
+             below, the differences from the reference.</figcaption></figure>",
             study.example.name(),
             figure.quantity.1,
             file.trim_start_matches("figure-").trim_end_matches(".svg"),

@@ -2,6 +2,7 @@
 
 use validation::claims::claims;
 use validation::examples::Example;
+use validation::figure::{Line, drawn};
 use validation::page::{figures, page};
 use validation::study::Study;
 use validation::summary::{summary, totals};
@@ -23,15 +24,41 @@ fn static_example_reaches_every_claim_and_shows_every_figure() {
     let figures = figures(&study).expect("drawn");
     let names: Vec<&str> = figures.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["figure-4a.svg", "figure-4b.svg", "figure-5a.svg", "figure-5b.svg"]);
-    // Four lines in each: the reference and three variants.
+    // Four lines, the reference and three variants, and below them the differences of the three, each panel with its legend.
     for (name, svg) in &figures {
-        assert!(svg.contains("reference") && svg.contains("4 elements"), "{name} lacks its legend");
-        assert!(svg.matches("<polyline").count() >= 4, "{name} lacks lines");
+        let count = |words: &str| svg.matches(words).count();
+        assert!(svg.contains("difference from the reference"), "{name} lacks the panel of differences");
+        assert_eq!(count("4 elements"), 2, "{name} lacks a legend");
+        assert_eq!(count("\nreference\n"), 1, "{name}: the reference has no difference from itself");
+        assert!(count("<polyline") >= 7, "{name} lacks lines");
+        // Marks of the variants, ten loads each: a circle twice, a triangle.
+        assert!(count("<circle") >= 20 && count("<polygon") >= 10, "{name} lacks marks");
     }
     let html = page(&[study], None);
-    for needed in ["5.1 Static problem", "bend/figure-5b.svg", "load step 8: the iteration does not converge"] {
+    for needed in [
+        "5.1 Static problem",
+        "bend/figure-5b.svg",
+        "load step 8: the iteration does not converge",
+        "As figure 4a of the paper, computed here: motion-based measures",
+    ] {
         assert!(html.contains(needed), "the page lacks {needed}");
     }
+    assert!(!html.contains(">Figure "), "a curve of our own is captioned as one of the paper");
+}
+
+/// The windows of 5.3 that show a second each have the legend that the whole record has.
+#[test]
+fn windows_have_legends() {
+    let figure = validation::figure::FIGURES.iter().find(|figure| figure.number == "9").expect("a figure");
+    let line = |label: &str, height: f64| {
+        let points = (0..=500).map(|i| 0.1 * f64::from(i)).map(|t| (t, height + 0.01 * t.sin())).collect();
+        Line { label: label.into(), points }
+    };
+    let svg = drawn(figure, &[line("reference", 0.03), line("one element", 0.0301)]).expect("drawn");
+    // The record, two windows and the differences.
+    assert_eq!(svg.matches("one element").count(), 4);
+    assert_eq!(svg.matches("\nreference\n").count(), 3);
+    assert!(svg.contains("from 17.5 s to 18.5 s") && svg.contains("from 45.5 s to 46.5 s"));
 }
 
 /// One run of everything, the examples side by side, for all that is said of all.
