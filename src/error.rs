@@ -988,7 +988,7 @@ pub enum Error {
     },
     /// Coordinates or a dof map that do not belong to K.
     #[error(
-        "the coordinates do not belong to the stiffness – it has {n_zero} motions without energy, of which the coordinates explain {n_explained}; by them {motions} cost up to {energy:.1e} of the energy of the first elastic mode, most of it at {dof} – expected below {expected:.0e} – check units, axes and local node frames, the order of nodes and rows, and the state that the coordinates are of, or leave the nodes out"
+        "the coordinates do not belong to the stiffness – it has {n_zero} motions without energy, of which the coordinates explain {n_explained}; by them {motions} cost up to {energy:.1e} of {of}, most of it at {dof} – expected below {expected:.0e} – check units, axes and local node frames, the order of nodes and rows, and the state that the coordinates are of, or leave the nodes out"
     )]
     CoordinatesDoNotFit {
         /// Zero modes of K.
@@ -997,8 +997,10 @@ pub enum Error {
         n_explained: usize,
         /// Motions by the coordinates that cost energy they should not.
         motions: String,
-        /// Largest Rayleigh quotient of such a motion over the first elastic eigenvalue.
+        /// The largest energy of such a motion, relative to another.
         energy: f64,
+        /// What it is relative to.
+        of: &'static str,
         /// What rounding of coordinates may cost.
         expected: f64,
         /// Where the forces are largest.

@@ -3,16 +3,14 @@
 use std::collections::BTreeMap;
 
 use super::motions::{Body, Motions};
+use super::nodes::Nodes;
 use crate::input::Direction;
-use crate::model::{Finding, node_of_row};
+use crate::model::Finding;
 use crate::rigid::FREE_BELOW_NOISE;
 
 /// A force is worth a look when it exceeds this many times the noise of the data, or that of a translation: what a producer
 /// rounds while it assembles K shows in both.
-const NOTICEABLE: f64 = 100.0;
-/// Force of a translation, relative to the terms of its row, above which a support touches the row: far above what a
-/// producer rounds, far below any support.
-const TOUCHED: f64 = 1e-9;
+pub(super) const NOTICEABLE: f64 = 100.0;
 /// Displacement, for a body of unit size, that six digits lose: nodes are not told apart below it.
 const SIX_DIGITS: f64 = 1e-6;
 /// Nodes out of place that a message names.
@@ -21,105 +19,73 @@ const SHOWN_NODES: usize = 3;
 /// that the map does not say make forces at all of them.
 const NEARLY_ALL: f64 = 0.9;
 /// The first of the rotations among the six motions.
-const FIRST_ROTATION: usize = 3;
+pub(super) const FIRST_ROTATION: usize = 3;
 
 /// A body that supports touch, or whose rotations make forces where no support is.
 pub(super) struct Doubt {
     /// Its number.
     pub(super) body: usize,
+    /// Rows on which a translation does not vanish.
+    pub(super) n_touched: usize,
     /// Rows of nodes that no support touches, ascending.
     pub(super) untouched: Vec<usize>,
-    /// Rotations (3 to 5) that make forces on those rows, the worst first.
-    pub(super) costly: Vec<usize>,
+    /// Rotations that make forces where they should not, the worst first.
+    pub(super) costly: Vec<Costly>,
 }
 
-impl Doubt {
-    /// Rows of the body that supports touch.
-    pub(super) fn n_touched(&self, motions: &Motions<'_>) -> usize {
-        motions.bodies[self.body].rows.len() - self.untouched.len()
-    }
+/// A rotation of a body that does not vanish on rows where it should.
+pub(super) struct Costly {
+    /// Its number among the six motions, 3 to 5.
+    pub(super) rotation: usize,
+    /// ‖F‖ on the witnesses over ‖T‖.
+    residual: f64,
+    /// The rows where it should vanish, ascending.
+    pub(super) witnesses: Vec<usize>,
+    /// Whether no support holds a displacement that it makes.
+    pub(super) is_free: bool,
 }
 
 /// The bodies that need a second look.
 pub(super) fn doubts(motions: &Motions<'_>, nodes: &Nodes, held: &[Direction]) -> Vec<Doubt> {
     let of_body = |(number, body): (usize, &Body)| {
-        let untouched = nodes.untouched_rows(body);
-        let costly = costly_rotations(motions, body, &untouched, held);
-        let is_in_doubt = !costly.is_empty() || untouched.len() < body.rows.len();
-        is_in_doubt.then_some(Doubt { body: number, untouched, costly })
+        let costly = costly_rotations(motions, nodes, body, held);
+        let n_touched = body.rows.iter().filter(|row| nodes.is_touched[nodes.of(**row)]).count();
+        let is_in_doubt = n_touched > 0 || !costly.is_empty();
+        let untouched = || body.rows.iter().copied().filter(|row| nodes.is_untouched(*row)).collect();
+        is_in_doubt.then(|| Doubt { body: number, n_touched, untouched: untouched(), costly })
     };
     motions.bodies.iter().enumerate().filter_map(of_body).collect()
 }
 
-/// The nodes of the model and where supports may be.
-pub(super) struct Nodes {
-    pub(super) of_row: Vec<u32>,
-    /// Nodes with a row on which a translation does not vanish.
-    is_touched: Vec<bool>,
-    /// Nodes that lack a direction which most nodes have, and their neighbours in K. A held dof leaves no row in the matrices; a
-    /// held rotation need not show under translation, nor a held displacement in rows across it.
-    pub(super) is_near_lack: Vec<bool>,
-}
-
-impl Nodes {
-    pub(super) fn of(motions: &Motions<'_>) -> Self {
-        let of_row = node_of_row(motions.sites.len(), motions.model.dofs.as_deref());
-        let n_nodes = of_row.iter().max().map_or(0, |max| *max as usize + 1);
-        let share = TOUCHED.max(NOTICEABLE * motions.rounding());
-        let force = |row: usize| (0..FIRST_ROTATION).fold(0.0, |max: f64, j| max.max(motions.forces[(row, j)].abs()));
-        let mut is_touched = vec![false; n_nodes];
-        let mut has = vec![[false; 6]; n_nodes];
-        for (row, node) in of_row.iter().enumerate() {
-            is_touched[*node as usize] |= force(row) > share * motions.scale_of(row);
-            has[*node as usize][motions.sites[row].direction as usize] = true;
-        }
-        let n_with = |direction: usize| has.iter().filter(|has| has[direction]).count();
-        let usual: [bool; 6] = std::array::from_fn(|direction| 2 * n_with(direction) > n_nodes);
-        let lacks = |node: u32| (0..6).any(|direction| usual[direction] && !has[node as usize][direction]);
-        let mut is_near_lack = vec![false; n_nodes];
-        for (row, entries) in motions.model.stiffness.outer_iterator().enumerate() {
-            let is_near = entries.iter().any(|(col, value)| *value != 0.0 && lacks(of_row[col]));
-            is_near_lack[of_row[row] as usize] |= is_near;
-        }
-        Self { of_row, is_touched, is_near_lack }
-    }
-
-    /// Rows of a body that are no part of a support; all of them where no translation makes a force.
-    fn untouched_rows(&self, body: &Body) -> Vec<usize> {
-        let node = |row: &usize| self.of_row[*row] as usize;
-        if body.rows.iter().all(|row| !self.is_touched[node(row)]) {
-            return body.rows.clone();
-        }
-        let is_free = |row: &usize| !self.is_touched[node(row)] && !self.is_near_lack[node(row)];
-        body.rows.iter().copied().filter(is_free).collect()
-    }
-}
-
-/// Rotations that do not vanish on the untouched rows, the worst first.
+/// Rotations that do not vanish where they should, the worst first.
 ///
 /// An energy within its noise says little, for it is the square of the force; and in a thin body little force is much energy.
-fn costly_rotations(motions: &Motions<'_>, body: &Body, untouched: &[usize], held: &[Direction]) -> Vec<usize> {
-    let residual = |motion: usize| motions.residual(body, untouched, motion);
-    let noise = (0..FIRST_ROTATION).map(residual).fold(motions.rounding(), f64::max);
-    let is_free = untouched.len() == body.rows.len();
-    let has_energy = |motion: usize| {
-        let (energy, terms) = motions.energy(body, motion);
-        is_free && energy > FREE_BELOW_NOISE * motions.rounding() * terms
+fn costly_rotations(motions: &Motions<'_>, nodes: &Nodes, body: &Body, held: &[Direction]) -> Vec<Costly> {
+    let is_touched = body.rows.iter().any(|row| nodes.is_touched[nodes.of(*row)]);
+    let look = |axis: usize| {
+        let rotation = FIRST_ROTATION + axis;
+        let is_free = !is_touched && body.rows.iter().all(|row| !nodes.lacks_displacement(*row, axis));
+        let is_witness = |row: &usize| is_free || nodes.is_witness(*row, axis);
+        let witnesses: Vec<usize> = body.rows.iter().copied().filter(is_witness).collect();
+        let residual = |motion: usize| motions.residual(body, &witnesses, motion);
+        let noise = (0..FIRST_ROTATION).map(residual).fold(motions.rounding(), f64::max);
+        let (energy, terms) = motions.energy(body, rotation);
+        let has_energy = is_free && energy > FREE_BELOW_NOISE * motions.rounding() * terms;
+        let residual = residual(rotation);
+        let is_costly = residual > NOTICEABLE * noise || has_energy;
+        is_costly.then_some(Costly { rotation, residual, witnesses, is_free })
     };
-    let mut costly: Vec<(usize, f64)> = (FIRST_ROTATION..6)
-        .filter(|motion| !held.contains(&Direction::ALL[*motion]))
-        .map(|motion| (motion, residual(motion)))
-        .filter(|(motion, residual)| *residual > NOTICEABLE * noise || has_energy(*motion))
-        .collect();
-    costly.sort_by(|a, b| b.1.total_cmp(&a.1));
-    costly.into_iter().map(|(motion, _)| motion).collect()
+    let is_said = |axis: &usize| held.contains(&Direction::ALL[FIRST_ROTATION + axis]);
+    let mut costly: Vec<Costly> = (0..3).filter(|axis| !is_said(axis)).filter_map(look).collect();
+    costly.sort_by(|a, b| b.residual.total_cmp(&a.residual));
+    costly
 }
 
 /// What is to be said where supports touch nearly all rows of the bodies that they hold.
 pub(super) fn untested(motions: &Motions<'_>, doubts: &[Doubt]) -> Option<Finding> {
-    let held = || doubts.iter().filter(|doubt| doubt.n_touched(motions) > 0);
+    let held = || doubts.iter().filter(|doubt| doubt.n_touched > 0);
     let n_rows: usize = held().map(|doubt| motions.bodies[doubt.body].rows.len()).sum();
-    let n_touched: usize = held().map(|doubt| doubt.n_touched(motions)).sum();
+    let n_touched: usize = held().map(|doubt| doubt.n_touched).sum();
     let is_untested = n_touched as f64 > NEARLY_ALL * n_rows as f64;
     is_untested.then_some(Finding::CoordinatesUntested { n_touched, n_rows })
 }

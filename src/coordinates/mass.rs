@@ -4,8 +4,9 @@
 //! couple translations are multiples of the identity. In another frame at some nodes the blocks are turned, and K alone could
 //! not tell the frames from supports. A lumped mass, whose blocks couple no two nodes, is the same in every frame.
 
-use super::doubt::{Doubt, Nodes};
+use super::doubt::Doubt;
 use super::motions::Motions;
+use super::nodes::Nodes;
 use crate::model::Finding;
 use crate::sparse::product_and_terms;
 
@@ -18,7 +19,7 @@ const SHOWN_NODES: usize = 3;
 
 /// The nodes of held bodies that have another mass in one direction than in another.
 pub(super) fn by_direction(motions: &Motions<'_>, nodes: &Nodes, doubts: &[Doubt]) -> Option<Finding> {
-    let held: Vec<&Doubt> = doubts.iter().filter(|doubt| doubt.n_touched(motions) > 0).collect();
+    let held: Vec<&Doubt> = doubts.iter().filter(|doubt| doubt.n_touched > 0).collect();
     if held.is_empty() {
         return None;
     }
@@ -26,12 +27,11 @@ pub(super) fn by_direction(motions: &Motions<'_>, nodes: &Nodes, doubts: &[Doubt
     let (momenta, terms) = product_and_terms(&motions.model.mass, translations);
     let share = DIFFERENT.max(DIGITS * motions.model.precision.mass);
     // The momenta of a node: row by row its three directions, column by column the three translations.
-    let n_nodes = nodes.is_near_lack.len();
-    let mut rows_of = vec![[usize::MAX; 3]; n_nodes];
+    let mut rows_of = vec![[usize::MAX; 3]; nodes.count()];
     for row in held.iter().flat_map(|doubt| &motions.bodies[doubt.body].rows) {
         let direction = motions.sites[*row].direction;
         if !direction.is_rotation() {
-            rows_of[nodes.of_row[*row] as usize][direction.axis()] = *row;
+            rows_of[nodes.of(*row)][direction.axis()] = *row;
         }
     }
     let is_turned = |rows: &[usize; 3]| {
@@ -40,8 +40,9 @@ pub(super) fn by_direction(motions: &Motions<'_>, nodes: &Nodes, doubts: &[Doubt
         let expected = |k: usize| if k / 3 == k % 3 { mass } else { 0.0 };
         (0..9).any(|k| (momenta[(rows[k / 3], k % 3)] - expected(k)).abs() > share * size)
     };
-    let whole = rows_of.iter().zip(&nodes.is_near_lack).filter(|(rows, near)| !**near && !rows.contains(&usize::MAX));
-    let turned: Vec<usize> = whole.filter(|(rows, _)| is_turned(rows)).map(|(rows, _)| rows[0]).collect();
+    let is_whole = |node: usize, rows: &[usize; 3]| !nodes.is_near_lack(node) && !rows.contains(&usize::MAX);
+    let whole = rows_of.iter().enumerate().filter(|(node, rows)| is_whole(*node, rows));
+    let turned: Vec<usize> = whole.filter(|(_, rows)| is_turned(rows)).map(|(_, rows)| rows[0]).collect();
     let label = |row: &usize| motions.model.dofs.as_ref().map_or_else(String::new, |dofs| dofs[*row].node.to_string());
     (!turned.is_empty()).then(|| Finding::MassByDirection {
         n_nodes: turned.len(),

@@ -25,14 +25,15 @@ mod judgement;
 mod mass;
 mod mended;
 mod motions;
+mod nodes;
 mod zeros;
 
 use crate::error::Result;
 use crate::input::Direction;
 use crate::model::{CoordinateFit, Model};
 
-use doubt::Nodes;
 use motions::Motions;
+use nodes::Nodes;
 
 /// Compares the coordinates and the dof map of a model with its stiffness; `held` lists rotations that the job says to be
 /// held by supports although no translation is.
@@ -45,9 +46,9 @@ use motions::Motions;
 pub fn compared(model: Model, held: &[Direction]) -> Result<Model> {
     let Some(sites) = model.sites() else { return Ok(model) };
     let motions = Motions::of(&model, &sites);
-    let nodes = Nodes::of(&motions);
+    let nodes = Nodes::of_model(&motions);
     let doubts = doubt::doubts(&motions, &nodes, held);
-    let fit = if doubts.is_empty() { CoordinateFit::Exact } else { judgement::settled(&motions, &doubts, held)? };
+    let fit = if doubts.is_empty() { CoordinateFit::Exact } else { judgement::settled(&motions, &doubts)? };
     let mut findings = model.findings.clone();
     findings.extend(doubt::untested(&motions, &doubts));
     findings.extend(doubt::not_held(&motions, held));

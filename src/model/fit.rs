@@ -33,8 +33,10 @@ pub struct RoundedCoordinates {
 pub struct Misfit {
     /// The axis of the rotation.
     pub rotation: &'static str,
-    /// Rayleigh quotient of the worst rigid motion of the coordinates, relative to the first elastic eigenvalue.
+    /// The energy of the worst rigid motion of the coordinates, relative to another.
     pub energy: f64,
+    /// What it is relative to.
+    pub of: &'static str,
     /// The dofs where the force is largest, one for each of three nodes.
     pub at: String,
 }

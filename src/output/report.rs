@@ -174,9 +174,13 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
         warnings.push(Warning {
             code: "W-COORD-ROUNDED",
             message: format!(
-                "the coordinates are rounded: by them the rotation about {} costs {:.1e} of the energy of the first elastic \
-                 mode, most of it at {}; rigid-body modes were taken from the matrices",
-                misfit.rotation, misfit.energy, misfit.at
+                "the coordinates are rounded, or those of another state: by them the rotation about {} costs {:.1e} of {}, most \
+                 of it at {}{}",
+                misfit.rotation,
+                misfit.energy,
+                misfit.of,
+                misfit.at,
+                if evidence.rigid.count() > 0 { "; rigid-body modes were taken from the matrices" } else { "" }
             ),
         });
     }
