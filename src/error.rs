@@ -986,17 +986,37 @@ pub enum Error {
         /// The entry.
         value: f64,
     },
-    /// Coordinates that do not belong to K.
+    /// Coordinates or a dof map that do not belong to K.
     #[error(
-        "the coordinates do not belong to the stiffness – translations cost no energy but the rotation about {rotation} costs {energy:.1e} of the energy of the first elastic mode, most of it at {dof} – expected below {expected:.0e} – check units, axes and local node frames, or leave the nodes out"
+        "the coordinates do not belong to the stiffness – it has {n_zero} motions without energy, of which the coordinates explain {n_explained}; by them {motions} cost up to {energy:.1e} of {of}, most of it at {dof} – expected below {expected:.0e} – check units, axes and local node frames, the order of nodes and rows, and the state that the coordinates are of, or leave the nodes out"
     )]
     CoordinatesDoNotFit {
-        /// The axis.
-        rotation: &'static str,
-        /// Largest Rayleigh quotient of a rigid motion by the coordinates over the first elastic eigenvalue.
+        /// Zero modes of K.
+        n_zero: usize,
+        /// Those of them that are motions by the coordinates.
+        n_explained: usize,
+        /// Motions by the coordinates that cost energy they should not.
+        motions: String,
+        /// The largest energy of such a motion, relative to another.
         energy: f64,
+        /// What it is relative to.
+        of: &'static str,
         /// What rounding of coordinates may cost.
         expected: f64,
+        /// Where the forces are largest.
+        dof: String,
+    },
+    /// Rotations that cost energy in a body that can move freely in every direction.
+    #[error(
+        "the stiffness lets the component move in every direction but not turn – {rotations} cost up to {energy:.1e} of the energy of the first elastic mode, most of it at {dof}, and {n_zero} motions cost none – expected free rotations, because no support holds a rotation and no translation of a solid – check the dof map, the order of nodes, local node frames and the state that the coordinates are of; where supports hold rotations alone, list these in model.held_rotations"
+    )]
+    RotationsHeld {
+        /// The rotations.
+        rotations: String,
+        /// Zero modes of K.
+        n_zero: usize,
+        /// Largest Rayleigh quotient of a rotation over the first elastic eigenvalue.
+        energy: f64,
         /// Where the forces are largest.
         dof: String,
     },

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
-use crate::input::Triangle;
+use crate::input::{Direction, Triangle};
 
 pub use document::Notation;
 pub use interface::{Coupling, InterfaceJob, NodeSelection, Origin, Region};
@@ -120,9 +120,21 @@ pub struct ModelJob {
     /// Label of the unit system, copied to the superelement; no number is converted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub units: Option<String>,
+    /// Rotations that supports hold although they hold no translation; any other that costs energy then is an error.
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "rotations")]
+    pub held_rotations: Vec<Direction>,
     /// What the user knows of the component, to be compared with what the matrices say.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expect: Option<Expectation>,
+}
+
+/// Directions of which each is a rotation.
+fn rotations<'de, D: serde::Deserializer<'de>>(deserializer: D) -> std::result::Result<Vec<Direction>, D::Error> {
+    let directions = Vec::<Direction>::deserialize(deserializer)?;
+    match directions.iter().find(|direction| !direction.is_rotation()) {
+        Some(other) => Err(serde::de::Error::custom(format!("`{other}` is no rotation, expected rx, ry or rz"))),
+        None => Ok(directions),
+    }
 }
 
 /// What becomes of entries of a matrix that repeat a position.

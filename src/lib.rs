@@ -7,7 +7,7 @@
 //! # The straight line
 //!
 //! ```text
-//! input → model → partition → rigid → factor → modes → basis → reduction → verification → output
+//! input → model → coordinates → partition → rigid → factor → modes → basis → reduction → verification → output
 //! ```
 //!
 //! One file or folder for each word, one type handed from each to the next. [`reduce`] is this line; nothing else
@@ -17,6 +17,7 @@
 //! |---|---|---|
 //! | [`input`] | files | K, M, dof map, nodes as they were read |
 //! | [`model`] | those | symmetric, scaled, checked matrices |
+//! | [`coordinates`] | the model | the model, its coordinates and dof map compared with K |
 //! | [`partition`] | the interfaces | K, M on internal and interface dofs, rigid patches applied, in order of elimination |
 //! | [`rigid`] | the partition | U, verified against K; the rank of U_B |
 //! | [`factor`] | K, the interface last | L Lᵀ of K_II, solves, counts of eigenvalues |
@@ -39,6 +40,7 @@
 pub mod audit;
 pub mod basis;
 pub mod cli;
+pub mod coordinates;
 pub mod dense;
 pub mod error;
 pub mod factor;
@@ -148,7 +150,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     Ok(Outcome { superelement, report })
 }
 
-/// The first three stages, which every look at the full model begins with.
+/// The first four stages, which every look at the full model begins with.
 fn prepared(job: &Job, observer: &mut dyn Observer) -> Result<(InputFacts, Partition)> {
     // Small dense decompositions use faer's global setting; sequential ones give the same bits on every machine.
     faer::set_global_parallelism(faer::Par::Seq);
@@ -160,9 +162,14 @@ fn prepared(job: &Job, observer: &mut dyn Observer) -> Result<(InputFacts, Parti
     observer.stage("check");
     let model = Model::new(read)?;
 
+    observer.stage("coordinates");
+    let model = coordinates::compared(model, &job.model.held_rotations)?;
+
     observer.stage("partition");
     let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;
-    let partition = Partition { recovered, ..Partition::new(model, &job.interfaces)? };
+    let weight = job.model.expect.as_ref().and_then(|_| model.weight());
+    let mut partition = Partition { recovered, ..Partition::new(model, &job.interfaces)? };
+    partition.model.weight = weight;
     Ok((facts, partition))
 }
 

@@ -7,7 +7,7 @@ use super::content::Content;
 use crate::dense;
 use crate::error::Result;
 use crate::input::Direction;
-use crate::partition::Site;
+use crate::model::Site;
 use crate::verification::check::{Check, Limits};
 
 /// M-05: Û built again from the positions of the interface nodes, where it is the six unit motions.

@@ -140,6 +140,7 @@ codes! {
     NegativeStiffness => "E-NEG-DIAG", ModelPhysics;
     NegativeMass => "E-NEG-MASS", ModelPhysics;
     CoordinatesDoNotFit => "E-COORD", InputData;
+    RotationsHeld => "E-ROTATIONS-HELD", InputData;
     NegativeRigidEnergy => "E-NEG-RIGID", ModelPhysics;
     MasslessRigidMotion => "E-RIGID-MASS", ModelPhysics;
     MasslessFreeMotion => "E-FREE-MASSLESS", ModelPhysics;

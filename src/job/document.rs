@@ -12,7 +12,21 @@ use crate::error::{Error, Result};
 /// The keys of a job by the table they belong to; `[]` stands for each element of a list.
 const KEYS: &[(&str, &[&str])] = &[
     ("", &["model", "interface", "reduction", "scene", "run", "write"]),
-    ("model", &["stiffness", "mass", "dofs", "nodes", "symmetric", "duplicates", "drop_empty", "units", "expect"]),
+    (
+        "model",
+        &[
+            "stiffness",
+            "mass",
+            "dofs",
+            "nodes",
+            "symmetric",
+            "duplicates",
+            "drop_empty",
+            "units",
+            "held_rotations",
+            "expect",
+        ],
+    ),
     ("model.expect", &["mass", "cg"]),
     ("interface[]", &["name", "nodes", "coupling", "origin", "dofs"]),
     ("interface[].nodes", &["within", "rows"]),

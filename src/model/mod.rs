@@ -6,8 +6,11 @@
 
 mod bodies;
 mod definite;
+mod fit;
 mod scaling;
+mod site;
 mod symmetry;
+mod weight;
 
 use std::collections::HashSet;
 
@@ -16,11 +19,14 @@ use crate::input::{Direction, Dof, DofMap, Input, MatrixInput, Nodes};
 use crate::sparse::{Leading, SparseMatrix};
 
 pub use bodies::{Bodies, node_of_row};
+pub use fit::{CoordinateFit, Misfit, RoundedCoordinates};
 pub use scaling::Scaling;
+pub use site::{Frame, Site, recentred};
 pub use symmetry::make_symmetric;
+pub use weight::Weight;
 
 /// A checked and scaled model.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Model {
     /// K / 2^a, n × n.
     pub stiffness: SparseMatrix,
@@ -36,6 +42,8 @@ pub struct Model {
     pub nodes: Option<Nodes>,
     /// Connected parts of the graph of K.
     pub bodies: Bodies,
+    /// How coordinates and dof map fit K; unknown until [`crate::coordinates::compared`] has looked.
+    pub fit: CoordinateFit,
     /// What was found and mended, in the order it was found.
     pub findings: Vec<Finding>,
 }
@@ -49,6 +57,8 @@ pub struct ModelFacts {
     pub n_nodes: Option<usize>,
     /// Number of connected parts.
     pub n_bodies: usize,
+    /// The mass of all rows, where the caller asked for it and a dof map is there.
+    pub weight: Option<Weight>,
     /// What was found and mended.
     pub findings: Vec<Finding>,
 }
@@ -96,6 +106,25 @@ pub enum Finding {
         /// The directions it lacks.
         lacks: Vec<Direction>,
     },
+    /// Supports touch nearly all rows, so that the others cannot confirm the coordinates.
+    CoordinatesUntested {
+        /// Rows that supports touch.
+        n_touched: usize,
+        /// Rows of the bodies that supports touch.
+        n_rows: usize,
+    },
+    /// Nodes of a held body that have another mass in one direction than in another.
+    MassByDirection {
+        /// How many.
+        n_nodes: usize,
+        /// Some of them.
+        at: String,
+    },
+    /// Rotations that the job says to be held and that K lets pass.
+    RotationsFree {
+        /// The rotations, `rx` to `rz`.
+        rotations: Vec<Direction>,
+    },
     /// Interface dofs with mass and no stiffness.
     HangingInterface {
         /// What the first is called.
@@ -114,6 +143,9 @@ impl Finding {
             Self::FreeParticles { .. } => Some("W-FREE-PARTICLE"),
             Self::NegativeMassByRounding { .. } => Some("W-NEGATIVE-MASS"),
             Self::ConstrainedInterface { .. } => Some("W-CONSTRAINED-INTERFACE"),
+            Self::CoordinatesUntested { .. } => Some("W-COORD-UNTESTED"),
+            Self::MassByDirection { .. } => Some("W-MASS-DIRECTION"),
+            Self::RotationsFree { .. } => Some("W-NOT-HELD"),
             Self::HangingInterface { .. } => Some("W-HANGING"),
         }
     }
@@ -140,6 +172,26 @@ impl std::fmt::Display for Finding {
                     "node {node} of interface {interface:?} has no {}, as other nodes have: it is held there, and the \
                      interface does without",
                     lacks.join(", ")
+                )
+            }
+            Self::CoordinatesUntested { n_touched, n_rows } => {
+                write!(
+                    f,
+                    "translations make forces at {n_touched} of {n_rows} rows: supports that touch so many rows leave too few to \
+                     compare the coordinates and the dof map with; check that rows and map are in one order"
+                )
+            }
+            Self::MassByDirection { n_nodes, at } => write!(
+                f,
+                "{n_nodes} nodes have another mass in one direction than in another, the first are {at}: check that they have no \
+                 local frames, which in a held component look like supports"
+            ),
+            Self::RotationsFree { rotations } => {
+                let rotations: Vec<String> = rotations.iter().map(ToString::to_string).collect();
+                write!(
+                    f,
+                    "model.held_rotations lists {}, which the stiffness lets pass: nothing holds it",
+                    rotations.join(", ")
                 )
             }
             Self::HangingInterface { dof, n_dofs } => {
@@ -181,7 +233,8 @@ impl Model {
             || Bodies::of(&stiffness, &node_of_row(stiffness.rows(), dofs.as_deref())),
         );
         is_definite?;
-        Ok(Self { stiffness, mass, scaling, precision, dofs, nodes: input.nodes, bodies, findings })
+        let (nodes, fit) = (input.nodes, CoordinateFit::Unknown);
+        Ok(Self { stiffness, mass, scaling, precision, dofs, nodes, bodies, fit, findings })
     }
 
     /// Number of degrees of freedom n.
@@ -196,6 +249,7 @@ impl Model {
             n_dofs: self.n_dofs(),
             n_nodes: self.dofs.as_ref().map(n_nodes),
             n_bodies: self.bodies.n_bodies,
+            weight: None,
             findings: self.findings.clone(),
         }
     }

@@ -3,6 +3,7 @@
 use super::{MatrixFacts, Results, omega, rigid_body, warnings};
 use crate::basis::DynamicCoordinate;
 use crate::job::{Certify, ModeSelection};
+use crate::model::RoundedCoordinates;
 use crate::modes::{Boundary, CLUSTER_GAP, CountedInterval};
 use crate::report::{
     Completeness, DroppedCoordinate, Generator, InterfaceReport, MassProperties, MatrixReport, ModeKind, ModeRow,
@@ -165,33 +166,28 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
             ),
         });
     }
-    // Rounded coordinates ground the component by themselves; their own warning says so.
-    if evidence.rigid.misfit.is_none() {
-        warnings.extend(rigid_body::grounded(results));
-    }
+    warnings.extend(rigid_body::grounded(results));
     for finding in evidence.partition.model.findings.iter().chain(&evidence.partition.findings) {
         warnings.extend(finding.warning().map(|code| Warning { code, message: finding.to_string() }));
     }
-    if let Some(misfit) = &evidence.rigid.misfit {
+    if let Some(RoundedCoordinates { misfit, .. }) = evidence.partition.fit.rounded() {
         warnings.push(Warning {
             code: "W-COORD-ROUNDED",
             message: format!(
-                "the coordinates are rounded: by them the rotation about {} costs {:.1e} of the energy of the first elastic \
-                 mode, most of it at {}; rigid-body modes were taken from the matrices",
-                misfit.rotation, misfit.energy, misfit.at
+                "the coordinates are rounded, or those of another state: by them the rotation about {} costs {:.1e} of {}, most \
+                 of it at {}{}",
+                misfit.rotation,
+                misfit.energy,
+                misfit.of,
+                misfit.at,
+                if evidence.rigid.count() > 0 { "; rigid-body modes were taken from the matrices" } else { "" }
             ),
         });
     }
     warnings.extend(warnings::of_motions(results));
     warnings.extend(warnings::data_precision(results));
     warnings.extend(warnings::mixed_precision(results));
-    if results.job.model.expect.is_some() && !evidence.rigid.is_classical {
-        warnings.push(Warning {
-            code: "W-EXPECT-UNCHECKED",
-            message: "the expected mass properties were not compared: they need one free body with coordinates"
-                .to_owned(),
-        });
-    }
+    warnings.extend(rigid_body::expectation_unchecked(results));
     warnings.extend(number_of_modes(results));
     if let Some(certificate) = evidence.certificate.filter(|certificate| certificate.doubt() > 1.0) {
         warnings.push(Warning {

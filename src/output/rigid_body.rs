@@ -5,7 +5,7 @@ use supel_runtime::Matrix;
 
 use super::{Results, omega};
 use crate::report::{EffectiveMass, Grounding, MassProperties, MassRoute, RigidBodyEvidence, Warning};
-use crate::verification::Restraint;
+use crate::verification::{Evidence, Restraint};
 
 /// What verification found of it.
 pub(super) fn evidence(results: &Results<'_>) -> RigidBodyEvidence {
@@ -69,10 +69,6 @@ fn effective_mass(results: &Results<'_>) -> Vec<EffectiveMass> {
 
 /// A warning where a spring, a support left in K or wrong coordinates hold what should be free.
 pub(super) fn grounded(results: &Results<'_>) -> Option<Warning> {
-    if results.evidence.rigid.misfit.is_some() {
-        // Rounded coordinates look like soft springs; they have a warning of their own.
-        return None;
-    }
     let grounding = &results.findings.rigid_body.grounding;
     let worst = grounding
         .iter()
@@ -86,5 +82,23 @@ pub(super) fn grounded(results: &Results<'_>) -> Option<Warning> {
              for a weak spring to the ground, a support or a constraint left in the stiffness, or rounded coordinates",
             worst.direction, worst.energy_ratio
         ),
+    })
+}
+
+/// What the job expects and nothing in the model could be compared with.
+pub(super) fn expectation_unchecked(results: &Results<'_>) -> Option<Warning> {
+    let expect = results.job.model.expect.as_ref()?;
+    let Evidence { partition, rigid, .. } = results.evidence;
+    let weight = partition.model.weight.as_ref();
+    let has_mass = rigid.is_classical || weight.is_some();
+    let has_centre = rigid.is_classical || weight.is_some_and(|weight| weight.motions.is_some());
+    let lacks = [
+        (expect.mass.is_some() && !has_mass, "mass, which needs a dof map or nodes"),
+        (expect.cg.is_some() && !has_centre, "centre of mass, which needs a dof map and nodes"),
+    ];
+    let lacks: Vec<&str> = lacks.into_iter().filter(|(lacks, _)| *lacks).map(|(_, what)| what).collect();
+    (!lacks.is_empty()).then(|| Warning {
+        code: "W-EXPECT-UNCHECKED",
+        message: format!("not compared with what the job expects: {}", lacks.join("; ")),
     })
 }

@@ -148,7 +148,8 @@ pub(super) fn cancellation(matrix: &SparseMatrix, product: &SparseMatrix, transf
 mod tests {
     use super::*;
     use crate::input::Direction;
-    use crate::partition::{ReducedDof, Site};
+    use crate::model::Site;
+    use crate::partition::ReducedDof;
 
     /// A chain of rows, the first and the last few of which move with two rigid nodes by levers that no sum of keeps exact.
     fn two_patches(n: usize) -> (SparseMatrix, Transformation) {

@@ -18,15 +18,17 @@ mod ordering;
 mod region;
 mod transformation;
 
+use faer::Mat;
+
 use crate::error::{Error, Result};
 use crate::factor::Pencil;
 use crate::input::Dof;
 use crate::job::InterfaceJob;
-use crate::model::{Finding, Model, ModelFacts, Precision, Scaling};
+use crate::model::{CoordinateFit, Finding, Model, ModelFacts, Precision, Scaling, Site};
 use crate::sparse::{Leading, SparseMatrix};
 
 pub use interface::{InterfaceNode, recovered_rows};
-pub use transformation::{DofOrigin, ReducedDof, Site, Transformation, TransformationRow};
+pub use transformation::{DofOrigin, ReducedDof, Transformation, TransformationRow};
 
 /// Most interface dofs: the two reduced matrices alone take 6.4 GB then, and decomposing them days.
 pub const LARGEST_INTERFACE: usize = 20_000;
@@ -52,6 +54,8 @@ pub struct Partition {
     pub scaling: Scaling,
     /// Relative precision of the data.
     pub precision: Precision,
+    /// How coordinates and dof map fit K.
+    pub fit: CoordinateFit,
     /// What the model was.
     pub model: ModelFacts,
     /// What was found of the interface that is no error.
@@ -89,6 +93,7 @@ impl Partition {
         findings.extend(hanging_dofs(&stiffness, &transformation, &interface));
         Ok(Self {
             cancellation,
+            fit: model.fit,
             model: facts,
             findings,
             stiffness,
@@ -116,6 +121,24 @@ impl Partition {
     /// Position and direction of every dof, or nothing where coordinates are unknown.
     pub fn sites(&self) -> Option<Vec<Site>> {
         self.dofs.iter().map(|dof| dof.site).collect()
+    }
+
+    /// The six unit motions of dofs about a point, as rows of n' × 6 with zeros elsewhere: by the coordinates or, where those
+    /// are rounded, as K knows them.
+    ///
+    /// # Panics
+    /// Where a dof has no site.
+    pub fn rigid_motions(&self, dofs: &[usize], centre: [f64; 3]) -> Mat<f64> {
+        let mut motions = Mat::zeros(self.n_dofs(), 6);
+        for dof in dofs {
+            let ReducedDof { origin, site, .. } = self.dofs[*dof];
+            let motion = match (origin, self.fit.rounded()) {
+                (DofOrigin::Row(row), Some(rounded)) => rounded.motion(row, centre),
+                _ => site.expect("a dof with coordinates").rigid_motion_about(centre),
+            };
+            motion.into_iter().enumerate().for_each(|(j, value)| motions[(*dof, j)] = value);
+        }
+        motions
     }
 
     /// What a dof is called in messages.

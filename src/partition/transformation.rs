@@ -1,41 +1,13 @@
 //! The transformation T between the rows of the model and the dofs of the partition.
 //!
 //! A row of an ordinary dof holds a single one. A row of a rigid patch holds the motion of its point by the six dofs of
-//! the interface node: u = t + θ × r for a translation, θ for a rotation.
+//! the interface node: u = t + θ × r for a translation, θ for a rotation; where
+//! coordinates are rounded, the motion that K knows instead of the one by the coordinates.
 
 use super::interface::{InterfaceNode, Interfaces, Resolved, Rows};
 use crate::error::{Error, Result};
 use crate::input::Direction;
-use crate::model::{Model, node_of_row};
-
-/// Where a dof is and which way it points.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Site {
-    /// Position of the node.
-    pub position: [f64; 3],
-    /// Direction at the node.
-    pub direction: Direction,
-}
-
-impl Site {
-    /// Displacement of this dof under the six unit rigid motions: translations, then rotations about axes through the origin.
-    pub fn rigid_motion(&self) -> [f64; 6] {
-        rigid_motion(self.direction, self.position)
-    }
-}
-
-/// Displacement in a direction at offset r from the centre, under unit translations and rotations.
-fn rigid_motion(direction: Direction, r: [f64; 3]) -> [f64; 6] {
-    let [x, y, z] = r;
-    match direction {
-        Direction::Ux => [1.0, 0.0, 0.0, 0.0, z, -y],
-        Direction::Uy => [0.0, 1.0, 0.0, -z, 0.0, x],
-        Direction::Uz => [0.0, 0.0, 1.0, y, -x, 0.0],
-        Direction::Rx => [0.0, 0.0, 0.0, 1.0, 0.0, 0.0],
-        Direction::Ry => [0.0, 0.0, 0.0, 0.0, 1.0, 0.0],
-        Direction::Rz => [0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
-    }
-}
+use crate::model::{Model, RoundedCoordinates, Site, node_of_row};
 
 /// A dof of the partition.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -164,27 +136,22 @@ impl Transformation {
 }
 
 /// Positions of the rows of the model.
-struct Sites {
+struct Sites<'a> {
     of_row: Option<Vec<Site>>,
+    /// How they move as K knows it, where their coordinates are rounded.
+    rounded: Option<&'a RoundedCoordinates>,
     node_of_row: Vec<u32>,
     label_of_row: Option<Vec<i64>>,
     n_nodes: u32,
 }
 
-impl Sites {
-    fn new(model: &Model) -> Self {
-        let of_row = model.dofs.as_ref().zip(model.nodes.as_ref()).and_then(|(dofs, nodes)| {
-            let positions: std::collections::HashMap<i64, [f64; 3]> =
-                nodes.labels.iter().copied().zip(nodes.coordinates.iter().copied()).collect();
-            let site = |dof: &crate::input::Dof| {
-                positions.get(&dof.node).map(|position| Site { position: *position, direction: dof.direction })
-            };
-            dofs.iter().map(site).collect()
-        });
+impl<'a> Sites<'a> {
+    fn new(model: &'a Model) -> Self {
+        let of_row = model.sites();
         let node_of_row = node_of_row(model.n_dofs(), model.dofs.as_deref());
         let n_nodes = node_of_row.iter().max().map_or(0, |max| max + 1);
         let label_of_row = model.dofs.as_ref().map(|dofs| dofs.iter().map(|dof| dof.node).collect());
-        Self { of_row, node_of_row, label_of_row, n_nodes }
+        Self { of_row, rounded: model.fit.rounded(), node_of_row, label_of_row, n_nodes }
     }
 }
 
@@ -195,13 +162,13 @@ enum Part {
     Interface,
 }
 
-struct Builder {
+struct Builder<'a> {
     dofs: Vec<ReducedDof>,
     rows: Vec<TransformationRow>,
-    sites: Sites,
+    sites: Sites<'a>,
 }
 
-impl Builder {
+impl Builder<'_> {
     fn own_row(&mut self, row: usize, part: Part) {
         self.rows[row] = TransformationRow::Dof(self.dofs.len() as u32);
         self.dofs.push(ReducedDof {
@@ -241,11 +208,11 @@ impl Builder {
 
     /// The factors of the six dofs of a node at `position` in the motion of a row.
     fn lever(&self, row: usize, position: [f64; 3]) -> [f64; 6] {
-        let Some(sites) = &self.sites.of_row else {
-            return [0.0; 6];
-        };
-        let Site { position: point, direction } = sites[row];
-        rigid_motion(direction, [point[0] - position[0], point[1] - position[1], point[2] - position[2]])
+        match (&self.sites.of_row, self.sites.rounded) {
+            (None, _) => [0.0; 6],
+            (Some(_), Some(rounded)) => rounded.motion(row, position),
+            (Some(sites), None) => sites[row].rigid_motion_about(position),
+        }
     }
 
     fn attach_patch(&mut self, index: usize, resolved: &Resolved, rows: &[usize]) -> Result<()> {

@@ -20,8 +20,11 @@ pub fn from_matrices(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
     zero_modes(partition).map(|(rigid, _, n_factorisations)| (rigid, n_factorisations))
 }
 
-/// The same with the first eigenvalue above zero.
-pub(super) fn zero_modes(partition: &Partition) -> Result<(RigidBodyModes, Option<f64>, usize)> {
+/// The zero modes with the first eigenvalue above zero and the factorisations they took.
+///
+/// # Errors
+/// As [`from_matrices`].
+pub(crate) fn zero_modes(partition: &Partition) -> Result<(RigidBodyModes, Option<f64>, usize)> {
     let analysis = Analysis::new(partition.pencil())?;
     let problem = ModalProblem::of(partition.pencil(), None, partition.precision);
     let found = shifted(&analysis, problem, &|step| partition.name_of(step))?;
@@ -45,7 +48,6 @@ pub(super) fn zero_modes(partition: &Partition) -> Result<(RigidBodyModes, Optio
         source: RigidSource::Algebraic,
         is_classical: false,
         energy,
-        misfit: None,
     };
     let first_elastic = found.lowest.lambda.get(found.n_zero).copied().or(found.lowest.next);
     Ok((rigid, first_elastic, found.n_factorisations))

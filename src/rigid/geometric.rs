@@ -1,49 +1,26 @@
 //! Rigid-body modes from coordinates, body by body, verified against K.
 
-use std::collections::BTreeMap;
-
 use faer::{Mat, MatRef};
 
-use super::{Misfit, RigidBodyModes, RigidEnergy, RigidSource, energies_of_terms, largest_residual, residuals};
+use super::{RigidBodyModes, RigidEnergy, RigidSource, energies_of_terms, largest_residual};
 use crate::dense;
 use crate::error::{Error, Result};
-use crate::model::Bodies;
-use crate::partition::{Partition, Site};
-use crate::sparse::{absolute_product, product, product_and_terms};
+use crate::model::{Bodies, Frame, Site};
+use crate::partition::Partition;
+use crate::sparse::{product, product_and_terms};
 
 /// Singular values of a body's six unit motions, relative to the largest, below which the motion moves no dof (rotation
 /// of a straight row of translations about its own axis): a thousand times rounding, far below any real thickness.
 const NO_DISPLACEMENT: f64 = 1e-11;
 /// Modal masses relative to the largest below which a rigid motion has no inertia: the square of the rounding that the
 /// direction of the motion carries, with a factor of ten thousand. A real one may be small beside a seismic mass.
-const NO_MASS: f64 = 1e-24;
+pub(crate) const NO_MASS: f64 = 1e-24;
 /// A motion is free when its energy stays below this many times the noise of the data. The noise bound adds all
 /// roundings with one sign; measured energies of exact rigid motions stay below it, so ten is generous.
-const FREE_BELOW_NOISE: f64 = 10.0;
-/// A force is worth a look when it exceeds this many times the noise of the data, or that of a translation: what a producer
-/// rounds while it assembles K shows in both.
-const NOTICEABLE: f64 = 100.0;
-/// Relative force of a translation above which the body is held: far above what a producer rounds, far below any support.
-const TRANSLATION_HELD: f64 = 1e-9;
-/// Displacement, for a body of unit size, that six digits lose: nodes are not told apart below it.
-const SIX_DIGITS: f64 = 1e-6;
-/// Nodes out of place that a message names.
-const SHOWN_NODES: usize = 3;
-
-/// What the coordinates say.
-pub(super) struct Geometric {
-    /// The motions that K lets pass.
-    pub(super) rigid: RigidBodyModes,
-    /// Those and the motions of the bodies that it should let pass, n' × k.
-    pub(super) motions: Mat<f64>,
-    /// True where `motions` are the six unit motions of one body.
-    pub(super) are_classical: bool,
-    /// The worst of the motions that it does not let pass.
-    pub(super) misfit: Option<Misfit>,
-}
+pub(crate) const FREE_BELOW_NOISE: f64 = 10.0;
 
 /// The zero-energy rigid motions of every body.
-pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<Geometric> {
+pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<RigidBodyModes> {
     let node_of_dof: Vec<u32> = partition.dofs.iter().map(|dof| dof.node).collect();
     let bodies = Bodies::of(&partition.stiffness, &dense_numbers(&node_of_dof));
     let mut found = Vec::new();
@@ -63,31 +40,20 @@ pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<
     let massless = || found.iter().map(|body| body.massless.as_ref());
     let orthonormal = dense::concatenated(n, massive.chain(massless()));
     let modes = match found.as_slice() {
-        [body] if body.is_classical => unit_motions(sites, &body.dofs),
+        [body] if body.is_classical => partition.rigid_motions(&body.dofs, [0.0; 3]),
         _ => orthonormal.clone(),
     };
-    let motions = match found.iter().any(|body| body.motions.is_some()) {
-        true => {
-            dense::concatenated(n, found.iter().map(|body| body.motions.as_ref().unwrap_or(&body.orthonormal).as_ref()))
-        }
-        false => modes.clone(),
-    };
-    let are_classical = found.len() == 1 && motions.ncols() == 6;
-    let rigid = RigidBodyModes {
+    Ok(RigidBodyModes {
         modes,
         mass_orthonormal: product(&partition.mass, orthonormal.as_ref()),
         orthonormal,
         n_massless: massless().map(|motions| motions.ncols()).sum(),
         n_mechanisms: 0,
         n_grey: 0,
-        source: RigidSource::Geometric,
+        source: if partition.fit.rounded().is_some() { RigidSource::Algebraic } else { RigidSource::Geometric },
         is_classical,
         energy,
-        misfit: None,
-    };
-    let misfits = found.into_iter().filter_map(|body| body.misfit);
-    let misfit = misfits.max_by(|a, b| a.energy.total_cmp(&b.energy));
-    Ok(Geometric { rigid, motions, are_classical, misfit })
+    })
 }
 
 /// A body that can move and that no interface holds makes K_II singular, and nothing could drive it (catalogue S-04).
@@ -125,9 +91,6 @@ struct Body {
     /// Whether all six motions are free.
     is_classical: bool,
     energy: RigidEnergy,
-    /// All motions by the coordinates, where K lets only some of them pass and should let all.
-    motions: Option<Mat<f64>>,
-    misfit: Option<Misfit>,
 }
 
 impl Body {
@@ -137,18 +100,10 @@ impl Body {
 }
 
 fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body> {
-    let n = sites.len();
     let frame = Frame::of(sites, dofs);
     // Unit motions about the body's own centre, rotations scaled to its size: columns of like length.
-    let mut centred = Mat::zeros(n, 6);
-    for dof in dofs {
-        let Site { position, direction } = sites[*dof];
-        let offset = [0, 1, 2].map(|axis| position[axis] - frame.centre[axis]);
-        let motion = Site { position: offset, direction }.rigid_motion();
-        for (j, value) in motion.iter().enumerate() {
-            centred[(*dof, j)] = if j < 3 { *value } else { value / frame.size };
-        }
-    }
+    let mut centred = partition.rigid_motions(dofs, frame.centre);
+    centred.as_mut().subcols_mut(3, 3).col_iter_mut().for_each(|mut rotation| rotation /= faer::Scale(frame.size));
     let moving = moving_directions(centred.as_ref())?;
     let (orthonormal, massless) =
         mass_orthonormal(partition, dense::product(centred.as_ref(), moving.as_ref()).as_ref())?;
@@ -158,16 +113,6 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
         return Err(Error::NegativeRigidEnergy { energy: *energy, noise });
     }
     let n_free = energies.iter().filter(|energy| **energy <= FREE_BELOW_NOISE * noise).count();
-    // A rotation of too much energy needs no second witness.
-    let noticeable = if n_free < energies.len() { 0.0 } else { NOTICEABLE };
-    let misfit = costly_rotation(partition, (sites, dofs), centred.as_ref(), noticeable).map(
-        |Costly { rotation, concentration, at }| {
-            let energy = energies.iter().fold(0.0, |max: f64, energy| max.max(energy.abs()));
-            Misfit { rotation, energy, concentration, at }
-        },
-    );
-    let motions =
-        misfit.as_ref().map(|_| if energies.len() == 6 { unit_motions(sites, dofs) } else { orthonormal.clone() });
     let orthonormal = dense::product(orthonormal.as_ref(), directions.as_ref().subcols(0, n_free));
     let energy = RigidEnergy {
         largest_quotient: energies[..n_free].iter().fold(0.0, |max: f64, energy| max.max(energy.abs())),
@@ -175,7 +120,7 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
         noise,
     };
     let is_classical = n_free + massless.ncols() == 6;
-    Ok(Body { dofs: dofs.to_vec(), orthonormal, massless, is_classical, energy, motions, misfit })
+    Ok(Body { dofs: dofs.to_vec(), orthonormal, massless, is_classical, energy })
 }
 
 /// Those of the motions without mass that cost no energy either; one that is held is no rigid-body mode.
@@ -188,32 +133,8 @@ fn without_energy(partition: &Partition, massless: Mat<f64>) -> Result<Mat<f64>>
     Ok(dense::product(massless.as_ref(), directions.as_ref().subcols(0, n_free)))
 }
 
-struct Frame {
-    centre: [f64; 3],
-    size: f64,
-}
-
-impl Frame {
-    fn of(sites: &[Site], dofs: &[usize]) -> Self {
-        let count = dofs.len().max(1) as f64;
-        let mut centre = [0.0; 3];
-        for dof in dofs {
-            for (sum, value) in centre.iter_mut().zip(sites[*dof].position) {
-                *sum += value / count;
-            }
-        }
-        let distance = |dof: &usize| {
-            let position = sites[*dof].position;
-            (0..3).map(|axis| (position[axis] - centre[axis]).powi(2)).sum::<f64>().sqrt()
-        };
-        let size = dofs.iter().map(distance).fold(0.0, f64::max);
-        // A body of one node has no size; any length serves to compare its rotations.
-        Self { centre, size: if size > 0.0 { size } else { 1.0 } }
-    }
-}
-
 /// Combinations of the six unit motions that move at least one dof, 6 × (≤ 6), scaled to unit displacement.
-fn moving_directions(centred: MatRef<'_, f64>) -> Result<Mat<f64>> {
+pub(crate) fn moving_directions(centred: MatRef<'_, f64>) -> Result<Mat<f64>> {
     let tall = if centred.nrows() >= 6 { centred.to_owned() } else { padded(centred) };
     let (singular, v) = dense::right_singular(tall.as_ref())?;
     let largest = singular.first().copied().unwrap_or(0.0);
@@ -282,63 +203,4 @@ impl Energies {
         let largest = energies_of_terms(q, terms.as_ref()).into_iter().fold(0.0, f64::max);
         Ok(Self { energies, directions, noise: (partition.precision.stiffness + f64::EPSILON) * largest })
     }
-}
-
-/// A rotation that is not free, or not quite.
-struct Costly {
-    rotation: &'static str,
-    concentration: f64,
-    at: String,
-}
-
-/// The rotation that K lets pass worst, and where, of a body whose translations are free; `None` where a translation is
-/// held, and where the rotations make no more than `noticeable` times the force that the data explain.
-///
-/// Translations do not depend on coordinates. Where they are free and a rotation is not, the coordinates are in doubt. An
-/// energy within its noise says little: it is the square of the force.
-fn costly_rotation(
-    partition: &Partition,
-    (sites, dofs): (&[Site], &[usize]),
-    centred: MatRef<'_, f64>,
-    noticeable: f64,
-) -> Option<Costly> {
-    let (forces, terms) = product_and_terms(&partition.stiffness, centred);
-    let residuals = residuals(forces.as_ref(), terms.as_ref());
-    let data = partition.cancellation * (partition.precision.stiffness + f64::EPSILON);
-    let of_translations = residuals[..3].iter().copied().fold(0.0, f64::max);
-    let (worst, of_rotation) = (3..6).map(|j| (j, residuals[j])).fold((3, 0.0), |a, b| if b.1 > a.1 { b } else { a });
-    if of_translations > TRANSLATION_HELD.max(NOTICEABLE * data)
-        || of_rotation <= noticeable * data.max(of_translations)
-    {
-        return None;
-    }
-    // The forces of all rotations, relative to those of a unit motion of every translation alone: displacements.
-    let translation = Mat::from_fn(sites.len(), 1, |dof, _| f64::from(u8::from(!sites[dof].direction.is_rotation())));
-    let stiffness = absolute_product(&partition.stiffness, translation.as_ref());
-    let mut of_node: BTreeMap<u32, (f64, usize)> = BTreeMap::new();
-    for dof in dofs.iter().copied().filter(|dof| !sites[*dof].direction.is_rotation()) {
-        let force = (3..6).map(|j| forces[(dof, j)].abs()).fold(0.0, f64::max);
-        let displacement = if stiffness[(dof, 0)] > 0.0 { force / stiffness[(dof, 0)] } else { 0.0 };
-        let node = of_node.entry(partition.dofs[dof].node).or_insert((displacement, dof));
-        if displacement > node.0 {
-            *node = (displacement, dof);
-        }
-    }
-    let mut nodes: Vec<(f64, usize)> = of_node.into_values().collect();
-    nodes.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let median = nodes.get(nodes.len() / 2).map_or(0.0, |node| node.0);
-    let at: Vec<String> = nodes.iter().take(SHOWN_NODES).map(|(_, dof)| partition.name_of(*dof)).collect();
-    let concentration = nodes.first().map_or(1.0, |node| node.0 / median.max(SIX_DIGITS));
-    Some(Costly { rotation: ["x", "y", "z"][worst - 3], concentration, at: at.join(", ") })
-}
-
-/// The six unit motions about the origin, restricted to the dofs of a body.
-fn unit_motions(sites: &[Site], dofs: &[usize]) -> Mat<f64> {
-    let mut modes = Mat::zeros(sites.len(), 6);
-    for dof in dofs {
-        for (j, value) in sites[*dof].rigid_motion().iter().enumerate() {
-            modes[(*dof, j)] = *value;
-        }
-    }
-    modes
 }

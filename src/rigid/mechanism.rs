@@ -9,7 +9,7 @@
 
 use faer::{Mat, MatRef};
 
-use super::{RigidBodyModes, RigidSource, absolute_energy, largest_residual};
+use super::{RigidBodyModes, absolute_energy, largest_residual};
 use crate::basis::ConstraintModes;
 use crate::dense;
 use crate::error::{Error, Result};
@@ -89,22 +89,10 @@ pub fn with_mechanisms(
             found.uncertain.push(loose());
         }
     }
-    refuse_foreign_coordinates(&rigid, &found)?;
     let zero = Mat::from_fn(motions.nrows(), zero.len(), |i, j| motions[(i, zero[j])]);
     let n_grey = found.grey.len() + found.uncertain.len();
     let rigid = RigidBodyModes { n_grey, ..joined(partition, rigid, zero.as_ref()) };
     Ok((rigid, found))
-}
-
-/// Fewer than six motions by the coordinates, six by K: no mechanism fills the number up by chance, the coordinates are wrong.
-fn refuse_foreign_coordinates(rigid: &RigidBodyModes, found: &LooseMotions) -> Result<()> {
-    const ALL: usize = 6;
-    let (n_rigid, n_more) = (rigid.count(), found.mechanisms.len());
-    if rigid.source == RigidSource::Geometric && n_rigid < ALL && n_rigid + n_more == ALL {
-        let dof = found.mechanisms[0].nodes.join(", ");
-        return Err(Error::CoordinatesDoNotFit { rotation: "some axis", energy: 1.0, expected: 0.0, dof });
-    }
-    Ok(())
 }
 
 /// V for every eigenvector of S that is soft and no rigid-body motion; columns of unit length in the scales of the dofs.

@@ -11,7 +11,6 @@
 mod algebraic;
 mod geometric;
 mod mechanism;
-mod misfit;
 mod rank;
 
 use faer::{Mat, MatRef};
@@ -22,8 +21,9 @@ use crate::partition::Partition;
 use crate::sparse::{Leading, SparseMatrix, absolute_product, product, product_and_terms};
 
 pub use algebraic::from_matrices;
+pub(crate) use algebraic::zero_modes;
+pub(crate) use geometric::{FREE_BELOW_NOISE, NO_MASS, moving_directions};
 pub use mechanism::{Loose, LooseMotions, with_mechanisms};
-pub use misfit::Misfit;
 pub use rank::{ILL_CONDITIONED, InterfaceRank, interface_rank};
 pub(crate) use rank::{scales, unit_motions};
 
@@ -57,9 +57,6 @@ pub struct RigidBodyModes {
     pub is_classical: bool,
     /// Energies of the modes against the noise of the data.
     pub energy: RigidEnergy,
-    /// The rotation that K does not know by these coordinates, where they are rounded; the modes are then from the
-    /// matrices.
-    pub misfit: Option<Misfit>,
 }
 
 /// How well K lets the rigid-body modes pass.
@@ -101,7 +98,6 @@ impl RigidBodyModes {
             source: RigidSource::Geometric,
             is_classical: false,
             energy: RigidEnergy::default(),
-            misfit: None,
         }
     }
 
@@ -113,22 +109,17 @@ impl RigidBodyModes {
     }
 }
 
-/// The rigid-body modes, and the factorisations they took: from coordinates that fit none.
+/// The rigid-body modes, and the factorisations they took: from coordinates none.
 ///
 /// Without an interface there is no S in which mechanisms would show, so that a free component is counted by its matrices too.
 ///
 /// # Errors
-/// [`Error::CoordinatesDoNotFit`](crate::error::Error::CoordinatesDoNotFit) and those of [`from_coordinates`] and
-/// [`from_matrices`].
+/// Those of [`from_coordinates`] and [`from_matrices`].
 pub fn rigid_body_modes(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
     let Some(sites) = partition.sites() else {
         return from_matrices(partition);
     };
-    let found = geometric::rigid_body_modes(partition, &sites)?;
-    if let Some(misfit) = found.misfit.clone() {
-        return misfit::settled(partition, found, misfit);
-    }
-    let rigid = found.rigid;
+    let rigid = geometric::rigid_body_modes(partition, &sites)?;
     if partition.n_interface() > 0 || rigid.count() == 0 {
         return Ok((rigid, 0));
     }
@@ -138,13 +129,12 @@ pub fn rigid_body_modes(partition: &Partition) -> Result<(RigidBodyModes, usize)
     Ok((rigid, n_factorisations))
 }
 
-/// The rigid-body modes from the coordinates, or `None` where the model has none that K lets pass.
+/// The rigid-body modes from the coordinates, or `None` where the model has none.
 ///
 /// # Errors
 /// A rigid motion without mass or of negative energy.
 pub fn from_coordinates(partition: &Partition) -> Result<Option<RigidBodyModes>> {
-    let found = partition.sites().map(|sites| geometric::rigid_body_modes(partition, &sites)).transpose()?;
-    Ok(found.filter(|found| found.misfit.is_none()).map(|found| found.rigid))
+    partition.sites().map(|sites| geometric::rigid_body_modes(partition, &sites)).transpose()
 }
 
 /// |x|ᵀ|A||x| for each column.

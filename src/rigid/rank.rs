@@ -8,7 +8,8 @@ use faer::Mat;
 use super::RigidBodyModes;
 use crate::dense;
 use crate::error::{Error, Result};
-use crate::partition::{Partition, Site};
+use crate::model::Site;
+use crate::partition::Partition;
 
 /// Below this ratio of singular values the interface does not react a motion.
 const RANK_TOLERANCE: f64 = 1e-10;

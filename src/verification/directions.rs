@@ -5,7 +5,8 @@ use faer::Mat;
 use super::Evidence;
 use crate::dense;
 use crate::input::Direction;
-use crate::partition::{Partition, Site};
+use crate::model::Site;
+use crate::partition::Partition;
 use crate::sparse::product;
 
 /// Motions of the component as a whole, by name.
@@ -47,12 +48,8 @@ impl Directions {
 
     fn unit_motions(partition: &Partition, sites: &[Site]) -> Self {
         let centre = middle_of_mass(partition, sites);
-        let mut motions = Mat::zeros(sites.len(), 6);
-        for (row, site) in sites.iter().enumerate() {
-            let position = std::array::from_fn(|axis| site.position[axis] - centre[axis]);
-            let motion = Site { position, ..*site }.rigid_motion();
-            motion.iter().enumerate().for_each(|(j, value)| motions[(row, j)] = *value);
-        }
+        let every: Vec<usize> = (0..sites.len()).collect();
+        let motions = partition.rigid_motions(&every, centre);
         let momenta = product(&partition.mass, motions.as_ref());
         let of = |j: usize| dense::dot(dense::column(motions.as_ref(), j), dense::column(momenta.as_ref(), j));
         let masses: Vec<f64> = (0..6).map(of).collect();

@@ -11,6 +11,7 @@ mod twin;
 use supel::basis::{
     Basis, ConstraintModes, DynamicColumns, constraint_modes, fixed_interface_columns, mode_acceleration_columns,
 };
+use supel::coordinates;
 use supel::error::Error;
 use supel::factor::{Analysis, Cholesky};
 use supel::input::{Direction, Dof, Input, MatrixInput, Nodes};
@@ -92,7 +93,7 @@ pub(crate) struct Chain {
 
 /// The partition of a generated model.
 pub(crate) fn partition(model: &models::Model, interfaces: &[InterfaceJob]) -> Result<Partition, Error> {
-    Partition::new(Model::new(input(model))?, interfaces)
+    Partition::new(coordinates::compared(Model::new(input(model))?, &[])?, interfaces)
 }
 
 /// The partition and its rigid-body modes, from coordinates where there are any.

@@ -34,7 +34,7 @@ fn interface_stiffness_is_that_of_dense_condensation() {
     let r = Mat::from_fn(9, 6, |i, j| {
         let site = partition.dofs[n_i + tip[i]].site.expect("a site");
         let position = std::array::from_fn(|axis| site.position[axis] - centre[axis]);
-        supel::partition::Site { position, direction: site.direction }.rigid_motion()[j]
+        supel::model::Site { position, direction: site.direction }.rigid_motion()[j]
     });
     let patch = condensed(&dense, n_i, &(0..6).collect::<Vec<_>>());
     let tip = r.transpose() * condensed(&dense, n_i, &tip) * &r;

@@ -140,7 +140,6 @@ fn passing_motions(
         source: evidence.rigid.source,
         is_classical: false,
         energy: RigidEnergy::default(),
-        misfit: None,
     })
 }
 

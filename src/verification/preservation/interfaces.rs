@@ -2,7 +2,7 @@
 
 use super::super::Evidence;
 use crate::dense;
-use crate::partition::{Partition, Site};
+use crate::partition::Partition;
 use crate::sparse::product;
 use faer::Mat;
 
@@ -55,13 +55,7 @@ impl Inertia {
             return Self { mass: momentum.col(0).iter().sum(), moment: 0.0 };
         };
         let centre = [0, 1, 2].map(|axis| sites.iter().map(|site| site.position[axis]).sum::<f64>() / n as f64);
-        let motions: Vec<[f64; 6]> = sites
-            .iter()
-            .map(|site| {
-                let position = [0, 1, 2].map(|axis| site.position[axis] - centre[axis]);
-                Site { position, direction: site.direction }.rigid_motion()
-            })
-            .collect();
+        let motions: Vec<[f64; 6]> = sites.iter().map(|site| site.rigid_motion_about(centre)).collect();
         let u = Mat::from_fn(n, 6, |i, j| motions[i][j]);
         let m_f = dense::gram(u.as_ref(), product(&partition.mass, u.as_ref()).as_ref());
         let mass = (0..3).map(|axis| m_f[(axis, axis)]).fold(0.0, f64::max);

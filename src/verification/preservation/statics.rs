@@ -14,7 +14,7 @@ use super::interfaces::Interface;
 use crate::dense;
 use crate::factor::SolveOperator;
 use crate::input::Direction;
-use crate::partition::Site;
+use crate::model::Site;
 use crate::report::InterfaceStatics;
 use crate::rigid::absolute_energy;
 use crate::sparse::product;
@@ -63,10 +63,7 @@ fn motions(evidence: &Evidence<'_>, interface: &Interface) -> Option<Motions> {
         interface.dofs.iter().map(|dof| partition.dofs[partition.n_internal + dof].site).collect();
     let Some(sites) = sites else { return (n_h <= SHOWN).then(own) };
     let centre = [0, 1, 2].map(|axis| sites.iter().map(|site| site.position[axis]).sum::<f64>() / n_h as f64);
-    let rigid = |site: &Site| {
-        let position = [0, 1, 2].map(|axis| site.position[axis] - centre[axis]);
-        Site { position, direction: site.direction }.rigid_motion()
-    };
+    let rigid = |site: &Site| site.rigid_motion_about(centre);
     let rows: Vec<[f64; 6]> = sites.iter().map(rigid).collect();
     // A straight row of translations does not move when it turns about itself.
     let moves = |motion: &usize| rows.iter().any(|row| row[*motion] != 0.0);

@@ -1,0 +1,135 @@
+//! Bodies whose coordinates K does not confirm at once, and where.
+
+use std::collections::BTreeMap;
+
+use super::motions::{Body, Motions};
+use super::nodes::Nodes;
+use crate::input::Direction;
+use crate::model::Finding;
+use crate::rigid::FREE_BELOW_NOISE;
+
+/// A force is worth a look when it exceeds this many times the noise of the data, or that of a translation: what a producer
+/// rounds while it assembles K shows in both.
+pub(super) const NOTICEABLE: f64 = 100.0;
+/// Displacement, for a body of unit size, that six digits lose: nodes are not told apart below it.
+const SIX_DIGITS: f64 = 1e-6;
+/// Nodes out of place that a message names.
+const SHOWN_NODES: usize = 3;
+/// Share of the rows of a held body that supports may touch before the others are too few to be a witness: rows in an order
+/// that the map does not say make forces at all of them.
+const NEARLY_ALL: f64 = 0.9;
+/// The first of the rotations among the six motions.
+pub(super) const FIRST_ROTATION: usize = 3;
+
+/// A body that supports touch, or whose rotations make forces where no support is.
+pub(super) struct Doubt {
+    /// Its number.
+    pub(super) body: usize,
+    /// Rows on which a translation does not vanish.
+    pub(super) n_touched: usize,
+    /// Rows of nodes that no support touches, ascending.
+    pub(super) untouched: Vec<usize>,
+    /// Rotations that make forces where they should not, the worst first.
+    pub(super) costly: Vec<Costly>,
+}
+
+/// A rotation of a body that does not vanish on rows where it should.
+pub(super) struct Costly {
+    /// Its number among the six motions, 3 to 5.
+    pub(super) rotation: usize,
+    /// ‖F‖ on the witnesses over ‖T‖.
+    residual: f64,
+    /// The rows where it should vanish, ascending.
+    pub(super) witnesses: Vec<usize>,
+    /// Whether no support holds a displacement that it makes.
+    pub(super) is_free: bool,
+}
+
+/// The bodies that need a second look.
+pub(super) fn doubts(motions: &Motions<'_>, nodes: &Nodes, held: &[Direction]) -> Vec<Doubt> {
+    let of_body = |(number, body): (usize, &Body)| {
+        let costly = costly_rotations(motions, nodes, body, held);
+        let n_touched = body.rows.iter().filter(|row| nodes.is_touched[nodes.of(**row)]).count();
+        let is_in_doubt = n_touched > 0 || !costly.is_empty();
+        let untouched = || body.rows.iter().copied().filter(|row| nodes.is_untouched(*row)).collect();
+        is_in_doubt.then(|| Doubt { body: number, n_touched, untouched: untouched(), costly })
+    };
+    motions.bodies.iter().enumerate().filter_map(of_body).collect()
+}
+
+/// Rotations that do not vanish where they should, the worst first.
+///
+/// An energy within its noise says little, for it is the square of the force; and in a thin body little force is much energy.
+fn costly_rotations(motions: &Motions<'_>, nodes: &Nodes, body: &Body, held: &[Direction]) -> Vec<Costly> {
+    let is_touched = body.rows.iter().any(|row| nodes.is_touched[nodes.of(*row)]);
+    let look = |axis: usize| {
+        let rotation = FIRST_ROTATION + axis;
+        let is_free = !is_touched && body.rows.iter().all(|row| !nodes.lacks_displacement(*row, axis));
+        let is_witness = |row: &usize| is_free || nodes.is_witness(*row, axis);
+        let witnesses: Vec<usize> = body.rows.iter().copied().filter(is_witness).collect();
+        let residual = |motion: usize| motions.residual(body, &witnesses, motion);
+        let noise = (0..FIRST_ROTATION).map(residual).fold(motions.rounding(), f64::max);
+        let (energy, terms) = motions.energy(body, rotation);
+        let has_energy = is_free && energy > FREE_BELOW_NOISE * motions.rounding() * terms;
+        let residual = residual(rotation);
+        let is_costly = residual > NOTICEABLE * noise || has_energy;
+        is_costly.then_some(Costly { rotation, residual, witnesses, is_free })
+    };
+    let is_said = |axis: &usize| held.contains(&Direction::ALL[FIRST_ROTATION + axis]);
+    let mut costly: Vec<Costly> = (0..3).filter(|axis| !is_said(axis)).filter_map(look).collect();
+    costly.sort_by(|a, b| b.residual.total_cmp(&a.residual));
+    costly
+}
+
+/// What is to be said where supports touch nearly all rows of the bodies that they hold.
+pub(super) fn untested(motions: &Motions<'_>, doubts: &[Doubt]) -> Option<Finding> {
+    let held = || doubts.iter().filter(|doubt| doubt.n_touched > 0);
+    let n_rows: usize = held().map(|doubt| motions.bodies[doubt.body].rows.len()).sum();
+    let n_touched: usize = held().map(|doubt| doubt.n_touched).sum();
+    let is_untested = n_touched as f64 > NEARLY_ALL * n_rows as f64;
+    is_untested.then_some(Finding::CoordinatesUntested { n_touched, n_rows })
+}
+
+/// The rotations that the job says to be held and that no row answers with a force.
+pub(super) fn not_held(motions: &Motions<'_>, held: &[Direction]) -> Option<Finding> {
+    let is_free = |direction: &Direction| {
+        motions
+            .bodies
+            .iter()
+            .all(|body| motions.residual(body, &body.rows, *direction as usize) <= NOTICEABLE * motions.rounding())
+    };
+    let rotations: Vec<Direction> = held.iter().copied().filter(is_free).collect();
+    (!rotations.is_empty()).then_some(Finding::RotationsFree { rotations })
+}
+
+/// Where the forces of some motions are largest, relative to the terms of their rows: as displacements, which tell nodes out of
+/// place from the stiffness around them.
+pub(super) struct Place {
+    /// The dofs, one for each of the worst nodes.
+    pub(super) at: String,
+    /// The largest displacement over that of the median node, or over what six digits lose.
+    pub(super) concentration: f64,
+}
+
+impl Place {
+    /// Over some rows.
+    pub(super) fn of(motions: &Motions<'_>, rows: &[usize], columns: &[usize]) -> Self {
+        let mut of_node: BTreeMap<i64, (f64, usize)> = BTreeMap::new();
+        for row in rows.iter().copied() {
+            let force = columns.iter().map(|j| motions.forces[(row, *j)].abs()).fold(0.0, f64::max);
+            let terms = motions.scale_of(row);
+            let displacement = if terms > 0.0 { force / terms } else { 0.0 };
+            let label = motions.model.dofs.as_ref().map_or(row as i64, |dofs| dofs[row].node);
+            let node = of_node.entry(label).or_insert((displacement, row));
+            if displacement > node.0 {
+                *node = (displacement, row);
+            }
+        }
+        let mut nodes: Vec<(f64, usize)> = of_node.into_values().collect();
+        nodes.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let median = nodes.get(nodes.len() / 2).map_or(0.0, |node| node.0);
+        let at: Vec<String> = nodes.iter().take(SHOWN_NODES).map(|(_, row)| motions.name_of(*row)).collect();
+        let concentration = nodes.first().map_or(1.0, |node| node.0 / median.max(SIX_DIGITS));
+        Self { at: at.join(", "), concentration }
+    }
+}

@@ -1,0 +1,79 @@
+//! How many of its six motions a body makes without energy, by the coordinates.
+
+use faer::Mat;
+
+use super::motions::{Body, Motions};
+use crate::dense;
+use crate::error::Result;
+use crate::rigid::{FREE_BELOW_NOISE, NO_MASS, moving_directions};
+
+/// The motions of a body in numbers of order six.
+pub(super) struct Free {
+    /// Independent motions that move a dof.
+    pub(super) n_moving: usize,
+    /// Those of them that cost no energy.
+    pub(super) n_free: usize,
+    /// The largest Rayleigh quotient of a motion with mass.
+    pub(super) largest_quotient: f64,
+    /// The largest Rayleigh quotient that rounding of the data can make.
+    pub(super) noise: f64,
+    /// The combinations of the six columns of C that are M-orthonormal, 6 × (≤ 6).
+    pub(super) orthonormal: Mat<f64>,
+}
+
+impl Free {
+    /// Of a body; `momenta` is M C.
+    pub(super) fn of(motions: &Motions<'_>, body: &Body, momenta: &Mat<f64>) -> Result<Self> {
+        let rows = |a: &Mat<f64>| Mat::from_fn(body.rows.len(), 6, |i, j| a[(body.rows[i], j)]);
+        let c = rows(&motions.centred);
+        let magnitudes = Mat::from_fn(c.nrows(), 6, |i, j| c[(i, j)].abs());
+        let moving = moving_directions(c.as_ref())?;
+        let mut energy = dense::gram(c.as_ref(), rows(&motions.forces).as_ref());
+        let mut mass = dense::gram(c.as_ref(), rows(momenta).as_ref());
+        dense::symmetrise(&mut energy);
+        dense::symmetrise(&mut mass);
+        let terms = dense::gram(magnitudes.as_ref(), rows(&motions.terms).as_ref());
+        let (massive, massless) = by_mass(&mass, &moving)?;
+        let look = |directions: &Mat<f64>| energies(motions, directions, &energy, &terms);
+        let ((of_massive, noise), (of_massless, noise_without)) = (look(&massive)?, look(&massless)?);
+        let count = |energies: &[f64], noise: f64| energies.iter().filter(|e| **e <= FREE_BELOW_NOISE * noise).count();
+        Ok(Self {
+            n_moving: moving.ncols(),
+            n_free: count(&of_massive, noise) + count(&of_massless, noise_without),
+            largest_quotient: of_massive.iter().fold(0.0, |max, energy| max.max(energy.abs())),
+            noise,
+            orthonormal: massive,
+        })
+    }
+}
+
+/// Directions of unit modal mass, and those without mass.
+fn by_mass(mass: &Mat<f64>, moving: &Mat<f64>) -> Result<(Mat<f64>, Mat<f64>)> {
+    let within = dense::gram(moving.as_ref(), dense::product(mass.as_ref(), moving.as_ref()).as_ref());
+    let (masses, vectors) = dense::symmetric_eigen(within.as_ref())?;
+    let directions = dense::product(moving.as_ref(), vectors.as_ref());
+    let largest = masses.last().copied().unwrap_or(0.0);
+    let (massive, massless): (Vec<usize>, Vec<usize>) = (0..masses.len()).partition(|j| masses[*j] > NO_MASS * largest);
+    let unit = |j: usize| 1.0 / masses[j].sqrt();
+    let of = |chosen: &[usize], factor: &dyn Fn(usize) -> f64| {
+        Mat::from_fn(6, chosen.len(), |i, j| directions[(i, chosen[j])] * factor(chosen[j]))
+    };
+    Ok((of(&massive, &unit), of(&massless, &|_| 1.0)))
+}
+
+/// Energies of some directions in ascending order, and what rounding of the data can make of one.
+fn energies(
+    motions: &Motions<'_>,
+    directions: &Mat<f64>,
+    energy: &Mat<f64>,
+    terms: &Mat<f64>,
+) -> Result<(Vec<f64>, f64)> {
+    let within = dense::gram(directions.as_ref(), dense::product(energy.as_ref(), directions.as_ref()).as_ref());
+    let (energies, _) = dense::symmetric_eigen(within.as_ref())?;
+    let terms_of = |k: usize| -> f64 {
+        let weight = |i: usize| directions[(i, k)].abs();
+        (0..6).flat_map(|i| (0..6).map(move |j| (i, j))).map(|(i, j)| weight(i) * terms[(i, j)] * weight(j)).sum()
+    };
+    let largest = (0..directions.ncols()).map(terms_of).fold(0.0, f64::max);
+    Ok((energies, motions.rounding() * largest))
+}

@@ -1,0 +1,173 @@
+//! What a doubt comes to: supports, rounded coordinates, or coordinates that belong to another model.
+
+use super::doubt::{Costly, Doubt, Place};
+use super::free::Free;
+use super::mended::mended;
+use super::motions::Motions;
+use super::zeros::{Zeros, counted, n_loose_rows, whole};
+use crate::error::{Error, Result};
+use crate::model::{CoordinateFit, Misfit};
+use crate::sparse::product;
+
+/// Share of the Rayleigh quotient of the first elastic mode that rounded coordinates may cost. Five digits of a plate of
+/// thickness 1:1000 cost 3·10⁻³, one node of a block moved by a hundredth costs 2.5·10⁻² (catalogue I-18, I-19).
+const ROUNDED: f64 = 1e-2;
+/// How far the worst node may stand out from the median one. Rounding is of one size everywhere: the largest of a million
+/// normal numbers is 7 times the median one, and digits may be lost unevenly by some 10. A node out of place by a hundredth
+/// stands out by 10³ to 10⁴.
+const EVEN: f64 = 100.0;
+/// Names of the six motions.
+const MOTIONS: [&str; 6] = [
+    "translation along x",
+    "translation along y",
+    "translation along z",
+    "rotation about x",
+    "rotation about y",
+    "rotation about z",
+];
+
+/// What is known of all bodies once there is a doubt.
+struct Case<'a> {
+    motions: &'a Motions<'a>,
+    doubts: &'a [Doubt],
+    free: Vec<Free>,
+    /// Motions without energy that the coordinates explain, and rows that move by themselves.
+    n_explained: usize,
+}
+
+/// Settles the doubts about coordinates, by the motions without energy that K has.
+pub(super) fn settled(motions: &Motions<'_>, doubts: &[Doubt]) -> Result<CoordinateFit> {
+    let momenta = product(&motions.model.mass, motions.centred.as_ref());
+    let free: Vec<Free> = motions.bodies.iter().map(|body| Free::of(motions, body, &momenta)).collect::<Result<_>>()?;
+    let n_explained = free.iter().map(|free| free.n_free).sum::<usize>() + n_loose_rows(motions);
+    let case = Case { motions, doubts, free, n_explained };
+    let whole = whole(motions)?;
+    match doubts.iter().all(|doubt| doubt.costly.is_empty()) {
+        true => {
+            let noise = case.free.iter().fold(0.0, |max: f64, free| max.max(free.noise));
+            match counted(&whole, noise)? {
+                Some(n_zero) if n_zero <= n_explained => Ok(CoordinateFit::Exact),
+                _ => case.supports(&Zeros::of(&whole)?),
+            }
+        }
+        false => case.rotations(&Zeros::of(&whole)?),
+    }
+}
+
+impl Case<'_> {
+    /// Supports touch some rows, and the coordinates are right on all others: more motions without energy than they explain
+    /// are mechanisms, unless they are rigid-body motions as far as the other rows tell.
+    fn supports(&self, zeros: &Zeros) -> Result<CoordinateFit> {
+        let Self { motions, doubts, .. } = self;
+        let cost = |doubt: &&Doubt| self.free[doubt.body].largest_quotient;
+        let Some(worst) = doubts.iter().max_by(|a, b| cost(a).total_cmp(&cost(b))) else {
+            return Ok(CoordinateFit::Exact);
+        };
+        let cost = self.of_first_elastic(cost(&worst), zeros);
+        let n_rows: usize = doubts.iter().map(|doubt| motions.bodies[doubt.body].rows.len()).sum();
+        let n_touched: usize = doubts.iter().map(|doubt| doubt.n_touched).sum();
+        // Where supports touch most rows, the others are no witness.
+        let is_unexplained = zeros.count() > self.n_explained
+            && cost.energy > ROUNDED
+            && (2 * n_touched > n_rows || zeros.n_rigid(motions, doubts)? > self.n_explained);
+        if !is_unexplained {
+            return Ok(CoordinateFit::Exact);
+        }
+        let costly: Vec<usize> = (0..6).filter(|motion| self.costs_energy(worst, *motion)).collect();
+        let place = Place::of(motions, &motions.bodies[worst.body].rows, &costly);
+        Err(self.misfit(zeros, &costly, cost, place.at))
+    }
+
+    /// Rotations make forces where no support is.
+    fn rotations(&self, zeros: &Zeros) -> Result<CoordinateFit> {
+        let motions = self.motions;
+        let of_doubt = |doubt| (self.cost_of_rotations(doubt, zeros), doubt);
+        let costly = self.doubts.iter().filter(|doubt| !doubt.costly.is_empty()).map(of_doubt);
+        let Some((cost, worst)) = costly.max_by(|a, b| a.0.energy.total_cmp(&b.0.energy)) else {
+            return Ok(CoordinateFit::Exact);
+        };
+        let rotations: Vec<usize> = worst.costly.iter().map(|costly| costly.rotation).collect();
+        let Place { at, concentration } = Place::of(motions, &worst.costly[0].witnesses, &rotations);
+        // Of a node out of place all but what the median node shows is too much.
+        let expected = if concentration <= EVEN { ROUNDED } else { ROUNDED.min(cost.energy / concentration.powi(2)) };
+        let is_rounded = !cost.energy.is_nan() && cost.energy <= expected;
+        if is_rounded && zeros.count() >= self.n_of_right_coordinates() {
+            let misfit = Misfit { rotation: AXES[rotations[0] % 3], energy: cost.energy, of: cost.of, at };
+            return Ok(CoordinateFit::Rounded(mended(motions, &self.free, zeros, misfit)?));
+        }
+        let is_free = worst.costly.iter().any(|costly| costly.is_free);
+        if is_free && zeros.count() <= self.n_explained {
+            let (rotations, n_zero) = (named(&rotations), zeros.count());
+            return Err(Error::RotationsHeld { rotations, n_zero, energy: cost.energy, dof: at });
+        }
+        Err(self.misfit(zeros, &rotations, Cost { expected, ..cost }, at))
+    }
+
+    /// Motions without energy there would be if the coordinates were right but for rounding: what is free by them, and the
+    /// rotations that nothing holds.
+    fn n_of_right_coordinates(&self) -> usize {
+        let of_body = |(number, free): (usize, &Free)| {
+            let doubt = self.doubts.iter().find(|doubt| doubt.body == number);
+            let n_turning = doubt.map_or(0, |doubt| doubt.costly.iter().filter(|costly| costly.is_free).count());
+            free.n_moving.min(free.n_free + n_turning)
+        };
+        self.free.iter().enumerate().map(of_body).sum()
+    }
+
+    /// What the rotations of a body cost: relative to the first elastic mode, or where supports hold the body to what turning
+    /// it costs in all.
+    ///
+    /// The share of a held body is an estimate: forces f that displacements out of place make are those of their own rows, of
+    /// stiffness K_ii, and cost Σ f_i² / K_ii.
+    fn cost_of_rotations(&self, doubt: &Doubt, zeros: &Zeros) -> Cost {
+        let Self { motions, .. } = self;
+        let body = &motions.bodies[doubt.body];
+        if doubt.costly.iter().any(|costly| costly.is_free) {
+            return self.of_first_elastic(self.free[doubt.body].largest_quotient, zeros);
+        }
+        let stiffness = crate::model::diagonal(&motions.model.stiffness);
+        let share = |costly: &Costly| {
+            let of_row = |row: &usize| motions.forces[(*row, costly.rotation)].powi(2) / stiffness[*row];
+            let energy: f64 = costly.witnesses.iter().filter(|row| stiffness[**row] > 0.0).map(of_row).sum();
+            energy / motions.energy(body, costly.rotation).0
+        };
+        let energy = doubt.costly.iter().map(share).fold(0.0, f64::max);
+        Cost { energy, of: "what turning the held component costs", expected: ROUNDED }
+    }
+
+    fn of_first_elastic(&self, quotient: f64, zeros: &Zeros) -> Cost {
+        let energy = zeros.first_elastic.map_or(f64::INFINITY, |lambda| quotient / lambda);
+        Cost { energy, of: "the energy of the first elastic mode", expected: ROUNDED }
+    }
+
+    /// Whether a motion of a body by the coordinates costs more than rounding.
+    fn costs_energy(&self, doubt: &Doubt, motion: usize) -> bool {
+        let (energy, terms) = self.motions.energy(&self.motions.bodies[doubt.body], motion);
+        energy > crate::rigid::FREE_BELOW_NOISE * self.motions.rounding() * terms
+    }
+
+    fn misfit(&self, zeros: &Zeros, costly: &[usize], cost: Cost, dof: String) -> Error {
+        let Cost { energy, of, expected } = cost;
+        let (n_zero, n_explained, motions) = (zeros.count(), self.n_explained, named(costly));
+        Error::CoordinatesDoNotFit { n_zero, n_explained, motions, energy, of, expected, dof }
+    }
+}
+
+/// What motions by the coordinates cost.
+struct Cost {
+    /// Their energy relative to another.
+    energy: f64,
+    /// What it is relative to.
+    of: &'static str,
+    /// What rounding of coordinates may cost.
+    expected: f64,
+}
+
+/// Names of the axes.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Some of the six motions by name, in their order.
+fn named(motions: &[usize]) -> String {
+    let names: Vec<&str> = (0..6).filter(|motion| motions.contains(motion)).map(|motion| MOTIONS[motion]).collect();
+    names.join(", ")
+}

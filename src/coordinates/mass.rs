@@ -1,0 +1,51 @@
+//! Nodes of held bodies whose mass depends on the direction: rows in frames that the map does not know.
+//!
+//! A unit translation of all nodes gives every node a momentum along it, the same for every direction: the blocks of M that
+//! couple translations are multiples of the identity. In another frame at some nodes the blocks are turned, and K alone could
+//! not tell the frames from supports. A lumped mass, whose blocks couple no two nodes, is the same in every frame.
+
+use super::doubt::Doubt;
+use super::motions::Motions;
+use super::nodes::Nodes;
+use crate::model::Finding;
+use crate::sparse::product_and_terms;
+
+/// Difference of momenta, relative to their terms, above which it is none of rounding by a producer.
+const DIFFERENT: f64 = 1e-6;
+/// Units of the last digit of M that a sum of its entries may be off by.
+const DIGITS: f64 = 100.0;
+/// Nodes that a message names.
+const SHOWN_NODES: usize = 3;
+
+/// The nodes of held bodies that have another mass in one direction than in another.
+pub(super) fn by_direction(motions: &Motions<'_>, nodes: &Nodes, doubts: &[Doubt]) -> Option<Finding> {
+    let held: Vec<&Doubt> = doubts.iter().filter(|doubt| doubt.n_touched > 0).collect();
+    if held.is_empty() {
+        return None;
+    }
+    let translations = motions.centred.as_ref().subcols(0, 3);
+    let (momenta, terms) = product_and_terms(&motions.model.mass, translations);
+    let share = DIFFERENT.max(DIGITS * motions.model.precision.mass);
+    // The momenta of a node: row by row its three directions, column by column the three translations.
+    let mut rows_of = vec![[usize::MAX; 3]; nodes.count()];
+    for row in held.iter().flat_map(|doubt| &motions.bodies[doubt.body].rows) {
+        let direction = motions.sites[*row].direction;
+        if !direction.is_rotation() {
+            rows_of[nodes.of(*row)][direction.axis()] = *row;
+        }
+    }
+    let is_turned = |rows: &[usize; 3]| {
+        let size = (0..9).fold(0.0f64, |max, k| max.max(terms[(rows[k / 3], k % 3)]));
+        let mass = momenta[(rows[0], 0)];
+        let expected = |k: usize| if k / 3 == k % 3 { mass } else { 0.0 };
+        (0..9).any(|k| (momenta[(rows[k / 3], k % 3)] - expected(k)).abs() > share * size)
+    };
+    let is_whole = |node: usize, rows: &[usize; 3]| !nodes.is_near_lack(node) && !rows.contains(&usize::MAX);
+    let whole = rows_of.iter().enumerate().filter(|(node, rows)| is_whole(*node, rows));
+    let turned: Vec<usize> = whole.filter(|(_, rows)| is_turned(rows)).map(|(_, rows)| rows[0]).collect();
+    let label = |row: &usize| motions.model.dofs.as_ref().map_or_else(String::new, |dofs| dofs[*row].node.to_string());
+    (!turned.is_empty()).then(|| Finding::MassByDirection {
+        n_nodes: turned.len(),
+        at: turned.iter().take(SHOWN_NODES).map(label).collect::<Vec<_>>().join(", "),
+    })
+}

@@ -1,0 +1,57 @@
+//! Coordinates: whether coordinates, dof map and stiffness belong together.
+//!
+//! ```text
+//! C    n × 6    the six unit motions of every body about its own middle, by the dof map and the coordinates; rotations
+//!               scaled to the size of the body
+//! F    n × 6    K C, the forces of these motions
+//! T    n × 6    |K||C|, the terms that the forces are sums of
+//! ```
+//! Elements store no energy in rigid-body motion, so that a row of K which no support touches shows no force under any of
+//! the six motions. Translations need the dof map alone and tell which rows supports touch; rotations need the coordinates
+//! too and must vanish on all other rows.
+//!
+//! K is looked at as it was read, before rigid patches are applied. A patch ties its nodes by their coordinates, right or
+//! wrong: tied by wrong ones the component is stiffer, and a motion that the coordinates do not explain no longer shows as
+//! one without energy.
+//!
+//! Three things can be wrong, and the zero modes of K as it is tell which: more motions without energy than the coordinates
+//! explain mean that coordinates or dof map belong to another model; as many, with free translations and held rotations,
+//! mean supports that no solid has; motions that cost hardly anything mean rounded coordinates, which are mended with the
+//! motions that K knows. Frames at a few nodes of a held body look like supports to K; a mass that couples nodes tells.
+
+mod doubt;
+mod free;
+mod judgement;
+mod mass;
+mod mended;
+mod motions;
+mod nodes;
+mod zeros;
+
+use crate::error::Result;
+use crate::input::Direction;
+use crate::model::{CoordinateFit, Model};
+
+use motions::Motions;
+use nodes::Nodes;
+
+/// Compares the coordinates and the dof map of a model with its stiffness; `held` lists rotations that the job says to be
+/// held by supports although no translation is.
+///
+/// One product with K where nothing is in doubt. Supports cost one more factorisation, a doubt a few.
+///
+/// # Errors
+/// [`crate::error::Error::CoordinatesDoNotFit`] and [`crate::error::Error::RotationsHeld`]; those of finding the zero modes
+/// of K.
+pub fn compared(model: Model, held: &[Direction]) -> Result<Model> {
+    let Some(sites) = model.sites() else { return Ok(model) };
+    let motions = Motions::of(&model, &sites);
+    let nodes = Nodes::of_model(&motions);
+    let doubts = doubt::doubts(&motions, &nodes, held);
+    let fit = if doubts.is_empty() { CoordinateFit::Exact } else { judgement::settled(&motions, &doubts)? };
+    let mut findings = model.findings.clone();
+    findings.extend(doubt::untested(&motions, &doubts));
+    findings.extend(doubt::not_held(&motions, held));
+    findings.extend(mass::by_direction(&motions, &nodes, &doubts));
+    Ok(Model { fit, findings, ..model })
+}

@@ -1,0 +1,81 @@
+//! The six unit motions of every body, and the forces that K answers them with.
+
+use faer::Mat;
+
+use crate::dense;
+use crate::model::{Frame, Model, Site};
+use crate::sparse::product_and_terms;
+
+/// Motions of all bodies of a model, in the same six columns: no two bodies share a row.
+pub(super) struct Motions<'a> {
+    pub(super) model: &'a Model,
+    pub(super) sites: &'a [Site],
+    pub(super) bodies: Vec<Body>,
+    /// C, n × 6.
+    pub(super) centred: Mat<f64>,
+    /// K C, n × 6.
+    pub(super) forces: Mat<f64>,
+    /// |K||C|, n × 6.
+    pub(super) terms: Mat<f64>,
+}
+
+/// A connected part of the model.
+pub(super) struct Body {
+    /// Its rows, ascending.
+    pub(super) rows: Vec<usize>,
+    pub(super) frame: Frame,
+}
+
+impl<'a> Motions<'a> {
+    pub(super) fn of(model: &'a Model, sites: &'a [Site]) -> Self {
+        let mut rows = vec![Vec::new(); model.bodies.n_bodies];
+        for (row, body) in model.bodies.of_row.iter().enumerate() {
+            rows[*body as usize].push(row);
+        }
+        let bodies: Vec<Body> = rows.into_iter().map(|rows| Body { frame: Frame::of(sites, &rows), rows }).collect();
+        let mut centred = Mat::zeros(sites.len(), 6);
+        for Body { rows, frame } in &bodies {
+            for row in rows {
+                let motion = sites[*row].rigid_motion_about(frame.centre);
+                for (j, value) in motion.into_iter().enumerate() {
+                    centred[(*row, j)] = if j < 3 { value } else { value / frame.size };
+                }
+            }
+        }
+        let (forces, terms) = product_and_terms(&model.stiffness, centred.as_ref());
+        Self { model, sites, bodies, centred, forces, terms }
+    }
+
+    /// Relative size of what rounding can make of an entry of K.
+    pub(super) fn rounding(&self) -> f64 {
+        self.model.precision.stiffness + f64::EPSILON
+    }
+
+    /// The size of the terms of a row, over all motions.
+    pub(super) fn scale_of(&self, row: usize) -> f64 {
+        (0..6).fold(0.0, |max: f64, j| max.max(self.terms[(row, j)]))
+    }
+
+    /// ‖F‖ over some rows of a body relative to ‖T‖ over all its rows, for one motion.
+    pub(super) fn residual(&self, body: &Body, rows: &[usize], motion: usize) -> f64 {
+        let norm = |values: &Mat<f64>, rows: &[usize]| {
+            dense::norm(&rows.iter().map(|row| values[(*row, motion)]).collect::<Vec<f64>>())
+        };
+        let size = norm(&self.terms, &body.rows);
+        if size > 0.0 { norm(&self.forces, rows) / size } else { 0.0 }
+    }
+
+    /// cᵀKc and |c|ᵀ|K||c| of a motion of a body.
+    pub(super) fn energy(&self, body: &Body, motion: usize) -> (f64, f64) {
+        let terms = body.rows.iter().map(|row| {
+            let c = self.centred[(*row, motion)];
+            (c * self.forces[(*row, motion)], c.abs() * self.terms[(*row, motion)])
+        });
+        terms.fold((0.0, 0.0), |sum, term| (sum.0 + term.0, sum.1 + term.1))
+    }
+
+    /// What a row is called in messages.
+    pub(super) fn name_of(&self, row: usize) -> String {
+        self.model.dofs.as_ref().map_or_else(|| format!("row {}", row + 1), |dofs| dofs[row].to_string())
+    }
+}

@@ -1,0 +1,109 @@
+//! The nodes of a model, and which of them supports may hold.
+//!
+//! A held dof leaves no row in the matrices. Its absence shows in two ways: rows that were coupled to it make a force under the
+//! translation along it, and its node lacks a direction. Where a node lacks a displacement that a rotation makes, its
+//! neighbours in K make forces under that rotation however right the coordinates are.
+
+use super::doubt::{FIRST_ROTATION, NOTICEABLE};
+use super::motions::Motions;
+use crate::model::node_of_row;
+
+/// Force of a translation, relative to the terms of its row, above which a support touches the row: far above what a
+/// producer rounds, far below any support.
+const TOUCHED: f64 = 1e-9;
+/// Displacement by a unit rotation, relative to the size of the body, below which it is none.
+const NO_LEVER: f64 = 1e-9;
+/// Bits of the three axes: displacements, and rotations.
+const DISPLACEMENT: u8 = 1;
+const ROTATION: u8 = 1 << 3;
+
+/// What is known of each node.
+pub(super) struct Nodes {
+    of_row: Vec<u32>,
+    /// Nodes with a row on which a translation does not vanish.
+    pub(super) is_touched: Vec<bool>,
+    /// Rotations of which a node lacks a part: a displacement that they make, or the rotation itself where most nodes have it.
+    lacks: Vec<u8>,
+    /// The same of a node and its neighbours in K.
+    near: Vec<u8>,
+}
+
+impl Nodes {
+    /// Of a model.
+    pub(super) fn of_model(motions: &Motions<'_>) -> Self {
+        let of_row = node_of_row(motions.sites.len(), motions.model.dofs.as_deref());
+        let n_nodes = of_row.iter().max().map_or(0, |max| *max as usize + 1);
+        let share = TOUCHED.max(NOTICEABLE * motions.rounding());
+        let force = |row: usize| (0..FIRST_ROTATION).fold(0.0, |max: f64, j| max.max(motions.forces[(row, j)].abs()));
+        let mut is_touched = vec![false; n_nodes];
+        for (row, node) in of_row.iter().enumerate() {
+            is_touched[*node as usize] |= force(row) > share * motions.scale_of(row);
+        }
+        let lacks = lacking(motions, &of_row, n_nodes);
+        let mut near = lacks.clone();
+        if lacks.iter().any(|lacks| *lacks > 0) {
+            for (row, entries) in motions.model.stiffness.outer_iterator().enumerate() {
+                let coupled = entries.iter().filter(|(_, value)| **value != 0.0);
+                near[of_row[row] as usize] |= coupled.fold(0, |bits, (col, _)| bits | lacks[of_row[col] as usize]);
+            }
+        }
+        Self { of_row, is_touched, lacks, near }
+    }
+
+    /// The node of a row.
+    pub(super) fn of(&self, row: usize) -> usize {
+        self.of_row[row] as usize
+    }
+
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.is_touched.len()
+    }
+
+    /// Whether the node of a row lacks a displacement that a unit rotation about an axis makes.
+    pub(super) fn lacks_displacement(&self, row: usize, axis: usize) -> bool {
+        self.lacks[self.of(row)] & DISPLACEMENT << axis != 0
+    }
+
+    /// Whether all of a rotation about an axis is there around a row, and no support touches it.
+    pub(super) fn is_witness(&self, row: usize, axis: usize) -> bool {
+        !self.is_touched[self.of(row)] && self.near[self.of(row)] & (DISPLACEMENT | ROTATION) << axis == 0
+    }
+
+    /// Whether no support touches a row or may hold what is coupled to it.
+    pub(super) fn is_untouched(&self, row: usize) -> bool {
+        !self.is_touched[self.of(row)] && !self.is_near_lack(self.of(row))
+    }
+
+    /// Whether a node or a neighbour of it lacks a direction.
+    pub(super) fn is_near_lack(&self, node: usize) -> bool {
+        self.near[node] != 0
+    }
+}
+
+/// The rotations of which each node lacks a part.
+fn lacking(motions: &Motions<'_>, of_row: &[u32], n_nodes: usize) -> Vec<u8> {
+    let mut has = vec![[false; 6]; n_nodes];
+    for (row, node) in of_row.iter().enumerate() {
+        has[*node as usize][motions.sites[row].direction as usize] = true;
+    }
+    let n_with = |direction: usize| has.iter().filter(|has| has[direction]).count();
+    let usual: [bool; 6] = std::array::from_fn(|direction| 2 * n_with(direction) > n_nodes);
+    let mut lacks = vec![0u8; n_nodes];
+    for body in &motions.bodies {
+        for row in &body.rows {
+            let (has, node) = (has[of_row[*row] as usize], of_row[*row] as usize);
+            let position = motions.sites[*row].position;
+            let lever = |axis: usize| (position[axis] - body.frame.centre[axis]).abs() > NO_LEVER * body.frame.size;
+            for axis in 0..3 {
+                // A rotation about an axis moves each of the two directions across it by the lever along the other.
+                let across = [(axis + 1) % 3, (axis + 2) % 3];
+                let lacks_displacement = !has[across[0]] && lever(across[1]) || !has[across[1]] && lever(across[0]);
+                let lacks_rotation = usual[FIRST_ROTATION + axis] && !has[FIRST_ROTATION + axis];
+                lacks[node] |= u8::from(lacks_displacement) * (DISPLACEMENT << axis);
+                lacks[node] |= u8::from(lacks_rotation) * (ROTATION << axis);
+            }
+        }
+    }
+    lacks
+}

@@ -1,0 +1,105 @@
+//! The motions without energy that K has, whatever the coordinates say.
+
+use faer::Mat;
+
+use super::doubt::Doubt;
+use super::motions::Motions;
+use crate::dense;
+use crate::error::{Error, Result};
+use crate::factor::{Analysis, count_below};
+use crate::partition::{DofOrigin, Partition};
+use crate::rigid::{moving_directions, zero_modes};
+
+/// A shift just above zero, in units of what rounding of the data can make of a zero eigenvalue: as many as an eigenvalue may
+/// be off by rounding of the factorisation before a sign is wrong.
+const ROUNDINGS: f64 = 100.0;
+/// Share of a motion's square length that may be no rigid-body motion: an angle of a thousandth, which few digits of K and
+/// rounded coordinates leave.
+const NOT_RIGID: f64 = 1e-6;
+/// Squares of lengths relative to the largest below which a zero mode does not move the rows that are looked at.
+const AT_REST: f64 = 1e-12;
+
+/// Rows without stiffness in bodies that have some: each moves by itself and costs nothing.
+pub(super) fn n_loose_rows(motions: &Motions<'_>) -> usize {
+    let is_empty = |row: &usize| motions.scale_of(*row) == 0.0;
+    let of_body = |rows: &[usize]| rows.iter().filter(|row| is_empty(row)).count();
+    motions
+        .bodies
+        .iter()
+        .map(|body| of_body(&body.rows))
+        .zip(&motions.bodies)
+        .fold(0, |sum, (n_empty, body)| if n_empty < body.rows.len() { sum + n_empty } else { sum })
+}
+
+/// K and M whole, in order of elimination.
+pub(super) fn whole(motions: &Motions<'_>) -> Result<Partition> {
+    Partition::new(motions.model.clone(), &[])
+}
+
+/// Eigenvalues of the pencil that are zero as far as a Sturm count tells, or `None` where the shift meets one; `noise` is
+/// what rounding of the data can make of a zero one.
+pub(super) fn counted(whole: &Partition, noise: f64) -> Result<Option<usize>> {
+    let analysis = Analysis::of(whole)?;
+    match count_below(whole, &analysis, ROUNDINGS * noise) {
+        Ok(count) if count.is_off_clamped() => Ok(Some(count.free)),
+        Ok(_) | Err(Error::SturmPivot { .. }) => Ok(None),
+        Err(error) => Err(error),
+    }
+}
+
+/// The zero modes of K.
+pub(super) struct Zeros {
+    /// Their shapes by the rows of the model, n × m, M-orthonormal.
+    pub(super) shapes: Mat<f64>,
+    /// M times them.
+    pub(super) momenta: Mat<f64>,
+    /// The first eigenvalue above zero.
+    pub(super) first_elastic: Option<f64>,
+}
+
+impl Zeros {
+    /// By inverse iteration on the whole pencil.
+    pub(super) fn of(whole: &Partition) -> Result<Self> {
+        let (zero, first_elastic, _) = zero_modes(whole)?;
+        let by_row = |a: &Mat<f64>| {
+            let mut rows = Mat::zeros(a.nrows(), a.ncols());
+            for (dof, reduced) in whole.dofs.iter().enumerate() {
+                let DofOrigin::Row(row) = reduced.origin else { continue };
+                (0..a.ncols()).for_each(|j| rows[(row, j)] = a[(dof, j)]);
+            }
+            rows
+        };
+        Ok(Self { shapes: by_row(&zero.orthonormal), momenta: by_row(&zero.mass_orthonormal), first_elastic })
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.shapes.ncols()
+    }
+
+    /// Combinations of the zero modes that are rigid-body motions, body by body, on the rows that no support touches.
+    ///
+    /// With right coordinates there a motion of the component as a whole is one of them; a mechanism, which moves parts
+    /// against each other, is not.
+    pub(super) fn n_rigid(&self, motions: &Motions<'_>, doubts: &[Doubt]) -> Result<usize> {
+        let m = self.count();
+        let (mut all, mut rigid) = (Mat::<f64>::zeros(m, m), Mat::<f64>::zeros(m, m));
+        for (number, body) in motions.bodies.iter().enumerate() {
+            let rows = doubts.iter().find(|doubt| doubt.body == number).map_or(&body.rows, |doubt| &doubt.untouched);
+            // Rotations in the scale of displacements.
+            let weight = |row: usize| if motions.sites[row].direction.is_rotation() { body.frame.size } else { 1.0 };
+            let of = |a: &Mat<f64>| Mat::from_fn(rows.len(), a.ncols(), |i, j| weight(rows[i]) * a[(rows[i], j)]);
+            let (c, z) = (of(&motions.centred), of(&self.shapes));
+            let basis = dense::product(c.as_ref(), moving_directions(c.as_ref())?.as_ref()).qr().compute_thin_Q();
+            let along = dense::gram(basis.as_ref(), z.as_ref());
+            all += dense::gram(z.as_ref(), z.as_ref());
+            rigid += dense::gram(along.as_ref(), along.as_ref());
+        }
+        let (lengths, directions) = dense::symmetric_eigen(all.as_ref())?;
+        let largest = lengths.last().copied().unwrap_or(0.0);
+        let moved: Vec<usize> = (0..m).filter(|j| lengths[*j] > AT_REST * largest).collect();
+        let unit = Mat::from_fn(m, moved.len(), |i, j| directions[(i, moved[j])] / lengths[moved[j]].sqrt());
+        let shares = dense::gram(unit.as_ref(), dense::product(rigid.as_ref(), unit.as_ref()).as_ref());
+        let (shares, _) = dense::symmetric_eigen(shares.as_ref())?;
+        Ok(shares.into_iter().filter(|share| *share >= 1.0 - NOT_RIGID).count())
+    }
+}

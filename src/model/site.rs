@@ -1,0 +1,102 @@
+//! Where a degree of freedom is, and what rigid-body motion does to it.
+
+use super::Model;
+use crate::input::{Direction, Dof};
+
+/// Where a dof is and which way it points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Site {
+    /// Position of the node.
+    pub position: [f64; 3],
+    /// Direction at the node.
+    pub direction: Direction,
+}
+
+impl Site {
+    /// Displacement of this dof under the six unit rigid motions: translations, then rotations about axes through the origin.
+    pub fn rigid_motion(&self) -> [f64; 6] {
+        rigid_motion(self.direction, self.position)
+    }
+
+    /// Displacement of this dof under the six unit rigid motions whose rotations are about axes through `centre`.
+    pub fn rigid_motion_about(&self, centre: [f64; 3]) -> [f64; 6] {
+        rigid_motion(self.direction, [0, 1, 2].map(|axis| self.position[axis] - centre[axis]))
+    }
+}
+
+/// Displacement in a direction at offset r from the centre, under unit translations and rotations.
+fn rigid_motion(direction: Direction, r: [f64; 3]) -> [f64; 6] {
+    let [x, y, z] = r;
+    match direction {
+        Direction::Ux => [1.0, 0.0, 0.0, 0.0, z, -y],
+        Direction::Uy => [0.0, 1.0, 0.0, -z, 0.0, x],
+        Direction::Uz => [0.0, 0.0, 1.0, y, -x, 0.0],
+        Direction::Rx => [0.0, 0.0, 0.0, 1.0, 0.0, 0.0],
+        Direction::Ry => [0.0, 0.0, 0.0, 0.0, 1.0, 0.0],
+        Direction::Rz => [0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+    }
+}
+
+/// The six unit rigid motions of a dof about axes through another centre.
+pub fn recentred(motion: [f64; 6], from: [f64; 3], to: [f64; 3]) -> [f64; 6] {
+    let [x, y, z] = [0, 1, 2].map(|axis| from[axis] - to[axis]);
+    let [tx, ty, tz, rx, ry, rz] = motion;
+    // e × (r − to) = e × (r − from) + e × (from − to) for each unit axis e.
+    [tx, ty, tz, rx - z * ty + y * tz, ry + z * tx - x * tz, rz - y * tx + x * ty]
+}
+
+/// The middle of some sites and the largest distance from it.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame {
+    /// Mean position over the dofs.
+    pub centre: [f64; 3],
+    /// Distance of the farthest dof; one where all dofs are at one place, so that rotations can be compared all the same.
+    pub size: f64,
+}
+
+impl Frame {
+    /// Of the dofs that are listed.
+    pub fn of(sites: &[Site], dofs: &[usize]) -> Self {
+        let count = dofs.len().max(1) as f64;
+        let mut centre = [0.0; 3];
+        for dof in dofs {
+            for (sum, value) in centre.iter_mut().zip(sites[*dof].position) {
+                *sum += value / count;
+            }
+        }
+        let distance = |dof: &usize| {
+            let position = sites[*dof].position;
+            (0..3).map(|axis| (position[axis] - centre[axis]).powi(2)).sum::<f64>().sqrt()
+        };
+        let size = dofs.iter().map(distance).fold(0.0, f64::max);
+        Self { centre, size: if size > 0.0 { size } else { 1.0 } }
+    }
+}
+
+impl Model {
+    /// Position and direction of every row, or nothing where the dof map or the position of a node is not known.
+    pub fn sites(&self) -> Option<Vec<Site>> {
+        let (dofs, nodes) = self.dofs.as_ref().zip(self.nodes.as_ref())?;
+        let positions: std::collections::HashMap<i64, [f64; 3]> =
+            nodes.labels.iter().copied().zip(nodes.coordinates.iter().copied()).collect();
+        let site =
+            |dof: &Dof| positions.get(&dof.node).map(|position| Site { position: *position, direction: dof.direction });
+        dofs.iter().map(site).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn motions_about_another_centre_are_those_of_the_shifted_site() {
+        let (from, to) = ([0.5, -2.0, 3.0], [-1.0, 4.0, 0.25]);
+        for direction in Direction::ALL {
+            let site = Site { position: [1.5, 0.75, -3.0], direction };
+            // All numbers are binary fractions of few digits: nothing rounds.
+            assert_eq!(recentred(site.rigid_motion_about(from), from, to), site.rigid_motion_about(to), "{direction}");
+            assert_eq!(site.rigid_motion(), site.rigid_motion_about([0.0; 3]), "{direction}");
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! The mass of the whole model as its map and its coordinates see it, whether supports hold it or not.
+
+use faer::Mat;
+
+use super::Model;
+use crate::dense;
+use crate::sparse::product;
+
+/// What M says of the six unit motions of all rows together, in scaled units.
+#[derive(Clone, Debug)]
+pub struct Weight {
+    /// tᵀMt of the unit translations along x, y and z; zero in a direction that the model does not have.
+    pub translations: [f64; 3],
+    /// UᵀMU of the six unit motions about the origin, 6 × 6, where coordinates are known.
+    pub motions: Option<Mat<f64>>,
+}
+
+impl Model {
+    /// The mass of the model, or nothing without a dof map. One product with M.
+    pub fn weight(&self) -> Option<Weight> {
+        let dofs = self.dofs.as_ref()?;
+        let sites = self.sites();
+        let mut motions = Mat::zeros(self.n_dofs(), if sites.is_some() { 6 } else { 3 });
+        for (row, dof) in dofs.iter().enumerate() {
+            match &sites {
+                Some(sites) => {
+                    let motion = sites[row].rigid_motion();
+                    motion.into_iter().enumerate().for_each(|(j, value)| motions[(row, j)] = value);
+                }
+                None if !dof.direction.is_rotation() => motions[(row, dof.direction.axis())] = 1.0,
+                None => {}
+            }
+        }
+        let mut masses = dense::gram(motions.as_ref(), product(&self.mass, motions.as_ref()).as_ref());
+        dense::symmetrise(&mut masses);
+        let translations = std::array::from_fn(|axis| masses[(axis, axis)]);
+        Some(Weight { translations, motions: sites.is_some().then_some(masses) })
+    }
+}

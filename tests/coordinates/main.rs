@@ -1,0 +1,14 @@
+//! Coordinates and dof maps that do not belong to K: none of them may end as verified, whatever ties the interface.
+//!
+//! [`faults`] changes one thing of a sound model; [`table`] reduces the result with every coupling and method. What no
+//! program can see from K, M, dof map and coordinates stands there too, and in `docs/what-the-report-proves.md`.
+
+#[path = "../chain/mod.rs"]
+mod chain;
+mod faults;
+#[path = "../end_to_end/place.rs"]
+#[allow(dead_code, reason = "other tests use the rest")]
+mod place;
+mod sound;
+mod table;
+mod told;

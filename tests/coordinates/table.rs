@@ -1,0 +1,162 @@
+//! Faults × couplings × methods: refused or warned, never verified.
+
+use supel::cli::ExitCode;
+use supel_models::Model;
+
+use crate::faults::{FAULTS, FAULTS_OF_DIRECTIONS, UNSEEN, against_rotation, block, clamped, ends};
+use crate::place::{Ended, Place};
+
+const METHODS: [&str; 2] = ["herting", "craig-bampton"];
+
+/// How the two ends of the block are coupled.
+const COUPLINGS: [&str; 3] = ["direct", "rigid", "both"];
+
+fn listed(labels: &[i64]) -> String {
+    labels.iter().map(ToString::to_string).collect::<Vec<_>>().join(",")
+}
+
+fn interfaces(model: &Model, coupling: &str) -> String {
+    let [first, second] = ends(model).map(|labels| listed(&labels));
+    match coupling {
+        "direct" => format!("--interface first={first} --interface second={second}"),
+        "rigid" => format!("--rigid-interface first={first} --rigid-interface second={second}"),
+        _ => format!("--interface first={first} --rigid-interface second={second}"),
+    }
+}
+
+/// Reduces a model whose interfaces are those of another.
+fn reduced(model: &Model, of: &Model, coupling: &str, method: &str) -> (Place, Ended) {
+    let place = Place::with(model);
+    let rest = format!("{} --method {method} --modes 5 --threads 1 --strict", interfaces(of, coupling));
+    let ended = place.reduce(&place.model_flags(), &rest);
+    (place, ended)
+}
+
+/// The code of the refusal, or the warnings of the report.
+fn said(place: &Place, ended: &Ended) -> String {
+    if let Some(code) = ended.err.strip_prefix("supel: error[").and_then(|rest| rest.split_once(']')) {
+        return code.0.to_owned();
+    }
+    if ended.code == ExitCode::Done {
+        return "verified".to_owned();
+    }
+    let report = place.report("x.report.json");
+    let codes = report["body"]["warnings"].as_array().expect("warnings").iter();
+    let mut codes: Vec<&str> = codes.map(|warning| warning["code"].as_str().expect("a code")).collect();
+    let checks = report["body"]["checks"].as_array().expect("checks").iter();
+    codes.extend(checks.filter(|check| check["verdict"] == "fail").map(|check| check["id"].as_str().expect("an id")));
+    codes.join(", ")
+}
+
+/// Every fault with every coupling and method, as (fault, coupling, method, what was said).
+fn outcomes(sound: &Model, faults: &[crate::faults::Fault]) -> Vec<(&'static str, String, String)> {
+    let mut outcomes = Vec::new();
+    for (name, fault) in faults {
+        let model = fault(sound);
+        for coupling in COUPLINGS {
+            for method in METHODS {
+                let (place, ended) = reduced(&model, sound, coupling, method);
+                outcomes.push((*name, format!("{coupling}, {method}"), said(&place, &ended)));
+            }
+        }
+    }
+    outcomes
+}
+
+#[track_caller]
+fn assert_all(outcomes: &[(&str, String, String)], expected: impl Fn(&str) -> bool) {
+    let wrong: Vec<_> = outcomes.iter().filter(|outcome| !expected(&outcome.2)).collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn sound_models_are_verified() {
+    for sound in [block(), clamped()] {
+        assert_all(&outcomes(&sound, &[("none", Clone::clone)]), |said| said == "verified");
+    }
+}
+
+#[test]
+fn wrong_maps_and_coordinates_of_a_free_component() {
+    assert_all(&outcomes(&block(), FAULTS), |said| said == "E-COORD");
+    assert_all(&outcomes(&block(), FAULTS_OF_DIRECTIONS), |said| said == "E-COORD");
+}
+
+/// Where supports hold every motion, K has no zero modes to count; rows that no support touches show the fault.
+#[test]
+fn wrong_maps_and_coordinates_of_a_clamped_component() {
+    assert_all(&outcomes(&clamped(), FAULTS), |said| said == "E-COORD");
+}
+
+/// Frames at a few nodes of a clamped component look like one more support to K. The mass tells, unless it is lumped: the same
+/// in every frame. A map that mixes directions makes forces at so many rows that no witness is left.
+#[test]
+fn directions_of_a_clamped_component() {
+    for (fault, how, said) in outcomes(&clamped(), FAULTS_OF_DIRECTIONS) {
+        let is_told = said.contains("W-MASS-DIRECTION");
+        let leaves_no_witness = ["rows ordered direction by direction", "local frames at every fifth node"];
+        let is_untested = !leaves_no_witness.contains(&fault) || said.contains("W-COORD-UNTESTED");
+        assert!(is_told && is_untested, "{fault}, {how}: {said}");
+    }
+    let mut lumped = clamped();
+    lumped.mass.retain(|(row, col, _)| row == col);
+    let at_one_node = &FAULTS_OF_DIRECTIONS[3..];
+    assert_eq!(at_one_node[0].0, "a local frame at one node");
+    assert_all(&outcomes(&lumped, at_one_node), |said| said == "verified");
+}
+
+#[test]
+fn what_nobody_can_see_is_verified_and_documented() {
+    assert_all(&outcomes(&block(), UNSEEN), |said| said == "verified");
+    let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/what-the-report-proves.md"));
+    let page = page.expect("the page");
+    for (fault, _) in UNSEEN {
+        assert!(page.contains(fault), "{fault}");
+    }
+}
+
+#[test]
+fn rotations_held_without_a_support() {
+    let fault: crate::faults::Fault = ("springs against rotation", |model| against_rotation(model, &[0, 1, 2], 1e-3));
+    assert_all(&outcomes(&block(), &[fault]), |said| said == "E-ROTATIONS-HELD");
+}
+
+/// Natural frequencies and their error bars.
+fn modes(place: &Place) -> Vec<(f64, f64)> {
+    let report = place.report("x.report.json");
+    let modes = report["body"]["reduction"]["modes"].as_array().expect("modes").clone();
+    let number = |mode: &serde_json::Value, key: &str| mode[key].as_f64().expect("a number");
+    modes.iter().map(|mode| (number(mode, "frequency_hz"), number(mode, "error_bar_hz"))).collect()
+}
+
+/// Rigid patches tie their nodes by motions that K knows, so that few digits of the coordinates hold nothing.
+#[test]
+fn rounded_coordinates_change_no_frequency() {
+    let sound = supel_models::brick([6, 3, 2], [8.0 / 7.0, 4.0 / 7.0, 2.0 / 7.0], &supel_models::Material::STEEL_SI);
+    for coupling in COUPLINGS {
+        for method in METHODS {
+            let (exact, ended) = reduced(&sound, &sound, coupling, method);
+            assert_eq!(said(&exact, &ended), "verified", "{coupling}, {method}");
+            for digits in [12, 8, 5] {
+                let mut model = sound.clone();
+                let round = |value: &mut f64| *value = format!("{value:.*e}", digits - 1).parse().expect("a number");
+                model.nodes.iter_mut().flatten().for_each(round);
+                let (place, ended) = reduced(&model, &sound, coupling, method);
+                assert_eq!(
+                    said(&place, &ended),
+                    "W-COORD-ROUNDED",
+                    "{coupling}, {method}, {digits} digits: {}",
+                    ended.out
+                );
+                for (mode, reference) in modes(&place).into_iter().zip(modes(&exact)) {
+                    // The levers of a patch are those of K to the digits of its zero modes, ten or more.
+                    let allowed = mode.1 + reference.1 + 1e-9 * reference.0;
+                    assert!(
+                        (mode.0 - reference.0).abs() <= allowed,
+                        "{coupling}, {method}, {digits} digits: {mode:?} {reference:?}"
+                    );
+                }
+            }
+        }
+    }
+}
