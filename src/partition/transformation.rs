@@ -3,6 +3,8 @@
 //! A row of an ordinary dof holds a single one. A row of a rigid patch holds the motion of its point by the six dofs of
 //! the interface node: u = t + θ × r for a translation, θ for a rotation.
 
+use std::collections::{HashMap, HashSet};
+
 use super::interface::{InterfaceNode, Interfaces, Resolved, Rows};
 use crate::error::{Error, Result};
 use crate::input::Direction;
@@ -174,8 +176,9 @@ struct Sites {
 impl Sites {
     fn new(model: &Model) -> Self {
         let of_row = model.dofs.as_ref().zip(model.nodes.as_ref()).and_then(|(dofs, nodes)| {
-            let positions: std::collections::HashMap<i64, [f64; 3]> =
-                nodes.labels.iter().copied().zip(nodes.coordinates.iter().copied()).collect();
+            let wanted: HashSet<i64> = dofs.iter().map(|dof| dof.node).collect();
+            let places = nodes.labels.iter().copied().zip(nodes.coordinates.iter().copied());
+            let positions: HashMap<i64, [f64; 3]> = places.filter(|(label, _)| wanted.contains(label)).collect();
             let site = |dof: &crate::input::Dof| {
                 positions.get(&dof.node).map(|position| Site { position: *position, direction: dof.direction })
             };
