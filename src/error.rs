@@ -37,11 +37,68 @@ pub enum Error {
         /// What the system said.
         source: std::io::Error,
     },
+    /// An output has its name, but the system did not confirm that it is on the disk.
+    #[error(
+        "{}: written, but the system did not confirm that it is on the disk: {source} – it may not outlive a power cut – \
+         write it again or sync the disk",
+        path.display()
+    )]
+    NotSynced {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// An output could not be written, and those before it could not be taken back.
+    #[error("{}: cannot be written: {source} – {left} – put the old files back or run again", path.display())]
+    HalfWritten {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+        /// Which files are new and where their old content is, in words.
+        left: String,
+    },
+    /// The answer did not arrive.
+    #[error(
+        "the answer could not be written to stdout: {source} – give stdout a place with room, or ask for none with --quiet"
+    )]
+    Answer {
+        /// What the system said.
+        source: std::io::Error,
+    },
     /// A path is a folder, a pipe or a device.
     #[error("{}: not a regular file; give the path of a file on disk", path.display())]
     NotAFile {
         /// The path.
         path: PathBuf,
+    },
+    /// A file was written, cut or exchanged while it was read.
+    #[error("{}: changed while it was read – expected one size, time and file from beginning to end – wait until it is written and run again", path.display())]
+    Changed {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file that should be text is not UTF-8.
+    #[error("{}: byte {offset} is not UTF-8 text – write the file as UTF-8", path.display())]
+    NotText {
+        /// The file.
+        path: PathBuf,
+        /// Where the first byte is that is none, from 0.
+        offset: usize,
+    },
+    /// What a file holds does not fit into the memory.
+    #[error(
+        "{}: what was read so far needs {} with the matrices made of it – {} are available – free memory, raise run.memory_gib or reduce a smaller model",
+        path.display(), bytes(*needed), bytes(*available)
+    )]
+    MemoryRead {
+        /// The file at which it came to an end.
+        path: PathBuf,
+        /// Bytes of everything read so far and made of it.
+        needed: u64,
+        /// Bytes available.
+        available: u64,
     },
     /// Gzipped data ends early or is damaged.
     #[error("{}: the gzipped data are damaged or cut short ({source}); copy or create the file again", path.display())]
@@ -331,6 +388,23 @@ pub enum Error {
         /// Line where it came first.
         first_line: u64,
     },
+    /// A node lies so far away, or all so near to each other, that squares of their coordinates leave the range of double precision.
+    #[error(
+        "{}: coordinate {} of node {node} is {value:e} – expected sizes between 2^-{bits} and 2^{bits} – check the number, or write the nodes in other units",
+        path.display(), ["x", "y", "z"][*axis % 3]
+    )]
+    NodeRange {
+        /// The file.
+        path: PathBuf,
+        /// Label of the node.
+        node: i64,
+        /// The axis 0, 1 or 2.
+        axis: usize,
+        /// The coordinate.
+        value: f64,
+        /// The powers of two between which sizes may lie.
+        bits: u32,
+    },
     /// A line of a dof map is not `node.direction`.
     #[error("{}:{line}: found `{found}`; expected `node.direction`, for example 412.1", path.display())]
     DofText {
@@ -456,7 +530,7 @@ pub enum Error {
         /// The library's words.
         reason: String,
     },
-    /// The HDF5 library crashed on a file; a child process took the blow.
+    /// The HDF5 library crashed on a file, in the child process that read it first.
     #[error(
         "{}: a damaged HDF5 file – the HDF5 library crashes when it reads it – write or copy the file again",
         path.display()
@@ -464,6 +538,28 @@ pub enum Error {
     Hdf5Crash {
         /// The file.
         path: PathBuf,
+    },
+    /// The HDF5 library did not come to an end with a file.
+    #[error(
+        "{}: the HDF5 library was still reading it after {seconds} s – expected an end long before – the file may be damaged: look at it with h5dump, write or copy it again",
+        path.display()
+    )]
+    Hdf5Time {
+        /// The file.
+        path: PathBuf,
+        /// The time it had.
+        seconds: u64,
+    },
+    /// The child process that reads HDF5 first was ended from outside.
+    #[error(
+        "{}: the child process that read it first was ended by signal {signal} – the system does so when memory runs out – free memory and run again",
+        path.display()
+    )]
+    RehearsalKilled {
+        /// The file.
+        path: PathBuf,
+        /// The signal.
+        signal: i32,
     },
     /// The child process that reads HDF5 first could not be started.
     #[error("no child process can be started to read the HDF5 input first: {source}")]
@@ -562,6 +658,20 @@ pub enum Error {
         /// The type found.
         found: String,
         /// The type expected.
+        expected: &'static str,
+    },
+    /// A number that would not stay what it is when it is read.
+    #[error("{}:{object}: value {position} (from 0) is {found} – expected {expected}", path.display())]
+    Hdf5Value {
+        /// The file.
+        path: PathBuf,
+        /// Path of the dataset or attribute in the file.
+        object: String,
+        /// Position of the value, from zero.
+        position: usize,
+        /// The value.
+        found: String,
+        /// The numbers that can be read.
         expected: &'static str,
     },
     /// A dataset has the wrong number of values or the wrong shape.
@@ -734,6 +844,18 @@ pub enum Error {
         /// What is wrong and where.
         source: roxmltree::Error,
     },
+    /// An XDMF file with more names than any mesh has, whose look-up would take for ever.
+    #[error("{}:{line}: more than {limit} {counted} – expected a few, as programs write them – write the file again", path.display())]
+    XdmfSize {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: usize,
+        /// The limit.
+        limit: usize,
+        /// Attributes of one element, or namespaces.
+        counted: &'static str,
+    },
     /// An XDMF file names a data file outside its own folder.
     #[error(
         "{}: refers to data in {reference} – expected a `file.h5:/path` in the folder of the XDMF file – move the data there",
@@ -850,6 +972,37 @@ pub enum Error {
         path: PathBuf,
         /// The extension, with its dot.
         expected: &'static str,
+    },
+    /// An output would be written over an input.
+    #[error(
+        "`{key}` is {}, the same file as {role}, {} – expected a file of its own – give the output another name",
+        path.display(), input.display()
+    )]
+    OutputIsInput {
+        /// The key of the output.
+        key: &'static str,
+        /// Its path.
+        path: PathBuf,
+        /// What the input is.
+        role: String,
+        /// Its path.
+        input: PathBuf,
+    },
+    /// Two outputs would be written over each other.
+    #[error("`{key}` is {}, the same file as `{other}` – expected a file of its own – give one of them another name", path.display())]
+    OutputTwice {
+        /// The key of the later output.
+        key: &'static str,
+        /// Its path.
+        path: PathBuf,
+        /// The key of the earlier one.
+        other: &'static str,
+    },
+    /// The name of an output is taken by something that is no file.
+    #[error("{}: not a regular file – expected a name that is free or that of a file – give the output another name", path.display())]
+    OutputKind {
+        /// The path.
+        path: PathBuf,
     },
     /// Neither a job document nor the flags that replace it were given.
     #[error("no job document, and without one {} {} missing – give a job document or these flags",
@@ -1218,6 +1371,17 @@ pub enum Error {
         /// Bytes in all with the factor in single precision, where those are available.
         in_single: Option<u64>,
     },
+    /// The forecast of a comparison with the full matrices exceeds the memory there is.
+    #[error(
+        "the comparison with the full matrices needs {} – {} are available – free memory, raise run.memory_gib of the job, or verify the file without --job",
+        bytes(*needed), bytes(*available)
+    )]
+    MemoryComparison {
+        /// Bytes needed.
+        needed: u64,
+        /// Bytes available.
+        available: u64,
+    },
     /// An allocation failed.
     #[error("out of memory – {what} could not be allocated – free memory or reduce a smaller model")]
     OutOfMemory {
@@ -1302,12 +1466,24 @@ pub enum Error {
 }
 
 impl Error {
-    /// The error of this crate for what the superelement file's crate says of `path`.
-    pub fn from_file(path: &Path, error: FileError) -> Self {
+    /// The error of this crate for what the superelement file's crate says of the superelement at `path`, read or made.
+    pub fn of_superelement(path: &Path, error: FileError) -> Self {
         match error {
             FileError::Read { path, source } => Self::Read { path, source },
-            FileError::Write { path, source } => Self::Write { path, source },
+            FileError::NotAFile { path } => Self::NotAFile { path },
             source => Self::SuperelementFile { path: path.to_owned(), source },
+        }
+    }
+
+    /// The error of this crate for what the superelement file's crate says of writing files, whatever is in them.
+    pub fn of_writing(error: FileError) -> Self {
+        match error {
+            FileError::Write { path, source } => Self::Write { path, source },
+            FileError::NotSynced { path, source } => Self::NotSynced { path, source },
+            FileError::HalfWritten { path, source, left } => Self::HalfWritten { path, source, left },
+            FileError::NotAFile { path } => Self::OutputKind { path },
+            // Content is not looked at.
+            source => Self::SuperelementFile { path: PathBuf::from("an output"), source },
         }
     }
 }

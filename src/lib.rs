@@ -44,6 +44,7 @@ pub mod coordinates;
 pub mod dense;
 pub mod error;
 pub mod factor;
+pub mod heap;
 pub mod input;
 pub mod job;
 pub mod model;
@@ -61,6 +62,7 @@ use audit::Audit;
 use basis::Basis;
 use error::Result;
 use factor::{Analysis, Cholesky};
+use input::Allowance;
 use job::Job;
 use model::Model;
 use modes::{Component, ModeSource, Retained};
@@ -79,7 +81,7 @@ use verification::Evidence;
 /// # Errors
 /// Those of the stages; each says what, where, what was found, what was expected and what to do.
 pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Result<Outcome> {
-    let (facts, partition) = prepared(job, observer)?;
+    let (facts, partition) = prepared(job, resources, observer)?;
 
     observer.stage("rigid-body modes");
     // The analysis asks for the pattern of the matrices alone: it is made beside, and is the first of what a factor needs.
@@ -151,12 +153,12 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
 }
 
 /// The first four stages, which every look at the full model begins with.
-fn prepared(job: &Job, observer: &mut dyn Observer) -> Result<(InputFacts, Partition)> {
+fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Result<(InputFacts, Partition)> {
     // Small dense decompositions use faer's global setting; sequential ones give the same bits on every machine.
     faer::set_global_parallelism(faer::Par::Seq);
 
     observer.stage("read");
-    let read = input::read(&job.model)?;
+    let read = input::read_within(&job.model, &Allowance::of(resources.allowed(job)))?;
     let facts = InputFacts::of(&read);
 
     observer.stage("check");
@@ -177,16 +179,23 @@ fn prepared(job: &Job, observer: &mut dyn Observer) -> Result<(InputFacts, Parti
 ///
 /// # Errors
 /// Those of reading the model of the job; a dense eigenproblem or an iteration that does not converge.
-pub fn verify(superelement: &Superelement, job: Option<&Job>, observer: &mut dyn Observer) -> Result<Audit> {
+pub fn verify(
+    superelement: &Superelement,
+    job: Option<&Job>,
+    resources: Resources,
+    observer: &mut dyn Observer,
+) -> Result<Audit> {
     faer::set_global_parallelism(faer::Par::Seq);
 
     observer.stage("verification");
     let by_itself = audit::of_file(superelement)?;
     let Some(job) = job else { return Ok(by_itself) };
 
-    let (facts, partition) = prepared(job, observer)?;
+    let (facts, partition) = prepared(job, resources, observer)?;
 
     observer.stage("comparison");
+    let n_modes = superelement.tensors().frequencies.len();
+    factor::comparison_within_memory(&partition, job, resources, n_modes)?;
     let against_model = audit::against_model(superelement, &partition, &facts)?;
     Ok(by_itself.joined(against_model))
 }

@@ -1,9 +1,13 @@
 //! The program `supel`.
 
-mod heap;
+mod stdout;
+
+#[global_allocator]
+static HEAP: supel::heap::Heap = supel::heap::Heap;
 
 fn main() -> std::process::ExitCode {
     // An allocator that refuses is slower, no less right.
-    heap::keep_large_blocks();
-    supel::cli::main(supel::reduce)
+    supel::heap::keep_large_blocks();
+    supel::heap::end_once();
+    supel::cli::main(supel::reduce, stdout::state())
 }

@@ -1,8 +1,7 @@
 //! Memory that the program frees is its own when it asks again. Without the harness of tests, which would run this in a thread
 //! other than the first, where the allocator may keep a heap of its own.
 
-#[path = "../src/heap.rs"]
-mod heap;
+use supel::heap;
 
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 fn main() {

@@ -73,6 +73,81 @@ fn refusal(indptr: &[i64], indices: &[i64], data: &[f64]) -> Error {
     error
 }
 
+/// Numbers that a reader would have to change are refused: unsigned ones beyond the signed, whole ones between two doubles.
+#[test]
+fn numbers_are_read_as_they_are_or_not_at_all() {
+    let refused = |fill: &dyn Fn(&Group), object: &str, found: &str| {
+        let (_folder, path) = file_with(|file| {
+            let group = file.create_group("K").unwrap();
+            fill(&group);
+        });
+        let error = stiffness(&path, None).unwrap_err();
+        assert!(matches!(&error, Error::Hdf5Value { .. }), "{error}");
+        assert_eq!(error.class(), ErrorClass::InputData);
+        let said = error.to_string();
+        assert!(said.contains(object) && said.contains(found), "{said}");
+    };
+    let beyond = 1_u64 << 63;
+    refused(
+        &|group| {
+            put(group, "indptr", &[0_i64, 1, 2]);
+            put(group, "indices", &[0_i64, 1]);
+            put(group, "data", &[1, beyond]);
+        },
+        "/K/data: value 1",
+        "9223372036854775808",
+    );
+    refused(
+        &|group| {
+            put(group, "indptr", &[0_i64, 1, 2]);
+            put(group, "indices", &[0, beyond]);
+            put(group, "data", &[1.0, 2.0]);
+        },
+        "/K/indices: value 1",
+        "expected whole numbers below 2^63",
+    );
+    for inexact in [(1_i64 << 53) + 1, -(1_i64 << 53) - 1, i64::MAX, i64::MAX - 1] {
+        refused(
+            &|group| {
+                put(group, "indptr", &[0_i64, 1, 2]);
+                put(group, "indices", &[0_i64, 1]);
+                put(group, "data", &[inexact, 1]);
+            },
+            "/K/data: value 0",
+            &inexact.to_string(),
+        );
+    }
+    refused(
+        &|group| {
+            put_attr(group, "shape", &[2, beyond]);
+            put(group, "indptr", &[0_i64, 1, 2]);
+            put(group, "indices", &[0_i64, 1]);
+            put(group, "data", &[1.0, 2.0]);
+        },
+        "/K@shape: value 1",
+        "9223372036854775808",
+    );
+    let exact = [1_i64 << 53, -(1 << 62)];
+    let (_folder, path) = file_with(|file| {
+        let group = file.create_group("K").unwrap();
+        put(&group, "indptr", &[0_i64, 1, 2]);
+        put(&group, "indices", &[0_i64, 1]);
+        put(&group, "data", &exact);
+    });
+    assert_eq!(dense(&stiffness(&path, None).unwrap()), [[exact[0] as f64, 0.0], [0.0, exact[1] as f64]]);
+}
+
+/// Text of another encoding is the file's fault, not the system's.
+#[test]
+fn a_mesh_in_xml_that_is_not_utf_8() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mesh.xdmf");
+    fs::write(&path, b"<Xdmf Name=\"caf\xe9\"/>").unwrap();
+    let error = read_nodes(&path).unwrap_err();
+    assert!(matches!(error, Error::NotText { offset: 15, .. }), "{error}");
+    assert_eq!((error.code(), error.class()), ("E-UTF8", ErrorClass::InputData));
+}
+
 #[test]
 fn every_convention_gives_the_same_matrices() {
     for (file, k, m) in [
@@ -188,11 +263,12 @@ fn what_is_not_hdf5_is_named() {
 
 #[test]
 fn a_file_that_cannot_be_read_is_an_io_error() {
-    for path in [fixture("absent.h5"), fixture("")] {
-        let error = stiffness(&path, None).unwrap_err();
-        assert!(matches!(error, Error::Read { .. }), "{error}");
-        assert_eq!(error.class(), ErrorClass::Io);
-    }
+    let error = stiffness(&fixture("absent.h5"), None).unwrap_err();
+    assert!(matches!(error, Error::Read { .. }), "{error}");
+    assert_eq!(error.class(), ErrorClass::Io);
+    let error = stiffness(&fixture(""), None).unwrap_err();
+    assert!(matches!(error, Error::NotAFile { .. }), "{error}");
+    assert_eq!(error.class(), ErrorClass::InputData);
 }
 
 #[test]
@@ -355,7 +431,7 @@ fn an_unsigned_index_beyond_the_signed_range_is_refused() {
         group.unlink("indices").unwrap();
         put(&group, "indices", &[u64::MAX]);
     });
-    assert!(matches!(stiffness(&path, None).unwrap_err(), Error::Hdf5Index { position: 0, .. }));
+    assert!(matches!(stiffness(&path, None).unwrap_err(), Error::Hdf5Value { position: 0, .. }));
 }
 
 #[test]

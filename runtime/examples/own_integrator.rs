@@ -24,9 +24,13 @@ const TOLERANCE: f64 = 1e-10;
 /// which falls by m g in each second.
 #[derive(Clone, Copy, Debug)]
 pub struct Kept {
+    /// Time, s.
     pub time: f64,
+    /// Kinetic energy, energy of deformation and potential of gravity, J.
     pub energy: f64,
+    /// Momentum, kg m/s.
     pub momentum: Vector3,
+    /// Angular momentum about the vertical, kg m²/s.
     pub about_vertical: f64,
     /// Iterations of the step before.
     pub iterations: usize,

@@ -1,6 +1,8 @@
 //! A file that appears whole or not at all.
 
 use alloc::borrow::ToOwned;
+use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};
@@ -51,14 +53,139 @@ impl StagedFile {
     ///
     /// # Errors
     ///
-    /// [`FileError::Write`] if the system refuses. If it refuses the renaming, the old file is intact and the new one
-    /// removed; if it refuses to sync the folder, the new file is in place but might not survive a power cut.
+    /// [`FileError::Write`] if the system refuses the renaming: the old file is intact and the new one removed.
+    /// [`FileError::NotSynced`] if it refuses to sync the folder: the new file is in place but might not survive a power cut.
     pub fn commit(mut self) -> Result<()> {
-        let target = self.target.clone();
-        let failed = |source| FileError::Write { path: target.clone(), source };
-        fs::rename(&self.temporary, &target).map_err(failed)?;
+        self.rename()?;
+        sync_folder(folder_of(&self.target))
+            .map_err(|source| FileError::NotSynced { path: self.target.clone(), source })
+    }
+
+    /// Gives several files their final names, in their order, all of them or none.
+    ///
+    /// What had a name before is kept under a temporary one until the last file has its own, and gets its name back where one
+    /// is refused. A process killed in between leaves the first files new and the last one old: what the others tell about goes
+    /// last.
+    ///
+    /// # Errors
+    ///
+    /// [`FileError::Write`] if the system refuses a name: everything is as it was. [`FileError::HalfWritten`] if it also refuses
+    /// to take back a file that had its name already. [`FileError::NotSynced`] if all have their names, but the folder of the last
+    /// one was not synced.
+    pub fn commit_all(files: Vec<Self>) -> Result<()> {
+        let mut renamings = Vec::with_capacity(files.len());
+        for file in files {
+            match Replaced::keep(&file.target) {
+                Ok(old) => renamings.push(Renaming { file, old }),
+                Err(error) => return Err(undone(renamings, error)),
+            }
+        }
+        // From the first name to the last nothing needs memory, of which there may be none.
+        if let Err(error) = rename_all(&mut renamings) {
+            return Err(undone(renamings, error));
+        }
+        let synced = renamings.last().map_or(Ok(()), |last| sync_folder(folder_of(&last.file.target)));
+        let last = renamings.pop();
+        renamings.into_iter().for_each(|renaming| renaming.old.forget());
+        let Some(Renaming { file, old }) = last else { return Ok(()) };
+        old.forget();
+        synced.map_err(|source| FileError::NotSynced { path: file.target.clone(), source })
+    }
+
+    fn rename(&mut self) -> Result<()> {
+        fs::rename(&self.temporary, &self.target)
+            .map_err(|source| FileError::Write { path: self.target.clone(), source })?;
         self.committed = true;
-        sync_folder(folder_of(&target)).map_err(failed)
+        Ok(())
+    }
+}
+
+/// A file that gets its name, and what had it before.
+struct Renaming {
+    file: StagedFile,
+    old: Replaced,
+}
+
+/// The last one when the names of the others are on the disk.
+fn rename_all(renamings: &mut [Renaming]) -> Result<()> {
+    let Some((last, others)) = renamings.split_last_mut() else { return Ok(()) };
+    others.iter_mut().try_for_each(|renaming| renaming.file.rename())?;
+    for Renaming { file, .. } in others {
+        sync_folder(folder_of(&file.target))
+            .map_err(|source| FileError::Write { path: file.target.clone(), source })?;
+    }
+    last.file.rename()
+}
+
+/// Puts back what had the names before, the last one first, because of `error`.
+fn undone(renamings: Vec<Renaming>, error: FileError) -> FileError {
+    let left: Vec<String> = renamings.into_iter().rev().filter_map(Renaming::undo).collect();
+    match error {
+        FileError::Write { path, source } if !left.is_empty() => {
+            FileError::HalfWritten { path, source, left: left.join("; ") }
+        }
+        error => error,
+    }
+}
+
+impl Renaming {
+    /// Says what is left to be done where the system refuses.
+    fn undo(self) -> Option<String> {
+        let Self { file, old } = self;
+        if !file.committed {
+            old.forget();
+            return None;
+        }
+        let target = file.target.display();
+        match &old.kept {
+            Some(kept) => {
+                let told = |_| format!("{target} is new, its old content is in {}", kept.display());
+                fs::rename(kept, &file.target).err().map(told)
+            }
+            None => fs::remove_file(&file.target).err().map(|_| format!("{target} is new")),
+        }
+    }
+}
+
+/// What had a name before a new file takes it, under a temporary name; none where nothing had it.
+struct Replaced {
+    kept: Option<PathBuf>,
+}
+
+impl Replaced {
+    fn keep(target: &Path) -> Result<Self> {
+        let failed = |source| FileError::Write { path: target.to_owned(), source };
+        if fs::symlink_metadata(target).is_err_and(|error| error.kind() == ErrorKind::NotFound) {
+            return Ok(Self { kept: None });
+        }
+        let name = target.file_name().ok_or_else(|| FileError::NotAFile { path: target.to_owned() })?;
+        // A second name costs nothing. File systems without second names get a copy.
+        let linked = under_a_free_name(target, name, |path| fs::hard_link(target, path));
+        let kept = match linked {
+            Ok(((), path)) => path,
+            Err(_) => copied_beside(target, name).map_err(failed)?,
+        };
+        Ok(Self { kept: Some(kept) })
+    }
+
+    fn forget(self) {
+        if let Some(kept) = self.kept {
+            // If the removal fails, the next writer reports the file.
+            let _ = fs::remove_file(kept);
+        }
+    }
+}
+
+/// A synced copy of a file, in its folder.
+fn copied_beside(target: &Path, name: &std::ffi::OsStr) -> io::Result<PathBuf> {
+    let (mut copy, path) = create_beside(target, name)?;
+    let copied = File::open(target).and_then(|mut old| io::copy(&mut old, &mut copy)).and_then(|_| copy.sync_all());
+    match copied {
+        Ok(()) => Ok(path),
+        Err(source) => {
+            let _ = fs::remove_file(path);
+            Err(source)
+        }
     }
 }
 
@@ -103,13 +230,22 @@ fn part_prefix(name: &std::ffi::OsStr) -> OsString {
 
 /// Creates a file that did not exist, in the folder of `target` so that renaming never crosses file systems.
 fn create_beside(target: &Path, name: &std::ffi::OsStr) -> io::Result<(File, PathBuf)> {
+    under_a_free_name(target, name, |path| OpenOptions::new().write(true).create_new(true).open(path))
+}
+
+/// Does something with the first temporary name beside `target` that nothing has.
+fn under_a_free_name<T>(
+    target: &Path,
+    name: &std::ffi::OsStr,
+    make: impl Fn(&Path) -> io::Result<T>,
+) -> io::Result<(T, PathBuf)> {
     let mut attempt = 0u32;
     loop {
         let mut temporary = part_prefix(name);
         temporary.push(format!("{}-{attempt}{PART}", std::process::id()));
         let path = target.with_file_name(temporary);
-        match OpenOptions::new().write(true).create_new(true).open(&path) {
-            Ok(file) => return Ok((file, path)),
+        match make(&path) {
+            Ok(made) => return Ok((made, path)),
             Err(source) if source.kind() == ErrorKind::AlreadyExists && attempt < 1000 => attempt += 1,
             Err(source) => return Err(source),
         }

@@ -76,6 +76,16 @@ pub(crate) struct RawTensor<'a> {
     pub(crate) bytes: &'a [u8],
 }
 
+/// The length of the header, from the first bytes of a file.
+pub(crate) fn header_length(bytes: &[u8]) -> Result<u64> {
+    let prefix = bytes.first_chunk::<PREFIX>().ok_or(FileError::TooShort { found: bytes.len() })?;
+    let length = u64::from_le_bytes(*prefix);
+    if length > HEADER_LIMIT {
+        return Err(FileError::HeaderTooLarge { found: length, limit: HEADER_LIMIT });
+    }
+    Ok(length)
+}
+
 /// A file split into its two parts.
 #[derive(Debug)]
 pub(crate) struct Container<'a> {
@@ -90,11 +100,8 @@ pub(crate) struct Container<'a> {
 impl<'a> Container<'a> {
     /// Splits a file and parses its header.
     pub(crate) fn split(bytes: &'a [u8]) -> Result<Self> {
-        let (prefix, rest) = bytes.split_first_chunk::<PREFIX>().ok_or(FileError::TooShort { found: bytes.len() })?;
-        let length = u64::from_le_bytes(*prefix);
-        if length > HEADER_LIMIT {
-            return Err(FileError::HeaderTooLarge { found: length, limit: HEADER_LIMIT });
-        }
+        let length = header_length(bytes)?;
+        let rest = bytes.get(PREFIX..).unwrap_or_default();
         let (header, data) = usize::try_from(length)
             .ok()
             .and_then(|length| rest.split_at_checked(length))
@@ -128,6 +135,12 @@ impl<'a> Container<'a> {
 
     /// The tensors by name, after all rules of the layout.
     pub(crate) fn tensors(&self) -> Result<BTreeMap<&'static str, RawTensor<'a>>> {
+        let entries = self.layout(self.data.len() as u64)?;
+        entries.into_iter().map(|entry| entry.attach(self.data)).collect()
+    }
+
+    /// The descriptions of the tensors in the order of the file, once they are known to fill the `n_data` bytes behind the header.
+    pub(crate) fn layout(&self, n_data: u64) -> Result<Vec<Entry>> {
         let mut entries =
             self.entries.iter().map(|(name, value)| Entry::parse(name, value)).collect::<Result<Vec<_>>>()?;
         // Empty tensors share their offset with the next one, hence the end as second key.
@@ -137,15 +150,15 @@ impl<'a> Container<'a> {
             entry.check(expected)?;
             expected = entry.end;
         }
-        if u64::try_from(self.data.len()) != Ok(expected) {
-            return Err(FileError::DataLength { found: self.data.len(), expected });
+        if n_data != expected {
+            return Err(FileError::DataLength { found: n_data, expected });
         }
-        entries.into_iter().map(|entry| entry.attach(self.data)).collect()
+        Ok(entries)
     }
 }
 
 /// The description of one tensor in the header.
-struct Entry {
+pub(crate) struct Entry {
     name: &'static str,
     dtype: Dtype,
     shape: Vec<usize>,
@@ -202,7 +215,7 @@ impl Entry {
         let range = usize::try_from(self.begin).ok().zip(usize::try_from(self.end).ok());
         let bytes = range
             .and_then(|(begin, end)| data.get(begin..end))
-            .ok_or(FileError::DataLength { found: data.len(), expected: self.end })?;
+            .ok_or(FileError::DataLength { found: data.len() as u64, expected: self.end })?;
         Ok((self.name, RawTensor { dtype: self.dtype, shape: self.shape, bytes }))
     }
 }

@@ -8,8 +8,9 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::atomic_file::StagedFile;
+use crate::container::{PREFIX, header_length};
 use crate::error::{FileError, Result};
-use crate::file::SealedBytes;
+use crate::file::{SealedBytes, check_header};
 use crate::superelement::Superelement;
 
 impl Superelement {
@@ -30,15 +31,19 @@ impl Superelement {
     ///
     /// # Errors
     ///
-    /// [`FileError::Read`], [`FileError::NotAFile`], [`FileError::OutOfMemory`], and those of
-    /// [`Superelement::from_bytes`].
+    /// Those of [`file_bytes`] and of [`Superelement::from_bytes`].
     pub fn open(path: &Path) -> Result<Self> {
-        Self::from_bytes(&read(path)?)
+        Self::from_bytes(&file_bytes(path)?)
     }
 }
 
-/// The bytes of a regular file, never more than its size says.
-fn read(path: &Path) -> Result<Vec<u8>> {
+/// The bytes of a superelement file, for [`Superelement::from_bytes`]. Header and length are checked before the numbers are read,
+/// so that a large file of another kind costs nothing.
+///
+/// # Errors
+///
+/// [`FileError::Read`], [`FileError::NotAFile`], [`FileError::OutOfMemory`], and what the header already shows to be no superelement.
+pub fn file_bytes(path: &Path) -> Result<Vec<u8>> {
     let failed = |source| FileError::Read { path: path.to_owned(), source };
     // Asked before opening: to open a pipe would wait for its writer.
     if !std::fs::metadata(path).map_err(failed)?.is_file() {
@@ -46,11 +51,16 @@ fn read(path: &Path) -> Result<Vec<u8>> {
     }
     let file = File::open(path).map_err(failed)?;
     let size = file.metadata().map_err(failed)?.len();
-    let too_large = FileError::OutOfMemory { bytes: size };
+    // Never more than the size says: what the kernel makes up has none and may be waited for.
+    let mut file = file.take(size);
     let mut bytes = Vec::new();
-    if usize::try_from(size).ok().and_then(|size| bytes.try_reserve_exact(size).ok()).is_none() {
-        return Err(too_large);
+    file.by_ref().take(PREFIX as u64).read_to_end(&mut bytes).map_err(failed)?;
+    let n_header = header_length(&bytes)?;
+    file.by_ref().take(n_header).read_to_end(&mut bytes).map_err(failed)?;
+    check_header(&bytes, size.saturating_sub(bytes.len() as u64))?;
+    if usize::try_from(size).ok().and_then(|size| bytes.try_reserve_exact(size - bytes.len()).ok()).is_none() {
+        return Err(FileError::OutOfMemory { bytes: size });
     }
-    file.take(size).read_to_end(&mut bytes).map_err(failed)?;
+    file.read_to_end(&mut bytes).map_err(failed)?;
     Ok(bytes)
 }

@@ -34,6 +34,26 @@ pub enum FileError {
         source: std::io::Error,
     },
     #[cfg(feature = "std")]
+    /// The file has its name, but the system did not confirm that the folder is on the disk.
+    #[error("{}: written, but the system did not confirm that it is on the disk: {source}; it may not outlive a power cut, write it again or sync the disk", path.display())]
+    NotSynced {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    #[cfg(feature = "std")]
+    /// One of several files could not be written, and what was written before it could not be taken back.
+    #[error("{}: cannot be written: {source}; {left}", path.display())]
+    HalfWritten {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+        /// Which files are new and where their old content is, in words.
+        left: String,
+    },
+    #[cfg(feature = "std")]
     /// The name is that of a folder, a device or a pipe, or names no file at all.
     #[error("{}: is not a regular file; give the name of a superelement file", path.display())]
     NotAFile {
@@ -172,7 +192,7 @@ pub enum FileError {
     #[error("superelement file holds {found} bytes of data, its header describes {expected}")]
     DataLength {
         /// Bytes after the header.
-        found: usize,
+        found: u64,
         /// End of the last tensor.
         expected: u64,
     },
@@ -395,6 +415,13 @@ impl FileError {
     /// True where the system failed, false where the content is wrong.
     #[cfg(feature = "std")]
     pub fn is_io(&self) -> bool {
-        matches!(self, Self::Read { .. } | Self::Write { .. } | Self::NotAFile { .. })
+        matches!(
+            self,
+            Self::Read { .. }
+                | Self::Write { .. }
+                | Self::NotSynced { .. }
+                | Self::HalfWritten { .. }
+                | Self::NotAFile { .. }
+        )
     }
 }

@@ -42,3 +42,12 @@ impl Superelement {
         Self::new(encoding::decode(&tensors)?, document.metadata()?)
     }
 }
+
+/// What the start of a file, up to the end of its header, shows to be wrong where `n_data` bytes follow: all that
+/// [`Superelement::from_bytes`] would find before it looks at a number.
+#[cfg(feature = "std")]
+pub(crate) fn check_header(start: &[u8], n_data: u64) -> Result<()> {
+    let mut container = Container::split(start)?;
+    document::parse(&container.take_metadata()?)?;
+    container.layout(n_data).map(drop)
+}

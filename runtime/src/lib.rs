@@ -143,6 +143,8 @@ mod validation;
 
 #[cfg(feature = "std")]
 pub use atomic_file::{StagedFile, abandoned_parts};
+#[cfg(feature = "std")]
+pub use disk::file_bytes;
 pub use document::FORMAT_VERSION;
 pub use error::{FileError, Result};
 pub use file::SealedBytes;

@@ -98,20 +98,91 @@ fn reading_what_is_not_there_or_not_a_file() {
     }
 }
 
-/// A sparse file claims more bytes than any machine has; only some file systems allow one.
+/// A sparse file of 2^61 bytes of numbers behind this header, where a file system here holds one.
+fn huge(header: &str) -> Option<(tempfile::TempDir, PathBuf)> {
+    let bytes = [&(header.len() as u64).to_le_bytes(), header.as_bytes()].concat();
+    let huge = ["/dev/shm", "/tmp"].into_iter().find_map(|folder| {
+        let folder = tempfile::tempdir_in(folder).ok()?;
+        let path = folder.path().join("huge.supel");
+        fs::write(&path, &bytes).ok()?;
+        let file = fs::File::options().write(true).open(&path).ok()?;
+        file.set_len(bytes.len() as u64 + (1 << 61)).ok().map(|()| (folder, path))
+    });
+    if huge.is_none() {
+        println!("skipped: no file system here holds a sparse file of 2^61 bytes");
+    }
+    huge
+}
+
+/// The header of a superelement with one matrix of 2^29 × 2^29.
+fn header_of_a_huge_matrix() -> String {
+    let sealed = sample::two_particles().to_bytes().unwrap().bytes;
+    let length = u64::from_le_bytes(sealed[..8].try_into().unwrap()) as usize;
+    let header: serde_json::Value = serde_json::from_slice(&sealed[8..8 + length]).unwrap();
+    let metadata = &header["__metadata__"];
+    let (order, end) = (1_u64 << 29, 1_u64 << 61);
+    format!(
+        "{{\"__metadata__\":{metadata},\"stiffness\":{{\"dtype\":\"F64\",\"shape\":[{order},{order}],\"data_offsets\":[0,{end}]}}}}"
+    )
+}
+
 #[test]
 fn file_larger_than_the_memory() {
-    let folder = ["/dev/shm", "/tmp"].into_iter().find_map(|folder| {
-        let folder = tempfile::tempdir_in(folder).ok()?;
-        let file = fs::File::create(folder.path().join("huge.supel")).ok()?;
-        file.set_len(1 << 62).ok().map(|()| folder)
-    });
-    let Some(folder) = folder else {
-        println!("skipped: no file system here holds a sparse file of 2^62 bytes");
-        return;
-    };
-    let error = Superelement::open(&folder.path().join("huge.supel")).unwrap_err();
-    assert!(matches!(error, FileError::OutOfMemory { bytes } if bytes == 1 << 62), "{error:?}");
+    let Some((_folder, path)) = huge(&header_of_a_huge_matrix()) else { return };
+    let error = Superelement::open(&path).unwrap_err();
+    assert!(matches!(error, FileError::OutOfMemory { bytes } if bytes > 1 << 61), "{error:?}");
+}
+
+/// What the header shows is told before a number is read: these files would not fit into any memory.
+#[test]
+fn large_files_are_refused_by_their_headers() {
+    let sound = header_of_a_huge_matrix();
+    let refusal = |header: &str| huge(header).map(|(_folder, path)| Superelement::open(&path).unwrap_err());
+    let Some(error) = refusal("") else { return };
+    assert!(matches!(error, FileError::HeaderNotObject), "{error:?}");
+    let error = refusal(&sound.replace("__metadata__", "metadata")).unwrap();
+    assert!(matches!(error, FileError::MetadataMissing), "{error:?}");
+    let error = refusal(&sound.replace("2305843009213693952", "2305843009213693944")).unwrap();
+    assert!(matches!(error, FileError::TensorSize { .. }), "{error:?}");
+    let error =
+        refusal(&sound.replace("\\\"format_version\\\":\\\"1\\\"", "\\\"format_version\\\":\\\"0\\\"")).unwrap();
+    assert!(matches!(error, FileError::UnknownVersion { .. }), "{error:?}");
+}
+
+fn staged(folder: &Path, name: &str, text: &str) -> StagedFile {
+    StagedFile::write(&folder.join(name), text.as_bytes()).unwrap()
+}
+
+#[test]
+fn files_get_their_names_together() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("b"), "old b").unwrap();
+    let files = ["a", "b", "c"].map(|name| staged(folder.path(), name, &format!("new {name}")));
+    StagedFile::commit_all(files.into()).unwrap();
+    assert_eq!(names_in(folder.path()), ["a", "b", "c"]);
+    assert_eq!(fs::read(folder.path().join("b")).unwrap(), b"new b");
+    StagedFile::commit_all(Vec::new()).unwrap();
+}
+
+/// The last name is taken by a folder: the others are given back.
+#[test]
+fn files_get_their_names_together_or_not_at_all() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("b"), "old b").unwrap();
+    for refused in ["a", "b", "c"] {
+        let files = ["a", "b", "c"].map(|name| staged(folder.path(), name, "new"));
+        let (path, kept) = (folder.path().join(refused), folder.path().join("kept"));
+        let is_there = fs::rename(&path, &kept).is_ok();
+        fs::create_dir(&path).unwrap();
+        let error = StagedFile::commit_all(files.into()).unwrap_err();
+        assert!(matches!(&error, FileError::Write { path: named, .. } if *named == path), "{error:?}");
+        fs::remove_dir(&path).unwrap();
+        if is_there {
+            fs::rename(&kept, &path).unwrap();
+        }
+        assert_eq!(names_in(folder.path()), ["b"], "{refused}");
+        assert_eq!(fs::read(folder.path().join("b")).unwrap(), b"old b");
+    }
 }
 
 #[test]

@@ -27,7 +27,9 @@ pub(super) enum Command {
 pub(super) struct ReduceCommand {
     /// The job: checked, paths absolute.
     pub(super) job: Job,
-    pub(super) n_threads: usize,
+    /// The document it was read from.
+    pub(super) document: Option<PathBuf>,
+    pub(super) threads: Threads,
     pub(super) answer: Answer,
     pub(super) unverified: Unverified,
     pub(super) strictness: Strictness,
@@ -39,7 +41,7 @@ pub(super) struct VerifyCommand {
     pub(super) file: PathBuf,
     /// The model to compare with: checked, paths absolute.
     pub(super) job: Option<Job>,
-    pub(super) n_threads: usize,
+    pub(super) threads: Threads,
     pub(super) answer: Answer,
     pub(super) strictness: Strictness,
 }
@@ -49,6 +51,22 @@ pub(super) struct VerifyCommand {
 pub(super) struct InspectCommand {
     pub(super) file: PathBuf,
     pub(super) answer: InspectAnswer,
+}
+
+/// How many threads work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Threads {
+    /// As many as were asked for, or as the machine runs at once.
+    pub(super) asked: usize,
+    /// As many as are of use.
+    pub(super) used: usize,
+}
+
+impl Threads {
+    fn of(asked: Option<u16>) -> Self {
+        let asked = asked.map_or_else(process::available_threads, usize::from);
+        Self { asked, used: process::useful_threads(asked) }
+    }
 }
 
 /// What stdout carries.
@@ -103,7 +121,7 @@ fn build_verify(flags: VerifyFlags) -> Result<VerifyCommand> {
     Ok(VerifyCommand {
         file: flags.file,
         job: flags.job.as_deref().map(Job::read).transpose()?,
-        n_threads: flags.threads.map_or_else(process::available_threads, usize::from),
+        threads: Threads::of(flags.threads),
         answer: match (flags.json, flags.quiet) {
             (true, _) => Answer::Json,
             (false, true) => Answer::Nothing,
@@ -114,7 +132,7 @@ fn build_verify(flags: VerifyFlags) -> Result<VerifyCommand> {
 }
 
 fn build_reduce(flags: ReduceFlags) -> Result<ReduceCommand> {
-    let ReduceFlags { job, model, reduction, output, run } = flags;
+    let ReduceFlags { job: document, model, reduction, output, run } = flags;
     let answer = match (output.json, output.quiet) {
         (true, _) => Answer::Json,
         (false, true) => Answer::Nothing,
@@ -122,8 +140,8 @@ fn build_reduce(flags: ReduceFlags) -> Result<ReduceCommand> {
     };
     let unverified = if output.allow_unverified { Unverified::Written } else { Unverified::Refused };
     let strictness = if output.strict { Strictness::Strict } else { Strictness::Normal };
-    let mut job = match job {
-        Some(path) => override_job(Job::read(&path)?, model, &reduction, output)?,
+    let mut job = match &document {
+        Some(path) => override_job(Job::read(path)?, model, &reduction, output)?,
         None => one_off_job(model, &reduction, output)?,
     };
     if strictness == Strictness::Strict {
@@ -133,10 +151,9 @@ fn build_reduce(flags: ReduceFlags) -> Result<ReduceCommand> {
     job.run.memory_gib = run.memory_gib.or(job.run.memory_gib);
     job.run.precision = run.precision.map_or(job.run.precision, Precision::from);
     job.validate()?;
-    let n_threads = run.threads.map_or_else(process::available_threads, usize::from);
     // Paths of the document are absolute already; those of flags are relative to where the command was typed.
     let job = job.resolve(Path::new(""))?;
-    Ok(ReduceCommand { job, n_threads, answer, unverified, strictness })
+    Ok(ReduceCommand { job, document, threads: Threads::of(run.threads), answer, unverified, strictness })
 }
 
 fn override_job(mut job: Job, model: ModelFlags, reduction: &ReductionFlags, output: OutputFlags) -> Result<Job> {

@@ -1,31 +1,27 @@
 //! `supel inspect`: what is in a superelement file.
 
 use serde_json::json;
-use supel_runtime::{Coordinate, FORMAT_VERSION, Superelement};
+use supel_runtime::{Coordinate, FORMAT_VERSION, Superelement, file_bytes};
 
 use super::answer::Terminal;
 use super::command::{InspectAnswer, InspectCommand};
 use super::exit_code::ExitCode;
 use crate::error::{Error, Result};
-use crate::report::inspection;
+use crate::report::{inspection, json_text};
 
 pub(super) fn run(command: &InspectCommand, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
-    let failed = |error| Error::from_file(&command.file, error);
-    let superelement = Superelement::open(&command.file).map_err(failed)?;
+    let failed = |error| Error::of_superelement(&command.file, error);
+    let bytes = file_bytes(&command.file).map_err(failed)?;
+    let file_bytes = bytes.len();
+    let superelement = Superelement::from_bytes(&bytes).map_err(failed)?;
+    drop(bytes);
     let text = match command.answer {
-        InspectAnswer::Text => {
-            let file_bytes = superelement.to_bytes().map_err(failed)?.bytes.len();
-            inspection(&superelement, file_bytes as u64, terminal.paint)
-        }
-        InspectAnswer::Json => pretty(&document(&superelement)),
-        InspectAnswer::Job => pretty(&superelement.metadata().job),
+        InspectAnswer::Text => inspection(&superelement, file_bytes as u64, terminal.paint),
+        InspectAnswer::Json => json_text(&document(&superelement)),
+        InspectAnswer::Job => json_text(&superelement.metadata().job),
     };
     terminal.answer(&text);
     Ok(ExitCode::Done)
-}
-
-fn pretty(value: &serde_json::Value) -> String {
-    format!("{value:#}\n")
 }
 
 /// Everything but the matrices.

@@ -6,14 +6,16 @@ use std::path::{Path, PathBuf};
 /// The share of what is free that a run may plan with; the rest is for what a forecast does not count.
 const USABLE: f64 = 0.9;
 
-/// Bytes a run may plan with: what the system says is available, or less where a control group allows less.
+/// Bytes a run may plan with: what the system says is available, or less where a control group or a limit of the process allows
+/// less.
 pub(super) fn available_bytes() -> Option<u64> {
     available_below(Path::new("/"))
 }
 
-/// The same with the system's files below `root`.
+/// Bytes a run may plan with, by the system's files below `root`.
 fn available_below(root: &Path) -> Option<u64> {
-    let free = [system_bytes(root), control_group_bytes(root)].into_iter().flatten().min()?;
+    let free =
+        [system_bytes(root), control_group_bytes(root), address_space_bytes(root)].into_iter().flatten().min()?;
     Some((free as f64 * USABLE) as u64)
 }
 
@@ -23,6 +25,17 @@ fn system_bytes(root: &Path) -> Option<u64> {
     let line = facts.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
     let kib: u64 = line.split_whitespace().next()?.parse().ok()?;
     kib.checked_mul(1024)
+}
+
+/// What the limit on addresses (`ulimit -v`) leaves beyond those in use.
+fn address_space_bytes(root: &Path) -> Option<u64> {
+    let limits = fs::read_to_string(root.join("proc/self/limits")).ok()?;
+    let line = limits.lines().find_map(|line| line.strip_prefix("Max address space"))?;
+    let limit: u64 = line.split_whitespace().next()?.parse().ok()?;
+    let status = fs::read_to_string(root.join("proc/self/status")).ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmSize:"))?;
+    let kib: u64 = line.split_whitespace().next()?.parse().ok()?;
+    Some(limit.saturating_sub(kib.saturating_mul(1024)))
 }
 
 /// The files of one version of control groups.
@@ -113,6 +126,22 @@ mod tests {
         assert_eq!(available_below(group("11000\n").path()), Some(9000));
         assert_eq!(available_below(group("500\n").path()), Some(0));
         assert_eq!(available_below(group("99000000\n").path()), Some(921_600));
+    }
+
+    #[test]
+    fn a_limit_on_addresses_counts() {
+        let limited = |limit: &'static str| {
+            let limits = ["Max cpu time unlimited unlimited seconds\n", limit].concat();
+            let files = [
+                MEMINFO,
+                ("proc/self/limits", limits.as_str()),
+                ("proc/self/status", "VmPeak: 9 kB\nVmSize: 100 kB\n"),
+            ];
+            available_below(system(&files).path())
+        };
+        assert_eq!(limited("Max address space 307200 unlimited bytes\n"), Some(184_320));
+        assert_eq!(limited("Max address space 1024 unlimited bytes\n"), Some(0));
+        assert_eq!(limited("Max address space unlimited unlimited bytes\n"), Some(921_600));
     }
 
     #[test]

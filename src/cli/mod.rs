@@ -4,28 +4,35 @@
 //! on a terminal, progress. The exit code is a contract, see [`ExitCode`].
 //!
 //! An interrupt (Ctrl-C) ends the process by the signal itself, which shells and make report as 130: outputs get
-//! their names only when they are whole, so that no handler has anything to undo.
+//! their names only when they are whole, so that no handler has anything to undo. While they get them it waits.
+//!
+//! An answer that cannot be written to stdout is an error; a reader that has gone away is none.
 
+mod accompanying;
 mod answer;
 mod command;
 mod exit_code;
 mod flags;
 mod inspect;
 mod memory;
+mod outputs;
+mod overwriting;
 mod process;
 mod progress;
 mod reduce;
 mod refusal;
 mod rehearsal;
+mod signals;
 mod verify;
 
 use std::ffi::OsString;
-use std::io::Write;
+use std::io::{Error as IoError, ErrorKind, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use clap::Parser;
 
 use crate::error::Result;
+use crate::heap;
 use crate::job::Job;
 use crate::outcome::{Outcome, Resources};
 use crate::report::Observer;
@@ -33,7 +40,7 @@ use crate::report::Observer;
 use command::Command;
 use refusal::{Form, Refusal};
 
-pub use answer::Terminal;
+pub use answer::{Stdout, Terminal};
 pub use exit_code::ExitCode;
 
 /// The function that turns a job into a superelement and its report.
@@ -49,6 +56,12 @@ where
     let args: Vec<OsString> = args.into_iter().collect();
     // Known before the rest is: a command line that cannot be read is answered in the form it asks for.
     let form = if args.iter().any(|arg| arg == "--json") { Form::Json } else { Form::Text };
+    heap::promise(if form == Form::Json { heap::Document::Json } else { heap::Document::None });
+    let code = answered(args, form, pipeline, terminal);
+    terminal.close(code)
+}
+
+fn answered(args: Vec<OsString>, form: Form, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> ExitCode {
     let flags = match flags::CommandLine::try_parse_from(args) {
         Ok(flags) => flags,
         Err(error) if error.use_stderr() => return Refusal::usage(&error).tell(form, terminal),
@@ -70,15 +83,28 @@ fn execute(flags: flags::CommandLine, pipeline: Pipeline, terminal: &mut Termina
         Command::Reduce(command) => reduce::run(&command, pipeline, terminal),
         Command::Verify(command) => verify::run(&command, terminal),
         Command::Inspect(command) => inspect::run(&command, terminal),
-        Command::RehearseReading => rehearsal::read_from_stdin().map(|()| ExitCode::Done),
+        Command::RehearseReading => rehearsal::read_from_stdin(),
     }
 }
 
 /// A command line run against the real streams; what `main` calls.
-pub fn main(pipeline: Pipeline) -> std::process::ExitCode {
-    let (mut out, mut err) = (std::io::stdout().lock(), std::io::stderr());
-    let code = run(std::env::args_os(), pipeline, &mut Terminal::of_process(&mut out, &mut err));
-    // A reader that has gone away needs no answer, and nobody is left to be told.
-    let _ = out.flush();
+pub fn main(pipeline: Pipeline, stdout: Stdout) -> std::process::ExitCode {
+    signals::ignore_file_size_limit();
+    let (mut open, mut closed, mut err) = (std::io::stdout().lock(), Closed, std::io::stderr());
+    let out: &mut dyn Write = if stdout == Stdout::Closed { &mut closed } else { &mut open };
+    let code = run(std::env::args_os(), pipeline, &mut Terminal::of_process(out, &mut err));
     std::process::ExitCode::from(code as u8)
+}
+
+/// An stdout that was closed before the program started.
+struct Closed;
+
+impl Write for Closed {
+    fn write(&mut self, _: &[u8]) -> std::io::Result<usize> {
+        Err(IoError::new(ErrorKind::NotConnected, "it is closed"))
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
 }

@@ -17,6 +17,16 @@ pub(super) fn available_threads() -> usize {
     std::thread::available_parallelism().map_or(1, NonZeroUsize::get)
 }
 
+/// Threads for each that the machine runs at once, beyond which they only wait for each other: a job of 1.3 s takes 71 s with 512.
+const MAX_PER_PROCESSOR: usize = 4;
+/// Threads that any machine may be asked for.
+const ALWAYS_ALLOWED: usize = 8;
+
+/// How many working threads there will be where `asked` are asked for. The number changes no result.
+pub(super) fn useful_threads(asked: usize) -> usize {
+    asked.min((MAX_PER_PROCESSOR * available_threads()).max(ALWAYS_ALLOWED))
+}
+
 /// So many working threads.
 ///
 /// # Errors

@@ -3,6 +3,7 @@
 use std::io::Write;
 
 use super::answer::Progress;
+use crate::heap;
 use crate::report::Observer;
 
 /// Shows the running stage on stderr, or nothing.
@@ -25,6 +26,7 @@ impl StageLine {
 
 impl Observer for StageLine {
     fn stage(&mut self, name: &'static str) {
+        heap::enter_stage(name);
         self.show(&format!("  {name} …"));
     }
 }

@@ -2,55 +2,54 @@
 
 use std::path::{Path, PathBuf};
 
-use supel_runtime::{StagedFile, Superelement, abandoned_parts};
+use supel_runtime::{StagedFile, Superelement};
 
 use super::answer::{Program, Terminal};
 use super::command::{Answer, ReduceCommand, Strictness, Unverified};
 use super::exit_code::ExitCode;
+use super::outputs::{Outputs, abandoned, refuse_unwritable, staged};
 use super::progress::StageLine;
-use super::{Pipeline, memory, process, rehearsal};
+use super::rehearsal::{self, Rehearsed};
+use super::{Pipeline, memory, overwriting, process};
 use crate::error::{Error, Result};
-use crate::job::WriteJob;
 use crate::outcome::{Outcome, Resources};
 use crate::report::{JunitWarnings, Observer, Report, StageClock, html, junit, summary};
 use crate::verification::check::{Check, Limits, Verdict};
 
 pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
+    overwriting::refuse(&command.job, command.document.as_deref())?;
+    let mut complaints = abandoned(&command.job.write);
     refuse_unwritable(&command.job.write)?;
-    if terminal.program == Program::Supel {
-        rehearsal::rehearse(&command.job.model)?;
-    }
-    let n_threads = command.n_threads;
-    let threads = process::threads(n_threads)?;
+    let resources = Resources { memory_bytes: memory::available_bytes() };
+    let rehearsed = match terminal.program {
+        Program::Supel => rehearsal::rehearse(&command.job.model, resources.allowed(&command.job))?,
+        Program::Other => Rehearsed::Nothing,
+    };
+    terminal.tell_threads(command.threads);
+    let threads = process::threads(command.threads.used)?;
     let mut stage_line = StageLine::new(terminal.progress);
     let mut clock = StageClock::new(&mut stage_line);
-    let resources = Resources { memory_bytes: memory::available_bytes() };
-    let Outcome { superelement, mut report } = threads.install(|| pipeline(&command.job, resources, &mut clock))?;
+    let outcome = threads.install(|| pipeline(&command.job, resources, &mut clock));
+    let Outcome { superelement, mut report } = outcome.map_err(|error| rehearsed.judge(error))?;
     clock.stage("write");
-    report.run.n_threads = n_threads;
+    report.run.n_threads = command.threads.used;
     let (code, superelement) = stage_superelement(command, &superelement, &mut report)?;
     report.run.stages = clock.finish();
     drop(stage_line);
     report.run.peak_memory_bytes = process::peak_memory_bytes();
     report.run.report = Some(command.job.write.report_path());
-    write_all(command, &report, superelement)?;
-    match command.answer {
-        Answer::Text => terminal.answer(&summary(&report, terminal.paint)),
-        Answer::Json => terminal.answer(&report.to_json()),
-        Answer::Nothing => {}
-    }
-    explain(command, code, terminal);
+    let outputs = stage_all(command, &report, superelement)?;
+    // All that is to be said is there before the files are: afterwards a lack of memory would be told of a run that is done.
+    let answer = match command.answer {
+        Answer::Text => Some(summary(&report, terminal.paint)),
+        Answer::Json => Some(report.to_json()),
+        Answer::Nothing => None,
+    };
+    complaints.splice(0..0, explanation(command, code));
+    outputs.commit()?;
+    answer.iter().for_each(|answer| terminal.answer(answer));
+    complaints.iter().for_each(|complaint| terminal.complain(complaint));
     Ok(code)
-}
-
-/// Refuses an output that has no place before the model is read, with the error that its writing would end in: an empty
-/// file is written beside each and dropped.
-fn refuse_unwritable(write: &WriteJob) -> Result<()> {
-    let report = write.report_path();
-    let others = [Some(&report), write.html.as_ref(), write.junit.as_ref()];
-    std::iter::once(&write.superelement)
-        .chain(others.into_iter().flatten())
-        .try_for_each(|path| StagedFile::write(path, &[]).map(drop).map_err(|error| Error::from_file(path, error)))
 }
 
 /// Writes the superelement under a temporary name and reads it back; hands it on if it may have its name.
@@ -60,9 +59,8 @@ fn stage_superelement(
     report: &mut Report,
 ) -> Result<(ExitCode, Option<StagedFile>)> {
     let path = command.job.write.superelement.as_path();
-    let failed = |error| Error::from_file(path, error);
-    let sealed = superelement.to_bytes().map_err(failed)?;
-    let staged = StagedFile::write(path, &sealed.bytes).map_err(failed)?;
+    let sealed = superelement.to_bytes().map_err(|error| Error::of_superelement(path, error))?;
+    let staged = staged(path, &sealed.bytes)?;
     report.body.checks.push(file_check(staged.path(), superelement));
     let is_verified = match (report.body.verdict(), command.strictness) {
         (Verdict::Info | Verdict::Pass, _) | (Verdict::Warn, Strictness::Normal) => true,
@@ -77,24 +75,21 @@ fn stage_superelement(
     Ok((if is_verified { ExitCode::Done } else { ExitCode::CheckFailed }, is_kept.then_some(staged)))
 }
 
-/// Writes everything under temporary names before anything gets its own: a report that cannot be written leaves no
-/// superelement without one. The superelement comes last, because others wait for it.
-fn write_all(command: &ReduceCommand, report: &Report, superelement: Option<StagedFile>) -> Result<()> {
+/// Writes everything else under temporary names before anything gets its own: a report that cannot be written leaves no
+/// superelement without one. The superelement comes last, because others wait for it and all others carry its digest.
+fn stage_all(command: &ReduceCommand, report: &Report, superelement: Option<StagedFile>) -> Result<Outputs> {
     let write = &command.job.write;
     let warnings = match command.strictness {
         Strictness::Normal => JunitWarnings::Pass,
         Strictness::Strict => JunitWarnings::Fail,
     };
-    let mut files = vec![(write.report_path(), report.to_json())];
+    let mut files: Vec<(PathBuf, String)> = vec![(write.report_path(), report.to_json())];
     files.extend(write.html.clone().map(|path| (path, html(report))));
     files.extend(write.junit.clone().map(|path| (path, junit(report, warnings))));
-    let stage = |(path, text): (PathBuf, String)| match StagedFile::write(&path, text.as_bytes()) {
-        Ok(staged) => Ok((path, staged)),
-        Err(source) => Err(Error::from_file(&path, source)),
-    };
-    let mut staged: Vec<(PathBuf, StagedFile)> = files.into_iter().map(stage).collect::<Result<_>>()?;
-    staged.extend(superelement.map(|file| (write.superelement.clone(), file)));
-    staged.into_iter().try_for_each(|(path, file)| file.commit().map_err(|source| Error::from_file(&path, source)))
+    let mut outputs = Outputs::default();
+    files.iter().try_for_each(|(path, text)| outputs.stage(path, text.as_bytes()))?;
+    superelement.into_iter().for_each(|file| outputs.push(file));
+    Ok(outputs)
 }
 
 /// M-26: the written file, read back, is the superelement in memory to the last bit.
@@ -116,18 +111,16 @@ fn file_check(written: &Path, superelement: &Superelement) -> Check {
 }
 
 /// What the exit code and the folder do not say by themselves.
-fn explain(command: &ReduceCommand, code: ExitCode, terminal: &mut Terminal<'_>) {
+fn explanation(command: &ReduceCommand, code: ExitCode) -> Option<String> {
+    if code != ExitCode::CheckFailed || command.unverified == Unverified::Written {
+        return None;
+    }
     let path = command.job.write.superelement.as_path();
-    if code == ExitCode::CheckFailed && command.unverified == Unverified::Refused {
-        let cause = match command.strictness {
-            Strictness::Normal => "a check failed",
-            Strictness::Strict => "a check failed or warned, with --strict",
-        };
-        let earlier = if path.exists() { "; the file of that name is from an earlier run" } else { "" };
-        let advice = "see the report, or write it anyway with --allow-unverified";
-        terminal.complain(&format!("supel: {}: not written: {cause}{earlier} – {advice}", path.display()));
-    }
-    for part in abandoned_parts(path) {
-        terminal.complain(&format!("supel: {}: left by an interrupted run – it can be removed", part.display()));
-    }
+    let cause = match command.strictness {
+        Strictness::Normal => "a check failed",
+        Strictness::Strict => "a check failed or warned, with --strict",
+    };
+    let earlier = if path.exists() { "; the file of that name is from an earlier run" } else { "" };
+    let advice = "see the report, or write it anyway with --allow-unverified";
+    Some(format!("supel: {}: not written: {cause}{earlier} – {advice}", path.display()))
 }

@@ -7,6 +7,7 @@ use serde_json::json;
 use super::answer::Terminal;
 use super::exit_code::ExitCode;
 use crate::error::{Error, INTERNAL_CODE, USAGE_CODE};
+use crate::report::json_text;
 
 /// A command that ended without its answer.
 pub(super) struct Refusal {
@@ -54,12 +55,18 @@ impl Refusal {
 
     /// Says it; the exit code is for the process.
     pub(super) fn tell(&self, form: Form, terminal: &mut Terminal<'_>) -> ExitCode {
-        terminal.complain(&format!("supel: error[{}]: {}", self.code, self.message));
+        let line = format!("supel: error[{}]: {}", self.code, self.message);
+        // Of clap's messages the lines are wanted.
+        if self.code == USAGE_CODE {
+            terminal.complain_at_length(&line)
+        } else {
+            terminal.complain(&line)
+        }
         for cause in &self.causes {
             terminal.complain(&format!("  caused by: {cause}"));
         }
         if form == Form::Json {
-            terminal.answer(&format!("{:#}\n", self.document()));
+            terminal.answer(&json_text(&self.document()));
         }
         self.exit
     }

@@ -1,32 +1,39 @@
 //! `supel verify`: a superelement file checked again, by itself or against the full matrices.
 
-use supel_runtime::{FileError, Superelement};
+use supel_runtime::{Superelement, file_bytes};
 
 use super::answer::{Program, Terminal};
 use super::command::{Answer, Strictness, VerifyCommand};
 use super::exit_code::ExitCode;
 use super::progress::StageLine;
-use super::{process, rehearsal};
+use super::rehearsal::{self, Rehearsed};
+use super::{accompanying, memory, process};
 use crate::audit;
 use crate::error::{Error, Result};
+use crate::outcome::Resources;
 use crate::report::{Against, VerificationReport};
 use crate::verification::check::Verdict;
 
 pub(super) fn run(command: &VerifyCommand, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
-    let failed = |error| Error::from_file(&command.file, error);
-    let superelement = Superelement::open(&command.file).map_err(failed)?;
-    let bytes = std::fs::read(&command.file)
-        .map_err(|source| failed(FileError::Read { path: command.file.clone(), source }))?;
-    if let Some(job) = command.job.as_ref().filter(|_| terminal.program == Program::Supel) {
-        rehearsal::rehearse(&job.model)?;
-    }
-    let threads = process::threads(command.n_threads)?;
+    let failed = |error| Error::of_superelement(&command.file, error);
+    let bytes = file_bytes(&command.file).map_err(failed)?;
+    let superelement = Superelement::from_bytes(&bytes).map_err(failed)?;
+    let resources = Resources { memory_bytes: memory::available_bytes() };
+    let rehearsed = match command.job.as_ref().filter(|_| terminal.program == Program::Supel) {
+        Some(job) => rehearsal::rehearse(&job.model, resources.allowed(job))?,
+        None => Rehearsed::Nothing,
+    };
+    terminal.tell_threads(command.threads);
+    let threads = process::threads(command.threads.used)?;
     let mut stage_line = StageLine::new(terminal.progress);
-    let mut audit = threads.install(|| crate::verify(&superelement, command.job.as_ref(), &mut stage_line))?;
+    let verify = || crate::verify(&superelement, command.job.as_ref(), resources, &mut stage_line);
+    let mut audit = threads.install(verify).map_err(|error| rehearsed.judge(error))?;
     drop(stage_line);
     audit.checks.push(audit::rewritten(&superelement, &bytes));
+    let digest = superelement.to_bytes().map_err(failed)?.digest;
+    audit.checks.extend(accompanying::check(&command.file, &superelement, &digest));
     let report = VerificationReport {
-        digest: superelement.to_bytes().map_err(failed)?.digest,
+        digest,
         against: if command.job.is_some() { Against::Model } else { Against::File },
         audit,
     };

@@ -45,7 +45,12 @@ macro_rules! codes {
             pub fn class(&self) -> ErrorClass {
                 match self {
                     Self::SuperelementFile { source: FileError::OutOfMemory { .. }, .. } => ErrorClass::Resources,
-                    Self::SuperelementFile { source: FileError::NotAFile { .. }, .. } => ErrorClass::Io,
+                    // The system has no memory for itself.
+                    Self::Read { source, .. } | Self::Write { source, .. }
+                        if source.kind() == std::io::ErrorKind::OutOfMemory =>
+                    {
+                        ErrorClass::Resources
+                    }
                     $(Self::$variant { .. } => ErrorClass::$class,)*
                 }
             }
@@ -56,7 +61,13 @@ macro_rules! codes {
 codes! {
     Read => "E-READ", Io;
     Write => "E-WRITE", Io;
+    NotSynced => "E-SYNC", Io;
+    HalfWritten => "E-HALF-WRITTEN", Io;
+    Answer => "E-STDOUT", Io;
     NotAFile => "E-NOT-A-FILE", InputData;
+    Changed => "E-CHANGED", Io;
+    NotText => "E-UTF8", InputData;
+    MemoryRead => "E-MEM-READ", Resources;
     GzipDamaged => "E-GZIP", InputData;
     GzipInflation => "E-GZIP-BOMB", InputData;
     LineTooLong => "E-LINE", InputData;
@@ -80,6 +91,7 @@ codes! {
     TableRow => "E-TABLE-ROW", InputData;
     TableField => "E-TABLE-FIELD", InputData;
     NodeRepeated => "E-NODE-REPEATED", InputData;
+    NodeRange => "E-NODE-RANGE", InputData;
     DofText => "E-MAP-TEXT", InputData;
     DofDirection => "E-MAP-DIRECTION", InputData;
     DofRepeated => "E-MAP-REPEATED", InputData;
@@ -91,6 +103,8 @@ codes! {
     Hdf5Signature => "E-HDF5-SIGNATURE", InputData;
     Hdf5Open => "E-HDF5-OPEN", InputData;
     Hdf5Crash => "E-HDF5-CRASH", InputData;
+    Hdf5Time => "E-HDF5-TIME", InputData;
+    RehearsalKilled => "E-CHILD-KILLED", Resources;
     Rehearsal => "E-CHILD", Resources;
     Hdf5Read => "E-HDF5-READ", InputData;
     Hdf5Missing => "E-HDF5-MISSING", InputData;
@@ -100,6 +114,7 @@ codes! {
     Hdf5Size => "E-HDF5-SIZE", InputData;
     Hdf5Depth => "E-HDF5-DEPTH", InputData;
     Hdf5Type => "E-HDF5-TYPE", InputData;
+    Hdf5Value => "E-HDF5-VALUE", InputData;
     Hdf5Shape => "E-HDF5-SHAPE", InputData;
     Hdf5NoMatrix => "E-HDF5-NO-MATRIX", InputData;
     Hdf5AmbiguousMatrix => "E-HDF5-AMBIGUOUS", InputData;
@@ -114,6 +129,7 @@ codes! {
     MeshNotFinite => "E-MESH-NONFINITE", InputData;
     MeshLabelTwice => "E-MESH-LABEL", InputData;
     XdmfSyntax => "E-XDMF", InputData;
+    XdmfSize => "E-XDMF-SIZE", InputData;
     XdmfReference => "E-XDMF-REFERENCE", InputData;
     JobSyntax => "E-JOB", Usage;
     JobKey => "E-JOB-KEY", Usage;
@@ -126,6 +142,9 @@ codes! {
     InterfaceNodes => "E-INTERFACE-NODES", Usage;
     InterfaceConflict => "E-INTERFACE-KEY", Usage;
     OutputName => "E-OUTPUT-NAME", Usage;
+    OutputIsInput => "E-OVERWRITE", Usage;
+    OutputTwice => "E-OUTPUT-TWICE", Usage;
+    OutputKind => "E-OUTPUT-KIND", Io;
     MissingFlags => "E-FLAGS", Usage;
     FlagText => "E-FLAG-TEXT", Usage;
     Threads => "E-THREADS", Resources;
@@ -161,6 +180,7 @@ codes! {
     NotDefinite => "E-NOT-DEFINITE", ModelPhysics;
     IndefiniteStiffness => "E-NEGATIVE-STIFFNESS", ModelPhysics;
     MemoryForecast => "E-MEM", Resources;
+    MemoryComparison => "E-MEM-VERIFY", Resources;
     OutOfMemory => "E-OUT-OF-MEMORY", Resources;
     NotRefined => "E-NOT-REFINED", NumericalLimit;
     SturmPivot => "E-STURM-PIVOT", NumericalLimit;

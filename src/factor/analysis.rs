@@ -15,6 +15,7 @@ use std::ops::Range;
 use super::panels::Shape;
 use super::{Pencil, Storage};
 use crate::error::{Error, Result};
+use crate::heap::fallibly;
 use crate::partition::Partition;
 use order::{EliminationTree, NONE};
 use supernodes::Supernodes;
@@ -269,7 +270,8 @@ fn work_of_supernode((steps, below): (&[usize], &usize)) -> f64 {
 fn rows(pencil: Pencil<'_>, tree: &EliminationTree, supernodes: &Supernodes, rows_at: &[usize]) -> Result<Vec<u32>> {
     let n_rows = rows_at[rows_at.len() - 1];
     let mut rows = Vec::new();
-    rows.try_reserve_exact(n_rows).map_err(|_| Error::OutOfMemory { what: "the structure of the factor" })?;
+    let room = fallibly(|| rows.try_reserve_exact(n_rows));
+    room.map_err(|_| Error::OutOfMemory { what: "the structure of the factor" })?;
     let mut seen_by = vec![NONE; tree.step.len()];
     let mut last_child = vec![NONE; supernodes.parent.len()];
     let mut sibling_before = vec![NONE; supernodes.parent.len()];

@@ -21,6 +21,15 @@ const BLOCKS_OF_MODES: u64 = 6;
 /// Recovered rows of the basis as numbers, as bytes of their own and as bytes of the file.
 const COPIES: u64 = 3;
 
+/// Loads on the interface that a comparison solves at most.
+const MAX_LOADS: usize = 48;
+/// Columns that conjugate gradients hold for each load: answer, residual, direction and what a step makes of them.
+const COLUMNS_OF_A_LOAD: u64 = 8;
+/// Columns for each mode found again: two of the basis, its shape and a product of it.
+const COLUMNS_OF_A_MODE: u64 = 4;
+/// Columns of any search.
+const COLUMNS_OF_A_SEARCH: u64 = 64;
+
 /// What a run needs, in bytes.
 #[derive(Clone, Copy, Debug)]
 struct Forecast {
@@ -65,8 +74,7 @@ pub fn slices_within_memory(
     (storage, n_modes): (Storage, Option<usize>),
 ) -> Result<usize> {
     let n_threads = rayon::current_num_threads();
-    let allowed = job.run.memory_gib.map(|gib| (gib * f64::from(1 << 30)) as u64);
-    let Some(available) = allowed.or(resources.memory_bytes) else {
+    let Some(available) = resources.allowed(job) else {
         return Ok(n_threads);
     };
     let n_modes = match (n_modes, job.reduction.modes) {
@@ -83,6 +91,29 @@ pub fn slices_within_memory(
     let Forecast { factors, matrices, vectors } = forecast(storage, 1);
     let in_single = Some(forecast(Storage::Single, 1).total()).filter(|needed| *needed <= available);
     Err(Error::MemoryForecast { available, factors, matrices, vectors, in_single })
+}
+
+/// Makes sure that a superelement with this many modes can be compared with its full model in the memory allowed by the job, or else
+/// what the machine offers.
+///
+/// Counted are the matrices, the factor of K − σM on all dofs and of another one for modes with the interface held, what waits for its
+/// parent while one is made, the basis of the eigensolver with its modes, and the columns of the static loads.
+///
+/// # Errors
+/// [`Error::MemoryComparison`].
+pub fn comparison_within_memory(partition: &Partition, job: &Job, resources: Resources, n_modes: usize) -> Result<()> {
+    let Some(available) = resources.allowed(job) else { return Ok(()) };
+    let analysis = Analysis::new(partition.pencil())?;
+    let n = partition.n_dofs() as u64;
+    let entries = (partition.stiffness.nnz() + partition.mass.nnz()) as u64;
+    let factors = analysis.factor_bytes(Storage::Double).saturating_mul(2).saturating_add(analysis.stack_bytes());
+    let loads = partition.n_interface().min(MAX_LOADS) as u64;
+    let vectors = COLUMNS_OF_A_LOAD * loads + COLUMNS_OF_A_MODE * n_modes as u64 + COLUMNS_OF_A_SEARCH;
+    let needed = factors.saturating_add(2 * ENTRY * entries).saturating_add(DOUBLE * n * vectors);
+    if needed > available {
+        return Err(Error::MemoryComparison { needed, available });
+    }
+    Ok(())
 }
 
 /// What is looked for, and how much of it at the same time.

@@ -22,6 +22,7 @@ use super::elimination::{self, Kind, PANEL, Pivots, add_products, eliminate_colu
 use super::entry::Entry;
 use super::matrix::Shifted;
 use super::panels::{self, Panels, Shape};
+use crate::heap::fallibly;
 use assembly::{Places, Rest, RestStack, rest_len};
 
 /// What is kept of L.
@@ -223,7 +224,7 @@ fn take(rest: &Mutex<Handed>) -> Handed {
 /// Zeros, where there is memory for them. Fresh memory is zero as the system hands it out, page by page to the thread that
 /// touches it first: several of them, where a supernode is large.
 fn zeros<T: Zeroable>(len: usize) -> std::result::Result<Vec<T>, Stop> {
-    bytemuck::allocation::try_zeroed_vec(len).map_err(|()| Stop::NoMemory)
+    fallibly(|| bytemuck::allocation::try_zeroed_vec(len)).map_err(|()| Stop::NoMemory)
 }
 
 /// Writes zeros, by several threads into what several will work on.

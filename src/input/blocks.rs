@@ -43,7 +43,9 @@ pub(super) fn for_each_batch(
     let source = Source::open(path)?;
     std::thread::scope(|scope| {
         let (sender, receiver) = sync_channel(N_WAITING);
-        let producer = scope.spawn(move || produce(path, source, block_bytes, &sender));
+        let producer = std::thread::Builder::new()
+            .spawn_scoped(scope, move || produce(path, source, block_bytes, &sender))
+            .map_err(|_| Error::OutOfMemory { what: "the thread that reads a matrix" })?;
         let outcome = consume_all(receiver, &mut consume);
         let ending = producer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         // What the consumer found comes earlier in the file than where the producer has got to.

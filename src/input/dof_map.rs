@@ -2,11 +2,11 @@
 //! and a direction column, or the usual order where counts leave no doubt.
 
 use std::collections::HashMap;
-use std::io::{BufRead, Read};
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
 use super::banner::excerpt;
-use super::source::read_error;
+use super::source::{Source, read_error};
 use super::table::{FirstLine, Row, Table, is_node_column, open_first_line};
 use super::{Direction, Dof, DofMap, Nodes};
 use crate::error::{Error, Result};
@@ -18,8 +18,10 @@ const DIRECTIONS_OR_NAMES: &str = "1 to 6 or ux, uy, uz, rx, ry, rz";
 
 /// A dof map and how its directions were numbered.
 pub(super) struct ReadDofs {
-    /// The degree of freedom of every row.
+    /// The degree of freedom of every row, as far as the matrices have rows.
     pub(super) dofs: DofMap,
+    /// Rows in the file.
+    pub(super) n_rows: usize,
     /// How directions are numbered.
     pub(super) base: DirectionBase,
 }
@@ -33,11 +35,11 @@ pub(super) enum DirectionBase {
     One,
 }
 
-/// Reads a dof map, plain or gzipped.
-pub(super) fn read(path: &Path) -> Result<ReadDofs> {
+/// Reads the map of a model of n dofs, plain or gzipped. More rows than n are counted, not kept.
+pub(super) fn read(path: &Path, n: usize) -> Result<ReadDofs> {
     let first = open_first_line(path, EXPECTED)?;
     let is_table = first.text.contains(|c: char| c.is_alphabetic() || matches!(c, ',' | ';' | '\t'));
-    let read = if is_table { read_table(path, first)? } else { read_lines(path, first)? };
+    let read = if is_table { read_table(path, first, n)? } else { read_lines(path, first, n)? };
     check_repeated(path, &read.dofs)?;
     Ok(read)
 }
@@ -60,34 +62,56 @@ pub(super) fn default_order(nodes: &Nodes, nodes_path: &Path, n: usize) -> Resul
 
 /// Checks that every node of a dof map has a position; returns how many nodes no row uses.
 pub(super) fn check_nodes(dofs: &[Dof], path: &Path, nodes: &Nodes, nodes_path: &Path) -> Result<usize> {
-    let index_of: HashMap<i64, usize> = nodes.labels.iter().enumerate().map(|(index, &label)| (label, index)).collect();
-    let mut is_used = vec![false; nodes.labels.len()];
-    for (row, dof) in dofs.iter().enumerate() {
-        let Some(&index) = index_of.get(&dof.node) else {
-            let (path, nodes) = (path.to_owned(), nodes_path.to_owned());
-            return Err(Error::DofNodeMissing { path, row: row + 1, node: dof.node, nodes });
-        };
-        is_used[index] = true;
+    // A mesh may have any number of nodes, the map has no more than the matrices have rows.
+    let mut is_there: HashMap<i64, bool> = dofs.iter().map(|dof| (dof.node, false)).collect();
+    let mut n_unused = 0;
+    for label in &nodes.labels {
+        match is_there.get_mut(label) {
+            Some(is_there) => *is_there = true,
+            None => n_unused += 1,
+        }
     }
-    Ok(is_used.iter().filter(|&&used| !used).count())
+    match dofs.iter().position(|dof| !is_there[&dof.node]) {
+        Some(row) => {
+            let (path, nodes) = (path.to_owned(), nodes_path.to_owned());
+            Err(Error::DofNodeMissing { path, row: row + 1, node: dofs[row].node, nodes })
+        }
+        None => Ok(n_unused),
+    }
 }
 
-fn read_lines(path: &Path, mut first: FirstLine) -> Result<ReadDofs> {
-    /// The longest line; a label and a direction take twenty-two characters.
-    const MAX_LINE_BYTES: u64 = 256;
-    let mut dofs = vec![parse_line(path, first.line, &first.text)?];
+fn read_lines(path: &Path, mut first: FirstLine, n: usize) -> Result<ReadDofs> {
+    let mut read = ReadDofs { dofs: Vec::new(), n_rows: 0, base: DirectionBase::One };
+    read.take(parse_line(path, first.line, &first.text)?, n);
     let mut line = first.line;
     let mut bytes = Vec::new();
-    loop {
-        bytes.clear();
+    while next_line(path, &mut first.rest, line + 1, &mut bytes)? {
         line += 1;
-        let n_read = first.rest.by_ref().take(MAX_LINE_BYTES).read_until(b'\n', &mut bytes);
-        if n_read.map_err(|error| read_error(path, error))? == 0 {
-            return Ok(ReadDofs { dofs, base: DirectionBase::One });
-        }
         let text = bytes.trim_ascii();
         if !text.is_empty() {
-            dofs.push(parse_line(path, line, &String::from_utf8_lossy(text))?);
+            read.take(parse_line(path, line, &String::from_utf8_lossy(text))?, n);
+        }
+    }
+    Ok(read)
+}
+
+/// The next line into `bytes`; false at the end.
+fn next_line(path: &Path, rest: &mut BufReader<Source>, line: u64, bytes: &mut Vec<u8>) -> Result<bool> {
+    /// The longest line; a label and a direction take twenty-two characters.
+    const MAX_LINE_BYTES: usize = 256;
+    bytes.clear();
+    let n_read = rest.by_ref().take(MAX_LINE_BYTES as u64 + 1).read_until(b'\n', bytes);
+    if n_read.map_err(|error| read_error(path, error))? > MAX_LINE_BYTES {
+        return Err(Error::LineTooLong { path: path.to_owned(), line, limit: MAX_LINE_BYTES });
+    }
+    Ok(!bytes.is_empty())
+}
+
+impl ReadDofs {
+    fn take(&mut self, dof: Dof, n: usize) {
+        self.n_rows += 1;
+        if self.dofs.len() < n {
+            self.dofs.push(dof);
         }
     }
 }
@@ -98,38 +122,80 @@ fn parse_line(path: &Path, line: u64, text: &str) -> Result<Dof> {
     else {
         return Err(Error::DofText { path: path.to_owned(), line, found: excerpt(text.as_bytes()) });
     };
-    match numbered(direction, DirectionBase::One) {
+    match direction.parse().ok().and_then(|number| numbered(number, DirectionBase::One)) {
         Some(direction) => Ok(Dof { node, direction }),
         None => Err(direction_error(path, line, node, direction, DIRECTIONS)),
     }
 }
 
-fn read_table(path: &Path, first: FirstLine) -> Result<ReadDofs> {
+fn read_table(path: &Path, first: FirstLine, n: usize) -> Result<ReadDofs> {
     let mut table = Table::new(path, first);
     let node_column = table.require("node", EXPECTED, is_node_column)?;
     let direction_column = table.require("dof", EXPECTED, is_direction_column)?;
     let row_column = table.find(|name| matches!(name, "row" | "index" | "equation"));
     let header = table.name(direction_column);
-    let mut rows = Vec::new();
-    let mut first_number = None;
+    let mut rows: Vec<(i64, Typed)> = Vec::new();
+    let (mut n_rows, mut first_number, mut has_zero) = (0, None, false);
+    // The first direction that there is not, counted from zero and from one; which count it is, is known after all rows.
+    let mut unknown: [Option<(u64, i64, String)>; 2] = [None, None];
     while let Some(row) = table.next_row()? {
         if let Some(column) = row_column {
-            check_row_number(path, &row, column, rows.len() as u64, &mut first_number)?;
+            check_row_number(path, &row, column, n_rows as u64, &mut first_number)?;
         }
-        rows.push((row.line, row.integer(node_column)?, row.text(direction_column).to_lowercase()));
+        n_rows += 1;
+        let (node, text) = (row.integer(node_column)?, row.text(direction_column).to_lowercase());
+        let typed = Typed::of(&text);
+        has_zero |= typed == Typed::Number(0);
+        for (unknown, base) in unknown.iter_mut().zip([DirectionBase::Zero, DirectionBase::One]) {
+            if unknown.is_none() && typed.direction(base).is_none() {
+                *unknown = Some((row.line, node, text.clone()));
+            }
+        }
+        if rows.len() < n {
+            rows.push((node, typed));
+        }
     }
-    if rows.is_empty() {
+    if n_rows == 0 {
         return Err(Error::NoData { path: path.to_owned(), expected: "rows of node and direction below the header" });
     }
     let says_zero = ["0=", "0 =", "0-based", "zero"].iter().any(|mark| header.contains(mark));
-    let has_zero = rows.iter().any(|(.., direction)| direction == "0");
-    let base = if says_zero || has_zero { DirectionBase::Zero } else { DirectionBase::One };
-    let expected = if base == DirectionBase::Zero { DIRECTIONS_FROM_ZERO } else { DIRECTIONS_OR_NAMES };
-    let dofs = rows.iter().map(|(line, node, text)| match numbered(text, base).or_else(|| named(text)) {
-        Some(direction) => Ok(Dof { node: *node, direction }),
-        None => Err(direction_error(path, *line, *node, text, expected)),
-    });
-    Ok(ReadDofs { dofs: dofs.collect::<Result<_>>()?, base })
+    let [unknown_from_zero, unknown_from_one] = unknown;
+    let (base, unknown, expected) = if says_zero || has_zero {
+        (DirectionBase::Zero, unknown_from_zero, DIRECTIONS_FROM_ZERO)
+    } else {
+        (DirectionBase::One, unknown_from_one, DIRECTIONS_OR_NAMES)
+    };
+    if let Some((line, node, text)) = unknown {
+        return Err(direction_error(path, line, node, &text, expected));
+    }
+    let dofs = rows.iter().filter_map(|(node, typed)| Some(Dof { node: *node, direction: typed.direction(base)? }));
+    Ok(ReadDofs { dofs: dofs.collect(), n_rows, base })
+}
+
+/// A direction as it is typed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Typed {
+    Number(u8),
+    Name(Direction),
+    /// Neither a small number nor a name.
+    Other,
+}
+
+impl Typed {
+    fn of(text: &str) -> Self {
+        match text.parse() {
+            Ok(number) => Self::Number(number),
+            Err(_) => named(text).map_or(Self::Other, Self::Name),
+        }
+    }
+
+    fn direction(self, base: DirectionBase) -> Option<Direction> {
+        match self {
+            Self::Number(number) => numbered(number, base),
+            Self::Name(direction) => Some(direction),
+            Self::Other => None,
+        }
+    }
 }
 
 fn is_direction_column(name: &str) -> bool {
@@ -148,10 +214,9 @@ fn check_row_number(path: &Path, row: &Row<'_>, column: usize, n_before: u64, fi
     Err(Error::DofRowOrder { path: path.to_owned(), line: row.line, found, expected })
 }
 
-fn numbered(text: &str, base: DirectionBase) -> Option<Direction> {
-    let number: usize = text.parse().ok()?;
+fn numbered(number: u8, base: DirectionBase) -> Option<Direction> {
     let index = if base == DirectionBase::Zero { number } else { number.checked_sub(1)? };
-    Direction::ALL.get(index).copied()
+    Direction::ALL.get(usize::from(index)).copied()
 }
 
 fn named(text: &str) -> Option<Direction> {

@@ -7,18 +7,27 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
+use super::allowance::{Allowance, Claim};
 use super::banner::{Head, HeadReader, square_order};
 use super::blocks::{BLOCK_BYTES, LastLine, for_each_batch};
 use super::digits::significant_digits;
 use super::entries::{Entries, Fault, MIN_LINE_BYTES, parse_entries};
+use super::gathering::{Gathered, Gathering};
 use super::{MatrixInput, Triangle};
 use crate::error::{Error, Result};
-use crate::sparse::{Declared, MAX_ORDER, Triplets};
+use crate::sparse::{Declared, MAX_ORDER};
 
 /// Order up to which a matrix may be empty; its row pointers take 8 MiB.
 const FREE_ORDER: u64 = 1 << 20;
 /// Rows for each entry that a larger matrix may have, so that the row pointers stay within a multiple of the file.
 const MAX_ROWS_PER_ENTRY: u64 = 100;
+
+/// Bytes of an entry as it comes: row, column, value.
+const TRIPLET: u64 = 16;
+/// Bytes of an entry of the assembled matrix: column and value.
+const ENTRY: u64 = 12;
+/// Bytes of a row of the assembled matrix.
+const ROW: u64 = 8;
 
 /// A matrix read from text.
 pub(super) struct TextMatrix {
@@ -41,33 +50,48 @@ pub(super) enum OrderSource {
 
 /// Reads a matrix from text, plain or gzipped.
 /// With a `triangle` asked for, entries on both sides of the diagonal of a matrix declared symmetric are let pass.
-pub(super) fn read(path: &Path, triangle: Option<Triangle>) -> Result<TextMatrix> {
-    read_in_blocks(path, triangle, BLOCK_BYTES)
+pub(super) fn read(path: &Path, triangle: Option<Triangle>, allowance: &Allowance) -> Result<TextMatrix> {
+    read_in_blocks(path, triangle, BLOCK_BYTES, allowance)
 }
 
 /// Reads a matrix in blocks of about this many bytes. The block size changes no result.
-fn read_in_blocks(path: &Path, triangle: Option<Triangle>, block_bytes: usize) -> Result<TextMatrix> {
-    let mut reading =
-        Reading { path, head_reader: HeadReader::new(path), head: None, triplets: Triplets::default(), n_lines: 0 };
+fn read_in_blocks(
+    path: &Path,
+    triangle: Option<Triangle>,
+    block_bytes: usize,
+    allowance: &Allowance,
+) -> Result<TextMatrix> {
+    let mut reading = Reading {
+        path,
+        head_reader: HeadReader::new(path),
+        head: None,
+        entries: Gathering::new(),
+        claim: allowance.claim(path),
+        n_lines: 0,
+    };
     let ending = for_each_batch(path, block_bytes, |batch| reading.take(batch))?;
     let Some(head) = reading.head else {
         return Err(reading.head_reader.ended_early());
     };
-    let mut triplets = reading.triplets;
-    let (n, declared, order) = match head {
+    let Reading { entries, claim, .. } = reading;
+    let n_read = entries.n_entries();
+    let (n, declared, order, Gathered { triplets, n_merged }) = match head {
         Head::Coordinate { n, n_entries, declared } => {
-            check_count(path, n_entries, triplets.len() as u64)?;
-            (n, declared, OrderSource::SizeLine)
+            check_count(path, n_entries, n_read)?;
+            (n, declared, OrderSource::SizeLine, entries.all())
         }
         Head::Headerless { first, line } => {
-            let (n, order) = headerless_order(path, &mut triplets, first, line)?;
-            (n, Declared::General, order)
+            let (n, order) = headerless_order(path, &entries, first, line)?;
+            let gathered = if order == OrderSource::SizeLine { entries.rest() } else { entries.all() };
+            (n, Declared::General, order, gathered)
         }
     };
     check_emptiness(path, n, triplets.len())?;
     let assembled = if triangle.is_some() { Declared::General } else { declared };
     let (matrix, mut notes) = triplets.assemble(n as usize, assembled, path)?;
     notes.mirrored &= declared == Declared::General;
+    notes.n_duplicates += n_merged;
+    claim.set(ENTRY * matrix.nnz() as u64 + ROW * u64::from(n))?;
     let digits = significant_digits(matrix.data());
     let input = MatrixInput { matrix, notes, digits, path: path.to_owned(), digest: ending.digest };
     Ok(TextMatrix { input, order, last_line: ending.last_line })
@@ -78,7 +102,8 @@ struct Reading<'a> {
     path: &'a Path,
     head_reader: HeadReader<'a>,
     head: Option<Head>,
-    triplets: Triplets,
+    entries: Gathering,
+    claim: Claim<'a>,
     /// Lines taken, of the head and of entries.
     n_lines: u64,
 }
@@ -89,7 +114,14 @@ impl Reading<'_> {
     fn expect_entries(&mut self) {
         let Some(Head::Coordinate { n_entries, .. }) = self.head else { return };
         let most = std::fs::metadata(self.path).map_or(0, |file| file.len() / MIN_LINE_BYTES as u64);
-        self.triplets.expect(n_entries.min(most) as usize);
+        self.entries.expect(n_entries.min(most) as usize);
+    }
+
+    /// Claims the entries so far and the matrix that will be made of them: both triangles where one is declared for both.
+    fn claim_entries(&mut self) -> Result<()> {
+        let is_mirrored = matches!(self.head, Some(Head::Coordinate { declared: Declared::Symmetric, .. }));
+        let of_entry = TRIPLET + if is_mirrored { 2 * ENTRY } else { ENTRY };
+        self.claim.set(of_entry * self.entries.n_held() as u64)
     }
 
     fn take(&mut self, batch: &[Vec<u8>]) -> Result<()> {
@@ -112,44 +144,43 @@ impl Reading<'_> {
         let parsed: Vec<Result<Entries, Fault>> =
             texts.par_iter().map(|text| parse_entries(text, n, u64::MAX)).collect();
         for (text, entries) in texts.into_iter().zip(parsed) {
-            let left = declared - self.triplets.len() as u64;
+            let left = declared - self.entries.n_entries();
             let entries = entries.and_then(|entries| {
                 // Parsed again to find the line of the first one too many.
                 if entries.triplets.len() as u64 > left { parse_entries(text, n, left) } else { Ok(entries) }
             });
             let entries = entries.map_err(|fault| fault.into_error(self.path, self.n_lines, n, declared))?;
-            self.triplets.append(&entries.triplets);
+            let mut triplets = entries.triplets;
+            // Three whole numbers may be a size line.
+            if matches!(self.head, Some(Head::Headerless { first: Some(_), .. })) {
+                triplets = self.entries.doubt_first(triplets);
+            }
+            self.entries.append(&triplets);
+            self.claim_entries()?;
             self.n_lines += entries.n_lines;
         }
         Ok(())
     }
 }
 
-/// The order of a matrix without a banner; takes a bare size line out of the entries.
+/// The order of a matrix without a banner, whose first line may be a bare size line.
 fn headerless_order(
     path: &Path,
-    triplets: &mut Triplets,
+    entries: &Gathering,
     first: Option<[u64; 3]>,
     line: u64,
 ) -> Result<(u32, OrderSource)> {
-    let largest = |from: usize| {
-        let rows = triplets.rows.iter().skip(from);
-        rows.chain(triplets.cols.iter().skip(from)).max().map_or(0, |&index| u64::from(index) + 1)
-    };
     if let Some([rows, cols, declared]) = first {
-        let n_rest = triplets.len() as u64 - 1;
-        let holds_rest = n_rest > 0 && rows.min(cols) >= largest(1);
+        let n_rest = entries.n_entries() - 1;
+        let holds_rest = n_rest > 0 && rows.min(cols) >= entries.largest_index_of_rest();
         // A count of entries below the order would be an odd matrix, but an ordinary value.
         if holds_rest && (declared == n_rest || (rows == cols && declared >= rows)) {
             check_count(path, declared, n_rest)?;
             let n = square_order(path, line, rows, cols)?;
-            triplets.rows.remove(0);
-            triplets.cols.remove(0);
-            triplets.values.remove(0);
             return Ok((n, OrderSource::SizeLine));
         }
     }
-    let n = largest(0);
+    let n = entries.largest_index();
     Ok((square_order(path, line, n, n)?, OrderSource::LargestIndex))
 }
 
@@ -186,7 +217,7 @@ mod tests {
         }
         let path = folder.join("a.mtx");
         std::fs::write(&path, text).expect("a file");
-        let whole = read(&path, None).expect("a matrix");
+        let whole = read(&path, None, &Allowance::of(None)).expect("a matrix");
         (path, whole)
     }
 
@@ -195,7 +226,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let (path, whole) = sample(folder.path());
         for block_bytes in 1..=64 {
-            let blocks = read_in_blocks(&path, None, block_bytes).expect("a matrix");
+            let blocks = read_in_blocks(&path, None, block_bytes, &Allowance::of(None)).expect("a matrix");
             assert_eq!(blocks.input.matrix, whole.input.matrix, "{block_bytes}");
             assert_eq!(blocks.input.digest, whole.input.digest);
             assert_eq!(blocks.last_line, LastLine::Terminated);
@@ -211,7 +242,7 @@ mod tests {
         std::fs::write(&path, head).expect("a file");
         let file = std::fs::OpenOptions::new().write(true).open(&path).expect("the file");
         file.set_len(1 << 40).expect("a file with a hole");
-        let error = read_in_blocks(&path, None, 1 << 10).err().expect("an error");
+        let error = read_in_blocks(&path, None, 1 << 10, &Allowance::of(None)).err().expect("an error");
         assert!(matches!(&error, Error::EntryField { line: 4, .. } | Error::LineTooLong { line: 4, .. }), "{error}");
     }
 
@@ -222,9 +253,10 @@ mod tests {
         let head = "%%MatrixMarket matrix coordinate real general\n3 3 3\n1 1 1\n\n% x\n";
         for tail in ["2 2 x\n3 3 3\n", "2 2 2\n4 1 1\n", "1 1 1\n2 2 2\n3 3 3\n", "1 1 1\n"] {
             std::fs::write(&path, format!("{head}{tail}")).expect("a file");
-            let whole = read(&path, None).err().expect("an error").to_string();
+            let whole = read(&path, None, &Allowance::of(None)).err().expect("an error").to_string();
             for block_bytes in 1..=64 {
-                let blocks = read_in_blocks(&path, None, block_bytes).err().expect("an error").to_string();
+                let blocks =
+                    read_in_blocks(&path, None, block_bytes, &Allowance::of(None)).err().expect("an error").to_string();
                 assert_eq!(blocks, whole, "{block_bytes}");
             }
         }

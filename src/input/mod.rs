@@ -2,24 +2,30 @@
 //!
 //! Nothing is guessed silently: whatever a reader had to do beyond copying is a note that reaches the report.
 
+mod allowance;
 mod banner;
 mod blocks;
 mod digits;
 mod dof_map;
 mod empty_rows;
 mod entries;
+mod gathering;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
+mod kind;
 mod matrix_market;
 mod model_files;
 mod node_table;
 mod note;
+pub(crate) mod regular;
 mod source;
 mod table;
 mod triangle;
 
+pub use allowance::Allowance;
 pub use digits::significant_digits;
-pub use model_files::{Input, hdf5_file, read};
+pub use kind::{files, hdf5_file};
+pub use model_files::{Input, read, read_hdf5_parts, read_within, start_hdf5};
 pub use note::InputNote;
 pub use triangle::Triangle;
 

@@ -1,11 +1,14 @@
 //! The files of a finite element model: which reader each one needs, and whether they fit together.
 
-use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::collections::BTreeMap;
+use std::path::Path;
 
+use super::allowance::Allowance;
 use super::blocks::LastLine;
 use super::dof_map::{self, DirectionBase};
+use super::kind::{hdf5_location, is_hdf5_mesh};
 use super::matrix_market::{OrderSource, TextMatrix};
+use super::regular::{digest, unchanged};
 use super::{DofMap, InputNote, MatrixInput, Nodes, Triangle, empty_rows, matrix_market, node_table};
 use crate::error::{Error, Result};
 use crate::job::{Duplicates, ModelJob};
@@ -22,18 +25,31 @@ pub struct Input {
     pub dofs: Option<DofMap>,
     /// Nodes; absent where the job names none.
     pub nodes: Option<Nodes>,
+    /// BLAKE3 digests of the files of the dof map (`dofs`), of the nodes (`nodes`) and of what those refer to (`nodes_data`),
+    /// lower-case hexadecimal.
+    pub digests: BTreeMap<&'static str, String>,
     /// What reading needed beyond copying.
     pub notes: Vec<InputNote>,
+}
+
+/// Reads the files of a model, K and M at the same time, whatever memory that takes.
+///
+/// # Errors
+/// Those of [`read_within`].
+pub fn read(model: &ModelJob) -> Result<Input> {
+    read_within(model, &Allowance::of(None))
 }
 
 /// Reads the files of a model, K and M at the same time.
 ///
 /// # Errors
-/// Those of the files; [`Error::SizeMismatch`], [`Error::DofCount`], [`Error::DofNodeMissing`] and
-/// [`Error::DofOrderUnknown`] where they do not fit together; [`Error::Duplicates`] where the job refuses them.
-pub fn read(model: &ModelJob) -> Result<Input> {
+/// Those of the files; [`Error::Changed`] where one is written meanwhile; [`Error::MemoryRead`] where they hold more than `allowance`;
+/// [`Error::SizeMismatch`], [`Error::DofCount`], [`Error::DofNodeMissing`] and [`Error::DofOrderUnknown`] where they do not fit together;
+/// [`Error::Duplicates`] where the job refuses them.
+pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
     let mut notes = Vec::new();
-    let (stiffness, mass) = rayon::join(|| read_matrix(model, Role::Stiffness), || read_matrix(model, Role::Mass));
+    let of = |role| read_matrix(model, role, allowance);
+    let (stiffness, mass) = rayon::join(|| of(Role::Stiffness), || of(Role::Mass));
     let (mut stiffness, mut mass) = fit_matrices(stiffness?, mass?, &mut notes)?;
     for matrix in [&mut stiffness, &mut mass] {
         refuse_duplicates(matrix, model.duplicates)?;
@@ -41,10 +57,15 @@ pub fn read(model: &ModelJob) -> Result<Input> {
         notes.extend(last_row_empty(matrix));
     }
     let n = stiffness.matrix.rows();
-    let nodes = model.nodes.as_deref().map(read_nodes).transpose()?;
+    let mut digests = BTreeMap::new();
+    let nodes = model.nodes.as_deref().map(|path| read_nodes(path, allowance, &mut digests)).transpose()?;
     let given = nodes.as_ref().zip(model.nodes.as_deref());
     let mut dofs = match (model.dofs.as_deref(), given) {
-        (Some(path), given) => Some(read_dofs(path, n, given, &mut notes)?),
+        (Some(path), given) => {
+            let (dofs, digest) = unchanged(path, || Ok((read_dofs(path, n, given, &mut notes)?, digest(path)?)))?;
+            digests.insert("dofs", digest);
+            Some(dofs)
+        }
         (None, Some((nodes, path))) => {
             let dofs = dof_map::default_order(nodes, path, n)?;
             let dofs_per_node = n / nodes.labels.len();
@@ -56,14 +77,33 @@ pub fn read(model: &ModelJob) -> Result<Input> {
     if model.drop_empty {
         notes.extend(empty_rows::drop_empty(&mut stiffness, &mut mass, &mut dofs));
     }
-    Ok(Input { stiffness, mass, dofs, nodes, notes })
+    Ok(Input { stiffness, mass, dofs, nodes, digests, notes })
 }
 
-/// The first file of a model that the HDF5 library reads, where one is.
-pub fn hdf5_file(model: &ModelJob) -> Option<PathBuf> {
-    let matrices = [&model.stiffness, &model.mass].into_iter().filter_map(|path| Some(hdf5_location(path)?.0));
-    let nodes = model.nodes.iter().filter(|path| is_hdf5_mesh(path)).cloned();
-    matrices.chain(nodes).find(|path| path.is_file())
+/// Starts the HDF5 library, so that what happens afterwards is a matter of the files.
+///
+/// # Errors
+/// [`Error::OutOfMemory`].
+pub fn start_hdf5() -> Result<()> {
+    #[cfg(feature = "hdf5")]
+    super::hdf5::start()?;
+    Ok(())
+}
+
+/// Reads those files of a model that the HDF5 library reads, and forgets them.
+///
+/// # Errors
+/// Those of the files.
+pub fn read_hdf5_parts(model: &ModelJob, allowance: &Allowance) -> Result<()> {
+    let is_hdf5 = |path: &Path| hdf5_location(path).is_some();
+    if is_hdf5(&model.stiffness) {
+        read_matrix(model, Role::Stiffness, allowance)?;
+    }
+    if is_hdf5(&model.mass) {
+        read_matrix(model, Role::Mass, allowance)?;
+    }
+    let nodes = model.nodes.as_deref().filter(|path| is_hdf5_mesh(path));
+    nodes.map_or(Ok(()), |path| read_nodes(path, allowance, &mut BTreeMap::new()).map(drop))
 }
 
 /// A matrix from whichever kind of file.
@@ -79,82 +119,77 @@ enum Role {
     Mass,
 }
 
-fn read_matrix(model: &ModelJob, role: Role) -> Result<Matrix> {
+fn read_matrix(model: &ModelJob, role: Role, allowance: &Allowance) -> Result<Matrix> {
     let path = match role {
         Role::Stiffness => &model.stiffness,
         Role::Mass => &model.mass,
     };
     match hdf5_location(path) {
-        Some((file, group)) => read_hdf5_matrix(&file, group.as_deref(), role).map(Matrix::Hdf5),
-        None => matrix_market::read(path, model.symmetric).map(Matrix::Text),
+        Some((file, group)) => {
+            unchanged(&file, || read_hdf5_matrix(&file, group.as_deref(), role, allowance)).map(Matrix::Hdf5)
+        }
+        None => unchanged(path, || matrix_market::read(path, model.symmetric, allowance)).map(Matrix::Text),
     }
 }
 
-fn read_nodes(path: &Path) -> Result<Nodes> {
-    if is_hdf5_mesh(path) {
-        return read_hdf5_nodes(path);
-    }
-    node_table::read(path)
+/// Digests by the role of a file.
+type Digests = BTreeMap<&'static str, String>;
+
+fn read_nodes(path: &Path, allowance: &Allowance, digests: &mut Digests) -> Result<Nodes> {
+    let (nodes, of_nodes) = unchanged(path, || {
+        let nodes = if is_hdf5_mesh(path) {
+            read_hdf5_nodes(path, allowance, digests)?
+        } else {
+            node_table::read(path, allowance)?
+        };
+        Ok((nodes, digest(path)?))
+    })?;
+    digests.insert("nodes", of_nodes);
+    refuse_out_of_range(path, &nodes)?;
+    Ok(nodes)
 }
 
-/// A mesh in HDF5, or in XML beside it.
-fn is_hdf5_mesh(path: &Path) -> bool {
-    const MESHES: [&str; 6] = ["h5m", "hmf", "med", "rmed", "xdmf", "xmf"];
-    has_extension(path, &MESHES) || is_hdf5(path)
+/// Refuses coordinates with which moments of inertia, and what is squared of them, would leave the range of double precision.
+fn refuse_out_of_range(path: &Path, nodes: &Nodes) -> Result<()> {
+    /// Four factors of so many bits leave room for stiffness and mass.
+    const BITS: u32 = 160;
+    let sizes = nodes
+        .coordinates
+        .iter()
+        .enumerate()
+        .flat_map(|(node, point)| (0..3).map(move |axis| (node, axis, point[axis])));
+    let Some((node, axis, value)) = sizes.max_by(|a, b| a.2.abs().total_cmp(&b.2.abs())) else { return Ok(()) };
+    let range = f64::from(BITS).exp2().recip()..=f64::from(BITS).exp2();
+    if value == 0.0 || range.contains(&value.abs()) {
+        return Ok(());
+    }
+    Err(Error::NodeRange { path: path.to_owned(), node: nodes.labels[node], axis, value, bits: BITS })
 }
 
 #[cfg(feature = "hdf5")]
-fn read_hdf5_matrix(path: &Path, group: Option<&str>, role: Role) -> Result<MatrixInput> {
+fn read_hdf5_matrix(path: &Path, group: Option<&str>, role: Role, allowance: &Allowance) -> Result<MatrixInput> {
     let role = match role {
         Role::Stiffness => super::hdf5::MatrixRole::Stiffness,
         Role::Mass => super::hdf5::MatrixRole::Mass,
     };
-    super::hdf5::read_matrix(path, group, role)
+    super::hdf5::read_matrix_within(path, group, role, allowance)
 }
 
 #[cfg(feature = "hdf5")]
-fn read_hdf5_nodes(path: &Path) -> Result<Nodes> {
-    super::hdf5::read_nodes(path)
+fn read_hdf5_nodes(path: &Path, allowance: &Allowance, digests: &mut Digests) -> Result<Nodes> {
+    let (nodes, of_data) = super::hdf5::read_nodes_within(path, allowance)?;
+    digests.extend(of_data.map(|digest| ("nodes_data", digest)));
+    Ok(nodes)
 }
 
 #[cfg(not(feature = "hdf5"))]
-fn read_hdf5_matrix(path: &Path, _: Option<&str>, _: Role) -> Result<MatrixInput> {
+fn read_hdf5_matrix(path: &Path, _: Option<&str>, _: Role, _: &Allowance) -> Result<MatrixInput> {
     Err(Error::FeatureMissing { path: path.to_owned(), feature: "hdf5" })
 }
 
 #[cfg(not(feature = "hdf5"))]
-fn read_hdf5_nodes(path: &Path) -> Result<Nodes> {
+fn read_hdf5_nodes(path: &Path, _: &Allowance, _: &mut Digests) -> Result<Nodes> {
     Err(Error::FeatureMissing { path: path.to_owned(), feature: "hdf5" })
-}
-
-/// File and group of a matrix in HDF5, told by `file.h5:/group`, by the extension or by the content.
-fn hdf5_location(path: &Path) -> Option<(PathBuf, Option<String>)> {
-    const CONTAINERS: [&str; 6] = ["h5", "hdf5", "hdf", "mat", "h5ad", "he5"];
-    if let Some((file, group)) = path.to_str().and_then(|text| text.rsplit_once(":/"))
-        && !path.exists()
-        && (has_extension(Path::new(file), &CONTAINERS) || is_hdf5(Path::new(file)))
-    {
-        return Some((file.into(), Some(format!("/{group}"))));
-    }
-    (has_extension(path, &CONTAINERS) || is_hdf5(path)).then(|| (path.to_owned(), None))
-}
-
-fn has_extension(path: &Path, known: &[&str]) -> bool {
-    let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-    known.iter().any(|name| extension.eq_ignore_ascii_case(name))
-}
-
-/// Whether a file starts as HDF5 does, or does so behind the block of 512 bytes that MATLAB puts first.
-fn is_hdf5(path: &Path) -> bool {
-    const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";
-    // Opening a pipe would wait for its writer.
-    if !path.is_file() {
-        return false;
-    }
-    let mut start = Vec::new();
-    let file = std::fs::File::open(path);
-    let is_read = file.and_then(|file| file.take(512 + SIGNATURE.len() as u64).read_to_end(&mut start)).is_ok();
-    is_read && (start.starts_with(SIGNATURE) || start.get(512..).is_some_and(|rest| rest.starts_with(SIGNATURE)))
 }
 
 /// Brings K and M to one order, which only a matrix without a size line allows, and notes what each needed.
@@ -230,9 +265,9 @@ fn extend(input: MatrixInput, n: usize, notes: &mut Vec<InputNote>) -> MatrixInp
 }
 
 fn read_dofs(path: &Path, n: usize, nodes: Option<(&Nodes, &Path)>, notes: &mut Vec<InputNote>) -> Result<DofMap> {
-    let read = dof_map::read(path)?;
-    if read.dofs.len() != n {
-        return Err(Error::DofCount { path: path.to_owned(), found: read.dofs.len(), n });
+    let read = dof_map::read(path, n)?;
+    if read.n_rows != n {
+        return Err(Error::DofCount { path: path.to_owned(), found: read.n_rows, n });
     }
     if read.base == DirectionBase::Zero {
         notes.push(InputNote::DirectionsFromZero { path: path.to_owned() });

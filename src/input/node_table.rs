@@ -4,13 +4,20 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use super::Nodes;
+use super::allowance::Allowance;
 use super::table::{Table, is_node_column, open_first_line};
 use crate::error::{Error, Result};
 
 const EXPECTED: &str = "a header with the columns node, x, y, z";
 
+/// Bytes of a node: label, position, and the line it is known by.
+const NODE: u64 = 64;
+/// Rows after which their memory is claimed.
+const ROWS_PER_CLAIM: usize = 1 << 8;
+
 /// Reads a node table, plain or gzipped.
-pub(super) fn read(path: &Path) -> Result<Nodes> {
+pub(super) fn read(path: &Path, allowance: &Allowance) -> Result<Nodes> {
+    let claim = allowance.claim(path);
     let mut table = Table::new(path, open_first_line(path, EXPECTED)?);
     let label_column = table.require("node", EXPECTED, is_node_column)?;
     let axes = [("x", "x"), ("y", "y"), ("z", "z")];
@@ -24,6 +31,9 @@ pub(super) fn read(path: &Path) -> Result<Nodes> {
         let node = row.integer(label_column)?;
         if let Some(first_line) = lines.insert(node, row.line) {
             return Err(Error::NodeRepeated { path: path.to_owned(), line: row.line, node, first_line });
+        }
+        if nodes.labels.len().is_multiple_of(ROWS_PER_CLAIM) {
+            claim.add(NODE * ROWS_PER_CLAIM as u64)?;
         }
         nodes.labels.push(node);
         nodes.coordinates.push([row.number(columns[0])?, row.number(columns[1])?, row.number(columns[2])?]);

@@ -1,7 +1,9 @@
 //! Tables of numbers in text with a header: comma, semicolon or tab between fields, plain or gzipped.
 
+use std::cell::Cell;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
 use super::banner::excerpt;
 use super::source::{Source, read_error};
@@ -9,12 +11,16 @@ use crate::error::{Error, Result};
 
 /// The longest row.
 const MAX_ROW_BYTES: u64 = 1 << 16;
+/// Bytes that the parser of rows asks for at once.
+const READ_AHEAD: usize = 1 << 13;
 
 /// A table being read, its header taken.
 pub(super) struct Table {
     path: PathBuf,
     header: Vec<String>,
     rows: csv::Reader<Box<dyn Read>>,
+    /// Where the text ends for the parser, in bytes from the first row, if no row ends before.
+    end: Rc<Cell<u64>>,
     record: csv::StringRecord,
     n_header_lines: u64,
 }
@@ -69,19 +75,23 @@ impl Table {
         let delimiter = [b';', b'\t', b','].into_iter().find(|&mark| header_text.contains(char::from(mark)));
         let delimiter = delimiter.unwrap_or(b',');
         let header = header_text.split(char::from(delimiter)).map(|name| name.trim().trim_matches('"').to_owned());
+        let end = Rc::new(Cell::new(0));
         // A line feed behind every row lets its number be told from where the next one starts.
-        let rest: Box<dyn Read> = Box::new(LineFeeds(first.rest).chain(b"\n".as_slice()));
+        let rest = LineFeeds(first.rest).chain(b"\n".as_slice());
+        let rest: Box<dyn Read> = Box::new(Fenced { text: rest, n_read: 0, end: Rc::clone(&end) });
         let rows = csv::ReaderBuilder::new()
             .delimiter(delimiter)
             .has_headers(false)
             .flexible(true)
             .trim(csv::Trim::All)
             .comment(Some(b'#'))
+            .buffer_capacity(READ_AHEAD)
             .from_reader(rest);
         Self {
             path: path.to_owned(),
             header: header.collect(),
             rows,
+            end,
             record: csv::StringRecord::new(),
             n_header_lines: first.line,
         }
@@ -114,13 +124,14 @@ impl Table {
 
     /// The next row, or `None` at the end.
     pub(super) fn next_row(&mut self) -> Result<Option<Row<'_>>> {
+        self.end.set(self.rows.position().byte() + MAX_ROW_BYTES + READ_AHEAD as u64);
         let is_row = self.rows.read_record(&mut self.record).map_err(|error| self.row_error(error))?;
         if !is_row {
             return Ok(None);
         }
         let line = self.n_header_lines + self.rows.position().line() - 1;
         let row = Row { path: &self.path, header: &self.header, record: &self.record, line };
-        if row.record.len() < self.header.len() {
+        if row.record.len() != self.header.len() {
             let (found, expected) = (row.record.len() as u64, self.header.len() as u64);
             return Err(Error::TableRow { path: self.path.clone(), line, found, expected });
         }
@@ -131,6 +142,10 @@ impl Table {
         let path = self.path.clone();
         let line = self.n_header_lines + error.position().map_or(1, csv::Position::line);
         match error.into_kind() {
+            csv::ErrorKind::Io(error) if error.get_ref().is_some_and(|error| error.is::<RowTooLong>()) => {
+                let line = self.n_header_lines + self.rows.position().line();
+                Error::LineTooLong { path, line, limit: MAX_ROW_BYTES as usize }
+            }
             csv::ErrorKind::Io(error) => read_error(&path, error),
             _ => Error::TableField {
                 path,
@@ -169,6 +184,31 @@ impl Row<'_> {
     pub(super) fn number(&self, column: usize) -> Result<f64> {
         let value = fast_float2::parse::<f64, _>(self.text(column)).ok().filter(|value| value.is_finite());
         value.ok_or_else(|| self.field_error(column, "a finite number"))
+    }
+}
+
+/// Text that may be read up to a mark, which moves on with every row: a row is held whole, quoted or not.
+struct Fenced<R> {
+    text: R,
+    n_read: u64,
+    end: Rc<Cell<u64>>,
+}
+
+/// A row goes on beyond the mark.
+#[derive(Debug, thiserror::Error)]
+#[error("a row of more than {MAX_ROW_BYTES} bytes")]
+struct RowTooLong;
+
+impl<R: Read> Read for Fenced<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        let left = usize::try_from(self.end.get().saturating_sub(self.n_read)).unwrap_or(usize::MAX);
+        if left == 0 {
+            return Err(std::io::Error::other(RowTooLong));
+        }
+        let length = buffer.len().min(left);
+        let n_read = self.text.read(&mut buffer[..length])?;
+        self.n_read += n_read as u64;
+        Ok(n_read)
     }
 }
 

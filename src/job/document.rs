@@ -8,6 +8,7 @@ use std::path::Path;
 
 use super::Job;
 use crate::error::{Error, Result};
+use crate::input::regular;
 
 /// The keys of a job by the table they belong to; `[]` stands for each element of a list.
 const KEYS: &[(&str, &[&str])] = &[
@@ -81,12 +82,8 @@ const MAX_BYTES: u64 = 1 << 24;
 pub(super) fn text_of(path: &Path) -> Result<String> {
     let failed = |source| Error::Read { path: path.to_owned(), source };
     let wrong = |message: String| Error::JobSyntax { path: path.to_owned(), line: None, message };
-    // A pipe would be waited for, and a device has no end.
-    if !std::fs::metadata(path).map_err(failed)?.is_file() {
-        return Err(Error::NotAFile { path: path.to_owned() });
-    }
     let mut bytes = Vec::new();
-    std::fs::File::open(path).map_err(failed)?.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
+    regular::open(path)?.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
     if bytes.len() as u64 > MAX_BYTES {
         return Err(wrong(format!("longer than {MAX_BYTES} bytes; no job document is, is this a matrix?")));
     }

@@ -9,6 +9,8 @@ use crate::input::Direction;
 
 const POSITIVE: &str = "a positive number";
 const FINITE: &str = "a finite number";
+/// The size of a coordinate whose moments of inertia stay within the range of double precision.
+const FARTHEST: f64 = 1e48;
 
 pub(super) fn validate(job: &Job) -> Result<()> {
     model(job)?;
@@ -129,7 +131,13 @@ fn coupling(interface: &InterfaceJob, place: &str) -> Result<()> {
         (Origin::Point(_), Coupling::Direct) => {
             conflict("origin", "a direct coupling, whose nodes stay where they are", ", or set coupling = \"rigid\"")
         }
-        (Origin::Point(point), Coupling::Rigid) => finite(&format!("{place}.origin"), point),
+        (Origin::Point(point), Coupling::Rigid) => {
+            finite(&format!("{place}.origin"), point)?;
+            match point.iter().find(|coordinate| coordinate.abs() > FARTHEST) {
+                Some(value) => Err(number(format!("{place}.origin"), *value, "coordinates of at most 1e48 in size")),
+                None => Ok(()),
+            }
+        }
         (Origin::Centroid, _) => Ok(()),
     }
 }

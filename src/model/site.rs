@@ -1,5 +1,7 @@
 //! Where a degree of freedom is, and what rigid-body motion does to it.
 
+use std::collections::{HashMap, HashSet};
+
 use super::Model;
 use crate::input::{Direction, Dof};
 
@@ -77,8 +79,9 @@ impl Model {
     /// Position and direction of every row, or nothing where the dof map or the position of a node is not known.
     pub fn sites(&self) -> Option<Vec<Site>> {
         let (dofs, nodes) = self.dofs.as_ref().zip(self.nodes.as_ref())?;
-        let positions: std::collections::HashMap<i64, [f64; 3]> =
-            nodes.labels.iter().copied().zip(nodes.coordinates.iter().copied()).collect();
+        let wanted: HashSet<i64> = dofs.iter().map(|dof| dof.node).collect();
+        let places = nodes.labels.iter().copied().zip(nodes.coordinates.iter().copied());
+        let positions: HashMap<i64, [f64; 3]> = places.filter(|(label, _)| wanted.contains(label)).collect();
         let site =
             |dof: &Dof| positions.get(&dof.node).map(|position| Site { position: *position, direction: dof.direction });
         dofs.iter().map(site).collect()

@@ -298,7 +298,14 @@ mod tests {
             k.extend([(i, i, 1.0), (i + 1, i + 1, 1.0), (i, i + 1, -1.0), (i + 1, i, -1.0)]);
         }
         let m: Vec<_> = (0..n).map(|i| (i, i, 1.0)).collect();
-        let input = Input { stiffness: matrix(&k), mass: matrix(&m), dofs: None, nodes: None, notes: Vec::new() };
+        let input = Input {
+            stiffness: matrix(&k),
+            mass: matrix(&m),
+            dofs: None,
+            nodes: None,
+            digests: Default::default(),
+            notes: Vec::new(),
+        };
         let ends = InterfaceJob {
             name: "ends".into(),
             nodes: NodeSelection::Rows { rows: vec![0, n - 1] },

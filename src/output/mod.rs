@@ -9,6 +9,8 @@ mod rigid_body;
 mod superelement;
 mod warnings;
 
+use std::collections::BTreeMap;
+
 use supel_runtime::Superelement;
 
 use crate::error::Result;
@@ -25,6 +27,8 @@ use crate::verification::{Compared, Evidence, Findings};
 pub struct InputFacts {
     /// Digits and digest of K and M.
     pub matrices: [MatrixFacts; 2],
+    /// Digests of the other files by their role: `dofs`, `nodes`, and `nodes_data` for what those refer to.
+    pub files: BTreeMap<&'static str, String>,
     /// Remarks of the readers that are no warnings.
     pub notes: Vec<String>,
     /// Remarks that are warnings.
@@ -43,7 +47,7 @@ pub struct MatrixFacts {
 }
 
 impl InputFacts {
-    /// Takes down the facts of an input.
+    /// Records the facts of an input.
     pub fn of(input: &Input) -> Self {
         let facts = |matrix: &crate::input::MatrixInput| MatrixFacts {
             n_nonzeros: matrix.matrix.nnz(),
@@ -52,9 +56,19 @@ impl InputFacts {
         };
         Self {
             matrices: [facts(&input.stiffness), facts(&input.mass)],
+            files: input.digests.clone(),
             notes: input.notes.iter().filter(|note| note.warning_code().is_none()).map(ToString::to_string).collect(),
             warnings: input.notes.iter().filter_map(warning).collect(),
         }
+    }
+}
+
+impl InputFacts {
+    /// BLAKE3 of every file by its role, as the superelement keeps them.
+    pub fn digests(&self) -> BTreeMap<&'static str, &str> {
+        let [stiffness, mass] = &self.matrices;
+        let matrices = [("stiffness", stiffness.digest.as_str()), ("mass", mass.digest.as_str())];
+        matrices.into_iter().chain(self.files.iter().map(|(role, digest)| (*role, digest.as_str()))).collect()
     }
 }
 

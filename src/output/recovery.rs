@@ -45,7 +45,7 @@ pub(super) fn recovery(results: &Results<'_>) -> Result<Option<Recovery>> {
     };
     let dofs = rows.iter().map(|(_, dof)| RecoveredDof { node: dof.node, direction: direction_of(dof.direction) });
     let recovery = Recovery::new(values, dofs.collect(), precision);
-    recovery.map(Some).map_err(|error| Error::from_file(&results.job.write.superelement, error))
+    recovery.map(Some).map_err(|error| Error::of_superelement(&results.job.write.superelement, error))
 }
 
 /// The size of the dynamic modes depends on the units; the constraint modes are displacements under unit displacements.

@@ -38,6 +38,7 @@ fn model(results: &Results<'_>) -> ModelReport {
         n_bodies: model.n_bodies,
         stiffness: matrix(stiffness),
         mass: matrix(mass),
+        files: results.input.files.clone(),
         mass_properties: mass_properties(results),
         rigid_body_modes: RigidBodyModes {
             count: evidence.rigid.count(),

@@ -1,6 +1,6 @@
 //! The superelement from the results of the stages.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use faer::{Mat, MatRef};
@@ -21,7 +21,7 @@ pub(super) fn superelement(results: &Results<'_>, verdict: Verdict) -> Result<Su
     let tensors = Tensors { recovery: recovery(results)?, ..tensors(results) };
     refuse_out_of_range(&tensors)?;
     let metadata = metadata(results, &tensors, verdict);
-    Superelement::new(tensors, metadata).map_err(|error| Error::from_file(&results.job.write.superelement, error))
+    Superelement::new(tensors, metadata).map_err(|error| Error::of_superelement(&results.job.write.superelement, error))
 }
 
 /// What is finite in scaled units may leave the range of a double in the user's.
@@ -129,7 +129,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
     });
     let of_the_body = || Matrix::from_fn(6, 6, |i, j| tensors.rigid_body_mass[(i, j)]);
     let classical = evidence.rigid.is_classical.then(|| file::mass_properties(&of_the_body())).flatten();
-    let [stiffness, mass] = &results.input.matrices;
+    let digests = results.input.digests();
     Metadata {
         generator: file::Generator { name: env!("CARGO_PKG_NAME").into(), version: env!("CARGO_PKG_VERSION").into() },
         method: match results.job.reduction.method {
@@ -153,10 +153,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
             },
             mass_properties: classical,
         },
-        inputs: BTreeMap::from([
-            ("stiffness".to_owned(), stiffness.digest.clone()),
-            ("mass".to_owned(), mass.digest.clone()),
-        ]),
+        inputs: digests.into_iter().map(|(role, digest)| (role.to_owned(), digest.to_owned())).collect(),
         job: job_document(results.job),
         verification: verification(&results.checks(), verdict),
     }

@@ -139,9 +139,11 @@ impl Catalogue {
         for (row, Dof { node, direction }) in model.dofs.iter().flatten().enumerate() {
             rows.entry(*node).or_default().insert(*direction, row);
         }
-        let positions =
-            model.nodes.iter().flat_map(|nodes| nodes.labels.iter().copied().zip(nodes.coordinates.clone()));
-        Self { rows, positions: positions.collect() }
+        // A mesh may have any number of nodes; those without rows are refused before their place is looked up.
+        let places =
+            model.nodes.iter().flat_map(|nodes| nodes.labels.iter().copied().zip(nodes.coordinates.iter().copied()));
+        let positions = places.filter(|(label, _)| rows.contains_key(label)).collect();
+        Self { rows, positions }
     }
 
     /// The labels a job's selection names, in its own order for a list and in table order otherwise.

@@ -11,6 +11,8 @@ use std::sync::Mutex;
 
 use metis_sys as sys;
 
+use crate::error::{Error, Result};
+
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 const SEED: i32 = 1;
 
@@ -25,7 +27,10 @@ pub(super) struct Graph {
 }
 
 /// The nested-dissection order: `order[k]` is the node eliminated at step k. None where METIS refuses the graph.
-pub(super) fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
+///
+/// # Errors
+/// [`Error::OutOfMemory`] where METIS has no memory: another order would do, but give other bytes.
+pub(super) fn nested_dissection(graph: &Graph) -> Result<Option<Vec<u32>>> {
     let n = graph.weights.len();
     let is_sound = graph.starts.len() == n + 1
         && graph.starts.last().copied() == i32::try_from(graph.neighbours.len()).ok()
@@ -33,9 +38,9 @@ pub(super) fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
         && graph.neighbours.iter().all(|node| usize::try_from(*node).is_ok_and(|node| node < n));
     assert!(is_sound, "the graph given to METIS is not well formed");
     if n == 0 {
-        return Some(Vec::new());
+        return Ok(Some(Vec::new()));
     }
-    let mut nodes = i32::try_from(n).ok()?;
+    let Ok(mut nodes) = i32::try_from(n) else { return Ok(None) };
     let (mut starts, mut neighbours, mut weights) =
         (graph.starts.clone(), graph.neighbours.clone(), graph.weights.clone());
     let (mut order, mut place) = (vec![0i32; n], vec![0i32; n]);
@@ -56,7 +61,10 @@ pub(super) fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
         )
     };
     drop(guard);
-    (status == sys::rstatus_et_METIS_OK).then(|| order.into_iter().map(|node| node as u32).collect())
+    if status == sys::rstatus_et_METIS_ERROR_MEMORY {
+        return Err(Error::OutOfMemory { what: "the order of elimination" });
+    }
+    Ok((status == sys::rstatus_et_METIS_OK).then(|| order.into_iter().map(|node| node as u32).collect()))
 }
 
 #[cfg(test)]
@@ -74,25 +82,25 @@ mod tests {
 
     #[test]
     fn every_node_appears_once_and_the_order_repeats() {
-        let order = nested_dissection(&path(500)).unwrap();
+        let order = nested_dissection(&path(500)).unwrap().unwrap();
         let mut sorted = order.clone();
         sorted.sort_unstable();
         assert!(sorted.iter().enumerate().all(|(index, node)| index == *node as usize));
         let _ = nested_dissection(&path(300));
-        assert_eq!(order, nested_dissection(&path(500)).unwrap());
+        assert_eq!(order, nested_dissection(&path(500)).unwrap().unwrap());
     }
 
     #[test]
     fn graph_without_edges_or_nodes_is_ordered() {
         let lonely = Graph { starts: vec![0, 0, 0], neighbours: Vec::new(), weights: vec![1, 1] };
-        assert_eq!(nested_dissection(&lonely).unwrap().len(), 2);
+        assert_eq!(nested_dissection(&lonely).unwrap().unwrap().len(), 2);
         let empty = Graph { starts: vec![0], neighbours: Vec::new(), weights: Vec::new() };
-        assert!(nested_dissection(&empty).unwrap().is_empty());
+        assert!(nested_dissection(&empty).unwrap().unwrap().is_empty());
     }
 
     #[test]
     #[should_panic(expected = "not well formed")]
     fn neighbour_out_of_range_never_reaches_the_library() {
-        nested_dissection(&Graph { starts: vec![0, 1], neighbours: vec![7], weights: vec![1] });
+        let _ = nested_dissection(&Graph { starts: vec![0, 1], neighbours: vec![7], weights: vec![1] });
     }
 }

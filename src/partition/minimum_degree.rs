@@ -8,30 +8,42 @@ use faer::sparse::linalg::cholesky::simplicial::{
 };
 
 use super::metis::Graph;
+use crate::error::{Error, Result};
+use crate::heap::fallibly;
 
-/// The minimum degree order: `order[k]` is the node eliminated at step k. None where there is no memory for it.
-pub(super) fn minimum_degree(graph: &Graph) -> Option<Vec<u32>> {
+/// Without memory another order would do, but give other bytes.
+const NO_MEMORY: Error = Error::OutOfMemory { what: "the order of elimination" };
+
+/// The minimum degree order: `order[k]` is the node eliminated at step k.
+///
+/// # Errors
+/// [`Error::OutOfMemory`].
+pub(super) fn minimum_degree(graph: &Graph) -> Result<Vec<u32>> {
     let n = graph.weights.len();
     let as_numbered: Vec<u32> = (0..n as u32).collect();
     let (pointers, indices) = upper_triangle(graph, &as_numbered);
     let pattern = SymbolicSparseColMatRef::new_checked(n, n, &pointers, None, &indices);
     let (mut order, mut place) = (vec![0usize; n], vec![0usize; n]);
-    let mut memory = MemBuffer::try_new(amd::order_scratch::<usize>(n, indices.len())).ok()?;
-    amd::order(&mut order, &mut place, pattern, amd::Control::default(), MemStack::new(&mut memory)).ok()?;
-    Some(order.into_iter().map(|node| node as u32).collect())
+    let scratch = amd::order_scratch::<usize>(n, indices.len());
+    let mut memory = fallibly(|| MemBuffer::try_new(scratch)).map_err(|_| NO_MEMORY)?;
+    let stack = MemStack::new(&mut memory);
+    amd::order(&mut order, &mut place, pattern, amd::Control::default(), stack).map_err(|_| NO_MEMORY)?;
+    Ok(order.into_iter().map(|node| node as u32).collect())
 }
 
-/// Σ c² over the columns of L, one for each node: what elimination costs in this order, up to the dofs of a node. None where
-/// there is no memory to find out.
-pub(super) fn work(graph: &Graph, order: &[u32]) -> Option<f64> {
+/// Σ c² over the columns of L, one for each node: what elimination costs in this order, up to the dofs of a node.
+///
+/// # Errors
+/// [`Error::OutOfMemory`].
+pub(super) fn work(graph: &Graph, order: &[u32]) -> Result<f64> {
     let n = order.len();
     let (pointers, indices) = upper_triangle(graph, order);
     let pattern = SymbolicSparseColMatRef::new_checked(n, n, &pointers, None, &indices);
     let (mut tree, mut counts) = (vec![0isize; n], vec![0usize; n]);
     let scratch = prefactorize_symbolic_cholesky_scratch::<usize>(n, indices.len());
-    let mut memory = MemBuffer::try_new(scratch).ok()?;
+    let mut memory = fallibly(|| MemBuffer::try_new(scratch)).map_err(|_| NO_MEMORY)?;
     prefactorize_symbolic_cholesky(&mut tree, &mut counts, pattern, MemStack::new(&mut memory));
-    Some(counts.into_iter().map(|count| (count as f64).powi(2)).sum())
+    Ok(counts.into_iter().map(|count| (count as f64).powi(2)).sum())
 }
 
 /// Positions up to the diagonal of the matrix that the graph is of, by columns in the given order.
@@ -73,10 +85,10 @@ mod tests {
         // The hub first couples all others: columns of 10, 9, … 1 entries. Last, each column has two entries but its own.
         let hub_first: Vec<u32> = (0..10).collect();
         let hub_last: Vec<u32> = (0..10).rev().collect();
-        assert_eq!(work(&graph, &hub_first), Some(385.0));
-        assert_eq!(work(&graph, &hub_last), Some(37.0));
+        assert_eq!(work(&graph, &hub_first).ok(), Some(385.0));
+        assert_eq!(work(&graph, &hub_last).ok(), Some(37.0));
         let order = minimum_degree(&graph).expect("memory");
-        assert_eq!(work(&graph, &order), Some(37.0));
+        assert_eq!(work(&graph, &order).ok(), Some(37.0));
         let mut sorted = order.clone();
         sorted.sort_unstable();
         assert_eq!(sorted, hub_first);
@@ -85,7 +97,7 @@ mod tests {
     #[test]
     fn graph_without_nodes_is_ordered() {
         let empty = Graph { starts: vec![0], neighbours: Vec::new(), weights: Vec::new() };
-        assert_eq!(minimum_degree(&empty), Some(Vec::new()));
-        assert_eq!(work(&empty, &[]), Some(0.0));
+        assert_eq!(minimum_degree(&empty).ok(), Some(Vec::new()));
+        assert_eq!(work(&empty, &[]).ok(), Some(0.0));
     }
 }

@@ -76,7 +76,7 @@ impl Partition {
     pub fn new(model: Model, interfaces: &[InterfaceJob]) -> Result<Self> {
         let resolved = interface::resolve(&model, interfaces)?;
         let transformation = Transformation::new(&model, &resolved)?;
-        let order = ordering::elimination_order(&model, &transformation);
+        let order = ordering::elimination_order(&model, &transformation)?;
         let transformation = transformation.permuted(&order);
         let n_internal = transformation.n_internal();
         let n_interface = transformation.dofs.len() - n_internal;

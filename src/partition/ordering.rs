@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::metis::{Graph, nested_dissection};
 use super::minimum_degree::{minimum_degree, work};
 use super::transformation::{DofOrigin, ReducedDof, Transformation, TransformationRow};
+use crate::error::Result;
 use crate::model::Model;
 
 /// Nodes whose neighbours one task lists.
@@ -22,30 +23,28 @@ const NONE: u32 = u32::MAX;
 const FRAME: usize = 4;
 
 /// The new order of the partition's dofs: internal ones as they are eliminated, interface ones as they are.
-pub(super) fn elimination_order(model: &Model, transformation: &Transformation) -> Vec<u32> {
+pub(super) fn elimination_order(model: &Model, transformation: &Transformation) -> Result<Vec<u32>> {
     let n_internal = transformation.n_internal();
     let nodes = InternalNodes::new(transformation, n_internal);
     let graph = node_graph(model, transformation, &nodes);
     let mut order = Vec::with_capacity(transformation.dofs.len());
-    for node in order_of_nodes(&graph) {
+    for node in order_of_nodes(&graph)? {
         order.extend_from_slice(nodes.dofs(node as usize));
     }
     order.extend(n_internal as u32..transformation.dofs.len() as u32);
-    order
+    Ok(order)
 }
 
 /// The order of least work among those that are worth finding.
-fn order_of_nodes(graph: &Graph) -> Vec<u32> {
+fn order_of_nodes(graph: &Graph) -> Result<Vec<u32>> {
     let n = graph.weights.len();
-    let by_dissection = nested_dissection(graph).unwrap_or_else(|| (0..n as u32).collect());
+    let by_dissection = nested_dissection(graph)?.unwrap_or_else(|| (0..n as u32).collect());
     if graph.neighbours.len() >= FRAME * n {
-        return by_dissection;
+        return Ok(by_dissection);
     }
-    let by_degree = minimum_degree(graph).and_then(|order| work(graph, &order).map(|work| (order, work)));
-    match (by_degree, work(graph, &by_dissection)) {
-        (Some((order, less)), Some(work)) if less < work => order,
-        _ => by_dissection,
-    }
+    let by_degree = minimum_degree(graph)?;
+    let is_less = work(graph, &by_degree)? < work(graph, &by_dissection)?;
+    Ok(if is_less { by_degree } else { by_dissection })
 }
 
 /// The internal dofs grouped by node.
@@ -209,9 +208,10 @@ mod tests {
     fn frame_takes_the_order_of_less_work() {
         // Small frames are better off with minimum degree, large plane lattices with dissection.
         for (graph, is_by_degree) in [(frame(12, 4), true), (frame(100, 0), false)] {
-            let order = order_of_nodes(&graph);
+            let order = order_of_nodes(&graph).expect("memory");
             let cost = |order: &[u32]| work(&graph, order).expect("memory");
-            let (by_degree, by_dissection) = (minimum_degree(&graph).unwrap(), nested_dissection(&graph).unwrap());
+            let (by_degree, by_dissection) =
+                (minimum_degree(&graph).unwrap(), nested_dissection(&graph).unwrap().unwrap());
             assert!(cost(&order) <= cost(&by_degree) && cost(&order) <= cost(&by_dissection));
             assert_eq!(order == by_degree, is_by_degree);
             let mut sorted = order;

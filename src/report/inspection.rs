@@ -6,6 +6,7 @@ use super::mode_table::{Mode, mode_table};
 use super::page::{Page, Paint, Tone, verdict_word};
 use super::summary::body;
 use super::table::{self, Align};
+use super::words;
 use crate::report::MassProperties;
 use crate::verification::check::Verdict;
 
@@ -26,8 +27,7 @@ pub fn inspection(superelement: &Superelement, file_bytes: u64, paint: Paint) ->
 fn head(page: &mut Page, superelement: &Superelement, file_bytes: u64) {
     let metadata = superelement.metadata();
     let title = format!("superelement · {} · {} coordinates", method(metadata.method), superelement.n_coordinates());
-    let title = page.toned(&title, Tone::Heading);
-    page.line(&title);
+    page.line(Page::toned(&title, Tone::Heading));
     let generator = &metadata.generator;
     let made_by = format!("{} {} · format version {FORMAT_VERSION}", generator.name, generator.version);
     page.entry("made by", &made_by);
@@ -69,7 +69,7 @@ fn model(page: &mut Page, superelement: &Superelement) {
         body::mass_properties(page, &properties);
     }
     for (role, digest) in &metadata.inputs {
-        page.entry(role, &format!("blake3 {digest}"));
+        page.entry(words::file(role), &format!("blake3 {digest}"));
     }
 }
 
@@ -140,13 +140,13 @@ fn checks(page: &mut Page, superelement: &Superelement) {
     let align = [Align::Left, Align::Right, Align::Left, Align::Right];
     for (row, check) in table::columns(&rows, align).iter().zip(&verification.checks) {
         let verdict = own(check.verdict);
-        let word = page.toned(verdict_word(verdict), Tone::Of(verdict));
-        page.line(&format!("  {}  {word}", row.join("  ")));
+        let word = Page::toned(verdict_word(verdict), Tone::Of(verdict));
+        page.spans(&["  ".into(), (&row.join("  ")).into(), "  ".into(), word]);
     }
     let verdict = own(verification.verdict);
-    let word = page.toned(verdict_word(verdict), Tone::Of(verdict));
+    let word = Page::toned(verdict_word(verdict), Tone::Of(verdict));
     page.line("");
-    page.line(&format!("{word} – as recorded when the file was made"));
+    page.spans(&[word, " – as recorded when the file was made".into()]);
 }
 
 fn own(verdict: supel_runtime::Verdict) -> Verdict {

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use supel_runtime::StagedFile;
 
-use super::{Completeness, Report, ReportBody};
+use super::{Completeness, Report, ReportBody, json_text};
 use crate::error::{Error, Result};
 use crate::verification::check::{ActiveLimit, Check, Verdict};
 
@@ -15,19 +15,16 @@ const FORMAT_VERSION: u32 = 1;
 impl Report {
     /// The JSON document; numbers that are not finite become `null`.
     pub fn to_json(&self) -> String {
-        // Serialising these types cannot fail: no map has keys that are not strings and no writer is involved.
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+        json_text(self)
     }
 
     /// Writes the JSON document to `path`: whole or not at all.
     ///
     /// # Errors
     ///
-    /// [`Error::Write`] or [`Error::SuperelementFile`] where `path` is a folder or a device.
+    /// [`Error::Write`], [`Error::NotSynced`], or [`Error::OutputKind`] where `path` is a folder or a device.
     pub fn write(&self, path: &Path) -> Result<()> {
-        StagedFile::write(path, self.to_json().as_bytes())
-            .and_then(StagedFile::commit)
-            .map_err(|source| Error::from_file(path, source))
+        StagedFile::write(path, self.to_json().as_bytes()).and_then(StagedFile::commit).map_err(Error::of_writing)
     }
 }
 

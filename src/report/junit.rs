@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::html::escaped;
 use super::table::scientific;
-use super::{Completeness, Report, Warning, words};
+use super::{Completeness, Report, RunFacts, Warning, words};
 use crate::verification::check::{Check, Verdict};
 
 /// What a value past its limit, a warning and a missing certificate are to the test suite.
@@ -19,12 +19,12 @@ pub enum JunitWarnings {
 /// How one test ended.
 enum Outcome {
     Passed,
-    /// Passed, with something to say.
-    Told(String),
+    /// Passed, with something to say, line by line.
+    Told(Vec<String>),
     Failed {
         kind: &'static str,
         message: String,
-        details: String,
+        details: Vec<String>,
     },
     Skipped(String),
 }
@@ -45,6 +45,7 @@ pub fn junit(report: &Report, warnings: JunitWarnings) -> String {
     );
     let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     let _ = writeln!(xml, "<testsuites name=\"supel\" {counts}>\n  <testsuite name=\"{}\" {counts}>", suite(report));
+    write_properties(&mut xml, &report.run);
     let mut seen: Vec<String> = Vec::new();
     for (name, outcome) in cases {
         // Servers take tests of one name for one test.
@@ -57,6 +58,22 @@ pub fn junit(report: &Report, warnings: JunitWarnings) -> String {
     xml
 }
 
+/// Which superelement the checks are about.
+fn write_properties(xml: &mut String, run: &RunFacts) {
+    let name = run.superelement.as_ref().and_then(|path| path.file_name()).map(|name| name.to_string_lossy());
+    let Some((name, digest)) = name.zip(run.file_digest.as_ref()) else { return };
+    let _ = writeln!(xml, "    <properties>");
+    for (property, value) in [("superelement", name.as_ref()), ("blake3", digest)] {
+        let _ = writeln!(xml, "      <property name=\"{property}\" value=\"{}\"/>", escaped(value));
+    }
+    let _ = writeln!(xml, "    </properties>");
+}
+
+/// Lines that stay lines.
+fn escaped_lines(lines: &[String]) -> String {
+    lines.iter().map(|line| escaped(line)).collect::<Vec<_>>().join("\n")
+}
+
 /// The suite is named after the method and the sizes; the file is named by whoever collects it.
 fn suite(report: &Report) -> String {
     let reduction = &report.body.reduction;
@@ -67,7 +84,7 @@ fn suite(report: &Report) -> String {
 fn of_check(check: &Check, warnings: JunitWarnings) -> Outcome {
     let (value, limit) = (scientific(check.value, 3), scientific(check.limits.value(), 3));
     let message = format!("{}: value {value}, limit {limit}", check.id);
-    let worst = check.worst.as_ref().map(|worst| format!("\nworst: {worst}")).unwrap_or_default();
+    let worst = check.worst.as_ref().map(|worst| format!("worst: {worst}"));
     let limits = if check.is_judged() {
         let source = words::active_limit(check.limits.active());
         let fails = match check.fail_above {
@@ -78,11 +95,15 @@ fn of_check(check: &Check, warnings: JunitWarnings) -> Outcome {
     } else {
         "no limit: shown, not judged".to_owned()
     };
-    let details = format!("{}\n{} = {value}\n{limits}{worst}", check.name, check.equation);
+    let mut details = vec![check.name.to_owned(), format!("{} = {value}", check.equation), limits];
+    details.extend(worst);
     match (check.verdict(), warnings) {
         (Verdict::Info, _) => Outcome::Told(details),
         (Verdict::Pass, _) => Outcome::Passed,
-        (Verdict::Warn, JunitWarnings::Pass) => Outcome::Told(format!("past the limit\n{details}")),
+        (Verdict::Warn, JunitWarnings::Pass) => {
+            details.insert(0, "past the limit".to_owned());
+            Outcome::Told(details)
+        }
         (Verdict::Warn, JunitWarnings::Fail) => Outcome::Failed { kind: "warn", message, details },
         (Verdict::Fail, _) => Outcome::Failed { kind: "fail", message, details },
     }
@@ -92,9 +113,9 @@ fn of_completeness(completeness: &Completeness, warnings: JunitWarnings) -> Outc
     let message = completeness.statement();
     match completeness {
         Completeness::NotCertified { .. } => Outcome::Skipped(message),
-        Completeness::SturmCount { .. } if completeness.is_certified() => Outcome::Told(message),
+        Completeness::SturmCount { .. } if completeness.is_certified() => Outcome::Told(vec![message]),
         Completeness::SturmCount { n_counted, n_found, .. } if n_counted == n_found => of_told(message, warnings),
-        Completeness::SturmCount { .. } => Outcome::Failed { kind: "fail", details: message.clone(), message },
+        Completeness::SturmCount { .. } => Outcome::Failed { kind: "fail", details: vec![message.clone()], message },
     }
 }
 
@@ -104,8 +125,8 @@ fn of_warning(warning: &Warning, warnings: JunitWarnings) -> Outcome {
 
 fn of_told(message: String, warnings: JunitWarnings) -> Outcome {
     match warnings {
-        JunitWarnings::Pass => Outcome::Told(message),
-        JunitWarnings::Fail => Outcome::Failed { kind: "warn", details: message.clone(), message },
+        JunitWarnings::Pass => Outcome::Told(vec![message]),
+        JunitWarnings::Fail => Outcome::Failed { kind: "warn", details: vec![message.clone()], message },
     }
 }
 
@@ -115,13 +136,13 @@ fn write_case(xml: &mut String, name: &str, outcome: &Outcome) {
     let _ = match outcome {
         Outcome::Passed => writeln!(xml, "{open}/>"),
         Outcome::Told(words) => {
-            writeln!(xml, "{open}>\n      <system-out>{}</system-out>\n    </testcase>", escaped(words))
+            writeln!(xml, "{open}>\n      <system-out>{}</system-out>\n    </testcase>", escaped_lines(words))
         }
         Outcome::Failed { kind, message, details } => writeln!(
             xml,
             "{open}>\n      <failure type=\"{kind}\" message=\"{}\">{}</failure>\n    </testcase>",
             escaped(message),
-            escaped(details)
+            escaped_lines(details)
         ),
         Outcome::Skipped(message) => {
             writeln!(xml, "{open}>\n      <skipped message=\"{}\"/>\n    </testcase>", escaped(message))

@@ -11,6 +11,7 @@ mod junit;
 pub(crate) mod mode_table;
 pub(crate) mod page;
 mod preservation;
+mod printable;
 mod rigid_body;
 mod stages;
 pub(crate) mod summary;
@@ -19,6 +20,7 @@ mod trust;
 mod verification;
 mod words;
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use serde::Serialize;
@@ -31,6 +33,8 @@ pub use html::html;
 pub use inspection::inspection;
 pub use junit::{JunitWarnings, junit};
 pub use page::Paint;
+pub(crate) use printable::{json_text, printable};
+
 pub use preservation::{
     BoundaryComparison, BoundaryCount, FrequencyPair, HighestFrequency, InterfaceStatics, Preservation, PreservedMode,
     ResponseComparison, ResponseSample, SizeError,
@@ -101,6 +105,8 @@ pub struct ModelReport {
     pub stiffness: MatrixReport,
     /// M.
     pub mass: MatrixReport,
+    /// BLAKE3 digests of the other files by their role: `dofs`, `nodes`, and `nodes_data` for what those refer to.
+    pub files: BTreeMap<&'static str, String>,
     /// What M says of the component as a rigid body.
     pub mass_properties: MassProperties,
     /// Motions without strain energy.

@@ -45,8 +45,8 @@ pub(crate) fn mode_table(page: &mut Page, modes: &[Mode]) {
         .map(|[number, frequency, bar]| format!("{number}  {frequency} {bar}"))
         .collect();
     page.line("");
-    let caption = page.toned("mode, natural frequency and error bar in Hz", Tone::Faint);
-    page.line(&format!("  {caption}"));
+    let caption = Page::toned("mode, natural frequency and error bar in Hz", Tone::Faint);
+    page.spans(&["  ".into(), caption]);
     let n_rows = cells.len().div_ceil(COLUMNS);
     for row_idx in 0..n_rows {
         let line: Vec<&str> = cells.iter().skip(row_idx).step_by(n_rows).map(String::as_str).collect();
@@ -54,7 +54,6 @@ pub(crate) fn mode_table(page: &mut Page, modes: &[Mode]) {
     }
     if let (Some(from), Some(to)) = (hidden.first(), hidden.last()) {
         let hint = format!("modes {} to {} are listed with --json", from.number, to.number);
-        let hint = page.toned(&hint, Tone::Faint);
-        page.line(&format!("  {hint}"));
+        page.spans(&["  ".into(), Page::toned(&hint, Tone::Faint)]);
     }
 }

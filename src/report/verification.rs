@@ -7,7 +7,7 @@ use super::inspection::method;
 use super::json::CheckLine;
 use super::page::{Page, Paint, Tone, WIDTH};
 use super::summary::body;
-use super::{Generator, table};
+use super::{Generator, json_text, table};
 use crate::audit::Audit;
 use crate::verification::check::Verdict;
 
@@ -38,8 +38,7 @@ pub struct VerificationReport {
 impl VerificationReport {
     /// The JSON document on `superelement`; numbers that are not finite become `null`.
     pub fn to_json(&self, superelement: &Superelement) -> String {
-        // Serialising these types cannot fail: no map has keys that are not strings and no writer is involved.
-        serde_json::to_string_pretty(&Document { report: self, superelement }).unwrap_or_default() + "\n"
+        json_text(&Document { report: self, superelement })
     }
 
     /// The text about `superelement` for people.
@@ -47,8 +46,7 @@ impl VerificationReport {
         let mut page = Page::new(paint);
         let metadata = superelement.metadata();
         let sizes = format!("{} coordinates", superelement.n_coordinates());
-        let title = page.toned(&format!("superelement · {} · {sizes}", method(metadata.method)), Tone::Heading);
-        page.line(&title);
+        page.line(Page::toned(&format!("superelement · {} · {sizes}", method(metadata.method)), Tone::Heading));
         page.entry("made by", &format!("{} {}", metadata.generator.name, metadata.generator.version));
         page.entry("file", &format!("blake3 {}", self.digest));
         let against = match self.against {
@@ -64,8 +62,7 @@ impl VerificationReport {
         }
         page.line("");
         for line in table::wrap(&self.conclusion(), WIDTH) {
-            let line = page.toned(&line, Tone::Of(self.audit.verdict()));
-            page.line(&line);
+            page.line(Page::toned(&line, Tone::Of(self.audit.verdict())));
         }
         page.into_text()
     }

@@ -25,6 +25,15 @@ pub(super) fn coupling(coupling: Coupling) -> &'static str {
     }
 }
 
+/// What a file of the model is, by its role.
+pub(super) fn file(role: &str) -> &str {
+    match role {
+        "dofs" => "dof map",
+        "nodes_data" => "data of nodes",
+        other => other,
+    }
+}
+
 pub(super) fn mode_kind(kind: ModeKind) -> &'static str {
     match kind {
         ModeKind::FreeInterface => "free-interface",

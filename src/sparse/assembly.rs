@@ -13,6 +13,7 @@ use rayon::prelude::*;
 use super::by_rows::{balanced_ranges, split_by_rows};
 use super::{AssemblyNotes, Declared, SparseMatrix, Triplets};
 use crate::error::{Error, Result};
+use crate::heap::fallibly;
 
 impl Triplets {
     /// Number of entries.
@@ -27,9 +28,12 @@ impl Triplets {
 
     /// Makes room for more entries, where there is memory for them: what comes may be fewer.
     pub fn expect(&mut self, n_entries: usize) {
-        let in_all = self.rows.try_reserve_exact(n_entries).and_then(|()| self.cols.try_reserve_exact(n_entries));
         // Without room the lists grow with what comes.
-        let _ = in_all.and_then(|()| self.values.try_reserve_exact(n_entries));
+        let _ = fallibly(|| {
+            self.rows.try_reserve_exact(n_entries)?;
+            self.cols.try_reserve_exact(n_entries)?;
+            self.values.try_reserve_exact(n_entries)
+        });
     }
 
     /// Appends one entry: row, column, value, zero-based.

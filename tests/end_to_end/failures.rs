@@ -30,10 +30,19 @@ fn an_interface_that_cannot_react_rigid_motion_is_a_physics_error() {
 #[test]
 fn a_run_that_does_not_fit_is_refused() {
     let place = Place::with_brick();
-    let ended = place.reduce(&place.model_flags(), &format!("{FOOT} --memory-gib 1e-6")).expect(ExitCode::Resources);
+    let limited = |gib: f64| {
+        place.reduce(&place.model_flags(), &format!("{FOOT} --memory-gib {gib}")).expect(ExitCode::Resources)
+    };
+    // From too little to read the files to too little for the factor.
+    let limit = |step: usize| 1e-6 * 1.1_f64.powi(step as i32);
+    let limits = (0..100).map(limit);
+    let refused: Vec<Ended> = limits.map(limited).take_while(|ended| ended.err.contains("error[E-MEM-READ]")).collect();
+    assert!(refused.len() > 3 && refused[0].err.contains("– 1.05 KiB are available –"), "{}", refused[0].err);
+    let ended = limited(limit(refused.len()));
+    assert!(ended.err.starts_with("supel: error[E-MEM]: "), "{}", ended.err);
     let needed = ended.err.split(" – ").next().unwrap_or_default();
     assert!(needed.ends_with("KiB") || needed.ends_with("MiB"), "{}", ended.err);
-    assert!(ended.err.contains("– 1.05 KiB are available –"), "{}", ended.err);
+    assert!(ended.err.contains(" are available –"), "{}", ended.err);
     assert!(!place.path("x.supel").exists());
 }
 
@@ -128,4 +137,32 @@ fn a_matrix_cut_anywhere_is_refused() {
         place.write(name, &whole);
     }
     place.reduce(&flags, CHAIN).expect(ExitCode::Done);
+}
+
+/// A run that failed leaves its report with the superelement of the run before: `verify` says that they are not of one run.
+#[test]
+fn a_report_of_another_run_is_noticed() {
+    let place = expecting(1.0);
+    reduce(&place, &[]).expect(ExitCode::Done);
+    let (file, name) = (place.text("x.supel"), "report in its folder is of this file");
+    let verified = supel(&["verify", &file, "--strict"]).expect(ExitCode::Done);
+    assert!(verified.out.contains(name), "{}", verified.out);
+    place.write("job.toml", &expecting(1.001).bytes("job.toml"));
+    reduce(&place, &["--strict"]).expect(ExitCode::CheckFailed);
+    let told = supel(&["verify", &file, "--json"]).expect(ExitCode::Done);
+    let document: serde_json::Value = serde_json::from_str(&told.out).expect("JSON");
+    let check = document["checks"].as_array().expect("checks").iter().find(|check| check["name"] == name).expect("one");
+    assert_eq!(
+        (&check["verdict"], &check["worst"]),
+        (&"warn".into(), &"x.report.json is of a run that wrote no superelement".into())
+    );
+    supel(&["verify", &file, "--strict"]).expect(ExitCode::CheckFailed);
+
+    let other = expecting(1.0);
+    reduce(&other, &["--modes", "7"]).expect(ExitCode::Done);
+    std::fs::copy(other.path("x.report.json"), place.path("x.report.json")).expect("copied");
+    let told = supel(&["verify", &file]).expect(ExitCode::Done);
+    assert!(told.out.contains("x.report.json is of a file with BLAKE3"), "{}", told.out);
+    std::fs::remove_file(place.path("x.report.json")).expect("removed");
+    assert!(!supel(&["verify", &file, "--strict"]).expect(ExitCode::Done).out.contains(name));
 }

@@ -175,3 +175,38 @@ fn a_statically_determinate_interface_is_no_failure() {
         }
     }
 }
+
+/// Matrices, dof map, nodes, and what an XDMF refers to: in the superelement, in every kind of report, and compared by `verify`.
+#[test]
+fn digests_of_all_inputs_are_recorded() {
+    let place = Place::with_brick();
+    let rest = "--interface foot=1,11,31,41 --method herting --modes 4";
+    let (html, junit) = (place.text("x.html"), place.text("x.xml"));
+    let args = format!("{rest} --html {html} --junit {junit}");
+    let ended = place.reduce(&place.model_flags(), &args).expect(ExitCode::Done);
+    let digest = |name: &str| blake3::hash(&place.bytes(name)).to_hex().to_string();
+    let inputs = place.superelement("x.supel").metadata().inputs.clone();
+    let expected = [("dofs", "dofs.txt"), ("mass", "M.mtx"), ("nodes", "nodes.csv"), ("stiffness", "K.mtx")];
+    let expected: Vec<(String, String)> =
+        expected.iter().map(|(role, name)| ((*role).to_owned(), digest(name))).collect();
+    assert_eq!(inputs.into_iter().collect::<Vec<_>>(), expected);
+    let model = place.report("x.report.json")["body"]["model"].clone();
+    assert_eq!(model["files"], serde_json::json!({ "dofs": digest("dofs.txt"), "nodes": digest("nodes.csv") }));
+    let page = String::from_utf8(place.bytes("x.html")).expect("UTF-8");
+    assert!(page.contains(&digest("nodes.csv")) && page.contains("BLAKE3 of dof map"), "{page}");
+    assert!(ended.out.contains(&format!("blake3 {}", &digest("dofs.txt")[..12])), "{}", ended.out);
+
+    let of_file = place.superelement("x.supel").to_bytes().expect("bytes").digest;
+    let junit = String::from_utf8(place.bytes("x.xml")).expect("UTF-8");
+    assert!(junit.contains(&format!("<property name=\"blake3\" value=\"{of_file}\"/>")), "{junit}");
+    assert!(junit.contains("<property name=\"superelement\" value=\"x.supel\"/>"), "{junit}");
+
+    let job = supel(&["inspect", &place.text("x.supel"), "--job"]).out;
+    place.write("job.json", job.as_bytes());
+    let (file, job) = (place.text("x.supel"), place.text("job.json"));
+    supel(&["verify", &file, "--job", &job, "--strict"]).expect(ExitCode::Done);
+    let nodes = String::from_utf8(place.bytes("nodes.csv")).expect("text") + "\n";
+    place.write("nodes.csv", nodes.as_bytes());
+    let told = supel(&["verify", &file, "--job", &job]);
+    assert!(told.out.contains("worst at nodes"), "{}", told.out);
+}

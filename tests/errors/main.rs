@@ -3,6 +3,7 @@
 #[path = "../chain/mod.rs"]
 mod chain;
 mod documented;
+mod outputs;
 #[path = "../end_to_end/place.rs"]
 #[allow(dead_code, reason = "each test crate uses its part")]
 mod place;

@@ -69,6 +69,25 @@ fn a_file_that_is_no_superelement() {
     assert!(said.starts_with("supel: error[E-SUPERELEMENT]: "), "{said}");
 }
 
+/// An HDF5 matrix whose last value is an unsigned number that no signed one equals.
+#[cfg(feature = "hdf5")]
+#[test]
+fn an_unsigned_number_beyond_the_signed() {
+    use supel::error::Error;
+    use supel::input::hdf5::{MatrixRole, read_matrix};
+
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("K.h5");
+    let file = hdf5_metno::File::create(&path).expect("a file");
+    file.new_dataset_builder().with_data(&[0_i64, 1, 2]).create("indptr").expect("pointers");
+    file.new_dataset_builder().with_data(&[0_i64, 1]).create("indices").expect("indices");
+    file.new_dataset_builder().with_data(&[1, u64::MAX]).create("data").expect("values");
+    drop(file);
+    let error = read_matrix(&path, None, MatrixRole::Stiffness).expect_err("no such number");
+    assert!(matches!(error, Error::Hdf5Value { position: 1, .. }), "{error}");
+    assert_eq!(error.code(), "E-HDF5-VALUE");
+}
+
 #[cfg(feature = "arpack")]
 #[test]
 fn arpack_with_solves_that_overflow() {

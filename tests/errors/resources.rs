@@ -195,3 +195,27 @@ fn a_job_that_fits_in_mixed_precision_alone() {
     }
     assert_eq!(mixed.reduction.modes, auto.reduction.modes, "whoever chose it");
 }
+
+/// A comparison with the full matrices is refused before anything is factored, where the memory of the job or of the machine does not
+/// hold it.
+#[test]
+fn a_comparison_that_does_not_fit() {
+    let place = Place::with(&brick([10, 9, 8], [1.0, 0.9, 0.8], &Material::STEEL_SI));
+    let job = Job { run: Default::default(), ..limited_job(&place) };
+    let superelement = supel::reduce(&job, Resources::default(), &mut ()).expect("unlimited").superelement;
+    let verify = |memory_bytes| supel::verify(&superelement, Some(&job), Resources { memory_bytes }, &mut ());
+    let refused =
+        (10..40).map(|bits| verify(Some(1 << bits))).find(|found| !matches!(found, Err(Error::MemoryRead { .. })));
+    let Some(Err(Error::MemoryComparison { needed, available })) = refused else { panic!("{refused:?}") };
+    assert!(needed > available);
+    let Err(error) = verify(Some(needed - 1)) else { panic!("a byte too little") };
+    assert_eq!((error.code(), error.class() as u8), ("E-MEM-VERIFY", 6));
+    assert!(error.to_string().contains("raise run.memory_gib of the job"), "{error}");
+    assert!(verify(Some(needed)).is_ok());
+    let limited = Job {
+        run: supel::job::RunJob { memory_gib: Some((needed - 1) as f64 / f64::from(1 << 30)), ..job.run },
+        ..job.clone()
+    };
+    let found = supel::verify(&superelement, Some(&limited), Resources::default(), &mut ());
+    assert!(matches!(found, Err(Error::MemoryComparison { .. })), "the job's own limit");
+}

@@ -30,8 +30,14 @@ fn partition(matrix: &SparseMatrix, mass: impl Fn(usize) -> f64, interface: &[us
         path: "generated".into(),
         digest: String::new(),
     };
-    let input =
-        Input { stiffness: read(stiffness), mass: read(diagonal(&mass)), dofs: None, nodes: None, notes: Vec::new() };
+    let input = Input {
+        stiffness: read(stiffness),
+        mass: read(diagonal(&mass)),
+        dofs: None,
+        nodes: None,
+        digests: Default::default(),
+        notes: Vec::new(),
+    };
     let nodes = NodeSelection::Rows { rows: interface.to_vec() };
     let interface = InterfaceJob {
         name: "border".to_owned(),

@@ -121,6 +121,7 @@ fn model() -> ModelReport {
         n_bodies: 1,
         stiffness: matrix(9_472_104, "a"),
         mass: matrix(3_157_368, "b"),
+        files: [("dofs", "c".repeat(64)), ("nodes", "d".repeat(64))].into(),
         mass_properties: MassProperties {
             mass: Some(1.234e-3),
             cg: Some([0.0, -1.5e-17, 41.2]),

@@ -8,6 +8,7 @@ use faer::sparse::linalg::cholesky::simplicial::{
 
 use crate::error::{Error, Result};
 use crate::factor::Pencil;
+use crate::heap::fallibly;
 
 /// No parent.
 pub(super) const NONE: u32 = u32::MAX;
@@ -55,8 +56,8 @@ fn in_given_order(pencil: Pencil<'_>, n: usize) -> Result<(Vec<u32>, Vec<u32>)> 
     let mut tree = vec![0isize; n_total];
     let mut counts = vec![0usize; n_total];
     let scratch = prefactorize_symbolic_cholesky_scratch::<usize>(n_total, indices.len());
-    let mut memory =
-        MemBuffer::try_new(scratch).map_err(|_| Error::OutOfMemory { what: "the symbolic factorisation" })?;
+    let memory = fallibly(|| MemBuffer::try_new(scratch));
+    let mut memory = memory.map_err(|_| Error::OutOfMemory { what: "the symbolic factorisation" })?;
     let tree = prefactorize_symbolic_cholesky(&mut tree, &mut counts, pattern, MemStack::new(&mut memory)).into_inner();
     let is_internal = |parent: &isize| (0..n as isize).contains(parent);
     let parent = tree[..n].iter().map(|parent| if is_internal(parent) { *parent as u32 } else { NONE }).collect();

@@ -5,6 +5,7 @@ use faer::MatMut;
 use super::Stop;
 use crate::factor::Analysis;
 use crate::factor::analysis::Supernode;
+use crate::heap::fallibly;
 
 /// Rows and entries that a child leaves to its parent: a lower triangle, by columns of full length, and after it what the rows
 /// have of the diagonal of |L||B||Lᵀ| so far.
@@ -118,7 +119,7 @@ impl RestStack {
         room: usize,
     ) -> std::result::Result<(Vec<Rest<'b>>, &'b mut [f64]), Stop> {
         if let Some(more) = (self.top + room).checked_sub(self.values.len()) {
-            self.values.try_reserve(more).map_err(|_| Stop::NoMemory)?;
+            fallibly(|| self.values.try_reserve(more)).map_err(|_| Stop::NoMemory)?;
             self.values.resize(self.top + room, 0.0);
         }
         let (below, above) = self.values.split_at_mut(self.top);

@@ -40,6 +40,9 @@ pub(super) fn integers(h5: &H5, location: &Location, object: &str, name: &str) -
             Refusal::Type(found) => {
                 Error::Hdf5Type { path: h5.path().to_owned(), object, found, expected: "whole numbers" }
             }
+            Refusal::Value(position, found, expected) => {
+                Error::Hdf5Value { path: h5.path().to_owned(), object, position, found, expected }
+            }
             Refusal::Library(error) => h5.read_error(&object, &error),
         }
     })

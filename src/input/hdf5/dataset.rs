@@ -13,18 +13,20 @@ use crate::error::{Error, Result};
 
 /// The largest expansion of deflate: 258 bytes from a code of two bits.
 const DEFLATE_RATIO: u64 = 1032;
+/// Bytes of a number in the form it is handed on.
+const WIDENED: u64 = 8;
 /// Length of a name in a table of names.
 const NAME_LENGTH: usize = 80;
 
 /// A dataset of an open file, with its path in it.
 pub(super) struct Dataset<'a> {
-    h5: &'a H5,
+    h5: &'a H5<'a>,
     dataset: hdf5_metno::Dataset,
     name: String,
 }
 
 impl<'a> Dataset<'a> {
-    pub(super) fn new(h5: &'a H5, dataset: hdf5_metno::Dataset, name: String) -> Self {
+    pub(super) fn new(h5: &'a H5<'a>, dataset: hdf5_metno::Dataset, name: String) -> Self {
         Self { h5, dataset, name }
     }
 
@@ -113,7 +115,10 @@ impl<'a> Dataset<'a> {
         let chunk_bytes = chunk.iter().try_fold(item, |n, &d| n.checked_mul(d as u64));
         let chunk_fits = chunk_bytes.is_some_and(|n| n <= self.h5.n_bytes().saturating_mul(ratio));
         match (n_values, n_bytes) {
-            (Some(n_values), Some(n_bytes)) if n_bytes <= available && chunk_fits => Ok(n_values),
+            (Some(n_values), Some(n_bytes)) if n_bytes <= available && chunk_fits => {
+                self.h5.hold(n_bytes.saturating_add(WIDENED * n_values as u64))?;
+                Ok(n_values)
+            }
             _ => {
                 let promised = format!("a shape of {shape:?} in chunks of {chunk:?} with {item} bytes each");
                 let (path, object) = (self.h5.path().to_owned(), self.name.clone());
@@ -152,6 +157,7 @@ impl<'a> Dataset<'a> {
         let (path, object) = (self.h5.path().to_owned(), self.name.clone());
         match refusal {
             Refusal::Type(found) => Error::Hdf5Type { path, object, found, expected },
+            Refusal::Value(position, found, expected) => Error::Hdf5Value { path, object, position, found, expected },
             Refusal::Library(error) => self.read_error(&error),
         }
     }

@@ -1,13 +1,18 @@
 //! An HDF5 file opened for reading, and a walk through its groups that never leaves the file.
 
-use std::fs;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, HashMap};
 use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
-use hdf5_metno::{IndexType, IterationOrder, LinkType, LocationType};
+use hdf5_metno::{IndexType, IterationOrder, LinkType, LocationType, MajorErrorCode, MinorErrorCode};
 
 use super::dataset::Dataset;
 use crate::error::{Error, Result};
+use crate::heap;
+use crate::input::allowance::{Allowance, Claim};
+use crate::input::regular;
 
 /// More links than any group of a real file has; the library itself would follow a damaged index for ever.
 const MAX_LINKS: usize = 1_000_000;
@@ -15,16 +20,23 @@ const MAX_LINKS: usize = 1_000_000;
 /// The first bytes of every HDF5 superblock.
 const SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
 
+/// The links of a group by their names.
+type Links = BTreeMap<String, LinkType>;
+
 /// An open HDF5 file.
-pub(super) struct H5 {
+pub(super) struct H5<'a> {
     file: hdf5_metno::File,
     path: PathBuf,
     n_bytes: u64,
+    /// What was read takes so much.
+    claim: Claim<'a>,
+    /// Links of the groups that were looked into, by path: the library looks from the first link on for every name.
+    links: RefCell<HashMap<String, Rc<Links>>>,
 }
 
 /// A group of an open file, with its path in it.
 pub(super) struct Group<'a> {
-    h5: &'a H5,
+    h5: &'a H5<'a>,
     group: hdf5_metno::Group,
     name: String,
 }
@@ -40,14 +52,25 @@ pub(super) enum Member {
     Other,
 }
 
-impl H5 {
+impl<'a> H5<'a> {
     /// Opens a file after looking at its signature, which gives a clearer refusal than the library does.
-    pub(super) fn open(path: &Path) -> Result<Self> {
+    pub(super) fn open(path: &Path, allowance: &'a Allowance) -> Result<Self> {
         let n_bytes = check_signature(path)?;
-        hdf5_metno::silence_errors(true);
+        start()?;
         let file = hdf5_metno::File::open(path)
-            .map_err(|e| Error::Hdf5Open { path: path.to_owned(), reason: e.to_string() })?;
-        Ok(Self { file, path: path.to_owned(), n_bytes })
+            .map_err(|e| no_memory(&e).unwrap_or(Error::Hdf5Open { path: path.to_owned(), reason: e.to_string() }))?;
+        let (claim, links) = (allowance.claim(path), RefCell::default());
+        Ok(Self { file, path: path.to_owned(), n_bytes, claim, links })
+    }
+
+    /// Claims bytes that are about to be held.
+    pub(super) fn hold(&self, bytes: u64) -> Result<()> {
+        self.claim.add(bytes)
+    }
+
+    /// What stays of everything that was read takes so much.
+    pub(super) fn keep(&self, bytes: u64) -> Result<()> {
+        self.claim.set(bytes)
     }
 
     pub(super) fn path(&self) -> &Path {
@@ -64,8 +87,57 @@ impl H5 {
     }
 
     pub(super) fn read_error(&self, object: &str, error: &hdf5_metno::Error) -> Error {
-        Error::Hdf5Read { path: self.path.clone(), object: object.to_owned(), reason: error.to_string() }
+        let damaged =
+            || Error::Hdf5Read { path: self.path.clone(), object: object.to_owned(), reason: error.to_string() };
+        no_memory(error).unwrap_or_else(damaged)
     }
+}
+
+/// Starts the library, quietly. It does not survive a lack of memory while it starts, so that some is asked for before.
+///
+/// # Errors
+/// [`Error::OutOfMemory`].
+pub(crate) fn start() -> Result<()> {
+    /// Many times what the library takes.
+    const ROOM: usize = 8 << 20;
+    heap::fallibly(|| Vec::<u8>::new().try_reserve_exact(ROOM)).map_err(|_| NO_MEMORY)?;
+    hdf5_metno::silence_errors(true);
+    Ok(())
+}
+
+/// The error of the library where it had no memory: its own words do not tell that from a damaged file.
+fn no_memory(error: &hdf5_metno::Error) -> Option<Error> {
+    let is_out = error.contains_minor(MinorErrorCode::NoSpace) || error.contains_major(MajorErrorCode::Resource);
+    is_out.then_some(NO_MEMORY)
+}
+
+const NO_MEMORY: Error = Error::OutOfMemory { what: "what the HDF5 library needs to read the input" };
+
+/// Reads a file by `read`, and where the library says that it has no memory finds out whether there is none: a damaged file may ask for
+/// any amount of it.
+///
+/// # Errors
+/// [`Error::OutOfMemory`] where there is no memory; [`Error::Hdf5Open`] where there is, and the library fails all the same; those of
+/// `read`.
+pub(super) fn with_memory<T>(path: &Path, read: impl Fn() -> Result<T>) -> Result<T> {
+    /// More than the library needs for a sound file besides the values, which are ours.
+    const OF_LIBRARY: u64 = 64 << 20;
+    let is_out = |outcome: &Result<T>| matches!(outcome, Err(Error::OutOfMemory { .. }));
+    let first = read();
+    if !is_out(&first) {
+        return first;
+    }
+    let needed = OF_LIBRARY.saturating_add(std::fs::metadata(path).map_or(0, |file| file.len()));
+    let is_there = heap::fallibly(|| Vec::<u8>::new().try_reserve_exact(usize::try_from(needed).unwrap_or(usize::MAX)));
+    if is_there.is_err() {
+        return first;
+    }
+    let second = read();
+    if is_out(&second) {
+        let reason = "it asks for more memory than there is, and no sound file of its size does".to_owned();
+        return Err(Error::Hdf5Open { path: path.to_owned(), reason });
+    }
+    second
 }
 
 impl<'a> Group<'a> {
@@ -73,7 +145,7 @@ impl<'a> Group<'a> {
         &self.name
     }
 
-    pub(super) fn h5(&self) -> &'a H5 {
+    pub(super) fn h5(&self) -> &'a H5<'a> {
         self.h5
     }
 
@@ -88,14 +160,28 @@ impl<'a> Group<'a> {
 
     /// Names and kinds of all members, sorted by name.
     pub(super) fn members(&self) -> Result<Vec<(String, Member)>> {
-        let mut links = Vec::new();
+        let links = self.links()?;
+        Ok(links.iter().map(|(name, link)| (name.clone(), self.classify(name, *link))).collect())
+    }
+
+    /// What `member` is; `None` if there is nothing of that name.
+    pub(super) fn member(&self, member: &str) -> Result<Option<Member>> {
+        Ok(self.links()?.get(member).map(|link| self.classify(member, *link)))
+    }
+
+    /// All links, listed once.
+    fn links(&self) -> Result<Rc<Links>> {
+        if let Some(links) = self.h5.links.borrow().get(&self.name) {
+            return Ok(Rc::clone(links));
+        }
+        let mut links = Links::new();
         let mut too_many = false;
         let visited = self.group.iter_visit(IndexType::Name, IterationOrder::Native, |name, info| {
             too_many = links.len() >= MAX_LINKS;
             if too_many {
                 return Err("too many links".into());
             }
-            links.push((name.to_owned(), info.link_type));
+            links.insert(name.to_owned(), info.link_type);
             Ok(())
         });
         if too_many {
@@ -103,24 +189,9 @@ impl<'a> Group<'a> {
             return Err(Error::Hdf5Depth { path, object: self.name.clone(), limit: MAX_LINKS, counted: "members" });
         }
         visited.map_err(|e| self.h5.read_error(&self.name, &e))?;
-        links.sort_by(|a, b| a.0.cmp(&b.0));
-        Ok(links.into_iter().map(|(name, link)| (name.clone(), self.classify(&name, link))).collect())
-    }
-
-    /// What `member` is; `None` if there is nothing of that name.
-    pub(super) fn member(&self, member: &str) -> Result<Option<Member>> {
-        let mut n_links = 0;
-        let link = self
-            .group
-            .find_link(IndexType::Name, IterationOrder::Native, |name, info| {
-                n_links += 1;
-                if n_links > MAX_LINKS {
-                    return Err("too many links".into());
-                }
-                Ok((name == member).then_some(info.link_type))
-            })
-            .map_err(|e| self.h5.read_error(&self.name, &e))?;
-        Ok(link.map(|link| self.classify(member, link)))
+        let links = Rc::new(links);
+        self.h5.links.borrow_mut().insert(self.name.clone(), Rc::clone(&links));
+        Ok(links)
     }
 
     /// The group at `path` below this one, which may have several components.
@@ -171,7 +242,8 @@ impl<'a> Group<'a> {
         }
     }
 
-    fn child_group(&self, member: &str) -> Result<Group<'a>> {
+    /// The group of that name among the members.
+    pub(super) fn child_group(&self, member: &str) -> Result<Group<'a>> {
         let name = self.child_name(member);
         let group = self.group.group(member).map_err(|e| self.h5.read_error(&name, &e))?;
         Ok(Group { h5: self.h5, group, name })
@@ -211,18 +283,15 @@ impl<'a> Group<'a> {
 /// Length of a file that carries the HDF5 signature at 0, 512, 1024, 2048 and so on (MATLAB writes 512 bytes before it).
 fn check_signature(path: &Path) -> Result<u64> {
     let read = |source| Error::Read { path: path.to_owned(), source };
-    let mut file = fs::File::open(path).map_err(read)?;
-    let metadata = file.metadata().map_err(read)?;
-    if !metadata.is_file() {
-        return Err(read(std::io::Error::new(std::io::ErrorKind::InvalidInput, "not a regular file")));
-    }
+    let mut file = regular::open(path)?;
+    let length = file.metadata().map_err(read)?.len();
     let mut offset = 0;
-    while offset < metadata.len() {
+    while offset < length {
         let mut bytes = Vec::with_capacity(SIGNATURE.len());
         file.seek(SeekFrom::Start(offset)).map_err(read)?;
         file.by_ref().take(SIGNATURE.len() as u64).read_to_end(&mut bytes).map_err(read)?;
         if bytes == SIGNATURE {
-            return Ok(metadata.len());
+            return Ok(length);
         }
         offset = if offset == 0 { 512 } else { offset.saturating_mul(2) };
     }

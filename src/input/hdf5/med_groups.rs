@@ -4,13 +4,55 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::attribute;
 use super::dataset::Dataset;
-use super::file::Group;
+use super::file::{Group, H5};
 use crate::error::{Error, Result};
 
 /// Names of the groups of each family number.
 type Families = BTreeMap<i64, Vec<String>>;
+/// More groups than the nodes and elements of a real mesh belong to, on average.
+const MAX_GROUPS_EACH: usize = 64;
+/// Bytes of a node in a group.
+const MEMBER: u64 = 24;
+/// Members after which their memory is claimed.
+const MEMBERS_PER_CLAIM: usize = 1 << 14;
+
 /// Node indices of each group.
-type Sets = BTreeMap<String, BTreeSet<usize>>;
+type Groups = BTreeMap<String, BTreeSet<usize>>;
+
+/// Groups that are being filled. A family may name any number of groups, and any number of nodes a family.
+struct Sets<'a> {
+    groups: Groups,
+    h5: &'a H5<'a>,
+    n_steps: usize,
+    limit: usize,
+}
+
+impl<'a> Sets<'a> {
+    fn new(step: &Group<'a>) -> Self {
+        Self { groups: Groups::new(), h5: step.h5(), n_steps: 0, limit: 0 }
+    }
+
+    /// So many nodes or corners of elements come.
+    fn expect(&mut self, n_values: usize) {
+        self.limit = self.limit.saturating_add(n_values.saturating_mul(MAX_GROUPS_EACH));
+    }
+
+    /// Puts a node into groups.
+    fn add(&mut self, names: &[String], node: usize) -> Result<()> {
+        for name in names {
+            self.n_steps += 1;
+            if self.n_steps.is_multiple_of(MEMBERS_PER_CLAIM) {
+                self.h5.hold(MEMBER * MEMBERS_PER_CLAIM as u64)?;
+            }
+            if self.n_steps > self.limit {
+                let (path, object, limit) = (self.h5.path().to_owned(), "/FAS".to_owned(), self.limit);
+                return Err(Error::Hdf5Depth { path, object, limit, counted: "members of groups" });
+            }
+            self.groups.entry(name.clone()).or_default().insert(node);
+        }
+        Ok(())
+    }
+}
 
 /// The groups of nodes, and the groups of elements as the nodes of their elements.
 pub(super) fn read_groups(
@@ -56,27 +98,26 @@ fn read_families(families: &Group<'_>, kind: &str) -> Result<Families> {
     Ok(names)
 }
 
-fn node_groups(families: &Families, step: &Group<'_>, n_nodes: usize) -> Result<Sets> {
-    let mut sets = Sets::new();
+fn node_groups(families: &Families, step: &Group<'_>, n_nodes: usize) -> Result<Groups> {
+    let mut sets = Sets::new(step);
     let Some(family) = step.find_dataset("NOE/FAM")? else {
-        return Ok(sets);
+        return Ok(Groups::new());
     };
     let numbers = family.integers()?;
     if numbers.len() != n_nodes {
         return Err(family.wrong_shape(format!("{} values", numbers.len()), format!("one for each of {n_nodes} nodes")));
     }
+    sets.expect(n_nodes);
     for (node, number) in numbers.iter().enumerate() {
-        for name in families.get(number).into_iter().flatten() {
-            sets.entry(name.clone()).or_default().insert(node);
-        }
+        sets.add(families.get(number).map_or(&[], Vec::as_slice), node)?;
     }
-    Ok(sets)
+    Ok(sets.groups)
 }
 
-fn element_groups(families: &Families, step: &Group<'_>, n_nodes: usize) -> Result<Sets> {
-    let mut sets = Sets::new();
+fn element_groups(families: &Families, step: &Group<'_>, n_nodes: usize) -> Result<Groups> {
+    let mut sets = Sets::new(step);
     if families.is_empty() {
-        return Ok(sets);
+        return Ok(Groups::new());
     }
     let kinds = step.find_group("MAI")?.map(|mai| mai.groups()).transpose()?.unwrap_or_default();
     for kind in kinds {
@@ -95,12 +136,12 @@ fn element_groups(families: &Families, step: &Group<'_>, n_nodes: usize) -> Resu
         }
         add_elements(&mut sets, families, &numbers, &kind.dataset("NOD")?, n_nodes)?;
     }
-    Ok(sets)
+    Ok(sets.groups)
 }
 
 /// Adds the nodes of all elements of one kind; `NOD` holds the first node of every element, then the second, and so on.
 fn add_elements(
-    sets: &mut Sets,
+    sets: &mut Sets<'_>,
     families: &Families,
     numbers: &[i64],
     connectivity: &Dataset<'_>,
@@ -112,14 +153,13 @@ fn add_elements(
         let expected = format!("a multiple of the {n_elements} elements");
         return Err(connectivity.wrong_shape(format!("{} values", nodes.len()), expected));
     }
+    sets.expect(nodes.len());
     for (position, &node) in nodes.iter().enumerate() {
         let Some(names) = families.get(&numbers[position % n_elements]) else {
             continue;
         };
         let node = connectivity.checked_index(position, node, 1, n_nodes)?;
-        for name in names {
-            sets.entry(name.clone()).or_default().insert(node);
-        }
+        sets.add(names, node)?;
     }
     Ok(())
 }

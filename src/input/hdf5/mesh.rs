@@ -1,15 +1,17 @@
 //! Nodes of a mesh in one of the formats that live in HDF5; the content tells which.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::io::Read;
 use std::path::Path;
 
 use super::dataset::Dataset;
-use super::file::{H5, Member};
+use super::file::{H5, Member, with_memory};
 use super::{hmf, med, moab, xdmf};
 use crate::error::{Error, Result};
-use crate::input::Nodes;
+use crate::input::{Allowance, Nodes, regular};
+
+/// Bytes of a node: position, label, and the labels once more while they are compared.
+const NODE: u64 = 40;
 
 /// Reads the nodes of a mesh: `.hmf`, XDMF with its `.h5`, `.med` with its node and element groups, `.h5m` (MOAB).
 ///
@@ -22,8 +24,26 @@ use crate::input::Nodes;
 /// The file cannot be read, holds no mesh of these formats or several, refers to data outside its folder, or has
 /// coordinates, labels or node numbers that cannot be right.
 pub fn read_nodes(path: &Path) -> Result<Nodes> {
-    let mesh = if is_xml(path)? { xdmf::read(path)? } else { read_hdf5(path)? };
-    mesh.into_nodes(path)
+    read_nodes_within(path, &Allowance::of(None)).map(|(nodes, _)| nodes)
+}
+
+/// [`read_nodes`] in the memory that is allowed, and the digest of the file that an XDMF refers to.
+///
+/// # Errors
+///
+/// [`Error::MemoryRead`] and those of [`read_nodes`].
+pub(crate) fn read_nodes_within(path: &Path, allowance: &Allowance) -> Result<(Nodes, Option<String>)> {
+    let (mesh, digest) = if is_xml(path)? {
+        xdmf::read(path, allowance)?
+    } else {
+        (with_memory(path, || read_hdf5(path, allowance))?, None)
+    };
+    Ok((mesh.into_nodes(path)?, digest))
+}
+
+/// The files that a mesh in XML refers to, where they can be told.
+pub(crate) fn referenced_files(path: &Path) -> Vec<std::path::PathBuf> {
+    if is_xml(path).unwrap_or(false) { xdmf::referenced_files(path) } else { Vec::new() }
 }
 
 /// Nodes as a format's reader leaves them.
@@ -85,13 +105,19 @@ pub(super) fn points(values: &[f64], n_axes: usize) -> Vec<[f64; 3]> {
 fn is_xml(path: &Path) -> Result<bool> {
     let read = |source| Error::Read { path: path.to_owned(), source };
     let mut head = Vec::new();
-    fs::File::open(path).map_err(read)?.take(256).read_to_end(&mut head).map_err(read)?;
+    regular::open(path)?.take(256).read_to_end(&mut head).map_err(read)?;
     let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&head);
     Ok(text.trim_ascii_start().starts_with(b"<"))
 }
 
-fn read_hdf5(path: &Path) -> Result<Mesh> {
-    let h5 = H5::open(path)?;
+fn read_hdf5(path: &Path, allowance: &Allowance) -> Result<Mesh> {
+    let h5 = H5::open(path, allowance)?;
+    let mesh = read_format(&h5)?;
+    h5.hold(NODE * mesh.coordinates.len() as u64)?;
+    Ok(mesh)
+}
+
+fn read_format(h5: &H5<'_>) -> Result<Mesh> {
     let root = h5.root()?;
     if root.member("ENS_MAA")? == Some(Member::Group) {
         return med::read(&root);
@@ -103,5 +129,5 @@ fn read_hdf5(path: &Path) -> Result<Mesh> {
         return hmf::read(&geometry);
     }
     let holds = root.members()?.into_iter().map(|(name, _)| root.child_name(&name)).collect();
-    Err(Error::MeshUnknown { path: path.to_owned(), holds })
+    Err(Error::MeshUnknown { path: h5.path().to_owned(), holds })
 }

@@ -20,7 +20,11 @@ mod numbers;
 mod search;
 mod sparse;
 mod xdmf;
+mod xml_size;
 
+pub(crate) use file::start;
 pub use mesh::read_nodes;
+pub(crate) use mesh::{read_nodes_within, referenced_files};
 pub use search::MatrixRole;
 pub use sparse::read_matrix;
+pub(crate) use sparse::read_matrix_within;

@@ -15,6 +15,8 @@ const DIGITS_F64: u32 = 17;
 pub(super) enum Refusal {
     /// The type, in words.
     Type(String),
+    /// A value that would become another one: its position, itself, and what could be read.
+    Value(usize, String, &'static str),
     Library(hdf5_metno::Error),
 }
 
@@ -29,13 +31,25 @@ pub(super) fn reals(container: &Container) -> Result<Reals, Refusal> {
     let (values, digits) = match descriptor(container)? {
         TypeDescriptor::Float(FloatSize::U8) => (read::<f64>(container)?, DIGITS_F64),
         TypeDescriptor::Float(FloatSize::U4) => (widened::<f32, f64>(container)?, DIGITS_F32),
-        _ => (integers(container)?.into_iter().map(|v| v as f64).collect(), DIGITS_F64),
+        _ => (exact(&integers(container)?)?, DIGITS_F64),
     };
     Ok(Reals { values, digits })
 }
 
-/// All values as whole numbers, in storage order. Unsigned numbers above the largest signed one become that one, which
-/// is outside of every range they are held against.
+/// Whole numbers as the doubles that equal them.
+fn exact(integers: &[i64]) -> Result<Vec<f64>, Refusal> {
+    let equals = |integer: i64| integer as f64 as i128 == i128::from(integer);
+    match integers.iter().position(|&integer| !equals(integer)) {
+        Some(position) => Err(Refusal::Value(
+            position,
+            integers[position].to_string(),
+            "real numbers, or whole ones that a double equals",
+        )),
+        None => Ok(integers.iter().map(|&integer| integer as f64).collect()),
+    }
+}
+
+/// All values as whole numbers, in storage order.
 pub(super) fn integers(container: &Container) -> Result<Vec<i64>, Refusal> {
     match descriptor(container)? {
         TypeDescriptor::Integer(IntSize::U1) => widened::<i8, i64>(container),
@@ -47,7 +61,10 @@ pub(super) fn integers(container: &Container) -> Result<Vec<i64>, Refusal> {
         TypeDescriptor::Unsigned(IntSize::U4) => widened::<u32, i64>(container),
         TypeDescriptor::Unsigned(IntSize::U8) => {
             let values = read::<u64>(container)?;
-            Ok(values.into_iter().map(|v| i64::try_from(v).unwrap_or(i64::MAX)).collect())
+            if let Some(position) = values.iter().position(|value| i64::try_from(*value).is_err()) {
+                return Err(Refusal::Value(position, values[position].to_string(), "whole numbers below 2^63"));
+            }
+            Ok(values.into_iter().map(u64::cast_signed).collect())
         }
         other => Err(Refusal::Type(other.to_string())),
     }

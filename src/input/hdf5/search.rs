@@ -93,7 +93,7 @@ impl<'a> Search<'a> {
         }
         for (name, member) in members {
             match member {
-                Member::Group => self.visit(group.group(&name)?, depth + 1)?,
+                Member::Group => self.visit(group.child_group(&name)?, depth + 1)?,
                 Member::Dataset => self.others.push(group.child_name(&name)),
                 Member::Link => self.others.push(format!("{} (a link)", group.child_name(&name))),
                 Member::Other => {}

@@ -1,16 +1,22 @@
 //! Sparse matrices in HDF5 groups, by the conventions of the programs that write them.
 
-use std::fs;
 use std::path::Path;
 
 use super::attribute;
 use super::compressed::{Compressed, Major};
-use super::file::{Group, H5, Member};
+use super::file::{Group, H5, Member, with_memory};
 use super::search::{MatrixRole, find_matrix};
 use crate::error::{Error, Result};
-use crate::input::MatrixInput;
-use crate::input::significant_digits;
+use crate::input::regular::digest;
+use crate::input::{Allowance, MatrixInput, significant_digits};
 use crate::sparse::Declared;
+
+/// Bytes of an entry before it is in its row: row, column, value.
+const TRIPLET: u64 = 16;
+/// Bytes of an entry of the assembled matrix: column and value.
+const ENTRY: u64 = 12;
+/// Bytes of a row of the assembled matrix.
+const ROW: u64 = 8;
 
 /// Reads a square sparse matrix from an HDF5 file: MATLAB v7.3 and PETSc (`MATLAB_sparse`, `jc`, `ir`, `data`), anndata,
 /// h5sparse, Exudyn, or plain `data`, `indices`, `indptr`.
@@ -24,7 +30,25 @@ use crate::sparse::Declared;
 /// The file cannot be read or is not HDF5, holds no matrix or several that could be meant, or the matrix is not square,
 /// its pointers or indices are wrong or a value is not finite.
 pub fn read_matrix(path: &Path, group: Option<&str>, role: MatrixRole) -> Result<MatrixInput> {
-    let h5 = H5::open(path)?;
+    read_matrix_within(path, group, role, &Allowance::of(None))
+}
+
+/// [`read_matrix`] in the memory that is allowed.
+///
+/// # Errors
+///
+/// [`Error::MemoryRead`] and those of [`read_matrix`].
+pub(crate) fn read_matrix_within(
+    path: &Path,
+    group: Option<&str>,
+    role: MatrixRole,
+    allowance: &Allowance,
+) -> Result<MatrixInput> {
+    with_memory(path, || read_matrix_once(path, group, role, allowance))
+}
+
+fn read_matrix_once(path: &Path, group: Option<&str>, role: MatrixRole, allowance: &Allowance) -> Result<MatrixInput> {
+    let h5 = H5::open(path, allowance)?;
     let start = h5.root()?.group(group.unwrap_or("/"))?;
     let stated = if group.is_some() { Convention::of(&start, &start.members()?)? } else { None };
     let (group, convention) = match stated {
@@ -34,7 +58,9 @@ pub fn read_matrix(path: &Path, group: Option<&str>, role: MatrixRole) -> Result
     let (compressed, stored_digits) = convention.read(&group)?;
     let digits = significant_digits(compressed.values()).min(stored_digits);
     let n = compressed.check(h5.path(), group.name())?;
+    h5.hold((TRIPLET + ENTRY) * compressed.values().len() as u64 + ROW * n as u64)?;
     let (matrix, notes) = compressed.into_triplets(h5.path())?.assemble(n, Declared::General, h5.path())?;
+    h5.keep(ENTRY * matrix.nnz() as u64 + ROW * n as u64)?;
     Ok(MatrixInput { matrix, notes, digits, path: path.to_owned(), digest: digest(path)? })
 }
 
@@ -125,12 +151,4 @@ fn shape_attribute(group: &Group<'_>, name: &str) -> Result<Option<Vec<u64>>> {
 /// A negative count becomes one that no pointer array can match.
 fn counts(values: Vec<i64>) -> Vec<u64> {
     values.into_iter().map(|v| u64::try_from(v).unwrap_or(u64::MAX)).collect()
-}
-
-/// BLAKE3 digest of the file's bytes.
-fn digest(path: &Path) -> Result<String> {
-    let read = |source| Error::Read { path: path.to_owned(), source };
-    let mut hasher = blake3::Hasher::new();
-    hasher.update_reader(fs::File::open(path).map_err(read)?).map_err(read)?;
-    Ok(hasher.finalize().to_hex().to_string())
 }

@@ -1,37 +1,82 @@
 //! XDMF: XML that says where in an HDF5 file the geometry lies.
 
-use std::fs;
+use std::collections::HashSet;
+use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
 use roxmltree::{Document, Node};
 
-use super::file::H5;
+use super::file::{H5, with_memory};
 use super::mesh::{Mesh, points};
+use super::xml_size::refuse_many_names;
 use crate::error::{Error, Result};
+use crate::input::Allowance;
+use crate::input::regular::{self, digest, unchanged};
 
-/// Reads the one geometry of an XDMF file. Grids of a time series that refer to the same data count as one.
-pub(super) fn read(path: &Path) -> Result<Mesh> {
-    let text = fs::read_to_string(path).map_err(|source| Error::Read { path: path.to_owned(), source })?;
-    let document = Document::parse(&text).map_err(|source| Error::XdmfSyntax { path: path.to_owned(), source })?;
+/// Bytes of the document and of what is made of it for each of its bytes: the text itself, its tree, its numbers.
+const OF_TEXT: u64 = 3;
+/// Bytes of an XDMF that holds no data of its own. Where a longer one refers to data, only its reader finds that.
+const MAX_WITHOUT_DATA: u64 = 1 << 24;
+/// Geometries that are quoted in a message.
+const QUOTED: usize = 13;
+
+/// Reads the one geometry of an XDMF file, and the digest of the file it refers to. Grids of a time series that refer to the same data count
+/// as one.
+pub(super) fn read(path: &Path, allowance: &Allowance) -> Result<(Mesh, Option<String>)> {
+    let text = text_of(path, allowance)?;
+    let document = parse(&text, path)?;
+    let mut seen: HashSet<Geometry<'_>> = HashSet::new();
     let mut geometries: Vec<Geometry<'_>> = Vec::new();
     for node in document.descendants().filter(|n| n.tag_name().name() == "Geometry") {
         let geometry = Geometry::of(node, path)?;
-        if !geometries.contains(&geometry) {
+        if seen.insert(geometry.clone()) {
             geometries.push(geometry);
         }
     }
     match geometries.as_slice() {
-        [only] => only.read(path),
+        [only] => only.read(path, allowance),
         _ => {
-            let found = geometries.iter().map(|g| g.content.trim().chars().take(60).collect()).collect();
+            let quoted = geometries.iter().take(QUOTED);
+            let found = quoted.map(|g| g.content.trim().chars().take(60).collect()).collect();
             let object = "Xdmf/Domain/Grid/Geometry".to_owned();
             Err(Error::MeshNotOne { path: path.to_owned(), object, found, kind: "geometry" })
         }
     }
 }
 
+/// The text of the document.
+fn text_of(path: &Path, allowance: &Allowance) -> Result<String> {
+    let failed = |source| Error::Read { path: path.to_owned(), source };
+    let file = regular::open(path)?;
+    let size = file.metadata().map_err(failed)?.len();
+    allowance.claim(path).set(size.saturating_mul(OF_TEXT))?;
+    let mut bytes = Vec::new();
+    file.take(size).read_to_end(&mut bytes).map_err(failed)?;
+    String::from_utf8(bytes)
+        .map_err(|fault| Error::NotText { path: path.to_owned(), offset: fault.utf8_error().valid_up_to() })
+}
+
+fn parse<'a>(text: &'a str, path: &Path) -> Result<Document<'a>> {
+    refuse_many_names(text, path)?;
+    Document::parse(text).map_err(|source| Error::XdmfSyntax { path: path.to_owned(), source })
+}
+
+/// The files that a document refers to, as far as it can be read.
+pub(super) fn referenced_files(path: &Path) -> Vec<PathBuf> {
+    if std::fs::metadata(path).is_ok_and(|file| file.len() > MAX_WITHOUT_DATA) {
+        return Vec::new();
+    }
+    let Ok(text) = text_of(path, &Allowance::of(None)) else { return Vec::new() };
+    let Ok(document) = parse(&text, path) else { return Vec::new() };
+    let items = document.descendants().filter(|node| node.tag_name().name() == "DataItem");
+    let mut files: Vec<PathBuf> = items.filter_map(|item| Some(inside_folder(path, item.text()?.trim())?.0)).collect();
+    files.sort();
+    files.dedup();
+    files
+}
+
 /// A `Geometry` element with its one data item.
-#[derive(PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq, Hash)]
 struct Geometry<'a> {
     n_axes: usize,
     format: String,
@@ -74,15 +119,16 @@ impl<'a> Geometry<'a> {
         Ok(Self { n_axes, format, content: item.text().unwrap_or("").trim(), dimensions: item.attribute("Dimensions") })
     }
 
-    fn read(&self, path: &Path) -> Result<Mesh> {
-        let (values, source) = if self.format == "HDF" { self.read_hdf5(path)? } else { self.read_text(path)? };
+    fn read(&self, path: &Path, allowance: &Allowance) -> Result<(Mesh, Option<String>)> {
+        let (values, source, digest) =
+            if self.format == "HDF" { self.read_hdf5(path, allowance)? } else { self.read_text(path)? };
         let stated = self.stated_len();
         if !values.len().is_multiple_of(self.n_axes) || stated.is_some_and(|n| n != values.len()) {
             let found = format!("{} values", values.len());
             let expected = format!("{} for each node and Dimensions {}", self.n_axes, self.dimensions.unwrap_or("-"));
             return Err(Error::Hdf5Shape { path: path.to_owned(), object: source, found, expected });
         }
-        Ok(Mesh::of_points(points(&values, self.n_axes), source))
+        Ok((Mesh::of_points(points(&values, self.n_axes), source), digest))
     }
 
     /// Number of values by the `Dimensions` attribute; a product that overflows matches no length.
@@ -92,16 +138,16 @@ impl<'a> Geometry<'a> {
         Some(dimensions.iter().try_fold(1_usize, |n, &d| n.checked_mul(d)).unwrap_or(usize::MAX))
     }
 
-    fn read_hdf5(&self, path: &Path) -> Result<(Vec<f64>, String)> {
+    fn read_hdf5(&self, path: &Path, allowance: &Allowance) -> Result<Values> {
         let Some((file, object)) = inside_folder(path, self.content) else {
             return Err(Error::XdmfReference { path: path.to_owned(), reference: self.content.to_owned() });
         };
-        let h5 = H5::open(&file)?;
-        let values = h5.root()?.dataset(object)?.reals()?.values;
-        Ok((values, self.content.to_owned()))
+        let read = || H5::open(&file, allowance)?.root()?.dataset(object)?.reals();
+        let (reals, digest) = unchanged(&file, || Ok((with_memory(&file, read)?, digest(&file)?)))?;
+        Ok((reals.values, self.content.to_owned(), Some(digest)))
     }
 
-    fn read_text(&self, path: &Path) -> Result<(Vec<f64>, String)> {
+    fn read_text(&self, path: &Path) -> Result<Values> {
         let source = "Geometry/DataItem";
         let number = |word: &str| {
             word.parse::<f64>().map_err(|_| Error::Hdf5Type {
@@ -112,9 +158,12 @@ impl<'a> Geometry<'a> {
             })
         };
         let values = self.content.split_ascii_whitespace().map(number).collect::<Result<_>>()?;
-        Ok((values, source.to_owned()))
+        Ok((values, source.to_owned(), None))
     }
 }
+
+/// Coordinates, where they come from, and the digest of the file they come from where it is another one.
+type Values = (Vec<f64>, String, Option<String>);
 
 /// The file and the path in it, if the reference is `file:/path` and the file lies in the folder of the XDMF or below.
 fn inside_folder<'a>(path: &Path, reference: &'a str) -> Option<(PathBuf, &'a str)> {

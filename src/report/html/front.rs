@@ -61,12 +61,22 @@ pub(super) fn front(page: &mut Markup, body: &ReportBody) {
         ("Done to the data", repairs(body)),
         ("Warnings", body.warnings.iter().map(|warning| format!("{}: {}", warning.code, warning.message)).collect()),
     ]);
-    page.digests(&[
-        ("BLAKE3 of K", vec![body.model.stiffness.digest.clone()]),
-        ("BLAKE3 of M", vec![body.model.mass.digest.clone()]),
-    ]);
+    digests(page, &body.model);
     signatures(page);
     page.raw("</section>\n");
+}
+
+fn digests(page: &mut Markup, model: &ModelReport) {
+    let matrices = [("K", &model.stiffness.digest), ("M", &model.mass.digest)];
+    let files = model.files.iter().map(|(role, digest)| (words::file(role), digest));
+    let lines: Vec<(String, Vec<String>)> = matrices
+        .into_iter()
+        .chain(files)
+        .map(|(what, digest)| (format!("BLAKE3 of {what}"), vec![digest.clone()]))
+        .collect();
+    let lines: Vec<(&str, Vec<String>)> =
+        lines.iter().map(|(label, digest)| (label.as_str(), digest.clone())).collect();
+    page.digests(&lines);
 }
 
 fn counts(body: &ReportBody) -> String {

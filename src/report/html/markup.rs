@@ -5,6 +5,7 @@
 use std::fmt::Write;
 
 use crate::report::page::verdict_word;
+use crate::report::printable;
 use crate::verification::check::Verdict;
 
 /// Tables of up to so many rows are kept on one printed page.
@@ -206,17 +207,4 @@ pub(in crate::report) fn escaped(text: &str) -> String {
         }
     }
     safe
-}
-
-/// Characters that XML forbids, and those that turn the direction of writing, with which a name could rearrange the
-/// words around it, become the replacement character.
-pub(in crate::report) fn printable(text: &str) -> String {
-    let is_turning = |character| matches!(character, '\u{200e}' | '\u{200f}' | '\u{061c}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    let replaced = |character: char| match character {
-        '\n' | '\t' => character,
-        '\u{fffe}' | '\u{ffff}' => char::REPLACEMENT_CHARACTER,
-        _ if character.is_control() || is_turning(character) => char::REPLACEMENT_CHARACTER,
-        _ => character,
-    };
-    text.chars().map(replaced).collect()
 }

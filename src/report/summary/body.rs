@@ -24,8 +24,7 @@ pub(super) fn write(page: &mut Page, body: &ReportBody) {
         body.generator.version,
         words::method(reduction.method)
     );
-    let title = page.toned(&title, Tone::Heading);
-    page.line(&title);
+    page.line(Page::toned(&title, Tone::Heading));
     page.heading("Read");
     model(page, &body.model);
     page.heading("Reduced");
@@ -58,6 +57,9 @@ fn model(page: &mut Page, model: &ModelReport) {
     page.entry("model", &parts.join(" · "));
     page.entry("stiffness", &matrix(&model.stiffness));
     page.entry("mass", &matrix(&model.mass));
+    for (role, digest) in &model.files {
+        page.entry(words::file(role), &format!("blake3 {}…", short(digest)));
+    }
     mass_properties(page, &model.mass_properties);
     let source = match model.rigid_body_modes.source {
         RigidBodySource::Geometric => "from the coordinates, verified against the stiffness",
@@ -72,9 +74,13 @@ fn model(page: &mut Page, model: &ModelReport) {
 }
 
 fn matrix(matrix: &MatrixReport) -> String {
-    let digest: String = matrix.digest.chars().take(12).collect();
     let nonzeros = table::counted(matrix.n_nonzeros, "nonzero", "nonzeros");
-    format!("{nonzeros} · {} digits · blake3 {digest}…", matrix.digits)
+    format!("{nonzeros} · {} digits · blake3 {}…", matrix.digits, short(&matrix.digest))
+}
+
+/// As much of a digest as tells two files apart.
+fn short(digest: &str) -> String {
+    digest.chars().take(12).collect()
 }
 
 pub(crate) fn mass_properties(page: &mut Page, properties: &MassProperties) {
@@ -142,17 +148,15 @@ pub(crate) fn checks(page: &mut Page, checks: &[Check]) {
     let align = [Align::Left, Align::Left, Align::Right, Align::Right, Align::Left, Align::Right, Align::Left];
     let mut lines = table::columns(&rows, align).into_iter();
     if let Some(heads) = lines.next() {
-        let heads = page.toned(&heads.join("  "), Tone::Faint);
-        page.line(&format!("  {heads}"));
+        page.spans(&["  ".into(), Page::toned(&heads.join("  "), Tone::Faint)]);
     }
     for (line, check) in lines.zip(checks) {
         let [id, name, value, limit, active, margin, word] = line;
-        let word = page.toned(word.trim_end(), Tone::Of(check.verdict()));
-        page.line(&format!("  {id}  {name}  {value}  {limit}  {active}  {margin}  {word}"));
+        let row = format!("  {id}  {name}  {value}  {limit}  {active}  {margin}  ");
+        page.spans(&[(&row).into(), Page::toned(word.trim_end(), Tone::Of(check.verdict()))]);
         if let Some(worst) = check.worst.as_ref().filter(|_| check.verdict() > Verdict::Pass) {
             let worst = table::shorten(&format!("worst at {worst} ({})", check.equation), WIDTH - 10);
-            let worst = page.toned(&worst, Tone::Faint);
-            page.line(&format!("        {worst}"));
+            page.spans(&["        ".into(), Page::toned(&worst, Tone::Faint)]);
         }
     }
 }
@@ -178,8 +182,7 @@ fn completeness(page: &mut Page, completeness: &Completeness) {
     };
     page.line("");
     for line in table::wrap(&completeness.statement(), WIDTH - 2) {
-        let line = page.toned(&line, Tone::Of(tone));
-        page.line(&format!("  {line}"));
+        page.spans(&["  ".into(), Page::toned(&line, Tone::Of(tone))]);
     }
 }
 

@@ -23,10 +23,10 @@ fn stages(page: &mut Page, stages: &[StageTime]) {
     let rows: Vec<[String; 2]> =
         names.zip(seconds.clone()).map(|(name, seconds)| [name.to_owned(), table::duration(seconds)]).collect();
     for ([name, time], seconds) in table::columns(&rows, [Align::Left, Align::Right]).into_iter().zip(seconds) {
-        let name = page.toned(&table::pad(&name, LABEL, Align::Left), Tone::Faint);
-        let is_total = name.contains("total");
-        let bar = if is_total { String::new() } else { page.toned(&bar(seconds / total), Tone::Faint) };
-        page.line(&format!("  {name}  {time}  {bar}"));
+        let bar = if name.trim_end() == "total" { String::new() } else { bar(seconds / total) };
+        let name = Page::toned(&table::pad(&name, LABEL, Align::Left), Tone::Faint);
+        let time = format!("  {time}  ");
+        page.spans(&["  ".into(), name, (&time).into(), Page::toned(&bar, Tone::Faint)]);
     }
 }
 
@@ -80,7 +80,6 @@ fn verdict(page: &mut Page, report: &Report) {
     };
     let text = if report.run.superelement.is_none() { text + " – no superelement was written" } else { text };
     for line in table::wrap(&text, WIDTH) {
-        let line = page.toned(&line, Tone::Of(verdict));
-        page.line(&line);
+        page.line(Page::toned(&line, Tone::Of(verdict)));
     }
 }

@@ -53,6 +53,25 @@ write     = { superelement = "x.supel" }
     assert_eq!(failed, ["M-16"]);
 }
 
+/// Squares of coordinates that are no numbers, or nothing: the file says so, not an eigensolver.
+#[test]
+fn i_16_sizes_beyond_double_precision() {
+    let (_, model, rest) = models().into_iter().next().expect("a block");
+    for factor in [1e200, 1e60, 1e-60, 1e-200] {
+        let place = with_nodes(&model, |_, x| x.map(|x| factor * x));
+        let ended = place.reduce(&place.model_flags(), rest);
+        assert_refused(
+            &place,
+            &ended,
+            "E-NODE-RANGE",
+            &["nodes.csv: coordinate x of node", "between 2^-160 and 2^160"],
+        );
+    }
+    let place = with_nodes(&model, |node, x| if node == 17 { [x[0], 1e200, x[2]] } else { x });
+    let ended = place.reduce(&place.model_flags(), rest);
+    assert_refused(&place, &ended, "E-NODE-RANGE", &["coordinate y of node 18 is 1e200"]);
+}
+
 #[test]
 fn i_17_axes_exchanged() {
     for (name, model, rest) in models() {

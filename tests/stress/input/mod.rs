@@ -1,6 +1,7 @@
 //! Faults of matrices and maps: lines I-01 to I-26, each put through the program from files to files.
 
 mod coordinates;
+mod costs;
 mod damage;
 mod maps;
 mod matrices;

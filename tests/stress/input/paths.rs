@@ -68,8 +68,72 @@ fn i_23_tables_and_jobs_that_are_no_files() {
         }
         assert_refused(&place, &supel(&["reduce", &path]), "E-NOT-A-FILE", &["regular file"]);
         let inspected = supel(&["inspect", &path]);
-        assert!(inspected.err.starts_with("supel: error[E-SUPERELEMENT]: "), "{}", inspected.err);
+        assert!(inspected.err.starts_with("supel: error[E-NOT-A-FILE]: "), "{}", inspected.err);
     }
+}
+
+/// By whatever name: what would be waited for is refused before any library opens it, directly and through links.
+#[cfg(all(target_os = "linux", feature = "hdf5"))]
+#[test]
+fn i_23_endings_make_no_difference() {
+    let place = chain();
+    for (ending, is_mesh) in
+        [("h5", true), ("mat", false), ("med", true), ("xdmf", true), ("h5m", true), ("mtx", false)]
+    {
+        let (pipe, device, kernel) = (format!("pipe.{ending}"), format!("zero.{ending}"), format!("kernel.{ending}"));
+        let made = std::process::Command::new("mkfifo").arg(place.path(&pipe)).status().expect("mkfifo");
+        assert!(made.success());
+        std::os::unix::fs::symlink("/dev/zero", place.path(&device)).expect("a link");
+        std::os::unix::fs::symlink("/proc/kmsg", place.path(&kernel)).expect("a link");
+        for name in [&pipe, &device, &kernel] {
+            let path = place.text(name);
+            stiffness_path_refused(&place, &format!("{path:?}"), "E-NOT-A-FILE", &["give the path of a file on disk"]);
+            if is_mesh {
+                let mut flags = place.matrix_flags();
+                flags.extend(["--nodes".to_owned(), path]);
+                assert_refused(&place, &place.reduce(&flags, super::CHAIN), "E-NOT-A-FILE", &["regular file"]);
+            }
+        }
+        let text = "<Xdmf><Domain><Grid><Geometry GeometryType=\"XYZ\"><DataItem Format=\"HDF\">";
+        for name in [&pipe, &device, &kernel] {
+            let text = format!("{text}{name}:/x</DataItem></Geometry></Grid></Domain></Xdmf>");
+            place.write("mesh.xdmf", text.as_bytes());
+            let mut flags = place.matrix_flags();
+            flags.extend(["--nodes".to_owned(), place.text("mesh.xdmf")]);
+            assert_refused(&place, &place.reduce(&flags, super::CHAIN), "E-NOT-A-FILE", &[name, "regular file"]);
+        }
+    }
+    for path in ["/proc/kmsg", "/proc/self/mem", "/dev/stdin"] {
+        let ended = supel(&["inspect", path]);
+        assert!(ended.err.starts_with("supel: error[E-"), "{}", ended.err);
+        assert_eq!(ended.code, supel::cli::ExitCode::InputData, "{}", ended.err);
+    }
+}
+
+/// A file that is touched while it is read may hold what nobody wrote: it is refused although all of it parses.
+#[test]
+fn i_23_a_file_that_is_written_while_it_is_read() {
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use supel::error::Error;
+    use supel::job::ModelJob;
+
+    let place = Place::with(&supel_models::spring(30_000, supel_models::Ends::Free));
+    let model = ModelJob { stiffness: place.path("K.mtx"), mass: place.path("M.mtx"), ..ModelJob::default() };
+    assert!(supel::input::read(&model).is_ok());
+    let (file, is_read) =
+        (std::fs::File::options().write(true).open(place.path("K.mtx")).expect("a file"), AtomicBool::new(false));
+    let error = std::thread::scope(|scope| {
+        scope.spawn(|| {
+            while !is_read.load(Ordering::Relaxed) {
+                file.set_modified(std::time::SystemTime::now()).expect("touched");
+            }
+        });
+        let read = supel::input::read(&model);
+        is_read.store(true, Ordering::Relaxed);
+        read.expect_err("a file that changes")
+    });
+    assert!(matches!(&error, Error::Changed { path } if *path == place.path("K.mtx")), "{error}");
+    assert_eq!((error.code(), error.class() as u8), ("E-CHANGED", 7));
 }
 
 /// Paths lead where they say, by `..`, absolute or through a link: a job may name any file its user may read. What another
@@ -130,6 +194,6 @@ fn i_23_a_folder_in_the_place_of_the_output() {
     let place = chain();
     std::fs::create_dir(place.path("x.supel")).expect("a folder");
     let ended = reduce_chain(&place).expect(supel::cli::ExitCode::Io);
-    assert!(ended.err.contains("x.supel: is not a regular file"), "{}", ended.err);
+    assert!(ended.err.contains("x.supel: not a regular file"), "{}", ended.err);
     assert!(place.path("x.supel").is_dir());
 }

@@ -8,7 +8,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::axis::Axis;
-use crate::report::html::markup::printable;
+use crate::report::printable;
 use crate::report::table;
 
 /// Width of every drawing in pixels of the canvas.

@@ -1,0 +1,54 @@
+//! The report in the folder of a superelement: whether it is of that file.
+//!
+//! All outputs of a run get their names together, but a run that is killed while they do leaves a new report and the superelement of an
+//! earlier run, and so does a run that failed a check.
+
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+use supel_runtime::Superelement;
+
+use crate::input::regular;
+use crate::verification::check::{Check, Limits};
+
+/// More than the report of any run takes.
+const MAX_BYTES: u64 = 1 << 28;
+
+/// M-26: the report carries the digest of the superelement; none where there is no report.
+pub(super) fn check(file: &Path, superelement: &Superelement, digest: &str) -> Option<Check> {
+    let path = report_path(file, superelement)?;
+    let report = read(&path)?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let difference = match report["run"]["file_digest"].as_str() {
+        Some(recorded) if recorded == digest => None,
+        Some(recorded) => Some(format!("{name} is of a file with BLAKE3 {recorded}")),
+        None => Some(format!("{name} is of a run that wrote no superelement")),
+    };
+    Some(Check {
+        id: "M-26",
+        name: "report in its folder is of this file",
+        equation: "1 where the report carries another digest, else 0",
+        value: if difference.is_some() { 1.0 } else { 0.0 },
+        limits: Limits::default(),
+        // The file itself is as good as it was.
+        fail_above: Check::NEVER,
+        worst: difference,
+    })
+}
+
+/// Where the report of a run stands if it was not moved: under the name that the job kept in the file gives it. What else that job says
+/// of folders is not followed.
+fn report_path(file: &Path, superelement: &Superelement) -> Option<PathBuf> {
+    let asked = superelement.metadata().job["write"]["report"].as_str().map(Path::new);
+    let name = asked.map_or_else(|| file.with_extension("report.json"), Path::to_owned);
+    Some(file.with_file_name(name.file_name()?))
+}
+
+/// The document, if it is a report.
+fn read(path: &Path) -> Option<Value> {
+    let mut bytes = Vec::new();
+    regular::open(path).ok()?.take(MAX_BYTES).read_to_end(&mut bytes).ok()?;
+    let report: Value = serde_json::from_slice(&bytes).ok()?;
+    report["body"]["format_version"].is_number().then_some(report)
+}

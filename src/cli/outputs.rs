@@ -1,0 +1,60 @@
+//! The files of a run: written under temporary names, given their own all together, the superelement last.
+
+use std::path::Path;
+
+use supel_runtime::{StagedFile, abandoned_parts};
+
+use super::overwriting::outputs;
+use super::signals;
+use crate::error::{Error, Result};
+use crate::heap;
+use crate::job::WriteJob;
+
+/// Files that wait for their names.
+#[derive(Default)]
+pub(super) struct Outputs {
+    staged: Vec<StagedFile>,
+}
+
+impl Outputs {
+    /// Writes a file under a temporary name, after those before it in the order of names.
+    pub(super) fn stage(&mut self, path: &Path, bytes: &[u8]) -> Result<()> {
+        self.staged.push(staged(path, bytes)?);
+        Ok(())
+    }
+
+    /// Takes a file that was staged already as the last one.
+    pub(super) fn push(&mut self, file: StagedFile) {
+        self.staged.push(file);
+    }
+
+    /// Gives all files their names, or none.
+    pub(super) fn commit(self) -> Result<()> {
+        let committed = signals::deferred(|| StagedFile::commit_all(self.staged));
+        heap::keep_all();
+        committed.map_err(Error::of_writing)
+    }
+}
+
+/// A file under a temporary name, which is removed wherever the run ends before it gets its own.
+pub(super) fn staged(path: &Path, bytes: &[u8]) -> Result<StagedFile> {
+    let staged = StagedFile::write(path, bytes).map_err(Error::of_writing)?;
+    heap::remove_at_end(staged.path());
+    Ok(staged)
+}
+
+/// Refuses an output that has no place before the model is read, with the error that its writing would end in: an empty
+/// file is written beside each and dropped.
+pub(super) fn refuse_unwritable(write: &WriteJob) -> Result<()> {
+    // The superelement gives others their names: its folder is told first.
+    outputs(write)
+        .iter()
+        .rev()
+        .try_for_each(|(_, path)| StagedFile::write(path, &[]).map(drop).map_err(Error::of_writing))
+}
+
+/// What is to be said of temporary files in the folders of the outputs, which other runs left or are writing.
+pub(super) fn abandoned(write: &WriteJob) -> Vec<String> {
+    let parts = outputs(write).into_iter().flat_map(|(_, path)| abandoned_parts(&path));
+    parts.map(|part| format!("supel: {}: left by an interrupted run – it can be removed", part.display())).collect()
+}

@@ -1,0 +1,81 @@
+//! Outputs that would be written over an input or over each other, told by file and not by name.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use crate::error::{Error, Result};
+use crate::input;
+use crate::job::{Job, WriteJob};
+
+/// Refuses a job whose outputs are not files of their own; `document` is the job document, where there is one.
+///
+/// # Errors
+/// [`Error::OutputIsInput`], [`Error::OutputTwice`].
+pub(super) fn refuse(job: &Job, document: Option<&Path>) -> Result<()> {
+    let document = document.map(|path| ("the job document", path.to_owned()));
+    let inputs: Vec<(&str, PathBuf)> = input::files(&job.model).into_iter().chain(document).collect();
+    let inputs: Vec<(&str, &Path, Place)> =
+        inputs.iter().map(|(role, path)| (*role, path.as_path(), Place::of(path))).collect();
+    let mut earlier: Vec<(&'static str, Place)> = Vec::new();
+    for (key, path) in outputs(&job.write) {
+        let place = Place::of(&path);
+        if let Some((role, input, _)) = inputs.iter().find(|(.., input)| input.is(&place)) {
+            let (role, input) = ((*role).to_owned(), (*input).to_owned());
+            return Err(Error::OutputIsInput { key, path, role, input });
+        }
+        if let Some((other, _)) = earlier.iter().find(|(_, other)| other.is(&place)) {
+            return Err(Error::OutputTwice { key, path, other });
+        }
+        earlier.push((key, place));
+    }
+    Ok(())
+}
+
+/// The outputs of a job in the order in which they get their names: the superelement, which the others tell about, last.
+pub(super) fn outputs(write: &WriteJob) -> Vec<(&'static str, PathBuf)> {
+    let others = [
+        ("write.report", Some(write.report_path())),
+        ("write.html", write.html.clone()),
+        ("write.junit", write.junit.clone()),
+        ("write.superelement", Some(write.superelement.clone())),
+    ];
+    others.into_iter().filter_map(|(key, path)| Some((key, path?))).collect()
+}
+
+/// Where a path leads: the file there, and the name in its folder, which may be that of nothing yet or of a link.
+struct Place {
+    file: Option<Identity>,
+    name: Option<(Identity, OsString)>,
+}
+
+impl Place {
+    fn of(path: &Path) -> Self {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let name = identity(folder).zip(path.file_name()).map(|(folder, name)| (folder, name.to_owned()));
+        Self { file: identity(path), name }
+    }
+
+    fn is(&self, other: &Self) -> bool {
+        let is_same_file = self.file.is_some() && self.file == other.file;
+        is_same_file || (self.name.is_some() && self.name == other.name)
+    }
+}
+
+/// Device and number of a file, through links.
+#[cfg(unix)]
+type Identity = (u64, u64);
+
+#[cfg(unix)]
+fn identity(path: &Path) -> Option<Identity> {
+    use std::os::unix::fs::MetadataExt;
+    std::fs::metadata(path).ok().map(|facts| (facts.dev(), facts.ino()))
+}
+
+/// The path without links and detours.
+#[cfg(not(unix))]
+type Identity = PathBuf;
+
+#[cfg(not(unix))]
+fn identity(path: &Path) -> Option<Identity> {
+    path.canonicalize().ok()
+}

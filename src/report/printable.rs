@@ -1,0 +1,82 @@
+//! Text of other people, fit to be shown: names and paths from jobs, meshes and superelements may hold characters that move the
+//! cursor, colour, hide or rearrange the words around them, or begin a line of their own.
+//!
+//! Every output passes through here once, where it is put together: lines of [`Page`](super::page::Page), elements of the page for
+//! people, cases of JUnit, lines on stderr, and all JSON documents.
+
+use std::borrow::Cow;
+use std::fmt::Write;
+
+use serde::Serialize;
+
+/// The text with every character that is not shown as itself written as `\u{1b}`, `\n` and the like.
+pub(crate) fn printable(text: &str) -> Cow<'_, str> {
+    if !text.contains(acts_on_its_surroundings) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len() + 8);
+    for character in text.chars() {
+        match character {
+            _ if !acts_on_its_surroundings(character) => shown.push(character),
+            '\n' | '\r' | '\t' => shown.extend(character.escape_default()),
+            _ => shown.extend(character.escape_unicode()),
+        }
+    }
+    Cow::Owned(shown)
+}
+
+/// A JSON document, indented and with a line end; what JSON leaves as it is but [`printable`] does not is escaped the way of JSON, which
+/// changes no value.
+pub(crate) fn json_text(document: &impl Serialize) -> String {
+    // Serialising the types of this crate cannot fail: no map has keys that are not strings and no writer is involved.
+    let text = serde_json::to_string_pretty(document).unwrap_or_default() + "\n";
+    if !text.contains(acts_in_json) {
+        return text;
+    }
+    let mut safe = String::with_capacity(text.len() + 64);
+    for character in text.chars() {
+        if acts_in_json(character) {
+            let mut units = [0; 2];
+            character.encode_utf16(&mut units).iter().for_each(|unit| {
+                let _ = write!(safe, "\\u{unit:04x}");
+            });
+        } else {
+            safe.push(character);
+        }
+    }
+    safe
+}
+
+/// What JSON has not escaped itself; its own line ends stay.
+fn acts_in_json(character: char) -> bool {
+    character != '\n' && acts_on_its_surroundings(character)
+}
+
+/// Control characters of both sets, line separators, characters that turn the direction of writing or are not shown at all, tags, and what
+/// XML does not allow.
+fn acts_on_its_surroundings(character: char) -> bool {
+    character.is_control()
+        || matches!(character,
+            '\u{61c}' | '\u{180e}' | '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}'
+            | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{fffe}' | '\u{ffff}' | '\u{e0000}'..='\u{e007f}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_acts_is_written_out_and_the_rest_stays() {
+        assert_eq!(printable("Δx – 12 µm, naïve, 軸, 🔩"), "Δx – 12 µm, naïve, 軸, 🔩");
+        assert_eq!(printable("\x1b[2J\x1b[H✓\u{9b}8m\u{202e}\0\n"), "\\u{1b}[2J\\u{1b}[H✓\\u{9b}8m\\u{202e}\\u{0}\\n");
+    }
+
+    #[test]
+    fn a_json_document_keeps_its_values() {
+        let text = "a\u{7f}\u{9b}\u{202e}\u{e0041}\u{1b}\n";
+        let document = json_text(&serde_json::json!({ "name": text }));
+        assert!(!document.trim_end().contains(|c: char| c != '\n' && acts_on_its_surroundings(c)), "{document:?}");
+        let read: serde_json::Value = serde_json::from_str(&document).expect("JSON");
+        assert_eq!(read["name"], text);
+    }
+}

@@ -1,0 +1,105 @@
+/* Calls of the system that fail on request, preloaded before the program that is tested.
+
+   FAULT_KIND    files: calls that change files in FAULT_FOLDER; heap: allocations of FAULT_LEAST bytes and more
+   FAULT_AT      the call that fails, from 1; 0 for none
+   FAULT_MODE    once: that call; from: that one and all later ones
+   FAULT_ERRNO   what it fails with (files)
+   FAULT_COUNT   a file to which the number of calls is written when the process ends
+*/
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+extern void *__libc_malloc(size_t);
+extern void *__libc_calloc(size_t, size_t);
+extern void *__libc_realloc(void *, size_t);
+extern void *__libc_memalign(size_t, size_t);
+
+static atomic_long n_calls;
+static long at, least;
+static int from, error = EIO, kind;
+static char folder[4096];
+enum { NOTHING, FILES, HEAP };
+
+__attribute__((constructor)) static void start(void) {
+    const char *text = getenv("FAULT_KIND");
+    if (!text) return;
+    if ((getenv("FAULT_FOLDER"))) strncpy(folder, getenv("FAULT_FOLDER"), sizeof folder - 1);
+    at = getenv("FAULT_AT") ? atol(getenv("FAULT_AT")) : 0;
+    least = getenv("FAULT_LEAST") ? atol(getenv("FAULT_LEAST")) : 1;
+    from = getenv("FAULT_MODE") && !strcmp(getenv("FAULT_MODE"), "from");
+    if (getenv("FAULT_ERRNO")) error = atoi(getenv("FAULT_ERRNO"));
+    kind = !strcmp(text, "heap") ? HEAP : FILES;
+}
+
+__attribute__((destructor)) static void end(void) {
+    const char *path = getenv("FAULT_COUNT");
+    kind = NOTHING;
+    if (!path) return;
+    char text[32];
+    int length = snprintf(text, sizeof text, "%ld\n", (long)n_calls);
+    int file = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    if (file >= 0) {
+        if (write(file, text, length) < 0) { }
+        close(file);
+    }
+}
+
+static int fails(void) {
+    long call = ++n_calls;
+    return at && (from ? call >= at : call == at);
+}
+
+/* ---- files ---- */
+
+static int inside(const char *path) { return kind == FILES && folder[0] && !strncmp(path, folder, strlen(folder)); }
+
+static int inside_fd(int fd) {
+    char link[64], path[4096];
+    if (kind != FILES) return 0;
+    snprintf(link, sizeof link, "/proc/self/fd/%d", fd);
+    ssize_t length = readlink(link, path, sizeof path - 1);
+    if (length <= 0) return 0;
+    path[length] = 0;
+    return inside(path);
+}
+
+#define NEXT(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
+#define FAIL_IF(condition) if ((condition) && fails()) { errno = error; return -1; }
+
+int rename(const char *a, const char *b) { FAIL_IF(inside(b)); return NEXT(rename)(a, b); }
+int link(const char *a, const char *b) { FAIL_IF(inside(b)); return NEXT(link)(a, b); }
+int linkat(int x, const char *a, int y, const char *b, int f) { FAIL_IF(inside(b)); return NEXT(linkat)(x, a, y, b, f); }
+int unlink(const char *a) { FAIL_IF(inside(a)); return NEXT(unlink)(a); }
+int fsync(int fd) { FAIL_IF(inside_fd(fd)); return NEXT(fsync)(fd); }
+ssize_t write(int fd, const void *b, size_t n) { FAIL_IF(inside_fd(fd)); return NEXT(write)(fd, b, n); }
+int open64(const char *path, int flags, ...) {
+    va_list rest;
+    va_start(rest, flags);
+    mode_t mode = va_arg(rest, int);
+    va_end(rest);
+    FAIL_IF((flags & (O_CREAT | O_WRONLY | O_RDWR)) && inside(path));
+    return ((int (*)(const char *, int, ...))dlsym(RTLD_NEXT, "open64"))(path, flags, mode);
+}
+
+/* ---- heap ---- */
+
+static int refused(size_t size) { return kind == HEAP && (long)size >= least && fails(); }
+
+void *malloc(size_t n) { if (refused(n)) { errno = ENOMEM; return NULL; } return __libc_malloc(n); }
+void *calloc(size_t m, size_t n) { if (refused(m * n)) { errno = ENOMEM; return NULL; } return __libc_calloc(m, n); }
+void *realloc(void *p, size_t n) { if (refused(n)) { errno = ENOMEM; return NULL; } return __libc_realloc(p, n); }
+int posix_memalign(void **p, size_t a, size_t n) {
+    if (refused(n)) return ENOMEM;
+    *p = __libc_memalign(a, n);
+    return *p ? 0 : ENOMEM;
+}
+void *aligned_alloc(size_t a, size_t n) { if (refused(n)) { errno = ENOMEM; return NULL; } return __libc_memalign(a, n); }

@@ -1,0 +1,119 @@
+//! Streams that take nothing, files that may not grow, a parent that is gone.
+
+use std::io::Write;
+use std::process::{Command, Stdio};
+
+use supel_models::{Ends, spring};
+
+use crate::place::Place;
+
+/// The program started by a shell script, in which it is `"$0" "$@"`.
+fn shell(script: &str, args: &[&str]) -> (Option<i32>, String) {
+    let program = assert_cmd::cargo::cargo_bin!("supel");
+    let ended = Command::new("sh").args(["-c", script]).arg(program).args(args).output().expect("a shell");
+    (ended.status.code(), String::from_utf8_lossy(&ended.stderr).into_owned())
+}
+
+/// The program with a pipe for its stdout that nobody reads.
+fn without_reader(args: &[&str]) -> (Option<i32>, String) {
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("supel"));
+    let mut child = command.args(args).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("started");
+    drop(child.stdout.take());
+    let ended = child.wait_with_output().expect("ended");
+    (ended.status.code(), String::from_utf8_lossy(&ended.stderr).into_owned())
+}
+
+/// A chain with its superelement.
+fn place() -> (Place, Vec<String>) {
+    let place = Place::with(&spring(12, Ends::Free));
+    let mut args = vec!["reduce".to_owned(), "--output".to_owned(), place.text("x.supel")];
+    args.extend(place.matrix_flags());
+    args.extend(
+        "--interface ends=rows:0,11 --method craig-bampton --modes 2 --threads 1".split(' ').map(str::to_owned),
+    );
+    let texts: Vec<&str> = args.iter().map(String::as_str).collect();
+    assert_eq!(shell("exec \"$0\" \"$@\" > /dev/null", &texts).0, Some(0));
+    (place, args)
+}
+
+#[test]
+fn an_answer_that_does_not_arrive_is_exit_7() {
+    let (place, args) = place();
+    let file = place.text("x.supel");
+    let reduce: Vec<&str> = args.iter().map(String::as_str).collect();
+    let with = |flag| [reduce.as_slice(), &[flag]].concat();
+    let commands: [&[&str]; 8] = [
+        &["inspect", &file],
+        &["inspect", &file, "--json"],
+        &["verify", &file],
+        &["verify", &file, "--json"],
+        &reduce,
+        &with("--json"),
+        &["--help"],
+        &["--version"],
+    ];
+    for args in commands {
+        for script in ["exec \"$0\" \"$@\" > /dev/full", "exec \"$0\" \"$@\" >&-"] {
+            let (code, err) = shell(script, args);
+            assert_eq!(code, Some(7), "{script} {args:?}: {err}");
+            assert!(err.starts_with("supel: error[E-STDOUT]: the answer could not be written to stdout: "), "{err}");
+            assert_eq!(err.lines().count(), 1, "{err}");
+        }
+        // A reader that has gone away needs no answer.
+        assert_eq!(without_reader(args), (Some(0), String::new()), "{args:?}");
+        assert_eq!(shell("exec \"$0\" \"$@\" > /dev/null", args).0, Some(0), "the null device takes everything");
+    }
+    for script in ["exec \"$0\" \"$@\" > /dev/full", "exec \"$0\" \"$@\" >&-"] {
+        assert_eq!(shell(script, &with("--quiet")), (Some(0), String::new()), "no answer was asked for");
+        // An error that was told on stderr keeps its code.
+        assert_eq!(shell(script, &["inspect", "/no/such.supel", "--json"]).0, Some(7));
+        assert_eq!(shell(script, &["reduce", "--modes", "x", "--json"]).0, Some(2));
+    }
+}
+
+/// A limit on the size of files is an error like a full disk, not the end of the process.
+#[test]
+fn a_file_that_may_not_grow_is_an_error() {
+    let (place, args) = place();
+    let before = (place.bytes("x.supel"), place.bytes("x.report.json"));
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    for blocks in 0..12 {
+        let (code, err) = shell(&format!("ulimit -f {blocks}; exec \"$0\" \"$@\" > /dev/null"), &args);
+        assert_eq!(code, Some(7), "{blocks} blocks: {err}");
+        assert!(err.starts_with("supel: error[E-WRITE]: ") && err.contains("File too large"), "{err}");
+        assert!((place.bytes("x.supel"), place.bytes("x.report.json")) == before, "{blocks} blocks");
+    }
+    let names = std::fs::read_dir(place.path("")).expect("a folder");
+    assert!(names.flatten().all(|entry| !entry.file_name().to_string_lossy().ends_with(".part")));
+}
+
+/// The child that reads HDF5 first ends when the other end of its stdin is closed, which the end of its parent does in any case.
+#[cfg(feature = "hdf5")]
+#[test]
+fn the_child_ends_with_its_parent() {
+    let place = Place::with(&spring(5, Ends::Free));
+    // Reading this takes seconds.
+    let file = hdf5_metno::File::create(place.path("zeros.hmf")).expect("a file");
+    let grid = file.create_group("domain").and_then(|domain| domain.create_group("grid")).expect("groups");
+    let builder = grid.new_dataset_builder().deflate(1).chunk((1 << 16, 3));
+    let zeros = vec![[0.0; 3]; 1 << 24];
+    builder.with_data::<_, f64, _>(zeros.as_slice()).create("Geometry").expect("a dataset");
+    drop(grid);
+    file.close().expect("closed");
+    let model = serde_json::json!({ "stiffness": place.path("K.mtx"), "mass": place.path("M.mtx"), "nodes": place.path("zeros.hmf") });
+    let task = format!("{}\n", serde_json::json!({ "model": model, "memory_bytes": null }));
+    let child = || {
+        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("supel"));
+        command.arg("rehearse-reading").stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null());
+        let mut child = command.spawn().expect("started");
+        let mut stdin = child.stdin.take().expect("a pipe");
+        stdin.write_all(task.as_bytes()).expect("written");
+        (child, stdin)
+    };
+    let (mut alone, stdin) = child();
+    drop(stdin);
+    assert_eq!(alone.wait().expect("ended").code(), Some(6), "it went on reading");
+    let (mut kept, stdin) = child();
+    assert_eq!(kept.wait().expect("ended").code(), Some(0));
+    drop(stdin);
+}
