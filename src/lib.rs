@@ -57,7 +57,7 @@ pub mod verification;
 
 use audit::Audit;
 use basis::Basis;
-use error::Result;
+use error::{Error, Result};
 use factor::{Analysis, Cholesky};
 use job::Job;
 use model::Model;
@@ -67,6 +67,7 @@ use output::{InputFacts, Results};
 use partition::Partition;
 use reduction::Reduction;
 use report::Observer;
+use rigid::RigidBodyModes;
 use supel_runtime::Superelement;
 use verification::Evidence;
 
@@ -88,7 +89,9 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     observer.stage("factor");
     let storage = factor::storage_within_memory(&analysis, &partition, job, resources)?;
     let sigma = modes::shift_of_factor(&partition, &rigid);
-    let factor = Cholesky::kept(&analysis, (partition.pencil(), sigma), storage, &|dof| partition.name_of(dof))?;
+    let factor = Cholesky::kept(&analysis, (partition.pencil(), sigma), storage, &|dof| partition.name_of(dof));
+    let factor = factor.map_err(|error| refused(error, &analysis, &partition, &rigid))?;
+    let rank = rigid::confirmed_rank(&partition, &rigid, rank, &factor)?;
 
     observer.stage("constraint modes");
     let constraint = basis::constraint_modes(&partition, &factor, &rigid);
@@ -148,6 +151,12 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     Ok(Outcome { superelement, report })
 }
 
+/// Why K_II could not be factored, the true reason first.
+fn refused(error: Error, analysis: &Analysis, partition: &Partition, rigid: &RigidBodyModes) -> Error {
+    let error = factor::few_digits(error, analysis, (&partition.stiffness).into(), partition.precision.stiffness);
+    rigid::or_lack_of_rank(error, partition, rigid)
+}
+
 /// The first three stages, which every look at the full model begins with.
 fn prepared(job: &Job, observer: &mut dyn Observer) -> Result<(InputFacts, Partition)> {
     // Small dense decompositions use faer's global setting; sequential ones give the same bits on every machine.
@@ -162,7 +171,8 @@ fn prepared(job: &Job, observer: &mut dyn Observer) -> Result<(InputFacts, Parti
 
     observer.stage("partition");
     let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;
-    let partition = Partition { recovered, ..Partition::new(model, &job.interfaces)? };
+    let mut partition = Partition::new(model, &job.interfaces)?;
+    partition.recovered = recovered;
     Ok((facts, partition))
 }
 

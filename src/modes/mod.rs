@@ -32,14 +32,16 @@ mod ritz;
 mod search;
 mod shifted;
 mod slices;
+pub(crate) mod zero;
 
-use faer::Mat;
+use faer::{Mat, MatRef};
 
 use crate::dense;
 use crate::error::Result;
 use crate::factor::Pencil;
 use crate::job::Eigensolver;
 use crate::model::Precision;
+use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
 use crate::sparse::{Leading, product};
 
@@ -50,9 +52,10 @@ pub use cluster::REPEATED_WITHIN;
 pub use eigenproblem::{CLUSTER_GAP, EigenWork, Eigenpairs, Interval, Problem, Wanted};
 pub use equilibration::Equilibrated;
 pub use lanczos::{lanczos, lanczos_between};
-pub use operator::{Factored, FreeAtZero, ShiftInvert};
+pub use operator::{Factored, FreeAtZero, RefinedAtZero, ShiftInvert};
 pub use orthogonalisation::mass_qr;
-pub use quality::{MassOrthogonality, ModeError, mass_orthogonality};
+pub(crate) use quality::rayleigh_quotients;
+pub use quality::{MassOrthogonality, ModeError, NOTICED_BAR, mass_orthogonality};
 pub(crate) use random::SplitMix64;
 pub use retained::{Component, Retained};
 pub use search::{SLICED_FROM, Search};
@@ -221,13 +224,55 @@ pub struct ModalProblem<'a> {
     pub rigid: Option<&'a RigidBodyModes>,
     /// Relative precision of the data.
     pub precision: Precision,
+    /// Where the entries of K come from, where that is known.
+    pub data: Option<DataSource<'a>>,
+}
+
+/// The partition whose entries a pencil has.
+#[derive(Clone, Copy, Debug)]
+pub struct DataSource<'a> {
+    partition: &'a Partition,
+    /// Its dofs that the pencil has, ascending; all leading ones where nothing is said.
+    kept: Option<&'a [usize]>,
+}
+
+impl DataSource<'_> {
+    /// What the digits of K leave open of xᵀKx, where they are few.
+    fn energy_noise(&self, x: MatRef<'_, f64>) -> Option<Vec<f64>> {
+        if x.ncols() == 0 || !self.partition.has_few_digits() {
+            return None;
+        }
+        let Some(kept) = self.kept else { return Some(self.partition.energy_noise(x)) };
+        let mut whole = Mat::zeros(self.partition.n_dofs(), x.ncols());
+        for (row, dof) in kept.iter().enumerate() {
+            (0..x.ncols()).for_each(|j| whole[(*dof, j)] = x[(row, j)]);
+        }
+        Some(self.partition.energy_noise(whole.as_ref()))
+    }
 }
 
 impl<'a> ModalProblem<'a> {
     /// That of a pencil, with its rigid-body modes where it is free.
     pub fn of(pencil: Pencil<'a>, rigid: Option<&'a RigidBodyModes>, precision: Precision) -> Self {
         let Pencil { stiffness, mass } = pencil;
-        Self { stiffness, mass, rigid, precision }
+        Self { stiffness, mass, rigid, precision, data: None }
+    }
+
+    /// That of a partition with its interface free.
+    pub fn free(partition: &'a Partition, rigid: Option<&'a RigidBodyModes>) -> Self {
+        let data = Some(DataSource { partition, kept: None });
+        Self { data, ..Self::of(partition.pencil(), rigid, partition.precision) }
+    }
+
+    /// That of a partition with its interface held.
+    pub fn held(partition: &'a Partition) -> Self {
+        let data = Some(DataSource { partition, kept: None });
+        Self { data, ..Self::of(partition.internal(), None, partition.precision) }
+    }
+
+    /// The same with entries of K that are those of a partition at these dofs, ascending.
+    pub fn with_entries_of(self, partition: &'a Partition, kept: &'a [usize]) -> Self {
+        Self { data: Some(DataSource { partition, kept: Some(kept) }), ..self }
     }
 
     /// K and M.
@@ -252,6 +297,9 @@ pub struct ModeRequest {
 const SPREAD: f64 = 1e6;
 /// Backward error of a mode that lacks no digits, a hundredth of what M-01 lets pass.
 const SETTLED: f64 = 1e-12;
+/// Backward error above which a step of inverse iteration is tried on a mode: a tenth of what M-01 asks for, and ten times what
+/// modes are left with that carry nothing unseen.
+const CARRIES_NOTHING: f64 = 1e-14;
 /// Share of λ that the residual of such a mode may leave in doubt, a tenth of what M-24 looks at.
 const SETTLED_BAR: f64 = 1e-10;
 /// Seed of the first attempt; a repeated one takes another.
@@ -281,7 +329,7 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
         };
         let eigenproblem = Problem { operator, mass: problem.mass, deflated };
         let found = search(problem, eigenproblem, ModeRequest { wanted, ..request })?;
-        let n_settled = n_settled(&found, operator.shift());
+        let n_settled = n_settled(problem, &found, operator.shift());
         if n_settled == found.count() {
             return Ok(found.joined([known]));
         }
@@ -290,12 +338,21 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
 }
 
 /// Modes of one search that stand: all of them, or those up to [`SPREAD`] where one further up lacks digits.
-fn n_settled(found: &Modes, sigma: f64) -> usize {
-    // θ of a mode against the largest: rounding of the operator is relative to that.
-    let reach = found.lambda.first().map_or(0.0, |first| SPREAD * (first - sigma));
-    let n_near = found.lambda.partition_point(|lambda| lambda - sigma <= reach);
-    let lacks_digits = |error: &ModeError| error.backward > SETTLED || error.residual_bar > SETTLED_BAR;
+fn n_settled(problem: ModalProblem<'_>, found: &Modes, sigma: f64) -> usize {
+    let (n_near, settled) = (n_near(found, sigma), settled_at(problem.precision));
+    let lacks_digits = |error: &ModeError| error.backward > settled || error.residual_bar > SETTLED_BAR;
     if n_near > 0 && found.errors[n_near..].iter().any(lacks_digits) { n_near } else { found.count() }
+}
+
+/// Modes up to [`SPREAD`]: θ against the largest, which rounding of the operator is relative to.
+fn n_near(found: &Modes, sigma: f64) -> usize {
+    let reach = found.lambda.first().map_or(0.0, |first| SPREAD * (first - sigma));
+    found.lambda.partition_point(|lambda| lambda - sigma <= reach)
+}
+
+/// Backward error of a mode that lacks no digits: those that the data do not have are not missed.
+fn settled_at(precision: Precision) -> f64 {
+    SETTLED.max(precision.stiffness.max(precision.mass))
 }
 
 fn search(problem: ModalProblem<'_>, eigenproblem: Problem<'_>, request: ModeRequest) -> Result<Modes> {
@@ -305,11 +362,30 @@ fn search(problem: ModalProblem<'_>, eigenproblem: Problem<'_>, request: ModeReq
     };
     let around = [None, pairs.next];
     let modes = judged(problem, eigenproblem, pairs, around);
+    let modes = purified_where_doubtful(problem, eigenproblem, modes, around);
     let searched_to = match request.wanted {
         Wanted::Count(_) => None,
         Wanted::UpTo(limit) => Some(limit),
     };
     Ok(Modes { searched_to, ..modes })
+}
+
+/// The modes after a step of inverse iteration, where one of them lacks digits and gains some: what M hardly sees an iteration
+/// carries along, unseen by its products with M.
+fn purified_where_doubtful(
+    problem: ModalProblem<'_>,
+    eigenproblem: Problem<'_>,
+    modes: Modes,
+    around: [Option<f64>; 2],
+) -> Modes {
+    let n_near = n_near(&modes, eigenproblem.operator.shift());
+    let worst = |modes: &Modes| dense::worst(modes.errors[..n_near].iter().map(|error| error.backward));
+    if n_near == 0 || worst(&modes) <= CARRIES_NOTHING {
+        return modes;
+    }
+    let purified = slices::purified(eigenproblem, &modes, CARRIES_NOTHING);
+    let purified = judged(problem, eigenproblem, purified, around);
+    if worst(&purified) < worst(&modes) { purified } else { Modes { work: purified.work, ..modes } }
 }
 
 /// Modes of unit modal mass with their Rayleigh quotients and what is known of their errors; `around` as for the error bars.

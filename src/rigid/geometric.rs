@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use faer::{Mat, MatRef};
 
-use super::{Misfit, RigidBodyModes, RigidEnergy, RigidSource, energies_of_terms, largest_residual, residuals};
+use super::{
+    Misfit, RigidBodyModes, RigidEnergy, RigidSource, algebraic, energies_of_terms, largest_residual, residuals, zero_energy,
+};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::model::Bodies;
@@ -17,9 +19,6 @@ const NO_DISPLACEMENT: f64 = 1e-11;
 /// Modal masses relative to the largest below which a rigid motion has no inertia: the square of the rounding that the
 /// direction of the motion carries, with a factor of ten thousand. A real one may be small beside a seismic mass.
 const NO_MASS: f64 = 1e-24;
-/// A motion is free when its energy stays below this many times the noise of the data. The noise bound adds all
-/// roundings with one sign; measured energies of exact rigid motions stay below it, so ten is generous.
-const FREE_BELOW_NOISE: f64 = 10.0;
 /// A force is worth a look when it exceeds this many times the noise of the data, or that of a translation: what a producer
 /// rounds while it assembles K shows in both.
 const NOTICEABLE: f64 = 100.0;
@@ -57,6 +56,7 @@ pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<
         largest_quotient: worst.largest_quotient.max(body.energy.largest_quotient),
         largest_residual: worst.largest_residual.max(body.energy.largest_residual),
         noise: worst.noise.max(body.energy.noise),
+        angle: 0.0,
     });
     let n = sites.len();
     let massive = found.iter().map(|body| body.orthonormal.as_ref());
@@ -153,11 +153,12 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
     let (orthonormal, massless) =
         mass_orthonormal(partition, dense::product(centred.as_ref(), moving.as_ref()).as_ref())?;
     let massless = without_energy(partition, massless)?;
-    let Energies { energies, directions, noise } = Energies::of(partition, orthonormal.as_ref())?;
-    if let Some(energy) = energies.first().filter(|energy| **energy < -FREE_BELOW_NOISE * noise) {
-        return Err(Error::NegativeRigidEnergy { energy: *energy, noise });
+    let Energies { energies, directions, noise, zero } = Energies::of(partition, orthonormal.as_ref())?;
+    if energies.first().is_some_and(|energy| *energy < -zero) {
+        // The spectrum tells whether K is indefinite, or rounded by whoever made it.
+        algebraic::zero_modes(partition)?;
     }
-    let n_free = energies.iter().filter(|energy| **energy <= FREE_BELOW_NOISE * noise).count();
+    let n_free = energies.iter().filter(|energy| **energy <= zero).count();
     // A rotation of too much energy needs no second witness.
     let noticeable = if n_free < energies.len() { 0.0 } else { NOTICEABLE };
     let misfit = costly_rotation(partition, (sites, dofs), centred.as_ref(), noticeable).map(
@@ -173,6 +174,7 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
         largest_quotient: energies[..n_free].iter().fold(0.0, |max: f64, energy| max.max(energy.abs())),
         largest_residual: largest_residual(&partition.stiffness, orthonormal.as_ref()),
         noise,
+        angle: 0.0,
     };
     let is_classical = n_free + massless.ncols() == 6;
     Ok(Body { dofs: dofs.to_vec(), orthonormal, massless, is_classical, energy, motions, misfit })
@@ -183,8 +185,8 @@ fn without_energy(partition: &Partition, massless: Mat<f64>) -> Result<Mat<f64>>
     if massless.ncols() == 0 {
         return Ok(massless);
     }
-    let Energies { energies, directions, noise } = Energies::of(partition, massless.as_ref())?;
-    let n_free = energies.iter().filter(|energy| **energy <= FREE_BELOW_NOISE * noise).count();
+    let Energies { energies, directions, zero, .. } = Energies::of(partition, massless.as_ref())?;
+    let n_free = energies.iter().filter(|energy| **energy <= zero).count();
     Ok(dense::product(massless.as_ref(), directions.as_ref().subcols(0, n_free)))
 }
 
@@ -269,8 +271,10 @@ struct Energies {
     energies: Vec<f64>,
     /// The combinations that have them.
     directions: Mat<f64>,
-    /// What rounding of the data can make of one.
+    /// What rounding of the data can make of one, all roundings with one sign.
     noise: f64,
+    /// Up to which one is zero.
+    zero: f64,
 }
 
 impl Energies {
@@ -280,7 +284,8 @@ impl Energies {
         dense::symmetrise(&mut energy);
         let (energies, directions) = dense::symmetric_eigen(energy.as_ref())?;
         let largest = energies_of_terms(q, terms.as_ref()).into_iter().fold(0.0, f64::max);
-        Ok(Self { energies, directions, noise: (partition.precision.stiffness + f64::EPSILON) * largest })
+        let zero = zero_energy(partition, q, terms.as_ref());
+        Ok(Self { energies, directions, noise: (partition.precision.stiffness + f64::EPSILON) * largest, zero })
     }
 }
 
