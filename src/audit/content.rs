@@ -84,6 +84,11 @@ impl<'a> Content<'a> {
         limits::of_energy(self.noise, 1.0)
     }
 
+    /// Limits of a force of rigid-body motion, in the scales of K̂ + λ₁M̂.
+    pub(super) fn force_limits(&self) -> Judged {
+        limits::of_force(self.noise, 1.0)
+    }
+
     /// Limits of the relative difference of two frequencies of one mode.
     pub(super) fn frequency_limits(&self) -> Judged {
         limits::of_frequency(self.noise, 1.0)
@@ -140,14 +145,16 @@ pub(super) fn boundary(superelement: &Superelement) -> Boundary {
     if is_fixed { Boundary::FixedInterface } else { Boundary::FreeInterface }
 }
 
-/// The noise of energies relative to the first elastic one, by the bars that the file states.
+/// The noise of energies relative to the first elastic one, by the bars that the file states. No file is written with a frequency that
+/// is unknown, and a bar that says so excuses nothing.
 fn noise(superelement: &Superelement, first: f64) -> f64 {
     let known = superelement.metadata().coordinates.iter().filter_map(|coordinate| match *coordinate {
         Coordinate::ElasticMode { frequency_hz, error_bar_hz: Some(bar), .. }
         | Coordinate::FixedInterfaceMode { frequency_hz, error_bar_hz: Some(bar), .. } => {
             // The bar of the square of a frequency is twice that of the frequency.
             let omega = frequency_hz * std::f64::consts::TAU;
-            Some(Known { lambda: omega * omega, relative_bar: 2.0 * bar / frequency_hz })
+            let known = Known { lambda: omega * omega, relative_bar: 2.0 * bar / frequency_hz };
+            (bar <= limits::UNKNOWN * frequency_hz).then_some(known)
         }
         _ => None,
     });

@@ -60,7 +60,9 @@ pub fn against_model(superelement: &Superelement, partition: &Partition, facts: 
         audit.checks.extend(statics::gravity(&scaled, &full, &answers));
         match witness.shapes(&scaled, &full, &answers) {
             Some(check) => audit.checks.push(check),
-            None => audit.notes.push("rounding of the stiffness leaves the shapes of its modes open: not compared".into()),
+            None => {
+                audit.notes.push("rounding of the stiffness leaves the shapes of its modes open: not compared".into())
+            }
         }
     } else {
         audit.notes.push("the model is held or free in another way: nothing else was compared".to_owned());

@@ -7,8 +7,8 @@ use super::content::Content;
 use crate::dense;
 use crate::error::Result;
 use crate::input::Direction;
-use crate::partition::Site;
 use crate::modes::{Equilibrated, zero};
+use crate::partition::Site;
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::Judged;
 
@@ -60,7 +60,7 @@ pub(super) fn null_space(content: &Content<'_>) -> Check {
             worst = (error, Some(format!("rigid-body mode {}", j + 1)));
         }
     }
-    let Judged { limits, fail_above } = content.energy_limits();
+    let Judged { limits, fail_above } = content.force_limits();
     Check {
         id: "M-12",
         name: "rigid-body motion makes no force",

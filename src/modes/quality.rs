@@ -88,7 +88,11 @@ pub(crate) fn rayleigh_quotients(
                 data_bar,
                 residual_bar: 0.0,
                 rounding_floor,
-                zero_level: zero::level(noise[j] / modal_mass, rounding * stiffness_terms[j] / modal_mass, rounding_floor),
+                zero_level: zero::level(
+                    noise[j] / modal_mass,
+                    rounding * stiffness_terms[j] / modal_mass,
+                    rounding_floor,
+                ),
             };
             (lambda, error)
         })

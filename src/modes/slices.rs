@@ -302,9 +302,9 @@ pub(super) fn search_between(
     Ok(Modes { work, next: None, ..modes })
 }
 
-/// X = (K − σM)⁻¹ M X (Λ − σI) for the modes whose backward error is not settled: a step of inverse iteration, which leaves nothing in them that M does
-/// not see. An iteration carries it along, unseen by its products with M, and where all eigenvalues lie on one side of the shift
-/// and far from it, it grows.
+/// X = (K − σM)⁻¹ M X (Λ − σI) for the modes whose backward error is not settled: a step of inverse iteration, which leaves nothing
+/// in them that M does not see. An iteration carries it along, unseen by its products with M, and where all eigenvalues lie on
+/// one side of the shift and far from it, it grows.
 pub(super) fn purified(problem: Problem<'_>, modes: &Modes, settled: f64) -> Eigenpairs {
     let sigma = problem.operator.shift();
     let mut order: Vec<usize> = (0..modes.count()).collect();

@@ -95,7 +95,8 @@ impl Results<'_> {
     /// that is proved to hold the eigenvalue: the middle of the interval then is the better answer.
     fn eigenvalues(&self) -> Vec<f64> {
         let Evidence { retained, enclosures, .. } = self.evidence;
-        let interval = |mode: usize| enclosures.and_then(|enclosures| enclosures.intervals.get(mode).copied().flatten());
+        let interval =
+            |mode: usize| enclosures.and_then(|enclosures| enclosures.intervals.get(mode).copied().flatten());
         let printed = |(mode, lambda): (usize, &f64)| match interval(mode) {
             Some([low, high]) if !(low..=high).contains(lambda) => 0.5 * (low + high),
             _ => *lambda,

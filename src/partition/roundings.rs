@@ -135,7 +135,10 @@ impl Partition {
         if !self.has_few_digits() {
             let sizes = faer::Mat::from_fn(x.nrows(), x.ncols(), |i, j| x[(i, j)].abs());
             let terms = absolute_product(crate::sparse::Leading::new(&self.stiffness, x.nrows()), x);
-            return dense::dots(sizes.as_ref(), terms.as_ref()).iter().map(|sum| self.precision.stiffness * sum).collect();
+            return dense::dots(sizes.as_ref(), terms.as_ref())
+                .iter()
+                .map(|sum| self.precision.stiffness * sum)
+                .collect();
         }
         let roundings = self.roundings.get_or_init(|| Roundings::of(self));
         let panels = (0..x.ncols()).step_by(WIDTH);

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use faer::{Mat, MatRef};
 
 use super::{
-    Misfit, RigidBodyModes, RigidEnergy, RigidSource, algebraic, energies_of_terms, largest_residual, residuals, zero_energy,
+    Misfit, RigidBodyModes, RigidEnergy, RigidSource, algebraic, energies_of_terms, largest_residual, residuals,
+    zero_energy,
 };
 use crate::dense;
 use crate::error::{Error, Result};

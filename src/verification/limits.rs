@@ -17,6 +17,10 @@ pub(crate) const GROUNDED: f64 = 1e-4;
 const LARGEST_ENERGY: f64 = 1e-2;
 /// What rounding that the digits of K explain may excuse at all: a quarter of the first elastic frequency.
 const LARGEST_EXPLAINED_ENERGY: f64 = 1.0 / 16.0;
+/// Relative force of a rigid-body motion at which the component is held.
+const HELD: f64 = 1e-6;
+/// Relative error bar of a frequency that is unknown: with half of it open it is no frequency any more.
+pub(crate) const UNKNOWN: f64 = 0.5;
 /// Relative difference of a frequency that reduced models are accepted with; one that is off by more is not preserved, whatever the
 /// reason.
 const NOT_PRESERVED: f64 = 1e-3;
@@ -45,18 +49,27 @@ pub(crate) fn noise(known: impl IntoIterator<Item = Known>, first: f64) -> f64 {
 /// Limits of an energy that should be nothing, relative to that of the first elastic mode, at a noise of which the digits of the
 /// data have a share.
 pub(crate) fn of_energy(noise: f64, share_of_data: f64) -> Judged {
+    of_nothing(noise, share_of_data, GROUNDED)
+}
+
+/// Limits of a force of rigid-body motion, relative to that of an elastic one of the same size: roundings make as much of it as of the
+/// energy.
+pub(crate) fn of_force(noise: f64, share_of_data: f64) -> Judged {
+    of_nothing(noise, share_of_data, HELD)
+}
+
+fn of_nothing(noise: f64, share_of_data: f64, fails_at: f64) -> Judged {
     let noise = NOISE_FACTOR * noise;
     let (arithmetic, data) = (noise * (1.0 - share_of_data), noise * share_of_data);
     let limits = Limits { engineering: RIGID_ENERGY, arithmetic, data }.capped(LARGEST_ENERGY, LARGEST_ENERGY);
     let explained = data.min(LARGEST_EXPLAINED_ENERGY);
-    Judged { limits, fail_above: limits.value().max(GROUNDED).max(explained) }
+    Judged { limits, fail_above: limits.value().max(fails_at).max(explained) }
 }
 
 /// Limits of the relative difference of two frequencies of one mode whose eigenvalue has this relative bar.
 pub(crate) fn of_frequency(relative_bar: f64, share_of_data: f64) -> Judged {
     let noise = NOISE_FACTOR * relative_bar;
-    let limits =
-        Limits { engineering: 1e-9, arithmetic: noise * (1.0 - share_of_data), data: noise * share_of_data };
+    let limits = Limits { engineering: 1e-9, arithmetic: noise * (1.0 - share_of_data), data: noise * share_of_data };
     let limits = limits.capped(NOT_PRESERVED, NOT_PRESERVED);
     // What the digits leave open is no failure of the reduction: up to the error bar itself it is a warning, with M-09.
     let within_bar = (0.5 * relative_bar * share_of_data).min(OPEN);
@@ -75,6 +88,7 @@ mod tests {
         let of_many = of_energy(noise(known, 2.0), 0.0);
         assert_eq!((of_many.limits.value(), of_many.limits.active()), (RIGID_ENERGY, ActiveLimit::Engineering));
         assert_eq!(of_many.fail_above, GROUNDED);
+        assert_eq!(of_force(noise(known, 2.0), 0.0).fail_above, HELD);
         let of_few = of_energy(0.5, 1.0);
         assert_eq!((of_few.limits.value(), of_few.limits.active()), (LARGEST_ENERGY, ActiveLimit::Data));
         assert_eq!(of_few.fail_above, LARGEST_EXPLAINED_ENERGY);

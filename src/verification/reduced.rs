@@ -3,9 +3,9 @@
 use faer::MatRef;
 
 use super::check::{Check, Limits};
+use super::conditioning::independence;
 use super::limits::{self, Judged};
 use super::rigid_motion::energy_limits;
-use super::conditioning::independence;
 use super::spectrum::{Spectrum, zero_level};
 use super::{Evidence, coordinate_name, data_noise, reduced_norms, share_of_data};
 use crate::dense;

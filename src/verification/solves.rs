@@ -2,9 +2,9 @@
 
 use faer::{Mat, MatRef};
 
+use super::Evidence;
 use super::check::{Check, Limits};
 use super::residual::{Residuals, Rows, Worst};
-use super::Evidence;
 use crate::dense;
 use crate::error::Result;
 use crate::rigid::unit_motions;

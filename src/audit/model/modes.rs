@@ -207,7 +207,9 @@ impl<'a> Witness<'a> {
     fn least_gap(&self) -> f64 {
         let lambda = &self.modes.lambda;
         let next = |end: usize| lambda.get(end).copied().or(self.modes.next);
-        let gap = |cluster: std::ops::Range<usize>| next(cluster.end).map_or(1.0, |next| 1.0 - lambda[cluster.end - 1] / next);
+        let gap = |cluster: std::ops::Range<usize>| {
+            next(cluster.end).map_or(1.0, |next| 1.0 - lambda[cluster.end - 1] / next)
+        };
         self.clusters().into_iter().map(gap).fold(1.0, f64::min)
     }
 

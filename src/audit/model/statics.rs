@@ -198,7 +198,8 @@ pub(super) fn mass(scaled: &Scaled, full: &Full<'_>, answers: &Answers) -> Check
             }
         }
     }
-    let limits = full.by_roundings(scaled, Limits { engineering: 1e-9, arithmetic: rounding_of_motion(full), data: 0.0 });
+    let limits =
+        full.by_roundings(scaled, Limits { engineering: 1e-9, arithmetic: rounding_of_motion(full), data: 0.0 });
     Check {
         id: "M-16",
         name: "inertia of motions is that of the full model",
@@ -235,7 +236,8 @@ pub(super) fn gravity(scaled: &Scaled, full: &Full<'_>, answers: &Answers) -> Op
             }
         }
     }
-    let limits = full.by_roundings(scaled, Limits { engineering: 1e-9, arithmetic: rounding_of_motion(full), data: 0.0 });
+    let limits =
+        full.by_roundings(scaled, Limits { engineering: 1e-9, arithmetic: rounding_of_motion(full), data: 0.0 });
     Some(Check {
         id: "M-18",
         name: "loads of gravity are those of the full model",

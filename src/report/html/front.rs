@@ -2,8 +2,8 @@
 
 use super::markup::{Markup, class_of, escaped};
 use super::plot::power_of_ten;
-use crate::report::table::{counted, quantity, scientific};
 use crate::report::conclusion::reserved_as;
+use crate::report::table::{counted, quantity, scientific};
 use crate::report::words;
 use crate::report::{
     Completeness, MatrixReport, ModelReport, Preservation, ReductionReport, ReportBody, RunFacts, table,

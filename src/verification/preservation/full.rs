@@ -81,7 +81,11 @@ impl Supported {
             return elastic_modes(problem, &Factored::new(factor, 0.0), request);
         }
         if self.free.len() == evidence.partition.n_interface() {
-            return elastic_modes(problem, &FreeAtZero::new(factor, &self.stiffness, constraint, &self.rigid)?, request);
+            return elastic_modes(
+                problem,
+                &FreeAtZero::new(factor, &self.stiffness, constraint, &self.rigid)?,
+                request,
+            );
         }
         // The loads of a support have a resultant, and what K does not know of rigid-body motion is part of what holds it.
         let (psi_s, schur) = self.condensed(evidence);
