@@ -32,7 +32,7 @@ pub(crate) fn level(digits: f64, arithmetic: f64, floor: f64) -> f64 {
 
 /// Whether a Rayleigh quotient is zero at a level; a motion without energy and mass, 0/0, is.
 pub(crate) fn is_zero(lambda: f64, level: f64) -> bool {
-    !(lambda.abs() > level)
+    lambda.is_nan() || level.is_nan() || lambda.abs() <= level
 }
 
 /// Whether a negative Rayleigh quotient is no instability, being negligible beside the first elastic one.

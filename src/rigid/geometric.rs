@@ -10,6 +10,7 @@ use super::{
 };
 use crate::dense;
 use crate::error::{Error, Result};
+use crate::factor::{Analysis, whole_count};
 use crate::model::Bodies;
 use crate::partition::{Partition, Site};
 use crate::sparse::{absolute_product, product, product_and_terms};
@@ -155,9 +156,8 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
         mass_orthonormal(partition, dense::product(centred.as_ref(), moving.as_ref()).as_ref())?;
     let massless = without_energy(partition, massless)?;
     let Energies { energies, directions, noise, zero } = Energies::of(partition, orthonormal.as_ref())?;
-    if energies.first().is_some_and(|energy| *energy < -zero) {
-        // The spectrum tells whether K is indefinite, or rounded by whoever made it.
-        algebraic::zero_modes(partition)?;
+    if let Some(energy) = energies.first().filter(|energy| **energy < -zero) {
+        refuse_negative(partition, *energy, noise)?;
     }
     let n_free = energies.iter().filter(|energy| **energy <= zero).count();
     // A rotation of too much energy needs no second witness.
@@ -179,6 +179,19 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
     };
     let is_classical = n_free + massless.ncols() == 6;
     Ok(Body { dofs: dofs.to_vec(), orthonormal, massless, is_classical, energy, motions, misfit })
+}
+
+/// The spectrum tells whether K is indefinite, or rounded by whoever made it.
+fn refuse_negative(partition: &Partition, energy: f64, noise: f64) -> Result<()> {
+    match algebraic::zero_modes(partition) {
+        // Too far below zero for a shift that suits rigid-body motions.
+        Err(Error::IndefiniteStiffness { .. } | Error::NotDefinite { .. }) => {
+            let analysis = Analysis::new(partition.pencil())?;
+            let count = whole_count(&analysis, partition.pencil(), 0.5 * energy)?.below;
+            Err(Error::NegativeRigidEnergy { energy, noise, count })
+        }
+        found => found.map(drop),
+    }
 }
 
 /// Those of the motions without mass that cost no energy either; one that is held is no rigid-body mode.

@@ -15,7 +15,7 @@ use crate::place::{Place, supel};
 
 const N_MODES: usize = 8;
 const METHODS: [&str; 2] = ["herting", "craig-bampton"];
-const DIGITS: std::ops::RangeInclusive<usize> = 5..=16;
+const DIGITS: [usize; 9] = [5, 6, 7, 8, 9, 10, 12, 14, 16];
 
 /// A free component and the nodes of its interface.
 struct Component {
@@ -137,6 +137,10 @@ fn fault(component: &Component, place: &Place, run: Run, reference: &Found) -> O
     if worst > 1.0 {
         return Some(format!("a frequency is off by {worst:.1} bars"));
     }
+    if run.solver != "lanczos" {
+        // One file is enough: what verifies it does not know who found its modes.
+        return None;
+    }
     let verified = supel(&["verify", &place.text(&format!("{name}.supel")), "--job", &path]);
     (verified.code != ExitCode::Done).then(|| format!("verified, and then: {}{}", verified.out, verified.err))
 }
@@ -172,16 +176,16 @@ fn few_digits_give_frequencies_within_their_bars_or_are_refused_for_the_digits()
                 let name = job(&place, component, Run { digits: 17, method, solver: "lanczos", told });
                 supel(&["reduce", &place.text(&format!("{name}.toml")), "--quiet"]).expect(ExitCode::Done);
                 let reference = Found::of(&place.report(&format!("{name}.report.json"))["body"]);
-                let of = move |digits| solvers.iter().map(move |solver| Run { digits, method, solver, told });
-                runs.extend(DIGITS.flat_map(of).map(|run| (at, references.len(), run)));
+                let of = |digits| solvers.iter().map(move |solver| Run { digits, method, solver, told });
+                runs.extend(DIGITS.into_iter().flat_map(of).map(|run| (at, references.len(), run)));
                 references.push(reference);
             }
         }
     }
-    let places: Vec<Vec<Place>> =
-        components.iter().map(|component| DIGITS.map(|digits| folder(component, digits)).collect()).collect();
+    let places = components.each_ref().map(|component| DIGITS.map(|digits| folder(component, digits)));
     let look = |(at, reference, run): &(usize, usize, Run)| {
-        let place = &places[*at][run.digits - DIGITS.start()];
+        let nth = DIGITS.iter().position(|digits| *digits == run.digits).expect("a number of digits");
+        let place = &places[*at][nth];
         let fault = fault(&components[*at], place, *run, &references[*reference])?;
         Some(format!("{}, {run:?}: {fault}", components[*at].name))
     };
