@@ -1175,13 +1175,15 @@ pub enum Error {
     },
     /// A rigid-body motion whose energy is negative beyond rounding.
     #[error(
-        "a rigid-body motion has the negative energy {energy:.1e} – expected zero within {noise:.1e} – the stiffness is indefinite; check preload and negative springs"
+        "a rigid-body motion has the negative energy {energy:.1e} – expected zero within {noise:.1e} – a Sturm count finds {count} eigenvalues below half of it: the stiffness is indefinite; check preload and negative springs"
     )]
     NegativeRigidEnergy {
         /// Its Rayleigh quotient, scaled.
         energy: f64,
         /// What rounding of the data allows.
         noise: f64,
+        /// Eigenvalues of K − σM below half of it, counted.
+        count: usize,
     },
     /// A rigid-body motion that moves no mass.
     #[error(
@@ -1338,6 +1340,16 @@ pub enum Error {
         n_rigid: usize,
         /// The free motion in words.
         motion: String,
+    },
+    /// The digits of K leave open what the reduction rests on.
+    #[error(
+        "the digits of the stiffness do not tell {what} – its entries are known to {precision:.0e} of themselves – expected entries whose last digit does not decide that – write the stiffness with more digits, best in binary"
+    )]
+    DigitsTooFew {
+        /// What is open.
+        what: String,
+        /// Relative precision of the entries.
+        precision: f64,
     },
     /// A pivot of a matrix that should be definite was not positive.
     #[error(

@@ -60,7 +60,7 @@ pub mod verification;
 
 use audit::Audit;
 use basis::Basis;
-use error::Result;
+use error::{Error, Result};
 use factor::{Analysis, Cholesky};
 use input::Allowance;
 use job::Job;
@@ -71,6 +71,7 @@ use output::{InputFacts, Results};
 use partition::Partition;
 use reduction::Reduction;
 use report::Observer;
+use rigid::RigidBodyModes;
 use supel_runtime::Superelement;
 use verification::Evidence;
 
@@ -92,7 +93,9 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     observer.stage("factor");
     let storage = factor::storage_within_memory(&analysis, &partition, job, resources)?;
     let sigma = modes::shift_of_factor(&partition, &rigid);
-    let factor = Cholesky::kept(&analysis, (partition.pencil(), sigma), storage, &|dof| partition.name_of(dof))?;
+    let factor = Cholesky::kept(&analysis, (partition.pencil(), sigma), storage, &|dof| partition.name_of(dof));
+    let factor = factor.map_err(|error| refused(error, &analysis, &partition, &rigid))?;
+    let rank = rigid::confirmed_rank(&partition, &rigid, rank, &factor)?;
 
     observer.stage("constraint modes");
     let constraint = basis::constraint_modes(&partition, &factor, &rigid);
@@ -152,6 +155,12 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     Ok(Outcome { superelement, report })
 }
 
+/// Why K_II could not be factored, the true reason first.
+fn refused(error: Error, analysis: &Analysis, partition: &Partition, rigid: &RigidBodyModes) -> Error {
+    let error = factor::few_digits(error, analysis, (&partition.stiffness).into(), partition.precision.stiffness);
+    rigid::or_lack_of_rank(error, partition, rigid)
+}
+
 /// The first four stages, which every look at the full model begins with.
 fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Result<(InputFacts, Partition)> {
     // Small dense decompositions use faer's global setting; sequential ones give the same bits on every machine.
@@ -170,7 +179,8 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     observer.stage("partition");
     let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;
     let weight = job.model.expect.as_ref().and_then(|_| model.weight());
-    let mut partition = Partition { recovered, ..Partition::new(model, &job.interfaces)? };
+    let mut partition = Partition::new(model, &job.interfaces)?;
+    partition.recovered = recovered;
     partition.model.weight = weight;
     Ok((facts, partition))
 }

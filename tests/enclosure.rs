@@ -78,7 +78,8 @@ const CONVERSION: f64 = 16.0 * f64::EPSILON;
 #[track_caller]
 fn assert_holds(proved: &Proved, exact: &[f64], rounding: f64) {
     assert!(proved.intervals.len() <= exact.len());
-    for ((_, [low, high]), exact) in proved.intervals.iter().zip(exact) {
+    for ((printed, [low, high]), exact) in proved.intervals.iter().zip(exact) {
+        assert!((low..=high).contains(&printed), "{printed} is printed, and [{low}, {high}] holds the eigenvalue");
         let slack = CONVERSION * exact + rounding;
         assert!(*low <= exact + slack && exact - slack <= *high, "{exact} not in [{low}, {high}]");
     }

@@ -9,14 +9,12 @@ use crate::error::Result;
 use crate::job::Job;
 use crate::modes::Boundary;
 use crate::verification::check::Limits;
+use crate::verification::limits::{self, Judged, Known};
 
 /// Roundings of one sign may exceed their typical sum by this.
 const NOISE_FACTOR: f64 = 10.0;
 /// What the recorded error bars may excuse at most: a file cannot declare itself beyond judgement.
 const LARGEST_EXCUSE: f64 = 1e-3;
-/// The largest rigid-body energy relative to that of the first elastic mode that practice accepts: a rigid-body frequency
-/// of 10⁻⁴ of the first elastic one.
-const RIGID_ENERGY: f64 = 1e-8;
 
 /// A superelement with its matrices unpacked.
 pub(super) struct Content<'a> {
@@ -52,10 +50,7 @@ impl<'a> Content<'a> {
         let (k, m) = (unpacked(&tensors.stiffness), unpacked(&tensors.mass));
         let n_r = tensors.rigid_body_modes.cols();
         let lambda: Vec<f64> = tensors.frequencies.iter().map(|omega| omega * omega).collect();
-        let first = match lambda.iter().copied().find(|lambda| *lambda > 0.0) {
-            Some(first) => first,
-            None => first_elastic(k.as_ref(), m.as_ref(), n_r)?,
-        };
+        let first = first_elastic((k.as_ref(), m.as_ref()), n_r, lambda.iter().copied().find(|lambda| *lambda > 0.0))?;
         let scale: Vec<f64> = (0..k.nrows()).map(|i| dense::power_of_two_root(k[(i, i)] + first * m[(i, i)])).collect();
         Ok(Self {
             superelement,
@@ -83,10 +78,20 @@ impl<'a> Content<'a> {
         self.u.ncols()
     }
 
-    /// Limits of an energy that should be nothing, relative to that of the first elastic mode.
-    pub(super) fn energy_limits(&self) -> Limits {
-        let arithmetic = (NOISE_FACTOR * self.noise).min(LARGEST_EXCUSE);
-        Limits { engineering: RIGID_ENERGY, arithmetic, data: 0.0 }
+    /// Limits of an energy that should be nothing, relative to that of the first elastic mode. A file does not say how many digits
+    /// its matrices had, and all that its bars explain counts alike.
+    pub(super) fn energy_limits(&self) -> Judged {
+        limits::of_energy(self.noise, 1.0)
+    }
+
+    /// Limits of a force of rigid-body motion, in the scales of K̂ + λ₁M̂.
+    pub(super) fn force_limits(&self) -> Judged {
+        limits::of_force(self.noise, 1.0)
+    }
+
+    /// Limits of the relative difference of two frequencies of one mode.
+    pub(super) fn frequency_limits(&self) -> Judged {
+        limits::of_frequency(self.noise, 1.0)
     }
 
     /// A difference of numbers that rounding alone may tell apart.
@@ -140,24 +145,26 @@ pub(super) fn boundary(superelement: &Superelement) -> Boundary {
     if is_fixed { Boundary::FixedInterface } else { Boundary::FreeInterface }
 }
 
-/// The largest error of an eigenvalue that the bars allow, relative to the first: λ f-bar · 2/f summed of the same terms
-/// that the energy of a rigid-body motion is summed of.
+/// The noise of energies relative to the first elastic one, by the bars that the file states. No file is written with a frequency that
+/// is unknown, and a bar that says so excuses nothing.
 fn noise(superelement: &Superelement, first: f64) -> f64 {
-    let bar = |coordinate: &Coordinate| match *coordinate {
+    let known = superelement.metadata().coordinates.iter().filter_map(|coordinate| match *coordinate {
         Coordinate::ElasticMode { frequency_hz, error_bar_hz: Some(bar), .. }
         | Coordinate::FixedInterfaceMode { frequency_hz, error_bar_hz: Some(bar), .. } => {
+            // The bar of the square of a frequency is twice that of the frequency.
             let omega = frequency_hz * std::f64::consts::TAU;
-            2.0 * bar * std::f64::consts::TAU * omega / first
+            let known = Known { lambda: omega * omega, relative_bar: 2.0 * bar / frequency_hz };
+            (bar <= limits::UNKNOWN * frequency_hz).then_some(known)
         }
-        _ => 0.0,
-    };
-    superelement.metadata().coordinates.iter().map(bar).fold(0.0, f64::max)
+        _ => None,
+    });
+    limits::noise(known, first)
 }
 
-/// Where the file has no modes: the first eigenvalue of the reduced pencil beyond its rigid-body modes.
-fn first_elastic(k: MatRef<'_, f64>, m: MatRef<'_, f64>, n_r: usize) -> Result<f64> {
+/// The first eigenvalue of the reduced pencil beyond its rigid-body modes, with its interface free; `near` is one of its modes.
+fn first_elastic((k, m): (MatRef<'_, f64>, MatRef<'_, f64>), n_r: usize, near: Option<f64>) -> Result<f64> {
     let ratios = (0..k.nrows()).filter(|i| k[(*i, *i)] > 0.0 && m[(*i, *i)] > 0.0).map(|i| k[(i, i)] / m[(i, i)]);
-    let Some(least) = ratios.reduce(f64::min) else { return Ok(1.0) };
-    let pairs = eigenpairs(k, m, least)?;
-    Ok(pairs.values.get(n_r).copied().filter(|value| *value > 0.0).unwrap_or(least))
+    let Some(near) = near.or_else(|| ratios.reduce(f64::min)) else { return Ok(1.0) };
+    let pairs = eigenpairs(k, m, near)?;
+    Ok(pairs.values.get(n_r).copied().filter(|value| *value > 0.0).unwrap_or(near))
 }

@@ -37,10 +37,11 @@ pub(super) fn rigid_body_mass(content: &Content<'_>) -> Option<Check> {
 /// Mass properties by M̂ and Û, where Û is the six unit motions.
 fn properties(content: &Content<'_>) -> Option<MassProperties> {
     let metadata = content.superelement.metadata();
-    if metadata.model.rigid_body_modes != RigidBodyModes::Geometric || content.n_rigid() != 6 {
+    if metadata.model.rigid_body_modes != RigidBodyModes::Geometric || content.n_rigid() < 6 {
         return None;
     }
-    let u = content.u.as_ref();
+    // Mechanisms come behind the motions of the body.
+    let u = content.u.as_ref().subcols(0, 6);
     let m_f = dense::gram(u, dense::product(content.m.as_ref(), u).as_ref());
     mass_properties(&supel_runtime::Matrix::from_fn(6, 6, |i, j| m_f[(i, j)]))
 }

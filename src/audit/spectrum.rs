@@ -7,6 +7,7 @@ use crate::dense;
 use crate::error::Result;
 use crate::modes::Boundary;
 use crate::verification::check::{Check, Limits};
+use crate::verification::limits::Judged;
 
 /// Eigenpairs of a dense pencil: as many values as M has rank.
 pub(super) struct Eigenpairs {
@@ -73,14 +74,14 @@ pub(super) fn frequencies(content: &Content<'_>, spectrum: &Spectrum) -> Check {
             worst = (difference, Some(format!("mode {}", j + 1)));
         }
     }
-    let limits = Limits { engineering: 1e-9, ..content.rounding_limits() };
+    let Judged { limits, fail_above } = content.frequency_limits();
     Check {
         id: "M-14",
         name: "reduced matrices have the stated frequencies",
         equation: "max |f(K̂, M̂) / f_stated − 1| under the boundary of the modes (34)–(35)",
         value: worst.0,
         limits,
-        fail_above: limits.value().max(1e-6),
+        fail_above,
         worst: worst.1,
     }
 }
@@ -184,14 +185,14 @@ pub(super) fn definiteness(content: &Content<'_>, spectrum: &Spectrum) -> Check 
         None if content.n_reduced() > 0 => (f64::INFINITY, Some("K̂ + λ₁M̂ is not definite".to_owned())),
         lowest => ((-lowest.copied().unwrap_or(0.0) / content.first).max(0.0), None),
     };
-    let limits = content.energy_limits();
+    let Judged { limits, fail_above } = content.energy_limits();
     Check {
         id: "M-25",
         name: "reduced mass and stiffness are not negative",
         equation: "M̂ = LLᵀ; max(0, −λ_min(K̂, M̂)) / λ₁",
         value,
         limits,
-        fail_above: limits.value(),
+        fail_above,
         worst,
     }
 }

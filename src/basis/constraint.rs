@@ -1,7 +1,7 @@
 //! Constraint modes: unit displacements of the interface, one at a time.
 
 use faer::linalg::solvers::SolveLstsq;
-use faer::{Mat, MatRef};
+use faer::{Mat, MatMut, MatRef};
 
 use crate::dense;
 use crate::factor::Cholesky;
@@ -14,6 +14,8 @@ use crate::sparse::product;
 pub struct ConstraintModes {
     /// Ψ_S, n_I × n_B, corrected.
     pub modes: Mat<f64>,
+    /// The correction at the interface.
+    pub carried: Carried,
     /// K̂_BB = [Ψ_S; I]ᵀ K [Ψ_S; I], n_B × n_B: second order in the error of Ψ_S.
     pub stiffness: Mat<f64>,
     /// max (|Ψ|ᵀ|K||Ψ|)_ii / K_BB,ii over the interface dofs: rounding of K̂_BB is ε times this, relative to the stiffness of
@@ -23,6 +25,39 @@ pub struct ConstraintModes {
     pub raw_rigid_error: f64,
     /// The same after the correction, and the dof it is worst at.
     pub rigid_error: (f64, usize),
+}
+
+/// The correction of Ψ_S as the interface sees it.
+///
+/// Ψ_S is corrected by (U_I − Ψ_S U_B) U_B⁺ and its transpose, which hands loads on to the interface, by the transpose of that. Of
+/// loads without resultant, Uᵀf = 0, nothing but the interface is needed for it: with g = f_B + Ψ_Sᵀ f_I before the correction,
+/// g − (U_B U_B⁺)ᵀ g after it.
+#[derive(Clone, Debug)]
+pub struct Carried {
+    /// U_B, n_B × n_r; no columns where nothing was corrected.
+    motions: Mat<f64>,
+    /// U_B⁺, n_r × n_B.
+    lift: Mat<f64>,
+}
+
+impl Carried {
+    /// U_B⁺, n_r × n_B.
+    pub fn lift(&self) -> MatRef<'_, f64> {
+        self.lift.as_ref()
+    }
+
+    /// No correction of an interface of n_B dofs.
+    fn nothing(n_b: usize) -> Self {
+        Self { motions: Mat::zeros(n_b, 0), lift: Mat::zeros(0, n_b) }
+    }
+
+    /// G ← G − (U_B U_B⁺)ᵀ G: what the corrected Ψ_Sᵀ makes of loads without resultant, from what −K_BI K_II⁻¹ made of them.
+    pub fn correct(&self, interface_loads: MatMut<'_, f64>) {
+        if self.motions.ncols() > 0 {
+            let along = dense::gram(self.motions.as_ref(), interface_loads.as_ref());
+            dense::add_product(interface_loads, -1.0, self.lift.transpose(), along.as_ref());
+        }
+    }
 }
 
 /// Ψ_S = −K_II⁻¹ K_IB (23), then Ψ_S ← Ψ_S + (U_I − Ψ_S U_B) U_B⁺.
@@ -36,6 +71,7 @@ pub fn constraint_modes(partition: &Partition, factor: &Cholesky<'_>, rigid: &Ri
     let u_b = rigid.orthonormal.as_ref().subrows(n_i, n_b);
     let scale = scales(partition);
     let mut raw_rigid_error = 0.0;
+    let mut carried = Carried::nothing(n_b);
     // Without an interface there is nothing to be carried.
     let is_carried = rigid.count() > 0 && n_b > 0;
     if is_carried {
@@ -44,11 +80,12 @@ pub fn constraint_modes(partition: &Partition, factor: &Cholesky<'_>, rigid: &Ri
         let unit = unit_motions(partition, rigid).unwrap_or_else(|_| rigid.orthonormal.clone());
         let (u_i, u_b) = unit.as_ref().split_at_row(n_i);
         let defect = defect(modes.as_ref(), u_i, u_b);
-        dense::add_product(modes.as_mut(), 1.0, defect.as_ref(), left_inverse(partition, u_b).as_ref());
+        carried = Carried { motions: u_b.to_owned(), lift: left_inverse(partition, u_b) };
+        dense::add_product(modes.as_mut(), 1.0, defect.as_ref(), carried.lift.as_ref());
     }
     let rigid_error = if is_carried { rigid_error(&scale, modes.as_ref(), (u_i, u_b)) } else { (0.0, 0) };
     let (stiffness, cancellation) = condensed_stiffness(partition, modes.as_ref());
-    ConstraintModes { modes, stiffness, cancellation, raw_rigid_error, rigid_error }
+    ConstraintModes { modes, carried, stiffness, cancellation, raw_rigid_error, rigid_error }
 }
 
 /// U_I − Ψ_S U_B, n_I × n_r.

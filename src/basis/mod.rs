@@ -10,12 +10,14 @@ mod constraint;
 mod dynamic;
 mod orthonormal;
 
-use faer::Mat;
+use faer::prelude::ReborrowMut;
+use faer::{Mat, MatRef};
 
+use crate::dense;
 use crate::modes::Modes;
 use crate::sparse::Leading;
 
-pub use constraint::{ConstraintModes, constraint_modes};
+pub use constraint::{Carried, ConstraintModes, constraint_modes};
 pub use dynamic::{DynamicColumns, fixed_interface_columns, modal_columns, mode_acceleration_columns};
 
 /// The modal reduction matrix in its blocks.
@@ -79,6 +81,18 @@ impl Basis {
     /// n_B + n_η.
     pub fn n_reduced(&self) -> usize {
         self.constraint_modes.ncols() + self.n_dynamic()
+    }
+
+    /// Ψ q: motions of the component from reduced coordinates, n' × k.
+    pub(crate) fn expanded(&self, coordinates: MatRef<'_, f64>) -> Mat<f64> {
+        let (n_i, n_b) = (self.constraint_modes.nrows(), self.constraint_modes.ncols());
+        let (q_b, eta) = coordinates.split_at_row(n_b);
+        let mut motions = Mat::zeros(n_i + n_b, coordinates.ncols());
+        motions.as_mut().subrows_mut(n_i, n_b).copy_from(q_b);
+        let mut internal = motions.as_mut().subrows_mut(0, n_i);
+        dense::add_product(internal.rb_mut(), 1.0, self.constraint_modes.as_ref(), q_b);
+        dense::add_product(internal, 1.0, self.dynamic_modes.as_ref(), eta);
+        motions
     }
 
     /// C with Ψ_D = (kept named columns) · C, n_η × n_η: the inverse of the triangle that made Ψ_D orthonormal.

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use super::free::FREE_BELOW_NOISE;
 use super::motions::{Body, Motions};
 use super::nodes::Nodes;
 use crate::input::Direction;
 use crate::model::Finding;
-use crate::rigid::FREE_BELOW_NOISE;
 
 /// A force is worth a look when it exceeds this many times the noise of the data, or that of a translation: what a producer
 /// rounds while it assembles K shows in both.

@@ -5,7 +5,11 @@ use faer::Mat;
 use super::motions::{Body, Motions};
 use crate::dense;
 use crate::error::Result;
-use crate::rigid::{FREE_BELOW_NOISE, NO_MASS, moving_directions};
+use crate::rigid::{NO_MASS, moving_directions};
+
+/// A motion by the coordinates is free when its energy stays below this many times the noise of the data. The noise bound adds all
+/// roundings with one sign; measured energies of exact rigid motions stay below it, so ten is generous.
+pub(super) const FREE_BELOW_NOISE: f64 = 10.0;
 
 /// The motions of a body in numbers of order six.
 pub(super) struct Free {

@@ -143,7 +143,7 @@ impl Case<'_> {
     /// Whether a motion of a body by the coordinates costs more than rounding.
     fn costs_energy(&self, doubt: &Doubt, motion: usize) -> bool {
         let (energy, terms) = self.motions.energy(&self.motions.bodies[doubt.body], motion);
-        energy > crate::rigid::FREE_BELOW_NOISE * self.motions.rounding() * terms
+        energy > super::free::FREE_BELOW_NOISE * self.motions.rounding() * terms
     }
 
     fn misfit(&self, zeros: &Zeros, costly: &[usize], cost: Cost, dof: String) -> Error {

@@ -177,6 +177,7 @@ codes! {
     PatchRank => "E-PATCH-RANK", InputData;
     FloatingBody => "E-FLOATING-BODY", ModelPhysics;
     InterfaceRank => "E-INTERFACE-RANK", ModelPhysics;
+    DigitsTooFew => "E-DATA-PRECISION", InputData;
     NotDefinite => "E-NOT-DEFINITE", ModelPhysics;
     IndefiniteStiffness => "E-NEGATIVE-STIFFNESS", ModelPhysics;
     MemoryForecast => "E-MEM", Resources;

@@ -131,6 +131,50 @@ pub fn rank<'a>(analysis: &Analysis, mass: impl Into<Leading<'a>>, precision: f6
     Ok(mass.rows() - below_share_of_diagonal(analysis, mass, moved)?)
 }
 
+/// Eigenvalues of K_II that stay below zero when every entry of K may be off by a share of itself, that of its last digit.
+///
+/// Such roundings E leave |xᵀEx| ≤ Σ r_i x_i² with r_i the share of the sum of moduli along row i, for |x_i x_j| ≤ (x_i² + x_j²)/2: K_II
+/// with r on its diagonal is counted.
+///
+/// # Errors
+/// As [`count_below`].
+fn count_negative_beyond(analysis: &Analysis, stiffness: Leading<'_>, share: f64) -> Result<usize> {
+    let n = stiffness.rows();
+    let row = |row: usize| {
+        let (mut own, mut sum) = (0.0, 0.0);
+        for (col, value) in stiffness.entries(row) {
+            sum += value.abs();
+            own = if col == row { value.abs() } else { own };
+        }
+        // An empty row has no stiffness to be rounded.
+        if sum == 0.0 { 1.0 } else { PIVOT_GAP * own + share * sum }
+    };
+    let margin = SparseMatrix::new((n, n), (0..=n).collect(), (0..n as u32).collect(), (0..n).map(row).collect());
+    let pencil = Pencil::new(stiffness, &margin);
+    Ok(Indefinite::new(analysis, pencil, -1.0, Keep::Pivots)?.signs()?.negative)
+}
+
+/// Why K is no definite matrix, where its digits are few and rounding of them may be all that is wrong with it.
+pub fn few_digits(error: Error, analysis: &Analysis, stiffness: Leading<'_>, precision: f64) -> Error {
+    let is_of_definiteness = matches!(
+        error,
+        Error::IndefiniteStiffness { .. } | Error::NotDefinite { .. } | Error::NegativeRigidEnergy { .. }
+    );
+    if !is_of_definiteness || precision <= f64::EPSILON {
+        return error;
+    }
+    let boundary = if analysis.n_border() > 0 { "held" } else { "free" };
+    match count_negative_beyond(analysis, stiffness, precision) {
+        Ok(0) => {
+            let what = format!(
+                "whether it is definite with the interface {boundary}: as it stands it is not, with other last digits it is"
+            );
+            Error::DigitsTooFew { what, precision }
+        }
+        _ => error,
+    }
+}
+
 /// Eigenvalues of A relative to its diagonal below a share; empty rows count as zero.
 fn below_share_of_diagonal(analysis: &Analysis, matrix: Leading<'_>, share: f64) -> Result<usize> {
     let n = matrix.rows();

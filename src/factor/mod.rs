@@ -34,7 +34,9 @@ use crate::sparse::Leading;
 pub use analysis::Analysis;
 pub use cholesky::Cholesky;
 pub use indefinite::{WholeCount, whole_count};
-pub use inertia::{CONDENSED_GAP, InertiaCount, ShiftedFactor, condensed, count_below, count_negative, rank};
+pub use inertia::{
+    CONDENSED_GAP, InertiaCount, ShiftedFactor, condensed, count_below, count_negative, few_digits, rank,
+};
 pub use memory::{comparison_within_memory, slices_within_memory, storage_within_memory};
 pub use refined::Refinement;
 pub use rounding::forming_error;

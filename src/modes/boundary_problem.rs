@@ -3,9 +3,9 @@
 use faer::{Mat, MatMut, MatRef};
 
 use super::eigenproblem::Interval;
-use super::operator::{Factored, FreeAtZero, ShiftInvert};
+use super::operator::{Factored, FreeAtZero, RefinedAtZero, ShiftInvert};
 use super::random::SplitMix64;
-use super::{Component, Equilibrated, ModalProblem, SEED, Shifted, shifted};
+use super::{Component, Equilibrated, ModalProblem, SEED, SETTLED, Shifted, shifted};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, InertiaCount, ShiftedFactor, count_below};
@@ -60,8 +60,8 @@ impl<'a> BoundaryProblem<'a> {
     pub fn modal(&self) -> ModalProblem<'a> {
         let Component { partition, rigid, .. } = self.component;
         match self.boundary {
-            Boundary::FixedInterface => ModalProblem::of(partition.internal(), None, partition.precision),
-            Boundary::FreeInterface => ModalProblem::of(partition.pencil(), Some(rigid), partition.precision),
+            Boundary::FixedInterface => ModalProblem::held(partition),
+            Boundary::FreeInterface => ModalProblem::free(partition, Some(rigid)),
         }
     }
 
@@ -86,14 +86,31 @@ impl<'a> BoundaryProblem<'a> {
         let problem = self.modal();
         massive(partition, rigid.massless())?;
         if self.component.is_modal() {
-            return by_shift(partition, problem, |shifted| solve(&Factored::new(&shifted.factor, shifted.sigma)));
+            return self.with_operator_below(solve);
         }
-        let psi_s = constraint.modes.as_ref();
-        let operator = FreeAtZero::new(factor, &partition.stiffness, psi_s, constraint.stiffness.as_ref(), rigid)?;
-        if relative_residual(problem, &operator) <= HOLDS_UP {
-            return Ok((solve(&operator)?, 0));
+        let operator = FreeAtZero::new(factor, &partition.stiffness, constraint, rigid)?;
+        let residual = relative_residual(problem, &operator);
+        if residual <= HOLDS_UP {
+            let is_by_digits = partition.has_few_digits() && residual > SETTLED;
+            let solved = match is_by_digits {
+                true => solve(&RefinedAtZero::new(&operator, rigid)),
+                false => solve(&operator),
+            };
+            return Ok((solved?, 0));
         }
-        by_shift(partition, problem, |shifted| solve(&Factored::new(&shifted.factor, shifted.sigma)))
+        self.with_operator_below(solve)
+    }
+
+    /// Hands an operator below zero to `solve`, by a factor of K − σM on the dofs that are free to move.
+    ///
+    /// # Errors
+    /// Those of [`shifted`]; those of `solve`.
+    pub(super) fn with_operator_below<T>(
+        &self,
+        solve: impl FnOnce(&dyn ShiftInvert) -> Result<T>,
+    ) -> Result<(T, usize)> {
+        let partition = self.component.partition;
+        by_shift(partition, self.modal(), |shifted| solve(&Factored::new(&shifted.factor, shifted.sigma)))
     }
 
     /// Factors K − σM inside the spectrum.
@@ -342,10 +359,8 @@ mod tests {
         let factor =
             Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof)).expect("definite");
         let constraint = crate::basis::constraint_modes(&partition, &factor, &rigid);
-        let schur = constraint.stiffness.as_ref();
-        let operator =
-            FreeAtZero::new(&factor, &partition.stiffness, constraint.modes.as_ref(), schur, &rigid).expect("no hinge");
-        let problem = ModalProblem::of(partition.pencil(), Some(&rigid), partition.precision);
+        let operator = FreeAtZero::new(&factor, &partition.stiffness, &constraint, &rigid).expect("no hinge");
+        let problem = ModalProblem::free(&partition, Some(&rigid));
         // κ of the chain is 60² ≈ 4e3; the residual of a backward stable solve does not grow with it.
         assert!(relative_residual(problem, &operator) < 1e-14);
         // The share itself times ‖f‖ / (‖K‖‖x‖), which is above 1/κ.

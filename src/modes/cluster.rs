@@ -64,8 +64,10 @@ pub(super) fn average(runs: &[Range<usize>], lambda: &mut [f64], errors: &mut [M
         };
         let (cancellation, data_bar) = (largest(&|error| error.cancellation), largest(&|error| error.data_bar));
         let rounding_floor = errors.iter().map(|error| error.rounding_floor).fold(0.0, f64::max);
+        let zero_level = errors.iter().map(|error| error.zero_level).fold(0.0, f64::max);
         for error in errors {
-            *error = ModeError { cancellation, data_bar, relative_bar: data_bar, rounding_floor, ..*error };
+            let relative_bar = data_bar;
+            *error = ModeError { cancellation, data_bar, relative_bar, rounding_floor, zero_level, ..*error };
         }
         of_run.fill(mean);
     }

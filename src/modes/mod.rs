@@ -22,6 +22,7 @@ mod equilibration;
 mod finite;
 mod indefinite;
 mod lanczos;
+mod modal_problem;
 mod next_block;
 mod operator;
 mod orthogonalisation;
@@ -32,16 +33,15 @@ mod ritz;
 mod search;
 mod shifted;
 mod slices;
+pub(crate) mod zero;
 
 use faer::Mat;
 
 use crate::dense;
 use crate::error::Result;
-use crate::factor::Pencil;
 use crate::job::Eigensolver;
 use crate::model::Precision;
-use crate::rigid::RigidBodyModes;
-use crate::sparse::{Leading, product};
+use crate::sparse::product;
 
 pub(crate) use boundary_problem::massive;
 pub use boundary_problem::{AtShift, Boundary, BoundaryProblem, ElasticCount};
@@ -50,9 +50,11 @@ pub use cluster::REPEATED_WITHIN;
 pub use eigenproblem::{CLUSTER_GAP, EigenWork, Eigenpairs, Interval, Problem, Wanted};
 pub use equilibration::Equilibrated;
 pub use lanczos::{lanczos, lanczos_between};
-pub use operator::{Factored, FreeAtZero, ShiftInvert};
+pub use modal_problem::{DataSource, ModalProblem};
+pub use operator::{Factored, FreeAtZero, RefinedAtZero, ShiftInvert};
 pub use orthogonalisation::mass_qr;
-pub use quality::{MassOrthogonality, ModeError, mass_orthogonality};
+pub(crate) use quality::rayleigh_quotients;
+pub use quality::{MassOrthogonality, ModeError, NOTICED_BAR, mass_orthogonality};
 pub(crate) use random::SplitMix64;
 pub use retained::{Component, Retained};
 pub use search::{SLICED_FROM, Search};
@@ -210,32 +212,6 @@ impl Modes {
     }
 }
 
-/// A symmetric pencil whose modes are wanted, with what is deflated.
-#[derive(Clone, Copy, Debug)]
-pub struct ModalProblem<'a> {
-    /// K, n × n.
-    pub stiffness: Leading<'a>,
-    /// M, n × n.
-    pub mass: Leading<'a>,
-    /// Rigid-body modes of the same dofs, where the component is free.
-    pub rigid: Option<&'a RigidBodyModes>,
-    /// Relative precision of the data.
-    pub precision: Precision,
-}
-
-impl<'a> ModalProblem<'a> {
-    /// That of a pencil, with its rigid-body modes where it is free.
-    pub fn of(pencil: Pencil<'a>, rigid: Option<&'a RigidBodyModes>, precision: Precision) -> Self {
-        let Pencil { stiffness, mass } = pencil;
-        Self { stiffness, mass, rigid, precision }
-    }
-
-    /// K and M.
-    pub fn pencil(&self) -> Pencil<'a> {
-        Pencil { stiffness: self.stiffness, mass: self.mass }
-    }
-}
-
 /// Which modes, by which solver.
 #[derive(Clone, Copy, Debug)]
 pub struct ModeRequest {
@@ -252,6 +228,9 @@ pub struct ModeRequest {
 const SPREAD: f64 = 1e6;
 /// Backward error of a mode that lacks no digits, a hundredth of what M-01 lets pass.
 const SETTLED: f64 = 1e-12;
+/// Backward error above which a step of inverse iteration is tried on a mode: a tenth of what M-01 asks for, and ten times what
+/// modes are left with that carry nothing unseen.
+const CARRIES_NOTHING: f64 = 1e-14;
 /// Share of λ that the residual of such a mode may leave in doubt, a tenth of what M-24 looks at.
 const SETTLED_BAR: f64 = 1e-10;
 /// Seed of the first attempt; a repeated one takes another.
@@ -281,7 +260,7 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
         };
         let eigenproblem = Problem { operator, mass: problem.mass, deflated };
         let found = search(problem, eigenproblem, ModeRequest { wanted, ..request })?;
-        let n_settled = n_settled(&found, operator.shift());
+        let n_settled = n_settled(problem, &found, operator.shift());
         if n_settled == found.count() {
             return Ok(found.joined([known]));
         }
@@ -290,12 +269,21 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
 }
 
 /// Modes of one search that stand: all of them, or those up to [`SPREAD`] where one further up lacks digits.
-fn n_settled(found: &Modes, sigma: f64) -> usize {
-    // θ of a mode against the largest: rounding of the operator is relative to that.
-    let reach = found.lambda.first().map_or(0.0, |first| SPREAD * (first - sigma));
-    let n_near = found.lambda.partition_point(|lambda| lambda - sigma <= reach);
-    let lacks_digits = |error: &ModeError| error.backward > SETTLED || error.residual_bar > SETTLED_BAR;
+fn n_settled(problem: ModalProblem<'_>, found: &Modes, sigma: f64) -> usize {
+    let (n_near, settled) = (n_near(found, sigma), settled_at(problem.precision));
+    let lacks_digits = |error: &ModeError| error.backward > settled || error.residual_bar > SETTLED_BAR;
     if n_near > 0 && found.errors[n_near..].iter().any(lacks_digits) { n_near } else { found.count() }
+}
+
+/// Modes up to [`SPREAD`]: θ against the largest, which rounding of the operator is relative to.
+fn n_near(found: &Modes, sigma: f64) -> usize {
+    let reach = found.lambda.first().map_or(0.0, |first| SPREAD * (first - sigma));
+    found.lambda.partition_point(|lambda| lambda - sigma <= reach)
+}
+
+/// Backward error of a mode that lacks no digits: those that the data do not have are not missed.
+fn settled_at(precision: Precision) -> f64 {
+    SETTLED.max(precision.stiffness.max(precision.mass))
 }
 
 fn search(problem: ModalProblem<'_>, eigenproblem: Problem<'_>, request: ModeRequest) -> Result<Modes> {
@@ -305,11 +293,30 @@ fn search(problem: ModalProblem<'_>, eigenproblem: Problem<'_>, request: ModeReq
     };
     let around = [None, pairs.next];
     let modes = judged(problem, eigenproblem, pairs, around);
+    let modes = purified_where_doubtful(problem, eigenproblem, modes, around);
     let searched_to = match request.wanted {
         Wanted::Count(_) => None,
         Wanted::UpTo(limit) => Some(limit),
     };
     Ok(Modes { searched_to, ..modes })
+}
+
+/// The modes after a step of inverse iteration, where one of them lacks digits and gains some: what M hardly sees an iteration
+/// carries along, unseen by its products with M.
+fn purified_where_doubtful(
+    problem: ModalProblem<'_>,
+    eigenproblem: Problem<'_>,
+    modes: Modes,
+    around: [Option<f64>; 2],
+) -> Modes {
+    let n_near = n_near(&modes, eigenproblem.operator.shift());
+    let worst = |modes: &Modes| dense::worst(modes.errors[..n_near].iter().map(|error| error.backward));
+    if n_near == 0 || worst(&modes) <= CARRIES_NOTHING {
+        return modes;
+    }
+    let purified = slices::purified(eigenproblem, &modes, CARRIES_NOTHING);
+    let purified = judged(problem, eigenproblem, purified, around);
+    if worst(&purified) < worst(&modes) { purified } else { Modes { work: purified.work, ..modes } }
 }
 
 /// Modes of unit modal mass with their Rayleigh quotients and what is known of their errors; `around` as for the error bars.

@@ -3,12 +3,13 @@
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{Mat, MatMut, MatRef, Side};
 
+use crate::basis::{Carried, ConstraintModes};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::factor::SolveOperator;
 use crate::model::diagonal;
 use crate::rigid::RigidBodyModes;
-use crate::sparse::SparseMatrix;
+use crate::sparse::{SparseMatrix, product};
 
 /// X ← (K − σM)⁻¹ F on blocks.
 pub trait ShiftInvert: Sync {
@@ -72,17 +73,64 @@ impl ShiftInvert for Factored<'_> {
 /// K⁺ of a free component from the factor of K_II alone, at shift zero.
 ///
 /// ```text
-/// y   = K_II⁻¹ f_I                       S = K_BB + K_BI Ψ_S, null space U_B
-/// x_B = S⁺ (f_B − K_BI y)
+/// y   = K_II⁻¹ f_I                       S = Ψᵀ K Ψ of Ψ = [Ψ_S; I], null space U_B
+/// x_B = S⁺ (f_B + Ψ_Sᵀ f_I)              Ψ_Sᵀ f_I = −K_BI y, but for the correction of Ψ_S
 /// x_I = y + Ψ_S x_B
 /// ```
 /// For a self-equilibrated load x is the elastic displacement up to a rigid-body motion, which deflation removes. The
 /// factor that makes the constraint modes thus serves the free-free modes too.
+///
+/// Loads go to the interface by the transpose of what displacements come from it by. K of few digits has KU ≠ 0, the correction of
+/// Ψ_S is of that size, and with it on one side alone the operator would be as unsymmetric, which no Lanczos iteration
+/// survives. With it on both sides this is the inverse, but for U, of a symmetric matrix that differs from K by the forces KU.
 pub struct FreeAtZero<'a> {
     factor: &'a dyn SolveOperator,
     stiffness: &'a SparseMatrix,
     constraint_modes: MatRef<'a, f64>,
+    carried: Option<&'a Carried>,
     schur: Schur,
+}
+
+/// An operator at zero after a step of refinement: 2A − A K A on the space without rigid-body motion, as symmetric as A.
+///
+/// What A leaves of a load, the forces KU that K of few digits has, is squared by it.
+pub struct RefinedAtZero<'a> {
+    operator: &'a FreeAtZero<'a>,
+    rigid: &'a RigidBodyModes,
+}
+
+impl<'a> RefinedAtZero<'a> {
+    /// The operator and the motions that are deflated.
+    pub fn new(operator: &'a FreeAtZero<'a>, rigid: &'a RigidBodyModes) -> Self {
+        Self { operator, rigid }
+    }
+}
+
+impl ShiftInvert for RefinedAtZero<'_> {
+    fn n(&self) -> usize {
+        self.operator.n()
+    }
+
+    fn shift(&self) -> f64 {
+        0.0
+    }
+
+    fn solve_in_place(&self, mut block: MatMut<'_, f64>) {
+        let (q, mass_q) = (self.rigid.orthonormal.as_ref(), self.rigid.mass_orthonormal.as_ref());
+        let mut left = block.to_owned();
+        self.operator.solve_in_place(block.as_mut());
+        let motion = dense::gram(mass_q, block.as_ref());
+        dense::add_product(block.as_mut(), -1.0, q, motion.as_ref());
+        left -= product(self.operator.stiffness, block.as_ref());
+        let resultant = dense::gram(q, left.as_ref());
+        dense::add_product(left.as_mut(), -1.0, mass_q, resultant.as_ref());
+        self.operator.solve_in_place(left.as_mut());
+        block += left;
+    }
+
+    fn bytes(&self) -> u64 {
+        2 * self.operator.bytes()
+    }
 }
 
 /// S + α Z Zᵀ in scaled coordinates, with Z an orthonormal basis of U_B: S⁺ on self-equilibrated interface loads.
@@ -93,22 +141,36 @@ struct Schur {
 }
 
 impl<'a> FreeAtZero<'a> {
-    /// The operator from the factor of K_II, the constraint modes Ψ_S (n_I × n_B) and K̂_BB = S.
+    /// The operator from the factor of K_II and the constraint modes, of loads without resultant.
     ///
     /// # Errors
     /// S has more zero-energy motions than there are rigid-body modes: a mechanism.
     pub fn new(
         factor: &'a dyn SolveOperator,
         stiffness: &'a SparseMatrix,
-        constraint_modes: MatRef<'a, f64>,
-        schur: MatRef<'_, f64>,
+        constraint: &'a ConstraintModes,
+        rigid: &RigidBodyModes,
+    ) -> Result<Self> {
+        let condensed = (constraint.modes.as_ref(), constraint.stiffness.as_ref());
+        let operator = Self::uncorrected(factor, stiffness, condensed, rigid)?;
+        Ok(Self { carried: Some(&constraint.carried), ..operator })
+    }
+
+    /// The same of any loads, with Ψ_S = −K_II⁻¹ K_IB (n_I × n_B) as a solve leaves it and S = K_BB + K_BI Ψ_S.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn uncorrected(
+        factor: &'a dyn SolveOperator,
+        stiffness: &'a SparseMatrix,
+        (constraint_modes, schur): (MatRef<'a, f64>, MatRef<'_, f64>),
         rigid: &RigidBodyModes,
     ) -> Result<Self> {
         // The stiffness of the interface before condensation: what is left of it may be nothing where the interface just
         // holds the component, and rounding of S is relative to it.
         let uncondensed = diagonal(stiffness).split_off(factor.n());
         let schur = Schur::new(schur, rigid.orthonormal.as_ref().subrows(factor.n(), schur.nrows()), &uncondensed)?;
-        Ok(Self { factor, stiffness, constraint_modes, schur })
+        Ok(Self { factor, stiffness, constraint_modes, carried: None, schur })
     }
 }
 
@@ -165,6 +227,9 @@ impl ShiftInvert for FreeAtZero<'_> {
                 let internal = row.iter().filter(|(col, _)| *col < n_i);
                 loads[(b, j)] -= internal.map(|(col, value)| value * y[col]).sum::<f64>();
             }
+        }
+        if let Some(carried) = self.carried {
+            carried.correct(loads.as_mut());
         }
         let x_b = self.schur.solve(loads.as_ref());
         dense::add_product(block.as_mut().subrows_mut(0, n_i), 1.0, self.constraint_modes, x_b.as_ref());

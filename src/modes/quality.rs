@@ -3,7 +3,7 @@
 use faer::{Mat, MatRef};
 
 use super::eigenproblem::Problem;
-use super::{CLUSTER_GAP, Equilibrated, ModalProblem};
+use super::{CLUSTER_GAP, Equilibrated, ModalProblem, zero};
 use crate::dense;
 use crate::rigid::energies_of_terms;
 use crate::sparse::{Leading, panels, product, product_and_terms};
@@ -17,14 +17,20 @@ pub struct ModeError {
     pub cancellation: f64,
     /// Relative error bar of λ: that of the data and that of the residual.
     pub relative_bar: f64,
-    /// The share of the digits of the data and of the arithmetic, each times its share of c.
+    /// The share of the arithmetic, ε c, and of the digits of the data: their precision times its share of c, or where the entries
+    /// of K are known one by one what their roundings add up to but for a chance of [`crate::partition::CHANCE_OF_MORE`].
     pub data_bar: f64,
     /// The share of the residual: what the eigensolver left, by Kato and Temple.
     pub residual_bar: f64,
     /// ε ‖K‖ ‖x‖² / xᵀMx, equilibrated: an eigenvalue of this size is rounding of whoever made K, whatever the terms of
     /// xᵀKx, which may all vanish for a matrix that was itself projected.
     pub rounding_floor: f64,
+    /// λ up to which the motion costs no energy as far as anybody can tell; see [`super::zero`].
+    pub zero_level: f64,
 }
+
+/// Relative error bar of a frequency that is worth a look: what a modal test resolves, the limit of M-09.
+pub const NOTICED_BAR: f64 = 1e-4;
 
 /// Components of a mode nearer than this, relatively, are of one size: far above the error of a mode, far below what differs
 /// by design.
@@ -46,7 +52,7 @@ pub(super) fn normalise(mass: Leading<'_>, shapes: &mut Mat<f64>) {
 }
 
 /// λ = xᵀKx of M-orthonormal shapes, what is known of their errors but for the residual, and r = Kx − λMx.
-pub(super) fn rayleigh_quotients(
+pub(crate) fn rayleigh_quotients(
     problem: ModalProblem<'_>,
     shapes: MatRef<'_, f64>,
 ) -> (Vec<f64>, Vec<ModeError>, Mat<f64>) {
@@ -58,28 +64,46 @@ pub(super) fn rayleigh_quotients(
     let (momenta, mass_terms) = both(problem.mass);
     let norms = Equilibrated::of(problem.pencil());
     let rounding = f64::EPSILON;
+    let quotient = |j: usize| {
+        let (x, momentum) = (dense::column(shapes, j), dense::column(momenta.as_ref(), j));
+        let modal_mass = dense::dot(x, momentum);
+        [dense::dot(x, dense::column(forces.as_ref(), j)) / modal_mass, modal_mass]
+    };
+    let quotients: Vec<[f64; 2]> = (0..shapes.ncols()).map(quotient).collect();
+    let noise = energy_noise(problem, shapes, &stiffness_terms);
     let (lambda, errors) = (0..shapes.ncols())
         .map(|j| {
             let x = dense::column(shapes, j);
             let (force, momentum) = (dense::column_mut(forces.as_mut(), j), dense::column(momenta.as_ref(), j));
-            let modal_mass = dense::dot(x, momentum);
-            let lambda = dense::dot(x, force) / modal_mass;
+            let [lambda, modal_mass] = quotients[j];
             dense::add_scaled(force, -lambda, momentum);
             let (k_share, m_share) = (stiffness_terms[j] / (lambda.abs() * modal_mass), mass_terms[j] / modal_mass);
-            let data_bar =
-                (problem.precision.stiffness + rounding) * k_share + (problem.precision.mass + rounding) * m_share;
+            let digits = noise[j] / (lambda.abs() * modal_mass) + problem.precision.mass * m_share;
+            let data_bar = digits + rounding * (k_share + m_share);
+            let rounding_floor = rounding * norms.stiffness_norm * norms.scaled_norm(x).powi(2) / modal_mass;
             let error = ModeError {
                 backward: norms.backward_error(lambda, x, force),
                 cancellation: k_share + m_share,
                 relative_bar: data_bar,
                 data_bar,
                 residual_bar: 0.0,
-                rounding_floor: rounding * norms.stiffness_norm * norms.scaled_norm(x).powi(2) / modal_mass,
+                rounding_floor,
+                zero_level: zero::level(
+                    noise[j] / modal_mass,
+                    rounding * stiffness_terms[j] / modal_mass,
+                    rounding_floor,
+                ),
             };
             (lambda, error)
         })
         .unzip();
     (lambda, errors, forces)
+}
+
+/// What the digits of K leave open of xᵀKx: its precision times the terms, or less, where few digits are known entry by entry.
+fn energy_noise(problem: ModalProblem<'_>, shapes: MatRef<'_, f64>, terms: &[f64]) -> Vec<f64> {
+    let of_entries = problem.data.and_then(|data| data.energy_noise(shapes));
+    of_entries.unwrap_or_else(|| terms.iter().map(|terms| problem.precision.stiffness * terms).collect())
 }
 
 /// Adds to the error bars what the residuals leave in doubt; one solve for each mode.

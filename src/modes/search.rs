@@ -8,7 +8,9 @@ use super::boundary_problem::{BoundaryProblem, ElasticCount};
 use super::counts::Counts;
 use super::eigenproblem::{EigenWork, Interval, Wanted, are_clustered, is_above};
 use super::slices::{Band, ModeSource, SLICE, search_between};
-use super::{Boundary, CLUSTER_GAP, Component, ModeRequest, Modes, dense_spectrum, elastic_modes, indefinite};
+use super::{
+    Boundary, CLUSTER_GAP, Component, ModeRequest, Modes, ShiftInvert, dense_spectrum, elastic_modes, indefinite,
+};
 use crate::error::{Error, Result};
 use crate::job::{Eigensolver, ModeSelection, ReductionJob};
 use crate::partition::Partition;
@@ -78,8 +80,14 @@ impl<'a> Search<'a> {
     fn in_one_go(&self, seed: u64) -> Result<Modes> {
         let request = ModeRequest { wanted: self.wanted, eigensolver: self.eigensolver, seed };
         let problem = self.problem.modal();
-        let (mut modes, n_factorisations) =
-            self.problem.with_lowest_operator(|operator| elastic_modes(problem, operator, request))?;
+        let solve = |operator: &dyn ShiftInvert| elastic_modes(problem, operator, request);
+        let (mut modes, n_factorisations) = match self.problem.with_lowest_operator(solve) {
+            // The factor of K_II serves two purposes; one of K − σM is made for this one.
+            Err(Error::LanczosStalled { .. }) if self.problem.boundary == Boundary::FreeInterface => {
+                self.problem.with_operator_below(solve)?
+            }
+            found => found?,
+        };
         modes.work.factorisations += n_factorisations;
         Ok(modes)
     }

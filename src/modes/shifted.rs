@@ -7,9 +7,9 @@
 use super::boundary_problem::median_ratio;
 use super::eigenproblem::Wanted;
 use super::operator::Factored;
-use super::{ModalProblem, ModeError, ModeRequest, Modes, SEED, elastic_modes};
+use super::{ModalProblem, ModeError, ModeRequest, Modes, SEED, elastic_modes, zero};
 use crate::error::{Error, Result};
-use crate::factor::{Analysis, Cholesky};
+use crate::factor::{Analysis, Cholesky, few_digits, whole_count};
 use crate::job::Eigensolver;
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
@@ -32,14 +32,14 @@ pub struct Shifted<'a> {
 /// The first shift relative to the median of K_ii / M_ii. The largest ratio would do where all dofs are alike, but a few
 /// rotations of tiny inertia raise it by many orders of magnitude, and then eigenvalues can no longer be told apart.
 const FIRST_SHIFT: f64 = 1e-6;
+/// The same in units of the precision of the data, whose rounding may leave eigenvalues below zero.
+const ROUNDINGS_OF_DATA: f64 = 10.0;
 /// Refactorisations before the shift is taken as it is.
 const MAX_ROUNDS: usize = 4;
 /// −σ may lie between these multiples of the first elastic eigenvalue.
 const WINDOW: std::ops::RangeInclusive<f64> = 1e-2..=10.0;
 /// Modes looked at first; doubled while all of them are zero modes.
 const LOOK_AT: usize = 12;
-/// A mode is zero when its Rayleigh quotient stays below this many error bars of itself.
-const ZERO_WITHIN_BARS: f64 = 10.0;
 /// Eigenvalues up to this multiple of one that is rounding are rounding of the same size, and what their modes are is left to
 /// it: each may carry as much as any other.
 const ALIKE: f64 = 10.0;
@@ -50,17 +50,19 @@ const PROJECTED: f64 = 1e-14;
 /// Factors K − σM of a modal problem with a shift suited to it.
 ///
 /// # Errors
-/// K − σM is not definite; an eigenvalue is negative beyond the noise of the data; the eigensolver fails.
+/// K − σM is not definite, or its digits do not tell; an eigenvalue is negative beyond the noise of the data; the eigensolver
+/// fails.
 pub fn shifted<'a>(
     analysis: &'a Analysis,
     problem: ModalProblem<'_>,
     name: &dyn Fn(usize) -> String,
 ) -> Result<Shifted<'a>> {
-    let mut sigma = -FIRST_SHIFT * median_ratio(problem);
+    let mut sigma = first_shift(problem);
     let mut count = LOOK_AT;
     let mut round = 1;
     loop {
-        let factor = Cholesky::new(analysis, problem.pencil(), sigma, name)?;
+        let factor = Cholesky::new(analysis, problem.pencil(), sigma, name)
+            .map_err(|error| few_digits(error, analysis, problem.stiffness, problem.precision.stiffness))?;
         let request = ModeRequest { wanted: Wanted::Count(count), eigensolver: Eigensolver::Lanczos, seed: SEED };
         let lowest = elastic_modes(problem, &Factored::new(&factor, sigma), request)?;
         let n_zero = n_zero(&lowest);
@@ -71,7 +73,7 @@ pub fn shifted<'a>(
         let first_elastic = lowest.lambda.get(n_zero).copied().or(lowest.next);
         let settled = first_elastic.is_none_or(|lambda| WINDOW.contains(&(-sigma / lambda)));
         if (settled && !all_zero) || round == MAX_ROUNDS {
-            refuse_negative(&lowest, first_elastic)?;
+            refuse_negative(analysis, problem, (&lowest, first_elastic))?;
             return Ok(Shifted { factor, sigma, lowest, n_zero, n_factorisations: round });
         }
         if let Some(lambda) = first_elastic.filter(|lambda| *lambda > 0.0) {
@@ -86,43 +88,45 @@ pub fn shift_of_factor(partition: &Partition, rigid: &RigidBodyModes) -> f64 {
     if partition.n_interface() > 0 || rigid.count() == 0 {
         return 0.0;
     }
-    -FIRST_SHIFT * median_ratio(ModalProblem::of(partition.pencil(), None, partition.precision))
+    first_shift(ModalProblem::free(partition, None))
 }
 
-/// Leading modes that are zero within their bars, within rounding of the matrix, or within that of modes they mix with.
+fn first_shift(problem: ModalProblem<'_>) -> f64 {
+    -FIRST_SHIFT.max(ROUNDINGS_OF_DATA * problem.precision.stiffness) * median_ratio(problem)
+}
+
+/// Leading modes that are zero: by themselves, as rounding of modes they mix with, or as rounding of a matrix that was projected.
 fn n_zero(lowest: &Modes) -> usize {
     let rounding = PROJECTED * lowest.lambda.last().copied().unwrap_or(0.0);
     let pairs = || lowest.lambda.iter().zip(&lowest.errors);
     let is_zero = |(lambda, error): &(&f64, &ModeError)| {
         let alike = pairs().filter(|(other, _)| other.abs() <= ALIKE * lambda.abs());
-        let floor = alike.fold(0.0f64, |floor, (_, error)| floor.max(error.rounding_floor));
-        is_zero(**lambda, error) || lambda.abs() <= ZERO_WITHIN_BARS * floor || **lambda <= rounding.max(0.0)
+        let floor = alike.fold(error.rounding_floor, |floor, (_, error)| floor.max(error.rounding_floor));
+        zero::is_zero(**lambda, error.zero_level)
+            || zero::is_zero(**lambda, zero::level(0.0, 0.0, floor))
+            || **lambda <= rounding.max(0.0)
     };
     pairs().take_while(is_zero).count()
 }
 
-/// Whether an eigenvalue is zero within its bar, which is relative and grows without limit as λ goes to zero, or within
-/// rounding of the matrix.
-fn is_zero(lambda: f64, error: &ModeError) -> bool {
-    let within = error.data_bar * ZERO_WITHIN_BARS;
-    // A free particle has no terms to cancel: 0/0.
-    within.is_nan() || within >= 1.0 || lambda.abs() <= ZERO_WITHIN_BARS * error.rounding_floor
-}
-
-/// Share of the first elastic eigenvalue below which a negative one is nobody's instability: matrices that were projected
-/// themselves carry thousands of roundings that their own terms do not show.
-const NEGLIGIBLE: f64 = 1e-12;
-
-/// An eigenvalue below zero by more than noise belongs to an indefinite K, not to a rigid-body motion.
-fn refuse_negative(modes: &Modes, first_elastic: Option<f64>) -> Result<()> {
-    let negligible = NEGLIGIBLE * first_elastic.unwrap_or(0.0);
+/// An eigenvalue below zero by more than noise belongs to an indefinite K, not to a rigid-body motion: where a count half way to it
+/// says so.
+fn refuse_negative(
+    analysis: &Analysis,
+    problem: ModalProblem<'_>,
+    (modes, first_elastic): (&Modes, Option<f64>),
+) -> Result<()> {
+    let is_noise = |lambda: f64, error: &ModeError| {
+        lambda >= 0.0 || zero::is_zero(lambda, error.zero_level) || zero::is_negligible(lambda, first_elastic)
+    };
     let mut pairs = modes.lambda.iter().zip(&modes.errors);
-    match pairs.find(|(lambda, error)| **lambda < -negligible && !is_zero(**lambda, error)) {
-        Some((lambda, error)) => {
-            let noise = negligible.max(error.data_bar * lambda.abs());
-            Err(Error::NegativeRigidEnergy { energy: *lambda, noise })
+    let Some((energy, error)) = pairs.find(|(lambda, error)| !is_noise(**lambda, error)) else { return Ok(()) };
+    match whole_count(analysis, problem.pencil(), 0.5 * energy)?.below {
+        0 => Ok(()),
+        count => {
+            let error = Error::NegativeRigidEnergy { energy: *energy, noise: error.zero_level, count };
+            Err(few_digits(error, analysis, problem.stiffness, problem.precision.stiffness))
         }
-        None => Ok(()),
     }
 }
 
@@ -179,11 +183,20 @@ mod tests {
     #[test]
     fn a_negative_eigenvalue_beyond_noise_is_no_zero_mode() {
         let mut stiffnesses: Vec<f64> = (0..30).map(f64::from).collect();
-        // Above the first shift, so that K − σM is definite, and a million times the rounding of its own terms.
-        stiffnesses[0] = -1e-9;
+        // Above the first shift, so that K − σM is definite, and a billion times the rounding of its own terms.
+        stiffnesses[0] = -1e-6;
         let mass = diagonal_matrix(&[1.0; 30]);
         with_lowest(&diagonal_matrix(&stiffnesses), &mass, |found| {
-            assert!(matches!(found, Err(Error::NegativeRigidEnergy { .. })), "{found:?}");
+            assert!(matches!(found, Err(Error::NegativeRigidEnergy { count: 1, .. })), "{found:?}");
         });
+    }
+
+    /// What practice takes for a rigid-body mode is one on either side of zero.
+    #[test]
+    fn a_negative_eigenvalue_that_is_nothing_beside_the_first_elastic_one_is_a_zero_mode() {
+        let mut stiffnesses: Vec<f64> = (0..30).map(f64::from).collect();
+        stiffnesses[0] = -1e-9;
+        let mass = diagonal_matrix(&[1.0; 30]);
+        with_lowest(&diagonal_matrix(&stiffnesses), &mass, |found| assert_eq!(found.expect("a shift").n_zero, 1));
     }
 }

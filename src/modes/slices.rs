@@ -22,7 +22,7 @@ use rayon::prelude::*;
 use super::boundary_problem::{BoundaryProblem, ElasticCount};
 use super::counts::{Counts, middle};
 use super::eigenproblem::{EigenWork, Eigenpairs, Interval, Problem, are_clustered};
-use super::{CLUSTER_GAP, Modes, SEED, SETTLED, judged, pairs_between};
+use super::{CLUSTER_GAP, Modes, SEED, judged, pairs_between, settled_at};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::job::Eigensolver;
@@ -292,24 +292,25 @@ pub(super) fn search_between(
             judged(modal, whole, pairs, around).ascending()
         };
         let modes = orthogonal_and_judged(pairs);
-        if modes.errors.iter().all(|error| error.backward <= SETTLED) {
+        let settled = settled_at(modal.precision);
+        if modes.errors.iter().all(|error| error.backward <= settled) {
             return Ok(modes);
         }
-        Ok(orthogonal_and_judged(purified(whole, &modes)))
+        Ok(orthogonal_and_judged(purified(whole, &modes, settled)))
     })?;
     let work = EigenWork { factorisations: n_factorisations, ..modes.work };
     Ok(Modes { work, next: None, ..modes })
 }
 
-/// X = (K − σM)⁻¹ M X (Λ − σI) for the modes that lack digits: a step of inverse iteration, which leaves nothing in them that M does
-/// not see. An iteration carries it along, unseen by its products with M, and where all eigenvalues lie on one side of the shift
-/// and far from it, it grows.
-fn purified(problem: Problem<'_>, modes: &Modes) -> Eigenpairs {
+/// X = (K − σM)⁻¹ M X (Λ − σI) for the modes whose backward error is not settled: a step of inverse iteration, which leaves nothing
+/// in them that M does not see. An iteration carries it along, unseen by its products with M, and where all eigenvalues lie on
+/// one side of the shift and far from it, it grows.
+pub(super) fn purified(problem: Problem<'_>, modes: &Modes, settled: f64) -> Eigenpairs {
     let sigma = problem.operator.shift();
     let mut order: Vec<usize> = (0..modes.count()).collect();
     order.sort_by(|a, b| (modes.lambda[*a] - sigma).abs().total_cmp(&(modes.lambda[*b] - sigma).abs()));
     let Modes { lambda: values, shapes: mut vectors, errors, next, mut work, .. } = modes.in_order(&order);
-    let doubtful: Vec<usize> = (0..values.len()).filter(|j| errors[*j].backward > SETTLED).collect();
+    let doubtful: Vec<usize> = (0..values.len()).filter(|j| errors[*j].backward > settled).collect();
     work.solves += doubtful.len();
     let image = problem.step(dense::columns(vectors.as_ref(), &doubtful).as_ref());
     for (x, j) in image.col_iter().zip(doubtful) {

@@ -105,6 +105,19 @@ impl Results<'_> {
         checks
     }
 
+    /// λ of the retained modes as they are printed. A Rayleigh quotient has a rounding of its own and may lie outside an interval
+    /// that is proved to hold the eigenvalue: the middle of the interval then is the better answer.
+    fn eigenvalues(&self) -> Vec<f64> {
+        let Evidence { retained, enclosures, .. } = self.evidence;
+        let interval =
+            |mode: usize| enclosures.and_then(|enclosures| enclosures.intervals.get(mode).copied().flatten());
+        let printed = |(mode, lambda): (usize, &f64)| match interval(mode) {
+            Some([low, high]) if !(low..=high).contains(lambda) => 0.5 * (low + high),
+            _ => *lambda,
+        };
+        retained.modes.lambda.iter().enumerate().map(printed).collect()
+    }
+
     /// What was done, counted.
     fn work(&self) -> WorkCounters {
         let Evidence { partition, rigid, retained, certificate, enclosures, .. } = self.evidence;

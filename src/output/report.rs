@@ -135,7 +135,7 @@ fn modes(results: &Results<'_>) -> Vec<ModeRow> {
             enclosure_hz: enclosure(results, index),
         }
     };
-    modes.lambda.iter().zip(&modes.errors).enumerate().map(row).collect()
+    results.eigenvalues().iter().zip(&modes.errors).enumerate().map(row).collect()
 }
 
 /// The proven interval of a mode as frequencies, rounded outwards.

@@ -71,8 +71,7 @@ fn matrix(a: MatRef<'_, f64>) -> Matrix {
 
 fn frequencies(results: &Results<'_>) -> Vec<f64> {
     let unit = results.evidence.partition.scaling.eigenvalue_unit();
-    let mut frequencies: Vec<f64> =
-        results.evidence.retained.modes.lambda.iter().map(|lambda| omega(*lambda, unit)).collect();
+    let mut frequencies: Vec<f64> = results.eigenvalues().into_iter().map(|lambda| omega(lambda, unit)).collect();
     // Rayleigh quotients of a repeated eigenvalue may come out a rounding apart in the wrong order.
     frequencies.sort_by(f64::total_cmp);
     frequencies

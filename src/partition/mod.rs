@@ -16,7 +16,10 @@ mod metis;
 mod minimum_degree;
 mod ordering;
 mod region;
+mod roundings;
 mod transformation;
+
+use std::sync::OnceLock;
 
 use faer::Mat;
 
@@ -27,7 +30,10 @@ use crate::job::InterfaceJob;
 use crate::model::{CoordinateFit, Finding, Model, ModelFacts, Precision, Scaling, Site};
 use crate::sparse::{Leading, SparseMatrix};
 
+use roundings::{PatchEntries, Roundings};
+
 pub use interface::{InterfaceNode, recovered_rows};
+pub use roundings::CHANCE_OF_MORE;
 pub use transformation::{DofOrigin, ReducedDof, Transformation, TransformationRow};
 
 /// Most interface dofs: the two reduced matrices alone take 6.4 GB then, and decomposing them days.
@@ -62,6 +68,10 @@ pub struct Partition {
     pub findings: Vec<Finding>,
     /// How much rigid patches enlarge rounding of the data of K; one without patches.
     pub cancellation: f64,
+    /// Entries of the model's K that rigid patches have taken up.
+    patches: PatchEntries,
+    /// The entries of K by their sizes, once somebody asks.
+    roundings: OnceLock<Roundings>,
 }
 
 impl Partition {
@@ -86,6 +96,7 @@ impl Partition {
         let (facts, mut findings) = (model.facts(), held::constrained_nodes(&model, &resolved));
         let stiffness = congruence::congruence(&model.stiffness, &transformation);
         let cancellation = congruence::cancellation(&model.stiffness, &stiffness, &transformation);
+        let patches = PatchEntries::of(&model.stiffness, &transformation);
         drop(model.stiffness);
         let mass = congruence::congruence(&model.mass, &transformation);
         drop(model.mass);
@@ -105,6 +116,8 @@ impl Partition {
             recovered: Vec::new(),
             scaling: model.scaling,
             precision: model.precision,
+            patches,
+            roundings: OnceLock::new(),
         })
     }
 

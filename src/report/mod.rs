@@ -3,6 +3,7 @@
 //! The body depends on the job and its files alone: it is byte for byte the same for any number of threads, on any day
 //! and in any folder. Times, memory, threads and paths are facts of the run and live beside it.
 
+mod conclusion;
 mod explanation;
 mod html;
 mod inspection;

@@ -3,13 +3,13 @@
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use supel_runtime::Superelement;
 
+use super::conclusion::conclusion;
 use super::inspection::method;
 use super::json::CheckLine;
 use super::page::{Page, Paint, Tone, WIDTH};
 use super::summary::body;
 use super::{Generator, json_text, table};
 use crate::audit::Audit;
-use crate::verification::check::Verdict;
 
 /// Version of the document's layout.
 const FORMAT_VERSION: u32 = 1;
@@ -61,27 +61,10 @@ impl VerificationReport {
             self.audit.notes.iter().for_each(|note| page.entry("note", note));
         }
         page.line("");
-        for line in table::wrap(&self.conclusion(), WIDTH) {
+        for line in table::wrap(&conclusion(&self.audit.checks, 0, self.audit.verdict()), WIDTH) {
             page.line(Page::toned(&line, Tone::Of(self.audit.verdict())));
         }
         page.into_text()
-    }
-
-    fn conclusion(&self) -> String {
-        let checks = &self.audit.checks;
-        let of = |verdict| -> Vec<&str> {
-            checks.iter().filter(|check| check.verdict() == verdict).map(|check| check.id).collect()
-        };
-        let n_judged = checks.iter().filter(|check| check.verdict() != Verdict::Info).count();
-        let judged = table::counted(n_judged, "check", "checks");
-        match self.audit.verdict() {
-            Verdict::Info | Verdict::Pass => format!("✓ verified: {judged} passed"),
-            Verdict::Warn => format!("! verified; past the limit: {}", of(Verdict::Warn).join(", ")),
-            Verdict::Fail => {
-                let failed = of(Verdict::Fail);
-                format!("✗ not verified: {} of {judged} failed: {}", failed.len(), failed.join(", "))
-            }
-        }
     }
 }
 

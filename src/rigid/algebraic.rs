@@ -4,7 +4,7 @@ use faer::Mat;
 
 use super::{RigidBodyModes, RigidEnergy, RigidSource, energies_of_terms, residuals};
 use crate::dense;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::factor::{Analysis, SolveOperator};
 use crate::modes::{ModalProblem, Shifted, mass_qr, shifted};
 use crate::partition::Partition;
@@ -26,13 +26,18 @@ pub fn from_matrices(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
 /// As [`from_matrices`].
 pub(crate) fn zero_modes(partition: &Partition) -> Result<(RigidBodyModes, Option<f64>, usize)> {
     let analysis = Analysis::new(partition.pencil())?;
-    let problem = ModalProblem::of(partition.pencil(), None, partition.precision);
+    let problem = ModalProblem::free(partition, None);
     let found = shifted(&analysis, problem, &|step| partition.name_of(step))?;
+    refuse_uncounted(partition, &found)?;
     let orthonormal = without_elastic_rounding(partition, &found);
     let (forces, terms) = product_and_terms(&partition.stiffness, orthonormal.as_ref());
     let magnitudes = energies_of_terms(orthonormal.as_ref(), terms.as_ref());
     let largest_residual = residuals(forces.as_ref(), terms.as_ref()).into_iter().fold(0.0, f64::max);
-    let mut energy = RigidEnergy { largest_residual, ..RigidEnergy::default() };
+    let first_elastic = found.lowest.lambda.get(found.n_zero).copied().or(found.lowest.next);
+    // A rounding E turns a zero mode towards an elastic one x by xᵀEq / λ, and xᵀEq is what it makes of the energies of the two.
+    let level = found.lowest.errors[..found.n_zero].iter().map(|error| error.zero_level).fold(0.0, f64::max);
+    let angle = first_elastic.map_or(0.0, |lambda| level / lambda);
+    let mut energy = RigidEnergy { largest_residual, angle, ..RigidEnergy::default() };
     for (j, magnitude) in magnitudes.iter().enumerate() {
         let (q, force) = (dense::column(orthonormal.as_ref(), j), dense::column(forces.as_ref(), j));
         energy.largest_quotient = energy.largest_quotient.max(dense::dot(q, force).abs());
@@ -49,8 +54,37 @@ pub(crate) fn zero_modes(partition: &Partition) -> Result<(RigidBodyModes, Optio
         is_classical: false,
         energy,
     };
-    let first_elastic = found.lowest.lambda.get(found.n_zero).copied().or(found.lowest.next);
     Ok((rigid, first_elastic, found.n_factorisations))
+}
+
+/// Relative error bar of the first elastic eigenvalue up to which mechanisms below it are counted: what is lost in rounding is then
+/// slower than a hundredth of the first elastic mode, as what M-05 takes for a support is.
+pub(super) const COUNTED_BELOW: f64 = 1e-4;
+
+/// A soft mode looks like a mechanism where rounding of few digits is larger than its energy: more zero modes than bodies can have are
+/// believed where that rounding is nothing beside the first elastic mode.
+fn refuse_uncounted(partition: &Partition, found: &Shifted<'_>) -> Result<()> {
+    let n_of_bodies = 6 * partition.model.n_bodies;
+    if found.n_zero <= n_of_bodies || !partition.has_few_digits() {
+        return Ok(());
+    }
+    let bar = match (found.lowest.errors.get(found.n_zero), found.lowest.next) {
+        (Some(error), _) => error.data_bar,
+        // Nothing was found that is not zero, and there is more.
+        (None, Some(_)) => 1.0,
+        (None, None) => 0.0,
+    };
+    if bar <= COUNTED_BELOW { Ok(()) } else { Err(uncounted(partition, found.n_zero, bar)) }
+}
+
+/// Motions seem to cost no energy, and the next one is known to a share of its eigenvalue only.
+pub(super) fn uncounted(partition: &Partition, n_zero: usize, bar: f64) -> Error {
+    let known = 0.5 * bar;
+    let what = format!(
+        "how many motions cost no energy: {n_zero} seem to, and with the frequency of the next known to {known:.0e} of itself \
+         elastic ones may be among them"
+    );
+    Error::DigitsTooFew { what, precision: partition.precision.stiffness }
 }
 
 /// The zero modes after a step of inverse iteration, which takes what rounding of the eigensolver left of an elastic motion

@@ -2,9 +2,10 @@
 
 use faer::{Mat, MatRef};
 
-use super::{RigidBodyModes, RigidEnergy, RigidSource, energies_of_terms, largest_residual};
+use super::{RigidBodyModes, RigidEnergy, RigidSource, algebraic, energies_of_terms, largest_residual, zero_energy};
 use crate::dense;
 use crate::error::{Error, Result};
+use crate::factor::{Analysis, whole_count};
 use crate::model::{Bodies, Frame, Site};
 use crate::partition::Partition;
 use crate::sparse::{product, product_and_terms};
@@ -15,9 +16,6 @@ const NO_DISPLACEMENT: f64 = 1e-11;
 /// Modal masses relative to the largest below which a rigid motion has no inertia: the square of the rounding that the
 /// direction of the motion carries, with a factor of ten thousand. A real one may be small beside a seismic mass.
 pub(crate) const NO_MASS: f64 = 1e-24;
-/// A motion is free when its energy stays below this many times the noise of the data. The noise bound adds all
-/// roundings with one sign; measured energies of exact rigid motions stay below it, so ten is generous.
-pub(crate) const FREE_BELOW_NOISE: f64 = 10.0;
 
 /// The zero-energy rigid motions of every body.
 pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<RigidBodyModes> {
@@ -34,6 +32,7 @@ pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<
         largest_quotient: worst.largest_quotient.max(body.energy.largest_quotient),
         largest_residual: worst.largest_residual.max(body.energy.largest_residual),
         noise: worst.noise.max(body.energy.noise),
+        angle: 0.0,
     });
     let n = sites.len();
     let massive = found.iter().map(|body| body.orthonormal.as_ref());
@@ -108,19 +107,33 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
     let (orthonormal, massless) =
         mass_orthonormal(partition, dense::product(centred.as_ref(), moving.as_ref()).as_ref())?;
     let massless = without_energy(partition, massless)?;
-    let Energies { energies, directions, noise } = Energies::of(partition, orthonormal.as_ref())?;
-    if let Some(energy) = energies.first().filter(|energy| **energy < -FREE_BELOW_NOISE * noise) {
-        return Err(Error::NegativeRigidEnergy { energy: *energy, noise });
+    let Energies { energies, directions, noise, zero } = Energies::of(partition, orthonormal.as_ref())?;
+    if let Some(energy) = energies.first().filter(|energy| **energy < -zero) {
+        refuse_negative(partition, *energy, noise)?;
     }
-    let n_free = energies.iter().filter(|energy| **energy <= FREE_BELOW_NOISE * noise).count();
+    let n_free = energies.iter().filter(|energy| **energy <= zero).count();
     let orthonormal = dense::product(orthonormal.as_ref(), directions.as_ref().subcols(0, n_free));
     let energy = RigidEnergy {
         largest_quotient: energies[..n_free].iter().fold(0.0, |max: f64, energy| max.max(energy.abs())),
         largest_residual: largest_residual(&partition.stiffness, orthonormal.as_ref()),
         noise,
+        angle: 0.0,
     };
     let is_classical = n_free + massless.ncols() == 6;
     Ok(Body { dofs: dofs.to_vec(), orthonormal, massless, is_classical, energy })
+}
+
+/// The spectrum tells whether K is indefinite, or rounded by whoever made it.
+fn refuse_negative(partition: &Partition, energy: f64, noise: f64) -> Result<()> {
+    match algebraic::zero_modes(partition) {
+        // Too far below zero for a shift that suits rigid-body motions.
+        Err(Error::IndefiniteStiffness { .. } | Error::NotDefinite { .. }) => {
+            let analysis = Analysis::new(partition.pencil())?;
+            let count = whole_count(&analysis, partition.pencil(), 0.5 * energy)?.below;
+            Err(Error::NegativeRigidEnergy { energy, noise, count })
+        }
+        found => found.map(drop),
+    }
 }
 
 /// Those of the motions without mass that cost no energy either; one that is held is no rigid-body mode.
@@ -128,8 +141,8 @@ fn without_energy(partition: &Partition, massless: Mat<f64>) -> Result<Mat<f64>>
     if massless.ncols() == 0 {
         return Ok(massless);
     }
-    let Energies { energies, directions, noise } = Energies::of(partition, massless.as_ref())?;
-    let n_free = energies.iter().filter(|energy| **energy <= FREE_BELOW_NOISE * noise).count();
+    let Energies { energies, directions, zero, .. } = Energies::of(partition, massless.as_ref())?;
+    let n_free = energies.iter().filter(|energy| **energy <= zero).count();
     Ok(dense::product(massless.as_ref(), directions.as_ref().subcols(0, n_free)))
 }
 
@@ -190,8 +203,10 @@ struct Energies {
     energies: Vec<f64>,
     /// The combinations that have them.
     directions: Mat<f64>,
-    /// What rounding of the data can make of one.
+    /// What rounding of the data can make of one, all roundings with one sign.
     noise: f64,
+    /// Up to which one is zero.
+    zero: f64,
 }
 
 impl Energies {
@@ -201,6 +216,7 @@ impl Energies {
         dense::symmetrise(&mut energy);
         let (energies, directions) = dense::symmetric_eigen(energy.as_ref())?;
         let largest = energies_of_terms(q, terms.as_ref()).into_iter().fold(0.0, f64::max);
-        Ok(Self { energies, directions, noise: (partition.precision.stiffness + f64::EPSILON) * largest })
+        let zero = zero_energy(partition, q, terms.as_ref());
+        Ok(Self { energies, directions, noise: (partition.precision.stiffness + f64::EPSILON) * largest, zero })
     }
 }

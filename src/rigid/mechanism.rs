@@ -9,19 +9,19 @@
 
 use faer::{Mat, MatRef};
 
-use super::{RigidBodyModes, absolute_energy, largest_residual};
+use super::{RigidBodyModes, absolute_energy, algebraic, largest_residual, zero_energy};
 use crate::basis::ConstraintModes;
 use crate::dense;
 use crate::error::{Error, Result};
+use crate::factor::{Analysis, few_digits, whole_count};
+use crate::modes::{ModalProblem, rayleigh_quotients, zero};
 use crate::partition::Partition;
-use crate::sparse::product;
+use crate::sparse::{product, product_and_terms};
 
-/// Eigenvalues of S, in the scales of the interface dofs, below which a motion is looked at: far above any noise.
+/// Eigenvalues of S, in the scales of the interface dofs, below which a motion is looked at: far above any noise of binary data.
 const SOFT: f64 = 1e-6;
-/// Rayleigh quotients up to this many error bars are zero. The bar adds all roundings of xᵀKx with one sign, which measured
-/// zeros stay below; at ten bars an eigenvalue is known to a tenth. (A thousand bars would call zero what is known to a
-/// thousandth.)
-const ZERO_WITHIN_BARS: f64 = 10.0;
+/// The same in units of what the digits of K leave of S, which adds all roundings with one sign.
+const SOFT_BY_DIGITS: f64 = 10.0;
 /// Rayleigh quotients up to this many bars are known to four digits at best.
 const KNOWN_BEYOND_BARS: f64 = 1e4;
 /// Rayleigh quotients up to this many ε times their terms may be zeros of whoever made K in double precision: a projection leaves
@@ -69,34 +69,85 @@ pub fn with_mechanisms(
     let motions = orthonormal(partition, &rigid, soft)?;
     let mut energy = dense::gram(motions.as_ref(), product(&partition.stiffness, motions.as_ref()).as_ref());
     dense::symmetrise(&mut energy);
-    let (lambda, directions) = dense::symmetric_eigen(energy.as_ref())?;
+    let (_, directions) = dense::symmetric_eigen(energy.as_ref())?;
     let motions = dense::product(motions.as_ref(), directions.as_ref());
-    let precision = partition.precision.stiffness + f64::EPSILON;
-    let bars = absolute_energy(&partition.stiffness, motions.as_ref());
+    let (lambda, errors, _) = rayleigh_quotients(ModalProblem::free(partition, None), motions.as_ref());
+    let terms = absolute_energy(&partition.stiffness, motions.as_ref());
     let mut found = LooseMotions::default();
-    let mut zero = Vec::new();
-    for (j, (lambda, terms)) in lambda.into_iter().zip(bars).enumerate() {
-        let bar = precision * terms;
+    let mut free = Vec::new();
+    for (j, (lambda, (error, terms))) in lambda.into_iter().zip(errors.iter().zip(terms)).enumerate() {
+        let bar = error.data_bar * lambda.abs();
         let loose = || Loose { lambda, bar, nodes: most_moved(partition, dense::column(motions.as_ref(), j)) };
-        if lambda.abs() <= ZERO_WITHIN_BARS * bar {
-            zero.push(j);
+        if zero::is_zero(lambda, error.zero_level) || is_rounding(partition, (lambda, error.zero_level))? {
+            free.push(j);
             found.mechanisms.push(loose());
-        } else if lambda < 0.0 {
-            return Err(Error::NegativeRigidEnergy { energy: lambda, noise: bar });
         } else if lambda <= ROUNDINGS_OF_THE_PRODUCER * f64::EPSILON * terms {
             found.grey.push(loose());
         } else if lambda <= KNOWN_BEYOND_BARS * bar {
             found.uncertain.push(loose());
         }
     }
-    let zero = Mat::from_fn(motions.nrows(), zero.len(), |i, j| motions[(i, zero[j])]);
+    refuse_uncounted(partition, constraint, (&rigid, &found))?;
+    let free = dense::columns(motions.as_ref(), &free);
     let n_grey = found.grey.len() + found.uncertain.len();
-    let rigid = RigidBodyModes { n_grey, ..joined(partition, rigid, zero.as_ref()) };
+    let rigid = RigidBodyModes { n_grey, ..joined(partition, rigid, free.as_ref()) };
     Ok((rigid, found))
+}
+
+/// Whether a quotient below zero is rounding of whoever made K: where a count finds no eigenvalue below half of it.
+fn is_rounding(partition: &Partition, (lambda, noise): (f64, f64)) -> Result<bool> {
+    if lambda > 0.0 {
+        return Ok(false);
+    }
+    let analysis = Analysis::new(partition.pencil())?;
+    match whole_count(&analysis, partition.pencil(), 0.5 * lambda)?.below {
+        0 => Ok(true),
+        count => {
+            let error = Error::NegativeRigidEnergy { energy: lambda, noise, count };
+            Err(few_digits(error, &analysis, (&partition.stiffness).into(), partition.precision.stiffness))
+        }
+    }
+}
+
+/// Mechanisms by few digits are believed where what rounding makes is nothing beside the softest motion that is none.
+fn refuse_uncounted(
+    partition: &Partition,
+    constraint: &ConstraintModes,
+    (rigid, found): (&RigidBodyModes, &LooseMotions),
+) -> Result<()> {
+    if found.mechanisms.is_empty() || !partition.has_few_digits() {
+        return Ok(());
+    }
+    let others = found.grey.iter().chain(&found.uncertain).map(|motion| motion.bar / motion.lambda);
+    let next = orthonormal(partition, rigid, stiffer_motion(partition, constraint, rigid)?)?;
+    let (lambda, errors, _) = rayleigh_quotients(ModalProblem::free(partition, None), next.as_ref());
+    let of_next = lambda.iter().zip(&errors).map(|(lambda, error)| error.zero_level / lambda);
+    match others.chain(of_next).fold(0.0, f64::max) {
+        worst if worst <= algebraic::COUNTED_BELOW => Ok(()),
+        worst => Err(algebraic::uncounted(partition, rigid.count() + found.mechanisms.len(), worst)),
+    }
 }
 
 /// V for every eigenvector of S that is soft and no rigid-body motion; columns of unit length in the scales of the dofs.
 fn soft_motions(partition: &Partition, constraint: &ConstraintModes, rigid: &RigidBodyModes) -> Result<Mat<f64>> {
+    let (values, z) = interface_motions(partition, constraint, rigid)?;
+    let n_soft = n_soft(partition, constraint, &values);
+    Ok(followed(constraint, z.as_ref().subcols(0, n_soft)))
+}
+
+/// V for the first eigenvector of S that is not soft; no column where all are.
+fn stiffer_motion(partition: &Partition, constraint: &ConstraintModes, rigid: &RigidBodyModes) -> Result<Mat<f64>> {
+    let (values, z) = interface_motions(partition, constraint, rigid)?;
+    let n_soft = n_soft(partition, constraint, &values);
+    Ok(followed(constraint, z.as_ref().subcols(n_soft, (values.len() - n_soft).min(1))))
+}
+
+/// Eigenvalues of S with its rigid-body motions lifted, in the scales of the interface dofs, ascending, and its eigenvectors.
+fn interface_motions(
+    partition: &Partition,
+    constraint: &ConstraintModes,
+    rigid: &RigidBodyModes,
+) -> Result<(Vec<f64>, Mat<f64>)> {
     let (n_i, n_b) = (partition.n_internal, partition.n_interface());
     let scale: Vec<f64> = (0..n_b).map(|i| dense::power_of_two_root(stiffness_of(partition, n_i + i))).collect();
     let mut lifted = Mat::from_fn(n_b, n_b, |i, j| constraint.stiffness[(i, j)] * scale[i] * scale[j]);
@@ -107,12 +158,21 @@ fn soft_motions(partition: &Partition, constraint: &ConstraintModes, rigid: &Rig
         dense::symmetrise(&mut lifted);
     }
     let (values, vectors) = dense::symmetric_eigen(lifted.as_ref())?;
-    let n_soft = values.iter().take_while(|value| **value <= SOFT).count();
-    let z = Mat::from_fn(n_b, n_soft, |i, j| scale[i] * vectors[(i, j)]);
-    let mut motions = Mat::zeros(n_i + n_b, n_soft);
-    motions.as_mut().subrows_mut(0, n_i).copy_from(dense::product(constraint.modes.as_ref(), z.as_ref()));
+    Ok((values, Mat::from_fn(n_b, n_b, |i, j| scale[i] * vectors[(i, j)])))
+}
+
+fn n_soft(partition: &Partition, constraint: &ConstraintModes, values: &[f64]) -> usize {
+    let by_digits = SOFT_BY_DIGITS * partition.precision.stiffness * constraint.cancellation * partition.cancellation;
+    values.iter().take_while(|value| **value <= SOFT.max(by_digits)).count()
+}
+
+/// [Ψ_S Z; Z].
+fn followed(constraint: &ConstraintModes, z: MatRef<'_, f64>) -> Mat<f64> {
+    let (n_i, n_b) = (constraint.modes.nrows(), z.nrows());
+    let mut motions = Mat::zeros(n_i + n_b, z.ncols());
+    motions.as_mut().subrows_mut(0, n_i).copy_from(dense::product(constraint.modes.as_ref(), z));
     motions.as_mut().subrows_mut(n_i, n_b).copy_from(z);
-    Ok(motions)
+    motions
 }
 
 fn stiffness_of(partition: &Partition, dof: usize) -> f64 {
@@ -145,13 +205,10 @@ fn orthonormal(partition: &Partition, rigid: &RigidBodyModes, motions: Mat<f64>)
 }
 
 fn refuse_without_energy(partition: &Partition, massless: MatRef<'_, f64>) -> Result<()> {
-    let forces = product(&partition.stiffness, massless);
-    let terms = absolute_energy(&partition.stiffness, massless);
-    for (j, terms) in terms.iter().enumerate() {
-        let motion = dense::column(massless, j);
-        let energy = dense::dot(motion, dense::column(forces.as_ref(), j));
-        let bar = (partition.precision.stiffness + f64::EPSILON) * terms;
-        if energy.abs() <= ZERO_WITHIN_BARS * bar {
+    let (forces, terms) = product_and_terms(&partition.stiffness, massless);
+    for (j, energy) in dense::dots(massless, forces.as_ref()).into_iter().enumerate() {
+        if zero::is_zero(energy, zero_energy(partition, massless.subcols(j, 1), terms.as_ref().subcols(j, 1))) {
+            let motion = dense::column(massless, j);
             let largest = (0..motion.len()).max_by(|a, b| motion[*a].abs().total_cmp(&motion[*b].abs()));
             return Err(Error::MasslessMechanism { dof: partition.name_of(largest.unwrap_or(0)) });
         }

@@ -17,14 +17,15 @@ use faer::{Mat, MatRef};
 
 use crate::dense;
 use crate::error::Result;
+use crate::modes::{Equilibrated, zero};
 use crate::partition::Partition;
 use crate::sparse::{Leading, SparseMatrix, absolute_product, product, product_and_terms};
 
 pub use algebraic::from_matrices;
 pub(crate) use algebraic::zero_modes;
-pub(crate) use geometric::{FREE_BELOW_NOISE, NO_MASS, moving_directions};
+pub(crate) use geometric::{NO_MASS, moving_directions};
 pub use mechanism::{Loose, LooseMotions, with_mechanisms};
-pub use rank::{ILL_CONDITIONED, InterfaceRank, interface_rank};
+pub use rank::{ILL_CONDITIONED, InterfaceRank, confirmed_rank, interface_rank, or_lack_of_rank};
 pub(crate) use rank::{scales, unit_motions};
 
 /// Where rigid-body modes come from.
@@ -68,6 +69,8 @@ pub struct RigidEnergy {
     pub largest_residual: f64,
     /// Largest Rayleigh quotient that rounding of the data can make: ε_K · |q|ᵀ|K||q|.
     pub noise: f64,
+    /// How far rounding of the data may turn the modes towards elastic motion: nothing where they are from the coordinates.
+    pub angle: f64,
 }
 
 impl RigidBodyModes {
@@ -84,6 +87,14 @@ impl RigidBodyModes {
     /// The motions of Q without mass, n' × n_massless.
     pub fn massless(&self) -> MatRef<'_, f64> {
         self.orthonormal.as_ref().subcols(self.count() - self.n_massless, self.n_massless)
+    }
+
+    /// The same modes without those of mechanisms: what was known before these were looked for.
+    pub(crate) fn without_mechanisms(&self) -> Self {
+        let n = self.count() - self.n_mechanisms;
+        let massive = self.massive().subcols(0, n - self.n_massless);
+        let orthonormal = dense::beside(massive, self.massless());
+        Self { modes: self.modes.as_ref().subcols(0, n).to_owned(), orthonormal, n_mechanisms: 0, ..self.clone() }
     }
 
     /// The modes of a component that is held: none.
@@ -146,6 +157,17 @@ pub(crate) fn absolute_energy<'a>(matrix: impl Into<Leading<'a>>, x: MatRef<'_, 
 pub(crate) fn energies_of_terms(x: MatRef<'_, f64>, terms: MatRef<'_, f64>) -> Vec<f64> {
     let energy = |j: usize| dense::column(x, j).iter().zip(dense::column(terms, j)).map(|(x, t)| x.abs() * t).sum();
     (0..x.ncols()).map(energy).collect()
+}
+
+/// Energy xᵀKx up to which one of some motions is zero, by the criterion of [`crate::modes::zero`]; `terms` are |K||x|.
+fn zero_energy(partition: &Partition, x: MatRef<'_, f64>, terms: MatRef<'_, f64>) -> f64 {
+    let norms = Equilibrated::of(partition.pencil());
+    let (digits, sizes) = (partition.energy_noise(x), energies_of_terms(x, terms));
+    let level = |j: usize| {
+        let floor = norms.stiffness_norm * norms.scaled_norm(dense::column(x, j)).powi(2);
+        zero::level(digits[j], f64::EPSILON * sizes[j], f64::EPSILON * floor)
+    };
+    (0..x.ncols()).map(level).fold(0.0, f64::max)
 }
 
 /// The largest ‖Kq‖ / ‖ |K||q| ‖ of the columns.

@@ -8,7 +8,10 @@ use faer::Mat;
 use super::RigidBodyModes;
 use crate::dense;
 use crate::error::{Error, Result};
+use crate::factor::Cholesky;
+use crate::job::Eigensolver;
 use crate::model::Site;
+use crate::modes::{Factored, ModalProblem, ModeRequest, SEED, Wanted, elastic_modes};
 use crate::partition::Partition;
 
 /// Below this ratio of singular values the interface does not react a motion.
@@ -29,6 +32,42 @@ pub struct InterfaceRank {
 /// # Errors
 /// A rigid-body motion leaves the interface at rest; the message names it.
 pub fn interface_rank(partition: &Partition, rigid: &RigidBodyModes) -> Result<InterfaceRank> {
+    rank_within(partition, rigid, RANK_TOLERANCE)
+}
+
+/// Looks again at an interface that reacts a motion by no more than the digits of K turn the motions themselves: K_II is singular
+/// but for rounding where its lowest eigenvalue is rounding.
+///
+/// # Errors
+/// A rigid-body motion leaves the interface at rest as far as the digits tell; the eigensolver fails.
+pub fn confirmed_rank(
+    partition: &Partition,
+    rigid: &RigidBodyModes,
+    rank: InterfaceRank,
+    factor: &Cholesky<'_>,
+) -> Result<InterfaceRank> {
+    if rank.singular_ratio > rigid.energy.angle || partition.n_internal == 0 {
+        return Ok(rank);
+    }
+    let request = ModeRequest { wanted: Wanted::Count(1), eigensolver: Eigensolver::Lanczos, seed: SEED };
+    let lowest = elastic_modes(ModalProblem::held(partition), &Factored::new(factor, 0.0), request)?;
+    match lowest.errors.first() {
+        Some(error) if error.data_bar >= 1.0 => rank_within(partition, rigid, rigid.energy.angle),
+        _ => Ok(rank),
+    }
+}
+
+/// Why K_II could not be factored: the interface, where it reacts a motion so badly that few digits leave nothing of that in
+/// K_II, or else the error itself.
+pub fn or_lack_of_rank(error: Error, partition: &Partition, rigid: &RigidBodyModes) -> Error {
+    match error {
+        Error::DigitsTooFew { .. } => rank_within(partition, rigid, ILL_CONDITIONED).err().unwrap_or(error),
+        error => error,
+    }
+}
+
+/// The rank of U_B by singular values above a share of the largest.
+fn rank_within(partition: &Partition, rigid: &RigidBodyModes, tolerance: f64) -> Result<InterfaceRank> {
     let (n_i, n_b, n_r) = (partition.n_internal, partition.n_interface(), rigid.count());
     // Without an interface nothing has to be reacted: the modes are those of the free component.
     if n_r == 0 || n_b == 0 {
@@ -40,11 +79,17 @@ pub fn interface_rank(partition: &Partition, rigid: &RigidBodyModes) -> Result<I
     let u_b = Mat::from_fn(n_b.max(n_r), n_r, |i, j| if i < n_b { unit[(n_i + i, j)] * scale[n_i + i] } else { 0.0 });
     let (singular, v) = dense::right_singular(u_b.as_ref())?;
     let largest = singular.first().copied().unwrap_or(0.0);
-    let rank = singular.iter().filter(|value| **value > RANK_TOLERANCE * largest).count();
+    let rank = singular.iter().filter(|value| **value > tolerance * largest).count();
     if largest == 0.0 || rank < n_r {
         let free = unit.as_ref() * v.as_ref().subcols(n_r - 1, 1);
-        let motion =
+        let mut motion =
             partition.sites().map_or_else(String::new, |sites| describe(&sites, dense::column(free.as_ref(), 0)));
+        if tolerance > RANK_TOLERANCE {
+            let ratio = singular[n_r - 1] / largest;
+            motion += &format!(
+                "; the weakest {ratio:.1e} times as well as the strongest, which the digits of the stiffness do not tell from not at all"
+            );
+        }
         return Err(Error::InterfaceRank { rank, n_rigid: n_r, motion });
     }
     Ok(InterfaceRank { singular_ratio: singular[n_r - 1] / largest })

@@ -9,10 +9,11 @@ use faer::Mat;
 
 use super::Evidence;
 use super::check::{Check, Limits};
+use super::limits::UNKNOWN;
 use super::residual::{AT_REST, Residuals, Rows, Worst};
 use crate::dense;
 use crate::factor::Pencil;
-use crate::modes::{Boundary, MassOrthogonality, ModeError, mass_orthogonality};
+use crate::modes::{Boundary, MassOrthogonality, ModeError, NOTICED_BAR, mass_orthogonality};
 use crate::sparse::panels;
 
 /// Residual of a solve beyond which the free modes are computed by another factor ([`crate::modes`] says why).
@@ -209,11 +210,10 @@ pub(super) fn data_precision(evidence: &Evidence<'_>) -> Check {
     Check {
         id: "M-09",
         name: "digits of the data suffice",
-        equation: "max ½ (ε_K |x|ᵀ|K||x| + ε_M λ|x|ᵀ|M||x|) / λ: relative error bar of a frequency",
+        equation: "max ½ (|xᵀEx| + ε_M λ|x|ᵀ|M||x|) / λ, E roundings of K: relative error bar of a frequency",
         value,
-        // A tenth of a per mille is what a modal test can resolve; half the frequency is no frequency any more.
-        limits: Limits { engineering: 1e-4, ..Limits::default() },
-        fail_above: 0.5,
+        limits: Limits { engineering: NOTICED_BAR, ..Limits::default() },
+        fail_above: UNKNOWN,
         worst,
     }
 }

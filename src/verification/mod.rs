@@ -10,6 +10,7 @@ mod directions;
 mod eigenpairs;
 mod enclosure;
 mod grounding;
+pub(crate) mod limits;
 mod loads;
 mod mass;
 mod pencil;
@@ -116,7 +117,7 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     checks.extend(completeness::count(evidence));
     checks.extend(enclosure::checks(evidence));
     checks.push(eigenpairs::data_precision(evidence));
-    checks.push(solves::static_solves(evidence));
+    checks.push(solves::static_solves(evidence)?);
     if evidence.partition.n_interface() > 0 {
         checks.push(rigid_motion::carried_by_interface(evidence));
     }
@@ -162,6 +163,12 @@ fn coordinate_name(evidence: &Evidence<'_>, coordinate: usize) -> String {
 fn data_noise(partition: &Partition) -> f64 {
     let precision = partition.precision.stiffness;
     if precision > f64::EPSILON { precision * partition.cancellation } else { 0.0 }
+}
+
+/// The share that the digits of K have in an error bar, the rest being that of the arithmetic.
+fn share_of_data(partition: &Partition) -> f64 {
+    let precision = partition.precision.stiffness;
+    precision / (f64::EPSILON + precision)
 }
 
 /// Scales of the reduced coordinates, powers of two: near 1/√K_BB,ii for an interface dof and near 1/√K̂_ηη,ii for a mode.

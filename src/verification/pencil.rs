@@ -78,6 +78,13 @@ impl Spectral {
         dense::column(self.shapes.as_ref(), j).iter().map(|value| value / length).collect()
     }
 
+    /// The finite eigenvalues, ascending, and the first `n_shapes` eigenvectors at unit modal mass, r × n_shapes or fewer.
+    pub(super) fn lowest(&self, n_shapes: usize) -> (Vec<f64>, Mat<f64>) {
+        let lambda = self.eigenvalues();
+        let shapes: Vec<Vec<f64>> = (0..n_shapes.min(lambda.len())).map(|j| self.eigenvector(j)).collect();
+        (lambda, Mat::from_fn(self.n(), shapes.len(), |i, j| shapes[j][i]))
+    }
+
     /// The columns of (K − zM)⁻¹ that belong to the leading `n_b` coordinates, real and imaginary part, r × n_b each.
     pub(super) fn columns(&self, z: c64, n_b: usize) -> [Mat<f64>; 2] {
         self.weighted(self.shapes.as_ref(), z, n_b)

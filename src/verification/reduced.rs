@@ -4,8 +4,10 @@ use faer::MatRef;
 
 use super::check::{Check, Limits};
 use super::conditioning::independence;
+use super::limits::{self, Judged};
+use super::rigid_motion::energy_limits;
 use super::spectrum::{Spectrum, zero_level};
-use super::{Evidence, coordinate_name, data_noise, reduced_norms};
+use super::{Evidence, coordinate_name, data_noise, reduced_norms, share_of_data};
 use crate::dense;
 use crate::modes::{Boundary, Modes, REPEATED_WITHIN};
 use crate::rigid::absolute_energy;
@@ -148,11 +150,6 @@ fn repeated_rounding(modes: &Modes) -> f64 {
     copies.map(|j| REPEATED_WITHIN * f64::EPSILON * modes.errors[j].cancellation).fold(0.0, f64::max)
 }
 
-/// Relative difference of a frequency that reduced models are accepted with.
-const NOT_PRESERVED: f64 = 1e-3;
-/// Relative difference of a frequency that no digits of the data excuse.
-const OPEN: f64 = 0.1;
-
 /// M-14, frequencies of the reduced model under the boundary of the retained modes.
 pub(super) fn frequency_difference(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check {
     let modes = &evidence.retained.modes;
@@ -164,26 +161,17 @@ pub(super) fn frequency_difference(evidence: &Evidence<'_>, spectrum: &Spectrum)
             worst = (difference, Some(format!("mode {}", j + 1)));
         }
     }
-    let bars = modes.errors.iter().map(|error| error.data_bar).fold(0.0, f64::max);
-    let precision = evidence.partition.precision.stiffness;
-    let share = f64::EPSILON / (f64::EPSILON + precision);
     // Both values carry the rounding of their quadratic forms, for which the error bars stand; not that of the residual,
-    // which is the mode's own fault. A frequency that is off by a thousandth is not preserved, whatever the reason.
-    let limits = Limits {
-        engineering: 1e-9,
-        arithmetic: NOISE_FACTOR * bars * share,
-        data: NOISE_FACTOR * bars * (1.0 - share),
-    }
-    .capped(NOT_PRESERVED, NOT_PRESERVED);
-    // What the digits leave open is no failure of the reduction: up to the error bar itself it is a warning beside M-09.
-    let within_bar = (0.5 * bars * (1.0 - share)).min(OPEN);
+    // which is the mode's own fault.
+    let bars = modes.errors.iter().map(|error| error.data_bar).fold(0.0, f64::max);
+    let Judged { limits, fail_above } = limits::of_frequency(bars, share_of_data(evidence.partition));
     Check {
         id: "M-14",
         name: "reduced frequencies equal full ones",
         equation: "max |f_reduced / f − 1| under the same boundary (34)–(35)",
         value: worst.0,
         limits,
-        fail_above: limits.value().max(1e-6).max(within_bar),
+        fail_above,
         worst: worst.1,
     }
 }
@@ -211,20 +199,23 @@ pub(super) fn symmetry(evidence: &Evidence<'_>, terms: &Terms) -> Check {
 ///
 /// A mass that is singular is no failure: rotations without inertia leave one. M-23 warns of it.
 pub(super) fn definiteness(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check {
-    let (stiffness, mass) = ((-spectrum.lowest_stiffness).max(0.0), (-spectrum.lowest_mass.0).max(0.0));
-    let (value, which, at) = if mass > stiffness {
-        (mass, "mass", spectrum.lowest_mass.1)
-    } else {
-        (stiffness, "stiffness", spectrum.softest)
+    let stiffness = spectrum.negative_share();
+    let first = spectrum.first_elastic();
+    let by_itself = || Judged { limits: zero_level(evidence), fail_above: zero_level(evidence).value() };
+    let of_stiffness = first.map_or_else(by_itself, |first| energy_limits(evidence, first));
+    let (mass, of_mass) = ((-spectrum.lowest_mass.0).max(0.0), by_itself());
+    let is_mass = dense::worse(mass / of_mass.limits.value(), stiffness / of_stiffness.limits.value());
+    let (value, Judged { limits, fail_above }, which, at) = match is_mass {
+        true => (mass, of_mass, "mass", spectrum.lowest_mass.1),
+        false => (stiffness, of_stiffness, "stiffness", spectrum.softest),
     };
-    let limits = zero_level(evidence);
     Check {
         id: "M-25",
         name: "reduced mass and stiffness are not negative",
-        equation: "max(0, −λ_min) of K̂ in the scales of the uncondensed stiffness, of M̂ with unit diagonal",
+        equation: "max(0, −λ_min(K̂, M̂)) / λ of the first elastic mode, max(0, −λ_min) of M̂ with unit diagonal",
         value,
         limits,
-        fail_above: limits.value(),
-        worst: (value > 0.0).then(|| format!("{which}, {}", coordinate_name(evidence, at))),
+        fail_above,
+        worst: (value != 0.0).then(|| format!("{which}, {}", coordinate_name(evidence, at))),
     }
 }

@@ -4,9 +4,10 @@ use faer::MatRef;
 
 use super::check::{Check, Limits};
 use super::grounding::{Grounding, Restraint};
+use super::limits::{self, Judged, Known};
 use super::residual::Worst;
 use super::spectrum::{NOT_FREE, Spectrum, zero_level};
-use super::{Evidence, coordinate_name, reduced_norms, rigid_name};
+use super::{Evidence, coordinate_name, reduced_norms, rigid_name, share_of_data};
 use crate::dense;
 use crate::rigid::scales;
 
@@ -32,17 +33,22 @@ pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[
             ..check
         };
     };
-    let precision = evidence.partition.precision.stiffness;
-    let noise = NOISE_FACTOR * evidence.partition.cancellation * energy.noise / first;
-    let share = f64::EPSILON / (f64::EPSILON + precision);
-    // At a tenth of the first elastic frequency nothing tells a rigid-body motion from an elastic one.
-    let limits =
-        Limits { engineering: 1e-8, arithmetic: noise * share, data: noise * (1.0 - share) }.capped(1e-2, 1e-2);
-    // Energy that the digits of K explain is a warning, up to a quarter of the first elastic frequency.
-    let explained = (noise * (1.0 - share)).min(1.0 / 16.0);
-    // An energy of 10⁻⁴ is a rigid-body frequency of a hundredth of the first elastic one: the model is grounded.
-    let fail_above = limits.value().max(1e-4).max(explained);
-    Check { value: energy.largest_quotient / first, limits, fail_above, ..check }
+    let judged = energy_limits(evidence, first);
+    let value = energy.largest_quotient / first;
+    Check { value, limits: judged.limits, fail_above: judged.fail_above, ..check }
+}
+
+/// Limits of an energy that should be nothing: by the error bars of the modes, or where there are none by those of the rigid-body
+/// modes themselves.
+pub(super) fn energy_limits(evidence: &Evidence<'_>, first: f64) -> Judged {
+    let modes = &evidence.retained.modes;
+    let known = modes.lambda.iter().zip(&modes.errors);
+    let known = known.map(|(lambda, error)| Known { lambda: *lambda, relative_bar: error.data_bar });
+    let noise = match modes.count() {
+        0 => evidence.partition.cancellation * evidence.rigid.energy.noise / first,
+        _ => limits::noise(known, first),
+    };
+    limits::of_energy(noise, share_of_data(evidence.partition))
 }
 
 /// M-05, residual.
@@ -154,15 +160,14 @@ pub(super) fn zero_modes(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check 
     Check {
         id: "M-12",
         name: "reduced stiffness has no other zero modes",
-        equation: "|zero eigenvalues of K̂ − n_r|",
+        equation: "zero eigenvalues of (K̂, M̂) within their error bars beyond n_r, and rigid-body motions that are none",
         // A motion of the grey zone may fall on either side of the level; W-GREY has named it.
-        value: {
-            let n_r = evidence.rigid.count();
-            let surplus = spectrum.n_zero.saturating_sub(n_r + evidence.rigid.n_grey);
-            (surplus + n_r.saturating_sub(spectrum.n_zero)) as f64
-        },
+        value: (spectrum.n_others.saturating_sub(evidence.rigid.n_grey) + spectrum.n_held) as f64,
         limits: Limits::default(),
         fail_above: 0.0,
-        worst: Some(format!("{} zero modes, {} rigid-body modes", spectrum.n_zero, evidence.rigid.count())),
+        worst: Some({
+            let n_r = evidence.rigid.count();
+            format!("{} zero modes, {n_r} rigid-body modes", n_r + spectrum.n_others - spectrum.n_held)
+        }),
     }
 }

@@ -3,31 +3,33 @@
 use faer::{Mat, MatRef};
 
 use super::check::Limits;
+use super::limits::GROUNDED;
 use super::pencil::Spectral;
 use super::{Evidence, coordinate_scales, data_noise};
 use crate::dense;
 use crate::error::Result;
-use crate::modes::Boundary;
+use crate::modes::{Boundary, ModalProblem, rayleigh_quotients, zero};
 
 /// Eigenvalues of the reduced pencil with its interface free, and under the boundary of the retained modes.
 pub(super) struct Spectrum {
     /// All finite ones, ascending, interface free.
     free: Vec<f64>,
+    /// Whether the reduced pencil is near enough to definite to have a spectrum.
+    is_definite: bool,
     /// The M̂-orthonormal eigenvectors of as many as there are rigid-body modes, r × n_r or fewer.
     pub(super) zero_shapes: Mat<f64>,
     /// Those under the boundary of the retained modes, zero modes left out.
     pub(super) same_boundary: Vec<f64>,
-    /// Zero modes of K̂: rigid-body motions that cost it nothing, and others.
-    pub(super) n_zero: usize,
-    /// Those there should be that have mass, and with it a place in the spectrum.
+    /// Rigid-body motions that cost K̂ something, and motions that cost it nothing and are none.
+    pub(super) n_held: usize,
+    pub(super) n_others: usize,
+    /// Zero modes that have mass, and with it a place in the spectrum.
     n_zero_of_pencil: usize,
     /// The first elastic eigenvalue of the full model under the boundary of the retained modes, where one is known.
     of_full: Option<f64>,
-    /// The smallest eigenvalue of K̂ in the scales of its coordinates.
-    pub(super) lowest_stiffness: f64,
-    /// The coordinate that takes the largest part in it.
+    /// The coordinate that takes the largest part in the smallest eigenvalue of K̂, in the scales of its coordinates.
     pub(super) softest: usize,
-    /// That of K̂_BB with its rigid-body modes lifted out, in the same scales; one where the interface has no others.
+    /// The smallest eigenvalue of K̂_BB with its rigid-body modes lifted out, in the same scales; one where the interface has no others.
     pub(super) lowest_elastic: f64,
     /// The smallest eigenvalue of M̂ with unit diagonal, and the coordinate that takes the largest part in it.
     pub(super) lowest_mass: (f64, usize),
@@ -38,15 +40,15 @@ impl Spectrum {
         let (k, m) = (evidence.reduction.stiffness.as_ref(), evidence.reduction.mass.as_ref());
         let n_b = evidence.partition.n_interface();
         let lambda = evidence.retained.modes.lambda.first().copied().unwrap_or(1.0);
-        let (scaled_stiffness, vectors) = dense::symmetric_eigen(scaled_by(k, &coordinate_scales(evidence)).as_ref())?;
+        let (_, vectors) = dense::symmetric_eigen(scaled_by(k, &coordinate_scales(evidence)).as_ref())?;
         let (masses, mass_vectors) = dense::symmetric_eigen(equilibrated(m, m).as_ref())?;
-        let n_r = evidence.rigid.count();
-        let (k_held, n_pencil) = (with_massless_lifted(evidence), n_r - evidence.rigid.n_massless);
-        let (rigid_energies, lifted) = lifted_eigenvalues(evidence)?;
-        let zero = zero_level(evidence).value();
-        let n_others = lifted.iter().filter(|value| **value <= zero).count();
-        let n_free = rigid_energies.iter().filter(|value| **value <= zero.max(NOT_FREE)).count();
-        let (free, zero_shapes) = lowest_eigenpairs(k_held.as_ref(), m, lambda, n_pencil)?;
+        let (k_held, n_pencil) = (with_massless_lifted(evidence), evidence.rigid.count() - evidence.rigid.n_massless);
+        let lifted = lifted_eigenvalues(evidence)?;
+        // Those beyond the rigid-body modes that are soft by their own account, and one more.
+        let n_looked_at = n_pencil + evidence.rigid.n_grey + 1;
+        let spectral = Spectral::if_definite(k_held.as_ref(), m, lambda)?;
+        let is_definite = spectral.is_some();
+        let (free, shapes) = spectral.map_or((Vec::new(), Mat::zeros(k.nrows(), 0)), |s| s.lowest(n_looked_at));
         let same_boundary = match evidence.retained.boundary {
             Boundary::FreeInterface => free.get(n_pencil..).unwrap_or_default().to_vec(),
             Boundary::FixedInterface => {
@@ -54,18 +56,39 @@ impl Spectrum {
                 lowest_eigenpairs(k.submatrix(n_b, n_b, n, n), m.submatrix(n_b, n_b, n, n), lambda, 0)?.0
             }
         };
+        let levels = zero_levels(evidence, shapes.as_ref());
+        let is_zero = |j: usize| zero::is_zero(free[j], levels[j]);
+        let n_others = (n_pencil..shapes.ncols()).filter(|j| is_zero(*j)).count();
+        let first = free.get(n_pencil + n_others).copied().unwrap_or(0.0);
+        let is_free = |j: usize| is_zero(j) || free[j].abs() <= GROUNDED * first;
+        let n_free = (0..n_pencil.min(shapes.ncols())).filter(|j| is_free(*j)).count();
         Ok(Self {
+            zero_shapes: shapes.as_ref().subcols(0, n_pencil.min(shapes.ncols())).to_owned(),
             free,
-            zero_shapes,
+            is_definite,
             lowest_elastic: lifted.first().copied().unwrap_or(1.0),
             same_boundary,
-            n_zero: n_free + n_others,
+            n_held: n_pencil - n_free,
+            n_others,
             n_zero_of_pencil: n_pencil + n_others,
             of_full: evidence.retained.modes.lambda.first().copied().or(evidence.retained.modes.next),
-            lowest_stiffness: scaled_stiffness.first().copied().unwrap_or(0.0),
             softest: largest_component(vectors.as_ref()),
             lowest_mass: (masses.first().copied().unwrap_or(0.0), largest_component(mass_vectors.as_ref())),
         })
+    }
+
+    /// How far below zero the lowest eigenvalue lies, relative to the first elastic one; not a number where the reduced pencil is
+    /// too far from definite to have a spectrum.
+    pub(super) fn negative_share(&self) -> f64 {
+        match (self.free.first(), self.first_elastic()) {
+            (Some(lowest), _) if *lowest >= 0.0 => 0.0,
+            (Some(lowest), Some(first)) => -lowest / first,
+            // An interface of rigid-body motions alone has no stiffness to be compared with.
+            (Some(lowest), None) => -lowest,
+            // Coordinates without mass have no spectrum.
+            (None, _) if self.is_definite => 0.0,
+            (None, _) => f64::NAN,
+        }
     }
 
     /// The eigenvalue of a number, from zero, where there are so many.
@@ -99,8 +122,15 @@ impl Spectrum {
     }
 }
 
-/// Energy of a rigid-body motion in K̂, in the scales of its coordinates, above which it is no zero mode: M-12 fails there.
+/// Force of a rigid-body motion in K̂, in the scales of its coordinates, at which M-12 fails.
 pub(super) const NOT_FREE: f64 = 1e-8;
+
+/// λ up to which each of some motions of the reduced model costs no energy: by the full model, whose roundings these are.
+fn zero_levels(evidence: &Evidence<'_>, shapes: MatRef<'_, f64>) -> Vec<f64> {
+    let problem = ModalProblem::free(evidence.partition, None);
+    let (_, errors, _) = rayleigh_quotients(problem, evidence.basis.expanded(shapes).as_ref());
+    errors.iter().map(|error| error.zero_level).collect()
+}
 
 /// Size below which an eigenvalue of K̂ in the scales of its coordinates is zero: rounding of its r terms before they
 /// cancel, or the precision of the data.
@@ -117,22 +147,18 @@ pub(in crate::verification) fn zero_level(evidence: &Evidence<'_>) -> Limits {
     .capped(1e-4, 1e-2)
 }
 
-/// Eigenvalues of K̂ in the scales of its coordinates, ascending: in the space of its rigid-body modes, and of all of it with
-/// these lifted to order one.
-fn lifted_eigenvalues(evidence: &Evidence<'_>) -> Result<(Vec<f64>, Vec<f64>)> {
+/// Eigenvalues of K̂ in the scales of its coordinates, ascending, with its rigid-body modes lifted to order one.
+fn lifted_eigenvalues(evidence: &Evidence<'_>) -> Result<Vec<f64>> {
     let (k, u) = (&evidence.reduction.stiffness, &evidence.reduction.rigid_body_modes);
     let scales = coordinate_scales(evidence);
     let mut lifted = scaled_by(k.as_ref(), &scales);
-    let mut energies = Vec::new();
     if u.ncols() > 0 {
         let scaled = Mat::from_fn(u.nrows(), u.ncols(), |i, j| u[(i, j)] / scales[i]);
         let z = scaled.qr().compute_thin_Q();
-        let own = dense::gram(z.as_ref(), dense::product(lifted.as_ref(), z.as_ref()).as_ref());
-        (energies, _) = dense::symmetric_eigen(own.as_ref())?;
         dense::add_product(lifted.as_mut(), 1.0, z.as_ref(), z.transpose());
         dense::symmetrise(&mut lifted);
     }
-    Ok((energies, dense::symmetric_eigen(lifted.as_ref())?.0))
+    Ok(dense::symmetric_eigen(lifted.as_ref())?.0)
 }
 
 /// K̂ with a unit stiffness against the rigid-body motions without mass, in the scales of its coordinates: the pencil would be
@@ -186,10 +212,6 @@ pub(super) fn lowest_eigenpairs(
     alpha: f64,
     n_shapes: usize,
 ) -> Result<(Vec<f64>, Mat<f64>)> {
-    let Some(spectral) = Spectral::if_definite(k, m, alpha)? else {
-        return Ok((Vec::new(), Mat::zeros(k.nrows(), 0)));
-    };
-    let lambda = spectral.eigenvalues();
-    let shapes: Vec<Vec<f64>> = (0..n_shapes.min(lambda.len())).map(|j| spectral.eigenvector(j)).collect();
-    Ok((lambda, Mat::from_fn(k.nrows(), shapes.len(), |i, j| shapes[j][i])))
+    let spectral = Spectral::if_definite(k, m, alpha)?;
+    Ok(spectral.map_or((Vec::new(), Mat::zeros(k.nrows(), 0)), |spectral| spectral.lowest(n_shapes)))
 }

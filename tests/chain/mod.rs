@@ -129,9 +129,7 @@ pub(crate) fn reduce(
             (modes, named)
         }
         Method::Herting => {
-            let k = &partition.stiffness;
-            let operator =
-                FreeAtZero::new(&factor, k, constraint.modes.as_ref(), constraint.stiffness.as_ref(), &rigid)?;
+            let operator = FreeAtZero::new(&factor, &partition.stiffness, &constraint, &rigid)?;
             let problem = ModalProblem::of(partition.pencil(), Some(&rigid), precision);
             let modes = elastic_modes(problem, &operator, request)?;
             let named = mode_acceleration_columns(&partition, &factor, &constraint, &rigid, &modes);

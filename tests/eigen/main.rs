@@ -4,6 +4,7 @@
 mod chain;
 mod component;
 mod exact_spectra;
+mod few_digits;
 mod ladder;
 mod requests;
 mod structures;

@@ -163,9 +163,11 @@ fn constraint_modes_out_of_equilibrium_that_carry_rigid_body_motion() {
 
 #[test]
 fn an_entry_of_the_condensed_stiffness() {
-    let ids = found(Method::CraigBampton, |parts| disturb_pair(&mut parts.reduction.stiffness, (2, 5), 1e-8));
-    // Rigid-body motion makes forces, its null space is another, and an eigenvalue goes below zero.
-    assert_eq!(ids, ["M-12", "M-16", "M-25"]);
+    let by = |share| found(Method::CraigBampton, |parts| disturb_pair(&mut parts.reduction.stiffness, (2, 5), share));
+    // Rigid-body motion makes forces, and its null space is another.
+    assert_eq!(by(1e-8), ["M-12", "M-16"]);
+    // An eigenvalue goes below zero by more than what practice takes for a rigid-body mode.
+    assert!(by(1e-6).contains(&"M-25"));
 }
 
 #[test]

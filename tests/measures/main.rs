@@ -15,4 +15,5 @@ mod facts;
 mod faults;
 mod grounded;
 mod healthy;
+mod roundings;
 mod scales;

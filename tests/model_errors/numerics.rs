@@ -5,6 +5,7 @@ use supel::error::{Error, ErrorClass};
 use supel::factor::{Analysis, count_below};
 use supel::job::Eigensolver;
 use supel::modes::{ModalProblem, ModeRequest, SEED, ShiftInvert, Wanted, elastic_modes};
+use supel::rigid;
 use supel_models as models;
 use supel_models::transform::{grounded, supported};
 use supel_models::{Ends, Material, SplitMix64, brick, spring};
@@ -113,4 +114,33 @@ fn extreme_units_are_only_units() {
         assert_eq!(chain.reduction.stiffness, reference.reduction.stiffness);
         assert_eq!(chain.reduction.mass, reference.reduction.mass);
     }
+}
+
+/// A dense stiffness with these eigenvalues, unit mass, as a program writes a component that it reduced itself.
+fn with_spectrum(lambda: &[f64]) -> models::Model {
+    let n = lambda.len();
+    // The reflection at a plane: orthogonal, and no entry is zero.
+    let w: Vec<f64> = (0..n).map(|i| 1.0 + 0.1 * (7 * i % 5) as f64).collect();
+    let square: f64 = w.iter().map(|w| w * w).sum();
+    let q = |i: usize, j: usize| f64::from(u8::from(i == j)) - 2.0 * w[i] * w[j] / square;
+    let entry = |i: usize, j: usize| (0..n).map(|k| q(i, k) * lambda[k] * q(j, k)).sum::<f64>();
+    let all = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+    let stiffness = all.map(|(i, j)| (i as u32, j as u32, entry(i.max(j), i.min(j)))).collect();
+    let mass = (0..n as u32).map(|i| (i, i, 1.0)).collect();
+    models::Model { stiffness, mass, ..spring(n, Ends::Free) }
+}
+
+/// A rigid-body motion of an energy below zero is rounding of whoever made K as long as it is nothing beside the first elastic mode;
+/// what is more is an eigenvalue of K, which is counted before K is called indefinite.
+#[test]
+fn negative_energy_of_a_rigid_body_motion_is_rounding_or_counted() {
+    let spectrum = |lowest: f64| -> Vec<f64> { std::iter::once(lowest).chain((1..12).map(f64::from)).collect() };
+    for lowest in [-7e-12, -1e-9] {
+        let partition = partition(&with_spectrum(&spectrum(lowest)), &[]).expect("a model");
+        assert_eq!(rigid::from_matrices(&partition).expect("a zero mode").0.count(), 1, "{lowest:e}");
+    }
+    let partition = partition(&with_spectrum(&spectrum(-1e-7)), &[]).expect("a model");
+    let error = refusal(rigid::from_matrices(&partition));
+    assert!(matches!(error, Error::NegativeRigidEnergy { count: 1, .. }), "{error}");
+    assert_says(&error, ErrorClass::ModelPhysics, &["negative energy", "a Sturm count finds 1 eigenvalue"]);
 }

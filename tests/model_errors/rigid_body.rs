@@ -108,7 +108,7 @@ fn rounded_coordinates_are_taken() {
 #[test]
 fn rigid_motion_of_negative_energy() {
     let error = coordinates_refused(&grounded(&block(), 4, -1e-3));
-    assert!(matches!(error, Error::NegativeRigidEnergy { energy, noise } if energy < -1e3 * noise), "{error}");
+    assert!(matches!(error, Error::NegativeRigidEnergy { energy, noise, .. } if energy < -1e3 * noise), "{error}");
     assert_says(&error, ErrorClass::ModelPhysics, &["negative energy", "check preload"]);
 }
 

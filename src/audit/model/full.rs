@@ -6,6 +6,7 @@
 
 use faer::{Mat, MatRef};
 
+use super::scaled::Scaled;
 use crate::dense;
 use crate::error::Result;
 use crate::factor::{Analysis, Cholesky, SolveOperator};
@@ -14,11 +15,16 @@ use crate::modes::{ModalProblem, shifted};
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
 use crate::sparse::product;
+use crate::verification::check::Limits;
 
 /// Steps after which a static answer is taken as it is; its residual is a check.
 const MAX_STEPS: usize = 200;
 /// Residual, relative to the first, below which rounding is all that is left.
 const SOLVED: f64 = 1e-14;
+/// Roundings may add up to this many times those of the motion they are known of.
+const NOISE_FACTOR: f64 = 10.0;
+/// The most that roundings excuse: a motion that may be any other is compared with nothing.
+pub(super) const LARGEST_TURN: f64 = 1.0;
 /// Steps without progress after which rounding is all that is left.
 const STALLED: usize = 4;
 
@@ -35,6 +41,8 @@ pub(super) struct Full<'a> {
     pub(super) rigid: RigidBodyModes,
     /// The first elastic eigenvalue.
     pub(super) first: f64,
+    /// What roundings of K leave of an energy, relative to that: how far they turn motions towards each other.
+    noise: f64,
 }
 
 /// Solutions of K u = f and how well they solve it.
@@ -47,17 +55,19 @@ pub(super) struct Solutions {
 
 impl<'a> Full<'a> {
     pub(super) fn new(partition: &'a Partition, analysis: &'a Analysis) -> Result<Self> {
-        let problem = ModalProblem::of(partition.pencil(), None, partition.precision);
+        let problem = ModalProblem::free(partition, None);
         let found = shifted(analysis, problem, &|dof| partition.name_of(dof))?;
         let shapes = found.lowest.shapes.as_ref().subcols(0, found.n_zero).to_owned();
         let first = found.lowest.lambda.get(found.n_zero).copied().or(found.lowest.next).unwrap_or(1.0);
+        let looked_at = &found.lowest.errors[..found.lowest.count().min(found.n_zero + 1)];
+        let noise = looked_at.iter().map(|error| error.zero_level / first).fold(0.0, f64::max);
         let rigid = RigidBodyModes {
             modes: shapes.clone(),
             mass_orthonormal: product(&partition.mass, shapes.as_ref()),
             orthonormal: shapes,
             ..RigidBodyModes::none(partition.n_dofs())
         };
-        Ok(Self { partition, analysis, factor: found.factor, sigma: found.sigma, rigid, first })
+        Ok(Self { partition, analysis, factor: found.factor, sigma: found.sigma, rigid, first, noise })
     }
 
     /// Q_B, n_B × n_r.
@@ -71,6 +81,28 @@ impl<'a> Full<'a> {
         let (k, m) = (diagonal(&self.partition.stiffness), diagonal(&self.partition.mass));
         let ratios = k.iter().zip(&m).filter(|(_, m)| **m > 0.0).map(|(k, m)| k / m);
         ratios.fold(1.0, f64::max) / self.first
+    }
+
+    /// The same limits where roundings of K are the reason. Zero modes and answers found here are those of K as it stands, in which
+    /// roundings turn rigid-body motion towards elastic motion; the reduction has the motions of the coordinates, and makes
+    /// the interface carry them exactly, which turns the interior by as much of its own first eigenvalue.
+    pub(super) fn by_roundings(&self, scaled: &Scaled, limits: Limits) -> Limits {
+        self.by_roundings_beside(1.0, scaled, limits)
+    }
+
+    /// Those of directions of modes, which the same roundings turn towards modes a share of their eigenvalue away.
+    pub(super) fn by_roundings_beside(&self, share: f64, scaled: &Scaled, limits: Limits) -> Limits {
+        let turn = NOISE_FACTOR * self.turn(scaled) / share;
+        let limits = match self.partition.has_few_digits() {
+            true => Limits { data: turn, ..limits },
+            false => Limits { arithmetic: limits.arithmetic.max(turn), ..limits },
+        };
+        limits.capped(LARGEST_TURN, LARGEST_TURN)
+    }
+
+    /// How far roundings turn motions.
+    pub(super) fn turn(&self, scaled: &Scaled) -> f64 {
+        self.noise * (self.first / scaled.first_held.unwrap_or(self.first)).max(1.0)
     }
 
     /// Takes zero motion out of displacements.

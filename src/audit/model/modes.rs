@@ -3,7 +3,7 @@
 use faer::Mat;
 use supel_runtime::{Coordinate, Superelement};
 
-use super::full::Full;
+use super::full::{Full, LARGEST_TURN};
 use super::scaled::Scaled;
 use super::statics::Answers;
 use crate::audit::content::boundary;
@@ -14,6 +14,7 @@ use crate::job::Eigensolver;
 use crate::modes::{Boundary, Factored, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes, shifted};
 use crate::sparse::product;
 use crate::verification::check::{Check, Limits};
+use crate::verification::limits::{self, Judged};
 
 /// Seed of the start vectors; another one than any the reduction uses.
 const SEED: u64 = 0x0dd5_eed5;
@@ -40,14 +41,13 @@ impl<'a> Witness<'a> {
         let n_stored = scaled.lambda.len();
         let eigensolver = if cfg!(feature = "arpack") { Eigensolver::Arpack } else { Eigensolver::Lanczos };
         let request = ModeRequest { wanted: Wanted::Count(n_stored), eigensolver, seed: SEED };
-        let precision = partition.precision;
         let modes = match boundary {
             Boundary::FreeInterface => {
-                let problem = ModalProblem::of(partition.pencil(), Some(&full.rigid), precision);
+                let problem = ModalProblem::free(partition, Some(&full.rigid));
                 elastic_modes(problem, &Factored::new(&full.factor, full.sigma), request)?
             }
             Boundary::FixedInterface => {
-                let problem = ModalProblem::of(partition.internal(), None, precision);
+                let problem = ModalProblem::held(partition);
                 let analysis = Analysis::new(problem.pencil())?;
                 let found = shifted(&analysis, problem, &|dof| partition.name_of(dof))?;
                 elastic_modes(problem, &Factored::new(&found.factor, found.sigma), request)?
@@ -82,16 +82,20 @@ impl<'a> Witness<'a> {
         let (value, worst) =
             worst_of(scaled.lambda.iter().enumerate().map(difference), |mode| format!("mode {}", mode + 1));
         let bars = self.modes.errors.iter().map(|error| error.relative_bar).fold(0.0, f64::max);
-        // Both were computed from the same data: of the bar only the share of the arithmetic counts.
-        let share = f64::EPSILON / (f64::EPSILON + self.full.partition.precision.stiffness);
-        let limits = Limits { engineering: 1e-9, arithmetic: (10.0 * bars * share).min(1e-3), data: 0.0 };
+        // Both were computed from the same data: of the bar only the share of the arithmetic counts, and what the residuals leave
+        // open, that of rigid-body motion which K holds by its digits among it.
+        let arithmetic = bars * f64::EPSILON / (f64::EPSILON + self.full.partition.precision.stiffness);
+        let open = self.modes.errors.iter().map(|error| error.residual_bar).fold(0.0, f64::max);
+        // What digits turn a mode by moves its Rayleigh quotient by the square.
+        let turned = self.full.turn(scaled).powi(2);
+        let Judged { limits, fail_above } = limits::of_frequency(arithmetic.max(open).max(turned), 0.0);
         Check {
             id: "M-14",
             name: "frequencies are those of the full model",
             equation: "max |f_stated / f − 1|, f by another eigensolver on K − σM",
             value,
             limits,
-            fail_above: limits.value().max(1e-6),
+            fail_above,
             worst,
         }
     }
@@ -130,7 +134,9 @@ impl<'a> Witness<'a> {
     }
 
     /// M-15: modes move or load the interface as in the full model, cluster by cluster.
-    pub(super) fn shapes(&self, scaled: &Scaled, full: &Full<'_>, answers: &Answers) -> Result<Check> {
+    ///
+    /// None where the roundings of K leave nothing of the directions of the modes.
+    pub(super) fn shapes(&self, scaled: &Scaled, full: &Full<'_>, answers: &Answers) -> Option<Check> {
         let (found, stored) = match self.boundary {
             Boundary::FreeInterface => self.interface_motions(scaled),
             Boundary::FixedInterface => self.participations(scaled, full, answers),
@@ -153,7 +159,11 @@ impl<'a> Witness<'a> {
         }
         let arithmetic = (10.0 * f64::EPSILON * full.condition() / ONE_SPACE).min(1e-3);
         let limits = Limits { engineering: 1e-6, arithmetic, data: 0.0 };
-        Ok(Check {
+        let limits = self.full.by_roundings_beside(self.least_gap(), scaled, limits);
+        if limits.value() >= LARGEST_TURN {
+            return None;
+        }
+        Some(Check {
             id: "M-15",
             name: "interface sees the modes of the full model",
             equation: "max |Σ p pᵀ − Σ p̂ p̂ᵀ| of each cluster, p motion of the interface or inertia seen by it, normalised",
@@ -191,6 +201,16 @@ impl<'a> Witness<'a> {
             self.coordinate_of[j].map_or(found[(i, j)], |slot| all[(i, slot)])
         });
         (found, stored)
+    }
+
+    /// The least distance of neighbouring clusters, relative to the eigenvalue above.
+    fn least_gap(&self) -> f64 {
+        let lambda = &self.modes.lambda;
+        let next = |end: usize| lambda.get(end).copied().or(self.modes.next);
+        let gap = |cluster: std::ops::Range<usize>| {
+            next(cluster.end).map_or(1.0, |next| 1.0 - lambda[cluster.end - 1] / next)
+        };
+        self.clusters().into_iter().map(gap).fold(1.0, f64::min)
     }
 
     fn n_compared(&self) -> usize {

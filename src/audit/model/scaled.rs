@@ -21,6 +21,8 @@ pub(super) struct Scaled {
     pub(super) lambda: Vec<f64>,
     /// The eigenpairs of the free reduced pencil.
     pub(super) free: Eigenpairs,
+    /// The first eigenvalue of the reduced pencil with its interface held, where it has one.
+    pub(super) first_held: Option<f64>,
 }
 
 impl Scaled {
@@ -41,7 +43,10 @@ impl Scaled {
         let mut m_f = unpacked(&tensors.rigid_body_mass);
         m_f *= faer::Scale(1.0 / units.mass_unit());
         let free = eigenpairs(k.as_ref(), m.as_ref(), first)?;
-        Ok(Self { k, m, u: unpacked(&tensors.rigid_body_modes), m_f, gravity, n_b, lambda, free })
+        let n = k.nrows() - n_b;
+        let held = |a: &Mat<f64>| a.submatrix(n_b, n_b, n, n).to_owned();
+        let first_held = eigenpairs(held(&k).as_ref(), held(&m).as_ref(), first)?.values.first().copied();
+        Ok(Self { first_held, k, m, u: unpacked(&tensors.rigid_body_modes), m_f, gravity, n_b, lambda, free })
     }
 
     /// Loads K̂_BB x of interface motions x that span every motion with energy, n_B × k: x is orthonormal in

@@ -53,7 +53,7 @@ pub(super) fn rigid_body_modes(scaled: &Scaled, full: &Full<'_>) -> Vec<Check> {
     let ratio = |j: usize| dense::norm(dense::column(left.as_ref(), j)) / dense::norm(dense::column(u.as_ref(), j));
     let value = (0..n_r).map(ratio).fold(0.0, |worst, error| if dense::worse(error, worst) { error } else { worst });
     let arithmetic = (NOISE_FACTOR * f64::EPSILON * full.condition()).min(LARGEST_EXCUSE);
-    let limits = Limits { engineering: 1e-9, arithmetic, data: 0.0 };
+    let limits = full.by_roundings(scaled, Limits { engineering: 1e-9, arithmetic, data: 0.0 });
     // QᵀMQ = I, so that U = Q A has the inertia AᵀA.
     let inertia = dense::gram(combination.as_ref(), combination.as_ref());
     let mut worst = (0.0, None);
@@ -157,7 +157,7 @@ pub(super) fn solves(full: &Full<'_>, answers: &Answers) -> Check {
 }
 
 /// M-17: full and reduced model move the interface alike under every load on it.
-pub(super) fn stiffness(full: &Full<'_>, answers: &Answers) -> Check {
+pub(super) fn stiffness(scaled: &Scaled, full: &Full<'_>, answers: &Answers) -> Check {
     let k = answers.count();
     let work = dense::gram(answers.loads.as_ref(), answers.interface.as_ref().subcols(0, k));
     let expected = dense::gram(answers.mixing.as_ref(), answers.mixing.as_ref());
@@ -170,7 +170,7 @@ pub(super) fn stiffness(full: &Full<'_>, answers: &Answers) -> Check {
             }
         }
     }
-    let limits = Limits { engineering: 1e-9, arithmetic: answers.rounding(full), data: 0.0 };
+    let limits = full.by_roundings(scaled, Limits { engineering: 1e-9, arithmetic: answers.rounding(full), data: 0.0 });
     Check {
         id: "M-17",
         name: "static stiffness is that of the full model",
@@ -198,7 +198,8 @@ pub(super) fn mass(scaled: &Scaled, full: &Full<'_>, answers: &Answers) -> Check
             }
         }
     }
-    let limits = Limits { engineering: 1e-9, arithmetic: rounding_of_motion(full), data: 0.0 };
+    let limits =
+        full.by_roundings(scaled, Limits { engineering: 1e-9, arithmetic: rounding_of_motion(full), data: 0.0 });
     Check {
         id: "M-16",
         name: "inertia of motions is that of the full model",
@@ -235,7 +236,8 @@ pub(super) fn gravity(scaled: &Scaled, full: &Full<'_>, answers: &Answers) -> Op
             }
         }
     }
-    let limits = Limits { engineering: 1e-9, arithmetic: rounding_of_motion(full), data: 0.0 };
+    let limits =
+        full.by_roundings(scaled, Limits { engineering: 1e-9, arithmetic: rounding_of_motion(full), data: 0.0 });
     Some(Check {
         id: "M-18",
         name: "loads of gravity are those of the full model",

@@ -2,6 +2,7 @@
 
 use super::markup::{Markup, class_of, escaped};
 use super::plot::power_of_ten;
+use crate::report::conclusion::reserved_as;
 use crate::report::table::{counted, quantity, scientific};
 use crate::report::words;
 use crate::report::{
@@ -37,9 +38,9 @@ pub(super) fn front(page: &mut Markup, body: &ReportBody) {
     page.classed("p", "kind", &generator);
     let verdict = body.verdict();
     let (sign, word) = match verdict {
-        Verdict::Info | Verdict::Pass => ("✓", "Verified"),
-        Verdict::Warn => ("!", "Verified, with warnings"),
-        Verdict::Fail => ("✗", "Not verified"),
+        Verdict::Info | Verdict::Pass => ("✓", "Verified".to_owned()),
+        Verdict::Warn => ("!", format!("Verified, {}", reserved_as(&body.checks, body.warnings.len()))),
+        Verdict::Fail => ("✗", "Not verified".to_owned()),
     };
     page.raw(&format!("<div class=\"box {}\">\n", class_of(verdict)));
     page.raw(&format!("<h1 id=\"verdict-heading\"><span aria-hidden=\"true\">{sign}</span> {word}</h1>\n"));

@@ -1,9 +1,9 @@
 //! What the run cost, where its files are, and the verdict as the last line.
 
+use crate::report::conclusion::conclusion;
 use crate::report::page::{LABEL, Page, Tone, WIDTH};
 use crate::report::table::{self, Align};
 use crate::report::{Report, RunFacts, StageTime, WorkCounters};
-use crate::verification::check::Verdict;
 
 /// Columns of the bar that shows a stage's share of the time.
 const BAR: usize = 40;
@@ -64,20 +64,8 @@ fn facts(page: &mut Page, run: &RunFacts) {
 
 fn verdict(page: &mut Page, report: &Report) {
     let body = &report.body;
-    let of = |verdict| -> Vec<&str> {
-        body.checks.iter().filter(|check| check.verdict() == verdict).map(|check| check.id).collect()
-    };
-    let n_checks = table::counted(body.checks.iter().filter(|check| check.is_judged()).count(), "check", "checks");
-    let n_warnings = table::counted(body.warnings.len(), "warning", "warnings");
-    let (failed, warned): (Vec<&str>, Vec<&str>) = (of(Verdict::Fail), of(Verdict::Warn));
     let verdict = body.verdict();
-    let text = match verdict {
-        Verdict::Info | Verdict::Pass => format!("✓ verified: {n_checks} passed"),
-        Verdict::Warn if warned.is_empty() => format!("! verified with {n_warnings}: {n_checks} passed"),
-        Verdict::Warn => format!("! verified with {n_warnings}; past the limit: {}", warned.join(", ")),
-        Verdict::Fail if failed.is_empty() => "✗ not verified: modes are missing".to_owned(),
-        Verdict::Fail => format!("✗ not verified: {} of {n_checks} failed: {}", failed.len(), failed.join(", ")),
-    };
+    let text = conclusion(&body.checks, body.warnings.len(), verdict);
     let text = if report.run.superelement.is_none() { text + " – no superelement was written" } else { text };
     for line in table::wrap(&text, WIDTH) {
         page.line(Page::toned(&line, Tone::Of(verdict)));

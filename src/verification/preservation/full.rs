@@ -27,6 +27,8 @@ const PASSES: f64 = 1e-10;
 pub(super) struct Supported {
     stiffness: SparseMatrix,
     mass: SparseMatrix,
+    /// Dofs of the partition that are left.
+    kept: Vec<usize>,
     /// Numbers of the interface dofs that are not held.
     free: Vec<usize>,
     rigid: RigidBodyModes,
@@ -45,7 +47,7 @@ impl Supported {
         let load: Vec<f64> = (0..n_i).map(|_| 0.0).chain(boundary.load.iter().copied()).collect();
         let mass = restricted(&partition.mass, &kept, &load);
         let rigid = passing_motions(evidence, boundary, &kept, &mass)?;
-        Ok(Self { stiffness: restricted(&partition.stiffness, &kept, &vec![0.0; load.len()]), mass, free, rigid })
+        Ok(Self { stiffness: restricted(&partition.stiffness, &kept, &vec![0.0; load.len()]), mass, kept, free, rigid })
     }
 
     /// The rigid-body motions that the support lets pass, at the interface dofs that are not held.
@@ -61,7 +63,9 @@ impl Supported {
     pub(super) fn modes_up_to(&self, evidence: &Evidence<'_>, limit: f64, seed: u64) -> Result<Modes> {
         let request = ModeRequest { wanted: Wanted::UpTo(limit), eigensolver: Eigensolver::Lanczos, seed };
         let pencil = Pencil::new(&self.stiffness, &self.mass);
-        let problem = ModalProblem::of(pencil, Some(&self.rigid), evidence.partition.precision);
+        let partition = evidence.partition;
+        let problem = ModalProblem::of(pencil, Some(&self.rigid), partition.precision);
+        let problem = problem.with_entries_of(partition, &self.kept);
         let modes = self.by_factor(evidence, problem, request)?;
         if modes.errors.iter().all(|error| error.backward <= HOLDS_UP) {
             return Ok(modes);
@@ -76,10 +80,29 @@ impl Supported {
         if self.free.is_empty() {
             return elastic_modes(problem, &Factored::new(factor, 0.0), request);
         }
-        let (n_f, psi_s) = (self.free.len(), dense::columns(constraint.modes.as_ref(), &self.free));
-        let schur = Mat::from_fn(n_f, n_f, |i, j| constraint.stiffness[(self.free[i], self.free[j])]);
-        let operator = FreeAtZero::new(factor, &self.stiffness, psi_s.as_ref(), schur.as_ref(), &self.rigid)?;
-        elastic_modes(problem, &operator, request)
+        if self.free.len() == evidence.partition.n_interface() {
+            return elastic_modes(
+                problem,
+                &FreeAtZero::new(factor, &self.stiffness, constraint, &self.rigid)?,
+                request,
+            );
+        }
+        // The loads of a support have a resultant, and what K does not know of rigid-body motion is part of what holds it.
+        let (psi_s, schur) = self.condensed(evidence);
+        let condensed = (psi_s.as_ref(), schur.as_ref());
+        elastic_modes(problem, &FreeAtZero::uncorrected(factor, &self.stiffness, condensed, &self.rigid)?, request)
+    }
+
+    /// Ψ_S of the interface dofs that are not held, as the factor gives it, and S = K_BB + K_BI Ψ_S.
+    fn condensed(&self, evidence: &Evidence<'_>) -> (Mat<f64>, Mat<f64>) {
+        let (n_b, n_f) = (evidence.partition.n_interface(), self.free.len());
+        let unit = Mat::from_fn(n_b, n_f, |i, j| f64::from(u8::from(i == self.free[j])));
+        let psi_s = evidence.factor.follow_border(unit.as_ref());
+        let identity = Mat::<f64>::identity(n_f, n_f);
+        let psi = faer::concat![[psi_s.as_ref()], [identity.as_ref()]];
+        let mut schur = dense::gram(psi.as_ref(), product(&self.stiffness, psi.as_ref()).as_ref());
+        dense::symmetrise(&mut schur);
+        (psi_s, schur)
     }
 }
 

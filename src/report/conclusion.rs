@@ -1,0 +1,71 @@
+//! The verdict in one line, of a reduction and of a file alike.
+
+use super::table::counted;
+use crate::verification::check::{Check, Verdict};
+
+/// The line at the end of a summary: what passed, what did not, and with what reservations.
+pub(crate) fn conclusion(checks: &[Check], n_warnings: usize, verdict: Verdict) -> String {
+    let n_judged = checks.iter().filter(|check| check.is_judged()).count();
+    let judged = counted(n_judged, "check", "checks");
+    let failed = identifiers(checks, Verdict::Fail);
+    match verdict {
+        Verdict::Info | Verdict::Pass => format!("✓ verified: {judged} passed"),
+        Verdict::Warn => format!("! verified, with {}", reservations(checks, n_warnings)),
+        Verdict::Fail if failed.is_empty() => "✗ not verified: modes are missing".to_owned(),
+        Verdict::Fail => format!("✗ not verified: {} of {judged} failed: {}", failed.len(), failed.join(", ")),
+    }
+}
+
+/// What a heading says after `Verified`.
+pub(crate) fn reserved_as(checks: &[Check], n_warnings: usize) -> &'static str {
+    match (identifiers(checks, Verdict::Warn).is_empty(), n_warnings) {
+        (true, _) => "with warnings",
+        (false, 0) => "with checks past their limits",
+        (false, _) => "with checks past their limits and warnings",
+    }
+}
+
+/// Checks past their limits and warnings, each said only where there is one.
+fn reservations(checks: &[Check], n_warnings: usize) -> String {
+    let past = identifiers(checks, Verdict::Warn);
+    let whose = if past.len() == 1 { "its limit" } else { "their limits" };
+    let of_checks = (!past.is_empty())
+        .then(|| format!("{} past {whose} ({})", counted(past.len(), "check", "checks"), past.join(", ")));
+    let of_warnings = (n_warnings > 0).then(|| counted(n_warnings, "warning", "warnings"));
+    of_checks.into_iter().chain(of_warnings).collect::<Vec<_>>().join(" and ")
+}
+
+fn identifiers(checks: &[Check], verdict: Verdict) -> Vec<&'static str> {
+    checks.iter().filter(|check| check.verdict() == verdict).map(|check| check.id).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verification::check::Limits;
+
+    fn check(id: &'static str, value: f64) -> Check {
+        let limits = Limits { engineering: 1.0, ..Limits::default() };
+        Check { id, name: "a check", equation: "", value, limits, fail_above: 10.0, worst: None }
+    }
+
+    #[test]
+    fn every_reservation_is_said_and_none_that_is_not_there() {
+        let (sound, past, failed) = (check("M-01", 0.5), check("M-05", 2.0), check("M-12", 20.0));
+        let said = |checks: &[Check], n_warnings, verdict| conclusion(checks, n_warnings, verdict);
+        assert_eq!(said(&[sound.clone()], 0, Verdict::Pass), "✓ verified: 1 check passed");
+        assert_eq!(said(&[sound.clone()], 1, Verdict::Warn), "! verified, with 1 warning");
+        let two = [past.clone(), sound.clone()];
+        assert_eq!(said(&two, 0, Verdict::Warn), "! verified, with 1 check past its limit (M-05)");
+        let three = [past.clone(), sound.clone(), check("M-23", 3.0)];
+        assert_eq!(
+            said(&three, 2, Verdict::Warn),
+            "! verified, with 2 checks past their limits (M-05, M-23) and 2 warnings"
+        );
+        assert_eq!(said(&[failed, past], 2, Verdict::Fail), "✗ not verified: 1 of 2 checks failed: M-12");
+        assert_eq!(said(&[sound], 0, Verdict::Fail), "✗ not verified: modes are missing");
+        assert_eq!(reserved_as(&two, 0), "with checks past their limits");
+        assert_eq!(reserved_as(&two, 1), "with checks past their limits and warnings");
+        assert_eq!(reserved_as(&[], 1), "with warnings");
+    }
+}

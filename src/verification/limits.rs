@@ -1,0 +1,106 @@
+//! Limits that a reduction and its file are held to alike, from the error bars of the frequencies that are known.
+//!
+//! The bar of a frequency says what rounding of the arithmetic and of the data can make of an energy xᵀKx of unit modal mass. That
+//! of a rigid-body motion is summed of the same entries of K, and so are those of the reduced matrices.
+
+use super::check::Limits;
+
+/// How far the roundings of one motion may exceed those of another.
+const NOISE_FACTOR: f64 = 10.0;
+/// Energy of a rigid-body motion relative to that of the first elastic mode that practice accepts: a rigid-body frequency of 10⁻⁴
+/// of the first elastic one.
+const RIGID_ENERGY: f64 = 1e-8;
+/// Energy at which the component is held: a rigid-body frequency of a hundredth of the first elastic one.
+pub(crate) const GROUNDED: f64 = 1e-4;
+/// What rounding may excuse of an energy without a word: at a tenth of the first elastic frequency nothing tells a rigid-body motion
+/// from an elastic one.
+const LARGEST_ENERGY: f64 = 1e-2;
+/// What rounding that the digits of K explain may excuse at all: a quarter of the first elastic frequency.
+const LARGEST_EXPLAINED_ENERGY: f64 = 1.0 / 16.0;
+/// Relative force of a rigid-body motion at which the component is held.
+const HELD: f64 = 1e-6;
+/// Relative error bar of a frequency that is unknown: with half of it open it is no frequency any more.
+pub(crate) const UNKNOWN: f64 = 0.5;
+/// Relative difference of a frequency that reduced models are accepted with; one that is off by more is not preserved, whatever the
+/// reason.
+const NOT_PRESERVED: f64 = 1e-3;
+/// Relative difference of a frequency that no digits of the data excuse.
+const OPEN: f64 = 0.1;
+
+/// A known eigenvalue with its relative error bar.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Known {
+    pub(crate) lambda: f64,
+    pub(crate) relative_bar: f64,
+}
+
+/// What a check passes at, and what it fails above.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Judged {
+    pub(crate) limits: Limits,
+    pub(crate) fail_above: f64,
+}
+
+/// The noise of energies relative to the first elastic one, by the bars of the frequencies known.
+pub(crate) fn noise(known: impl IntoIterator<Item = Known>, first: f64) -> f64 {
+    known.into_iter().map(|known| known.lambda * known.relative_bar / first).fold(0.0, f64::max)
+}
+
+/// Limits of an energy that should be nothing, relative to that of the first elastic mode, at a noise of which the digits of the
+/// data have a share.
+pub(crate) fn of_energy(noise: f64, share_of_data: f64) -> Judged {
+    of_nothing(noise, share_of_data, GROUNDED)
+}
+
+/// Limits of a force of rigid-body motion, relative to that of an elastic one of the same size: roundings make as much of it as of the
+/// energy.
+pub(crate) fn of_force(noise: f64, share_of_data: f64) -> Judged {
+    of_nothing(noise, share_of_data, HELD)
+}
+
+fn of_nothing(noise: f64, share_of_data: f64, fails_at: f64) -> Judged {
+    let noise = NOISE_FACTOR * noise;
+    let (arithmetic, data) = (noise * (1.0 - share_of_data), noise * share_of_data);
+    let limits = Limits { engineering: RIGID_ENERGY, arithmetic, data }.capped(LARGEST_ENERGY, LARGEST_ENERGY);
+    let explained = data.min(LARGEST_EXPLAINED_ENERGY);
+    Judged { limits, fail_above: limits.value().max(fails_at).max(explained) }
+}
+
+/// Limits of the relative difference of two frequencies of one mode whose eigenvalue has this relative bar.
+pub(crate) fn of_frequency(relative_bar: f64, share_of_data: f64) -> Judged {
+    let noise = NOISE_FACTOR * relative_bar;
+    let limits = Limits { engineering: 1e-9, arithmetic: noise * (1.0 - share_of_data), data: noise * share_of_data };
+    let limits = limits.capped(NOT_PRESERVED, NOT_PRESERVED);
+    // What the digits leave open is no failure of the reduction: up to the error bar itself it is a warning, with M-09.
+    let within_bar = (0.5 * relative_bar * share_of_data).min(OPEN);
+    Judged { limits, fail_above: limits.value().max(1e-6).max(within_bar) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verification::check::ActiveLimit;
+
+    #[test]
+    fn practice_is_asked_of_many_digits_and_a_tenth_of_a_frequency_is_the_most_that_few_excuse() {
+        let known = [Known { lambda: 2.0, relative_bar: 1e-12 }, Known { lambda: 8.0, relative_bar: 1e-12 }];
+        assert_eq!(noise(known, 2.0), 4e-12);
+        let of_many = of_energy(noise(known, 2.0), 0.0);
+        assert_eq!((of_many.limits.value(), of_many.limits.active()), (RIGID_ENERGY, ActiveLimit::Engineering));
+        assert_eq!(of_many.fail_above, GROUNDED);
+        assert_eq!(of_force(noise(known, 2.0), 0.0).fail_above, HELD);
+        let of_few = of_energy(0.5, 1.0);
+        assert_eq!((of_few.limits.value(), of_few.limits.active()), (LARGEST_ENERGY, ActiveLimit::Data));
+        assert_eq!(of_few.fail_above, LARGEST_EXPLAINED_ENERGY);
+        // Arithmetic explains no more than it excuses.
+        assert_eq!(of_energy(0.5, 0.0).fail_above, LARGEST_ENERGY);
+    }
+
+    #[test]
+    fn frequencies_differ_by_their_bars_and_no_more_than_a_thousandth_without_a_word() {
+        assert_eq!(of_frequency(1e-14, 0.0).limits.value(), 1e-9);
+        assert_eq!(of_frequency(1e-5, 0.0).limits.value(), 1e-4);
+        assert_eq!(of_frequency(1.0, 1.0).limits.value(), NOT_PRESERVED);
+        assert_eq!((of_frequency(1.0, 1.0).fail_above, of_frequency(1.0, 0.0).fail_above), (OPEN, NOT_PRESERVED));
+    }
+}
