@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use supel_runtime::FileError;
 
-use crate::report::table::bytes;
+use crate::report::table::{bytes, quantity};
 
 pub use code::{ErrorClass, INTERNAL_CODE, USAGE_CODE};
 
@@ -1177,7 +1177,8 @@ pub enum Error {
     },
     /// Coordinates or a dof map that do not belong to K.
     #[error(
-        "the coordinates do not belong to the stiffness – it has {n_zero} motions without energy, of which the coordinates explain {n_explained}; by them {motions} cost up to {energy:.1e} of {of}, most of it at {dof} – expected below {expected:.0e} – check units, axes and local node frames, the order of nodes and rows, and the state that the coordinates are of, or leave the nodes out"
+        "the coordinates do not belong to the stiffness – it has {n_zero} motions without energy, of which the coordinates explain {n_explained}; by them {motions} cost up to {} of {of}, most of it at {dof} – expected below {} – check units, axes and local node frames, the order of nodes and rows, and the state that the coordinates are of, or leave the nodes out",
+        quantity(*energy, 2), quantity(*expected, 2)
     )]
     CoordinatesDoNotFit {
         /// Zero modes of K.
@@ -1197,7 +1198,8 @@ pub enum Error {
     },
     /// Rotations that cost energy in a body that can move freely in every direction.
     #[error(
-        "the stiffness lets the component move in every direction but not turn – {rotations} cost up to {energy:.1e} of the energy of the first elastic mode, most of it at {dof}, and {n_zero} motions cost none – expected free rotations, because no support holds a rotation and no translation of a solid – check the dof map, the order of nodes, local node frames and the state that the coordinates are of; where supports hold rotations alone, list these in model.held_rotations"
+        "the stiffness lets the component move in every direction but not turn – {rotations} cost up to {} of the energy of the first elastic mode, most of it at {dof}, and {n_zero} motions cost none – expected free rotations, because no support holds a rotation and no translation of a solid – check the dof map, the order of nodes, local node frames and the state that the coordinates are of; where supports hold rotations alone, list these in model.held_rotations",
+        quantity(*energy, 2)
     )]
     RotationsHeld {
         /// The rotations.
