@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use supel_runtime::FileError;
 
-use crate::report::table::bytes;
+use crate::report::table::{bytes, quantity};
 
 pub use code::{ErrorClass, INTERNAL_CODE, USAGE_CODE};
 
@@ -36,6 +36,16 @@ pub enum Error {
         path: PathBuf,
         /// What the system said.
         source: std::io::Error,
+    },
+    /// The folder of an output is none.
+    #[error("{}: cannot be written: the folder {} {reason} – create it, or give the output another place", path.display(), folder.display())]
+    NoFolder {
+        /// The file.
+        path: PathBuf,
+        /// Its folder.
+        folder: PathBuf,
+        /// What is wrong with it.
+        reason: &'static str,
     },
     /// An output has its name, but the system did not confirm that it is on the disk.
     #[error(
@@ -99,6 +109,18 @@ pub enum Error {
         needed: u64,
         /// Bytes available.
         available: u64,
+    },
+    /// A file of a known format that is not read.
+    #[error("{}: {found} – not read – expected {expected} – {advice}", path.display())]
+    FormatNotRead {
+        /// The file.
+        path: PathBuf,
+        /// What it is.
+        found: &'static str,
+        /// What is read in its place.
+        expected: &'static str,
+        /// The way round.
+        advice: &'static str,
     },
     /// Gzipped data ends early or is damaged.
     #[error("{}: the gzipped data are damaged or cut short ({source}); copy or create the file again", path.display())]
@@ -323,6 +345,18 @@ pub enum Error {
         /// Row and column, from 1, of an entry above the diagonal.
         upper: (u64, u64),
     },
+    /// K and M are one matrix.
+    #[error(
+        "stiffness {} and mass {} hold one matrix – expected two, because every frequency of the pencil would be 1 rad/s – give the file of \
+         the other one",
+        stiffness.display(), mass.display()
+    )]
+    SameMatrix {
+        /// The file of K.
+        stiffness: PathBuf,
+        /// The file of M.
+        mass: PathBuf,
+    },
     /// K and M differ in size.
     #[error(
         "stiffness {} has {n_stiffness} rows and mass {} has {n_mass}; expected the same degrees of freedom in both",
@@ -431,8 +465,8 @@ pub enum Error {
     },
     /// Two rows of a dof map are the same degree of freedom.
     #[error(
-        "{}: rows {first_row} and {row} are both {direction:?} of node {node}; expected every degree of freedom once \
-         (rows count from 1; programs that expand shells or beams into solids repeat labels, renumber their nodes)",
+        "{}: rows {first_row} and {row} are both {direction} of node {node}; {repeated} repeat a dof – expected every degree of freedom \
+         once (rows count from 1; programs that expand shells or beams into solids repeat labels) – renumber the nodes, or {BY_ROWS}",
         path.display()
     )]
     DofRepeated {
@@ -446,6 +480,8 @@ pub enum Error {
         node: i64,
         /// Direction.
         direction: crate::input::Direction,
+        /// All rows that repeat an earlier one, in words.
+        repeated: String,
     },
     /// The rows of a dof map are numbered, but not in order.
     #[error("{}:{line}: row number `{found}`; expected {expected}, the rows of the matrices in order", path.display())]
@@ -474,8 +510,8 @@ pub enum Error {
     },
     /// A dof map names a node that has no position.
     #[error(
-        "{}: row {row} (from 1) is at node {node}, which {} does not list; \
-         expected a position for every node of the map",
+        "{}: row {row} is at node {node}, which {} does not list; {missing} have no position – expected one for every node of the map \
+         (rows count from 1; programs that expand shells or beams into solids make nodes of their own) – add the nodes, or {BY_ROWS}",
         path.display(), nodes.display()
     )]
     DofNodeMissing {
@@ -487,6 +523,8 @@ pub enum Error {
         node: i64,
         /// The file of the nodes.
         nodes: PathBuf,
+        /// All rows whose node has no position, in words.
+        missing: String,
     },
     /// Without a dof map, the counts do not say what the rows are.
     #[error(
@@ -1031,17 +1069,15 @@ pub enum Error {
     },
     /// A matrix is not symmetric.
     #[error(
-        "the {matrix} matrix is not symmetric – worst at row {row}, column {col} – found a relative difference of {asymmetry:.1e} – expected below 1e-6 – leave out follower forces, gyroscopic and friction terms; where the file lacks part of a triangle, take the other one with --symmetric lower or upper"
+        "the {matrix} matrix is not symmetric – worst at {place} – found a relative difference of {asymmetry:.1e} – expected below 1e-6 – leave out follower forces, gyroscopic and friction terms; where the file lacks part of a triangle, take the other one with --symmetric lower or upper"
     )]
     Unsymmetric {
         /// `stiffness` or `mass`.
         matrix: &'static str,
         /// max |A − Aᵀ| / max |A|.
         asymmetry: f64,
-        /// Row of the largest difference, from one.
-        row: usize,
-        /// Its column.
-        col: usize,
+        /// Row and column of the largest difference, from one, with their dofs where known.
+        place: String,
     },
     /// K and M are exchanged.
     #[error(
@@ -1141,7 +1177,8 @@ pub enum Error {
     },
     /// Coordinates or a dof map that do not belong to K.
     #[error(
-        "the coordinates do not belong to the stiffness – it has {n_zero} motions without energy, of which the coordinates explain {n_explained}; by them {motions} cost up to {energy:.1e} of {of}, most of it at {dof} – expected below {expected:.0e} – check units, axes and local node frames, the order of nodes and rows, and the state that the coordinates are of, or leave the nodes out"
+        "the coordinates do not belong to the stiffness – it has {n_zero} motions without energy, of which the coordinates explain {n_explained}; by them {motions} cost up to {} of {of}, most of it at {dof} – expected below {} – check units, axes and local node frames, the order of nodes and rows, and the state that the coordinates are of, or leave the nodes out",
+        quantity(*energy, 2), quantity(*expected, 2)
     )]
     CoordinatesDoNotFit {
         /// Zero modes of K.
@@ -1161,7 +1198,8 @@ pub enum Error {
     },
     /// Rotations that cost energy in a body that can move freely in every direction.
     #[error(
-        "the stiffness lets the component move in every direction but not turn – {rotations} cost up to {energy:.1e} of the energy of the first elastic mode, most of it at {dof}, and {n_zero} motions cost none – expected free rotations, because no support holds a rotation and no translation of a solid – check the dof map, the order of nodes, local node frames and the state that the coordinates are of; where supports hold rotations alone, list these in model.held_rotations"
+        "the stiffness lets the component move in every direction but not turn – {rotations} cost up to {} of the energy of the first elastic mode, most of it at {dof}, and {n_zero} motions cost none – expected free rotations, because no support holds a rotation and no translation of a solid – check the dof map, the order of nodes, local node frames and the state that the coordinates are of; where supports hold rotations alone, list these in model.held_rotations",
+        quantity(*energy, 2)
     )]
     RotationsHeld {
         /// The rotations.
@@ -1282,13 +1320,15 @@ pub enum Error {
         dof: crate::input::Dof,
     },
     /// A row number beyond the matrices.
-    #[error("interface {interface:?}: row {row} does not exist – expected 0 to {} – rows count from zero", n.saturating_sub(1))]
+    #[error("interface {interface:?}: row {row} {found} – expected one of 0 to {} with stiffness or mass – rows count from zero, as in the files", n.saturating_sub(1))]
     InterfaceRow {
         /// The interface.
         interface: String,
         /// The row, from zero.
         row: usize,
-        /// Rows of the matrices.
+        /// What is wrong with it.
+        found: &'static str,
+        /// Rows of the files.
         n: usize,
     },
     /// A dof that two interface nodes claim.
@@ -1490,6 +1530,12 @@ impl Error {
     /// The error of this crate for what the superelement file's crate says of writing files, whatever is in them.
     pub fn of_writing(error: FileError) -> Self {
         match error {
+            FileError::Write { path, source } if source.kind() == std::io::ErrorKind::NotFound => {
+                let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+                let folder = folder.unwrap_or(Path::new(".")).to_owned();
+                let reason = if folder.is_dir() { "takes no new files" } else { "does not exist" };
+                Self::NoFolder { path, folder, reason }
+            }
             FileError::Write { path, source } => Self::Write { path, source },
             FileError::NotSynced { path, source } => Self::NotSynced { path, source },
             FileError::HalfWritten { path, source, left } => Self::HalfWritten { path, source, left },
@@ -1499,6 +1545,9 @@ impl Error {
         }
     }
 }
+
+/// How to go on where a dof map cannot be used.
+const BY_ROWS: &str = "go on by rows: leave dof map and nodes out and give interfaces as rows from zero, as in --interface hub=rows:0,1,2";
 
 /// `:12` after a path, where the line is known.
 struct At(Option<usize>);

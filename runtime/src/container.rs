@@ -81,7 +81,11 @@ pub(crate) fn header_length(bytes: &[u8]) -> Result<u64> {
     let prefix = bytes.first_chunk::<PREFIX>().ok_or(FileError::TooShort { found: bytes.len() })?;
     let length = u64::from_le_bytes(*prefix);
     if length > HEADER_LIMIT {
-        return Err(FileError::HeaderTooLarge { found: length, limit: HEADER_LIMIT });
+        // Eight letters are the length of no header.
+        let is_text = prefix.iter().all(|byte| byte.is_ascii_graphic() || byte.is_ascii_whitespace());
+        let begins = || String::from_utf8_lossy(prefix).trim().to_owned();
+        let too_large = FileError::HeaderTooLarge { found: length, limit: HEADER_LIMIT };
+        return Err(if is_text { FileError::IsText { begins: begins() } } else { too_large });
     }
     Ok(length)
 }

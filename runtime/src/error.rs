@@ -74,6 +74,12 @@ pub enum FileError {
         /// Bytes in the file.
         found: usize,
     },
+    /// The file is text.
+    #[error("not a superelement file: found text that begins `{begins}` – give a .supel file written by supel reduce")]
+    IsText {
+        /// Its first letters.
+        begins: String,
+    },
     /// The header is longer than any reader of the format accepts.
     #[error(
         "not a superelement file: its first eight bytes would make a header of {found} bytes, at most {limit} are allowed – give a .supel file written by supel reduce"

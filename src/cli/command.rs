@@ -33,6 +33,8 @@ pub(super) struct ReduceCommand {
     pub(super) answer: Answer,
     pub(super) unverified: Unverified,
     pub(super) strictness: Strictness,
+    /// What the flags did to the interfaces of the document.
+    pub(super) remarks: Vec<String>,
 }
 
 /// Check a superelement file again.
@@ -140,9 +142,9 @@ fn build_reduce(flags: ReduceFlags) -> Result<ReduceCommand> {
     };
     let unverified = if output.allow_unverified { Unverified::Written } else { Unverified::Refused };
     let strictness = if output.strict { Strictness::Strict } else { Strictness::Normal };
-    let mut job = match &document {
+    let (mut job, remarks) = match &document {
         Some(path) => override_job(Job::read(path)?, model, &reduction, output)?,
-        None => one_off_job(model, &reduction, output)?,
+        None => (one_off_job(model, &reduction, output)?, Vec::new()),
     };
     if strictness == Strictness::Strict {
         job.model.duplicates = Duplicates::Refuse;
@@ -153,14 +155,17 @@ fn build_reduce(flags: ReduceFlags) -> Result<ReduceCommand> {
     job.validate()?;
     // Paths of the document are absolute already; those of flags are relative to where the command was typed.
     let job = job.resolve(Path::new(""))?;
-    Ok(ReduceCommand { job, document, threads: Threads::of(run.threads), answer, unverified, strictness })
+    Ok(ReduceCommand { job, document, threads: Threads::of(run.threads), answer, unverified, strictness, remarks })
 }
 
-fn override_job(mut job: Job, model: ModelFlags, reduction: &ReductionFlags, output: OutputFlags) -> Result<Job> {
-    let interfaces = interfaces(&model)?;
-    if !interfaces.is_empty() {
-        job.interfaces = interfaces;
-    }
+/// The job with what the flags say in place of its own, and what they did to its interfaces.
+fn override_job(
+    mut job: Job,
+    model: ModelFlags,
+    reduction: &ReductionFlags,
+    output: OutputFlags,
+) -> Result<(Job, Vec<String>)> {
+    let remarks = override_interfaces(&mut job.interfaces, interfaces(&model)?);
     replace(&mut job.model.stiffness, model.stiffness);
     replace(&mut job.model.mass, model.mass);
     job.model.dofs = model.dofs.or(job.model.dofs);
@@ -174,7 +179,26 @@ fn override_job(mut job: Job, model: ModelFlags, reduction: &ReductionFlags, out
     job.write.report = output.report.or(job.write.report);
     job.write.html = output.html.or(job.write.html);
     job.write.junit = output.junit.or(job.write.junit);
-    Ok(job)
+    Ok((job, remarks))
+}
+
+/// Puts the interfaces of the flags in the places of those of their names, or after all others, and says which.
+fn override_interfaces(interfaces: &mut Vec<InterfaceJob>, typed: Vec<InterfaceJob>) -> Vec<String> {
+    let n_own = interfaces.len();
+    let mut put = |new: InterfaceJob| {
+        let name = new.name.clone();
+        match interfaces[..n_own].iter_mut().find(|own| own.name == name) {
+            Some(own) => {
+                *own = new;
+                format!("supel: the flag replaces interface {name:?} of the job")
+            }
+            None => {
+                interfaces.push(new);
+                format!("supel: the flag adds interface {name:?} to the {n_own} of the job")
+            }
+        }
+    };
+    typed.into_iter().map(&mut put).collect()
 }
 
 fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlags) -> Result<Job> {

@@ -35,7 +35,7 @@ Exit codes: 0 done and verified; 1 done, a check failed; 2 usage; 3 input data; 
 
 #[derive(Debug, Args)]
 pub(super) struct ReduceFlags {
-    /// Job document, TOML or JSON; flags override its keys
+    /// Job document, TOML or JSON; flags override its keys, interfaces by name
     pub(super) job: Option<PathBuf>,
     #[command(flatten)]
     pub(super) model: ModelFlags,
@@ -114,9 +114,9 @@ pub(super) struct OutputFlags {
     #[arg(long, value_name = "FILE")]
     pub(super) junit: Option<PathBuf>,
     /// Print the report as JSON instead of the summary
-    #[arg(long, conflicts_with = "quiet")]
+    #[arg(long)]
     pub(super) json: bool,
-    /// Print nothing but errors
+    /// Print nothing but errors and, in a line each, failed checks; with --json the document too
     #[arg(short, long)]
     pub(super) quiet: bool,
     /// Write the superelement even if a check failed; the exit code stays 1
@@ -165,9 +165,9 @@ pub(super) struct VerifyFlags {
     #[arg(long, value_name = "JOB")]
     pub(super) job: Option<PathBuf>,
     /// Print the checks as JSON
-    #[arg(long, conflicts_with = "quiet")]
+    #[arg(long)]
     pub(super) json: bool,
-    /// Print nothing but errors
+    /// Print nothing but errors and, in a line each, failed checks; with --json the document too
     #[arg(short, long)]
     pub(super) quiet: bool,
     /// Treat warnings as failed checks

@@ -23,6 +23,7 @@ mod reduce;
 mod refusal;
 mod rehearsal;
 mod signals;
+mod unmet;
 mod verify;
 
 use std::ffi::OsString;

@@ -10,6 +10,7 @@ use super::exit_code::ExitCode;
 use super::outputs::{Outputs, abandoned, refuse_unwritable, staged};
 use super::progress::StageLine;
 use super::rehearsal::{self, Rehearsed};
+use super::unmet::unmet;
 use super::{Pipeline, memory, overwriting, process};
 use crate::error::{Error, Result};
 use crate::outcome::{Outcome, Resources};
@@ -18,6 +19,9 @@ use crate::verification::check::{Check, Limits, Verdict};
 
 pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
     overwriting::refuse(&command.job, command.document.as_deref())?;
+    if command.answer != Answer::Nothing {
+        command.remarks.iter().for_each(|remark| terminal.complain(remark));
+    }
     let mut complaints = abandoned(&command.job.write);
     refuse_unwritable(&command.job.write)?;
     let resources = Resources { memory_bytes: memory::available_bytes() };
@@ -46,6 +50,9 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
         Answer::Nothing => None,
     };
     complaints.splice(0..0, explanation(command, code));
+    if command.answer == Answer::Nothing {
+        complaints.splice(0..0, unmet(&report.body.checks, command.strictness));
+    }
     outputs.commit()?;
     answer.iter().for_each(|answer| terminal.answer(answer));
     complaints.iter().for_each(|complaint| terminal.complain(complaint));

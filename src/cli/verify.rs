@@ -7,6 +7,7 @@ use super::command::{Answer, Strictness, VerifyCommand};
 use super::exit_code::ExitCode;
 use super::progress::StageLine;
 use super::rehearsal::{self, Rehearsed};
+use super::unmet::unmet;
 use super::{accompanying, memory, process};
 use crate::audit;
 use crate::error::{Error, Result};
@@ -40,7 +41,9 @@ pub(super) fn run(command: &VerifyCommand, terminal: &mut Terminal<'_>) -> Resul
     match command.answer {
         Answer::Text => terminal.answer(&report.to_text(&superelement, terminal.paint)),
         Answer::Json => terminal.answer(&report.to_json(&superelement)),
-        Answer::Nothing => {}
+        Answer::Nothing => {
+            unmet(&report.audit.checks, command.strictness).iter().for_each(|line| terminal.complain(line));
+        }
     }
     Ok(match (report.audit.verdict(), command.strictness) {
         (Verdict::Info | Verdict::Pass, _) | (Verdict::Warn, Strictness::Normal) => ExitCode::Done,

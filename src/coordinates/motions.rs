@@ -76,6 +76,6 @@ impl<'a> Motions<'a> {
 
     /// What a row is called in messages.
     pub(super) fn name_of(&self, row: usize) -> String {
-        self.model.dofs.as_ref().map_or_else(|| format!("row {}", row + 1), |dofs| dofs[row].to_string())
+        self.model.names().short(row)
     }
 }

@@ -61,6 +61,7 @@ macro_rules! codes {
 codes! {
     Read => "E-READ", Io;
     Write => "E-WRITE", Io;
+    NoFolder => "E-FOLDER", Io;
     NotSynced => "E-SYNC", Io;
     HalfWritten => "E-HALF-WRITTEN", Io;
     Answer => "E-STDOUT", Io;
@@ -68,6 +69,7 @@ codes! {
     Changed => "E-CHANGED", Io;
     NotText => "E-UTF8", InputData;
     MemoryRead => "E-MEM-READ", Resources;
+    FormatNotRead => "E-FORMAT", InputData;
     GzipDamaged => "E-GZIP", InputData;
     GzipInflation => "E-GZIP-BOMB", InputData;
     LineTooLong => "E-LINE", InputData;
@@ -86,6 +88,7 @@ codes! {
     EntriesSurplus => "E-NNZ-SURPLUS", InputData;
     Duplicates => "E-DUPLICATES", InputData;
     DoubleTriangle => "E-DOUBLE-TRIANGLE", InputData;
+    SameMatrix => "E-SAME-MATRIX", InputData;
     SizeMismatch => "E-DIM", InputData;
     TableColumn => "E-TABLE-COLUMN", InputData;
     TableRow => "E-TABLE-ROW", InputData;

@@ -71,10 +71,12 @@ pub(super) fn check_nodes(dofs: &[Dof], path: &Path, nodes: &Nodes, nodes_path: 
             None => n_unused += 1,
         }
     }
-    match dofs.iter().position(|dof| !is_there[&dof.node]) {
+    let rows = dofs.iter().enumerate().filter(|(_, dof)| !is_there[&dof.node]).map(|(row, _)| row);
+    let missing = ListedRows::of(rows);
+    match missing.first() {
         Some(row) => {
-            let (path, nodes) = (path.to_owned(), nodes_path.to_owned());
-            Err(Error::DofNodeMissing { path, row: row + 1, node: dofs[row].node, nodes })
+            let (path, nodes, missing) = (path.to_owned(), nodes_path.to_owned(), missing.to_string());
+            Err(Error::DofNodeMissing { path, row: row + 1, node: dofs[row].node, nodes, missing })
         }
         None => Ok(n_unused),
     }
@@ -238,13 +240,46 @@ fn direction_error(path: &Path, line: u64, node: i64, found: &str, expected: &'s
 }
 
 fn check_repeated(path: &Path, dofs: &[Dof]) -> Result<()> {
-    let mut rows: HashMap<Dof, usize> = HashMap::with_capacity(dofs.len());
-    for (row, &dof) in dofs.iter().enumerate() {
-        if let Some(first) = rows.insert(dof, row) {
-            let Dof { node, direction } = dof;
-            let path = path.to_owned();
-            return Err(Error::DofRepeated { path, row: row + 1, first_row: first + 1, node, direction });
+    let mut first_rows: HashMap<Dof, usize> = HashMap::with_capacity(dofs.len());
+    let repeating = |(row, dof): (usize, &Dof)| (*first_rows.entry(*dof).or_insert(row) != row).then_some(row);
+    let repeated = ListedRows::of(dofs.iter().enumerate().filter_map(repeating));
+    let Some(row) = repeated.first() else { return Ok(()) };
+    let Dof { node, direction } = dofs[row];
+    let (path, first_row, repeated) = (path.to_owned(), first_rows[&dofs[row]] + 1, repeated.to_string());
+    Err(Error::DofRepeated { path, row: row + 1, first_row, node, direction, repeated })
+}
+
+/// The first of some rows, and how many there are.
+struct ListedRows {
+    first: Vec<usize>,
+    count: usize,
+}
+
+impl ListedRows {
+    const SHOWN: usize = 4;
+
+    /// Rows from zero, in ascending order.
+    fn of(rows: impl Iterator<Item = usize>) -> Self {
+        let (mut first, mut count) = (Vec::new(), 0);
+        for row in rows {
+            if count < Self::SHOWN {
+                first.push(row);
+            }
+            count += 1;
         }
+        Self { first, count }
     }
-    Ok(())
+
+    fn first(&self) -> Option<usize> {
+        self.first.first().copied()
+    }
+}
+
+impl std::fmt::Display for ListedRows {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let rows: Vec<String> = self.first.iter().map(|row| (row + 1).to_string()).collect();
+        let more = if self.count > self.first.len() { ", …" } else { "" };
+        let noun = if self.count == 1 { "row" } else { "rows" };
+        write!(f, "{} {noun} ({}{more})", self.count, rows.join(", "))
+    }
 }

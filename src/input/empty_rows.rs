@@ -1,14 +1,14 @@
 //! Rows that neither matrix uses: constrained or unused degrees of freedom that were exported all the same.
 
-use super::{DofMap, InputNote, MatrixInput};
+use super::{DofMap, FileRows, InputNote, MatrixInput};
 use crate::sparse::SparseMatrix;
 
-/// Drops the rows and columns without stiffness and mass from both matrices and from the dof map.
+/// Drops the rows and columns without stiffness and mass from both matrices and from the dof map; says which are left.
 pub(super) fn drop_empty(
     stiffness: &mut MatrixInput,
     mass: &mut MatrixInput,
     dofs: &mut Option<DofMap>,
-) -> Option<InputNote> {
+) -> Option<(FileRows, InputNote)> {
     let n = stiffness.matrix.rows();
     let is_kept: Vec<bool> =
         (0..n).map(|row| !is_empty(&stiffness.matrix, row) || !is_empty(&mass.matrix, row)).collect();
@@ -23,7 +23,7 @@ pub(super) fn drop_empty(
         let mut kept = is_kept.iter();
         dofs.retain(|_| kept.next().copied().unwrap_or(true));
     }
-    Some(InputNote::EmptyRowsDropped { count, row: first + 1, dof })
+    Some((FileRows::kept(&is_kept), InputNote::EmptyRowsDropped { count, row: first + 1, dof }))
 }
 
 /// A row whose entries, if it has any, are all zero.

@@ -9,6 +9,8 @@ mod digits;
 mod dof_map;
 mod empty_rows;
 mod entries;
+mod file_rows;
+mod foreign;
 mod gathering;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
@@ -24,6 +26,7 @@ mod triangle;
 
 pub use allowance::Allowance;
 pub use digits::significant_digits;
+pub use file_rows::{FileRows, RowNames};
 pub use kind::{files, hdf5_file};
 pub use model_files::{Input, read, read_hdf5_parts, read_within, start_hdf5};
 pub use note::InputNote;

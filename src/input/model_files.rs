@@ -9,7 +9,9 @@ use super::dof_map::{self, DirectionBase};
 use super::kind::{hdf5_location, is_hdf5_mesh};
 use super::matrix_market::{OrderSource, TextMatrix};
 use super::regular::{digest, unchanged};
-use super::{DofMap, InputNote, MatrixInput, Nodes, Triangle, empty_rows, matrix_market, node_table};
+use super::{
+    DofMap, FileRows, InputNote, MatrixInput, Nodes, Triangle, empty_rows, foreign, matrix_market, node_table,
+};
 use crate::error::{Error, Result};
 use crate::job::{Duplicates, ModelJob};
 use crate::sparse::SparseMatrix;
@@ -25,6 +27,8 @@ pub struct Input {
     pub dofs: Option<DofMap>,
     /// Nodes; absent where the job names none.
     pub nodes: Option<Nodes>,
+    /// Which rows of the files are left.
+    pub rows: FileRows,
     /// BLAKE3 digests of the files of the dof map (`dofs`), of the nodes (`nodes`) and of what those refer to (`nodes_data`),
     /// lower-case hexadecimal.
     pub digests: BTreeMap<&'static str, String>,
@@ -56,6 +60,7 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
         notes.extend(model.symmetric.and_then(|triangle| take_triangle(matrix, triangle)));
         notes.extend(last_row_empty(matrix));
     }
+    refuse_same(&stiffness, &mass)?;
     let n = stiffness.matrix.rows();
     let mut digests = BTreeMap::new();
     let nodes = model.nodes.as_deref().map(|path| read_nodes(path, allowance, &mut digests)).transpose()?;
@@ -74,10 +79,14 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
         }
         (None, None) => None,
     };
-    if model.drop_empty {
-        notes.extend(empty_rows::drop_empty(&mut stiffness, &mut mass, &mut dofs));
+    let mut rows = FileRows::default();
+    if model.drop_empty
+        && let Some((kept, note)) = empty_rows::drop_empty(&mut stiffness, &mut mass, &mut dofs)
+    {
+        rows = kept;
+        notes.push(note);
     }
-    Ok(Input { stiffness, mass, dofs, nodes, digests, notes })
+    Ok(Input { stiffness, mass, dofs, nodes, rows, digests, notes })
 }
 
 /// Starts the HDF5 library, so that what happens afterwards is a matter of the files.
@@ -128,7 +137,11 @@ fn read_matrix(model: &ModelJob, role: Role, allowance: &Allowance) -> Result<Ma
         Some((file, group)) => {
             unchanged(&file, || read_hdf5_matrix(&file, group.as_deref(), role, allowance)).map(Matrix::Hdf5)
         }
-        None => unchanged(path, || matrix_market::read(path, model.symmetric, allowance)).map(Matrix::Text),
+        None => unchanged(path, || {
+            foreign::refuse(path)?;
+            matrix_market::read(path, model.symmetric, allowance)
+        })
+        .map(Matrix::Text),
     }
 }
 
@@ -140,6 +153,7 @@ fn read_nodes(path: &Path, allowance: &Allowance, digests: &mut Digests) -> Resu
         let nodes = if is_hdf5_mesh(path) {
             read_hdf5_nodes(path, allowance, digests)?
         } else {
+            foreign::refuse(path)?;
             node_table::read(path, allowance)?
         };
         Ok((nodes, digest(path)?))
@@ -232,6 +246,16 @@ fn take_notes(matrix: Matrix, notes: &mut Vec<InputNote>) -> (MatrixInput, Order
     (input, order)
 }
 
+/// Refuses one matrix in both places. Small diagonal ones may be equal by themselves: those of springs and masses of one.
+fn refuse_same(stiffness: &MatrixInput, mass: &MatrixInput) -> Result<()> {
+    let is_coupled = || stiffness.matrix.nnz() > stiffness.matrix.rows();
+    if (stiffness.path == mass.path || is_coupled()) && stiffness.matrix == mass.matrix {
+        let (stiffness, mass) = (stiffness.path.clone(), mass.path.clone());
+        return Err(Error::SameMatrix { stiffness, mass });
+    }
+    Ok(())
+}
+
 fn refuse_duplicates(matrix: &MatrixInput, duplicates: Duplicates) -> Result<()> {
     match (duplicates, matrix.notes.n_duplicates) {
         (Duplicates::Refuse, count @ 1..) => Err(Error::Duplicates { path: matrix.path.clone(), count }),
@@ -265,6 +289,7 @@ fn extend(input: MatrixInput, n: usize, notes: &mut Vec<InputNote>) -> MatrixInp
 }
 
 fn read_dofs(path: &Path, n: usize, nodes: Option<(&Nodes, &Path)>, notes: &mut Vec<InputNote>) -> Result<DofMap> {
+    foreign::refuse(path)?;
     let read = dof_map::read(path, n)?;
     if read.n_rows != n {
         return Err(Error::DofCount { path: path.to_owned(), found: read.n_rows, n });

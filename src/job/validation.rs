@@ -15,7 +15,6 @@ const FARTHEST: f64 = 1e48;
 pub(super) fn validate(job: &Job) -> Result<()> {
     model(job)?;
     interfaces(&job.interfaces)?;
-    row_numbers(job)?;
     if let ModeSelection::UpTo { up_to_hz } = job.reduction.modes {
         positive("reduction.modes.up_to_hz", up_to_hz)?;
     }
@@ -139,20 +138,6 @@ fn coupling(interface: &InterfaceJob, place: &str) -> Result<()> {
             }
         }
         (Origin::Centroid, _) => Ok(()),
-    }
-}
-
-/// Row numbers that another key would change.
-fn row_numbers(job: &Job) -> Result<()> {
-    let mut by_number = job.interfaces.iter().filter(|interface| matches!(interface.nodes, NodeSelection::Rows { .. }));
-    match by_number.next().filter(|_| job.model.drop_empty) {
-        Some(interface) => Err(Error::InterfaceConflict {
-            interface: interface.name.clone(),
-            key: "rows",
-            situation: "a model whose empty rows are dropped, which numbers the rows anew",
-            remedy: ", or give nodes",
-        }),
-        None => Ok(()),
     }
 }
 

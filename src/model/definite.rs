@@ -9,10 +9,10 @@
 
 use faer::Mat;
 
-use super::{diagonal, name_of};
+use super::diagonal;
 use crate::dense;
 use crate::error::{Error, Result};
-use crate::input::Dof;
+use crate::input::RowNames;
 use crate::modes::SplitMix64;
 use crate::sparse::{SparseMatrix, product};
 
@@ -24,7 +24,7 @@ const ROUNDING: f64 = 1e-9;
 const DIGITS: f64 = 100.0;
 
 /// Refuses a mass matrix that is indefinite beyond the precision of its data.
-pub(super) fn refuse_indefinite(mass: &SparseMatrix, precision: f64, dofs: Option<&[Dof]>) -> Result<()> {
+pub(super) fn refuse_indefinite(mass: &SparseMatrix, precision: f64, names: RowNames<'_>) -> Result<()> {
     let least = -ROUNDING.max(DIGITS * precision);
     let diagonal = diagonal(mass);
     let largest = diagonal.iter().fold(0.0f64, |max, value| max.max(*value));
@@ -36,8 +36,8 @@ pub(super) fn refuse_indefinite(mass: &SparseMatrix, precision: f64, dofs: Optio
             let limit = (diagonal[row] * diagonal[col]).sqrt();
             let energy = if limit > 0.0 { 1.0 - value.abs() / limit } else { f64::NEG_INFINITY };
             if energy < least && value.abs() > negligible {
-                let place =
-                    format!("worst at row {}{}, column {}{}", row + 1, name_of(dofs, row), col + 1, name_of(dofs, col));
+                let column = format!("column {}{}", names.number(col), names.bracketed(col));
+                let place = format!("worst at {}, {column}", names.full(row));
                 return Err(Error::IndefiniteMass { place, energy });
             }
         }
@@ -59,7 +59,7 @@ pub(super) fn refuse_indefinite(mass: &SparseMatrix, precision: f64, dofs: Optio
     let mut motion = vec![0.0; scale.len()];
     lanczos.run(&mut |step, unit| dense::add_scaled(&mut motion, vectors[(step, 0)], unit));
     let row = (0..motion.len()).max_by(|a, b| motion[*a].abs().total_cmp(&motion[*b].abs())).unwrap_or(0);
-    let place = format!("in a motion that is largest at row {}{}", row + 1, name_of(dofs, row));
+    let place = format!("in a motion that is largest at {}", names.full(row));
     Err(Error::IndefiniteMass { place, energy })
 }
 

@@ -15,7 +15,7 @@ mod weight;
 use std::collections::HashSet;
 
 use crate::error::{Error, Result};
-use crate::input::{Direction, Dof, DofMap, Input, MatrixInput, Nodes};
+use crate::input::{Direction, Dof, DofMap, FileRows, Input, MatrixInput, Nodes, RowNames};
 use crate::sparse::{Leading, SparseMatrix};
 
 pub use bodies::{Bodies, node_of_row};
@@ -40,6 +40,8 @@ pub struct Model {
     pub dofs: Option<DofMap>,
     /// Coordinates and groups, where known.
     pub nodes: Option<Nodes>,
+    /// Which rows of the files its rows are.
+    pub rows: FileRows,
     /// Connected parts of the graph of K.
     pub bodies: Bodies,
     /// How coordinates and dof map fit K; unknown until [`crate::coordinates::compared`] has looked.
@@ -59,6 +61,8 @@ pub struct ModelFacts {
     pub n_bodies: usize,
     /// The mass of all rows, where the caller asked for it and a dof map is there.
     pub weight: Option<Weight>,
+    /// Which rows of the files its rows are.
+    pub rows: FileRows,
     /// What was found and mended.
     pub findings: Vec<Finding>,
 }
@@ -91,6 +95,17 @@ pub enum Finding {
     FreeParticles {
         /// How many.
         n_rows: usize,
+        /// The first of them.
+        first: String,
+    },
+    /// Rows held by a stiffness far beyond that of the structure.
+    Penalties {
+        /// How many.
+        n_rows: usize,
+        /// The stiffest.
+        first: String,
+        /// Its diagonal entry, as multiple of the median.
+        ratio: f64,
     },
     /// Diagonal entries of M that are negative by rounding only.
     NegativeMassByRounding {
@@ -141,6 +156,7 @@ impl Finding {
             Self::Symmetrised { asymmetry, .. } => (*asymmetry > ASYMMETRY_WARN).then_some("W-UNSYMMETRIC"),
             Self::MasslessRows { .. } => None,
             Self::FreeParticles { .. } => Some("W-FREE-PARTICLE"),
+            Self::Penalties { .. } => Some("W-PENALTY"),
             Self::NegativeMassByRounding { .. } => Some("W-NEGATIVE-MASS"),
             Self::ConstrainedInterface { .. } => Some("W-CONSTRAINED-INTERFACE"),
             Self::CoordinatesUntested { .. } => Some("W-COORD-UNTESTED"),
@@ -161,7 +177,14 @@ impl std::fmt::Display for Finding {
                 )
             }
             Self::MasslessRows { n_rows } => write!(f, "{n_rows} rows have no mass: their frequencies are infinite"),
-            Self::FreeParticles { n_rows } => write!(f, "{n_rows} rows have mass and no stiffness: free particles"),
+            Self::FreeParticles { n_rows, first } => {
+                write!(f, "{n_rows} rows have mass and no stiffness, the first is {first}: free particles")
+            }
+            Self::Penalties { n_rows, first, ratio } => write!(
+                f,
+                "{n_rows} rows have a stiffness of {PENALTY:.0e} times the median and more, at most {ratio:.0e} times at {first}: penalties \
+                 that hold or tie dofs; they take digits from what they touch, leave held dofs out of both matrices"
+            ),
             Self::NegativeMassByRounding { n_rows } => {
                 write!(f, "{n_rows} diagonal entries of the mass are negative by rounding and were set to zero")
             }
@@ -218,23 +241,29 @@ impl Model {
     pub fn new(input: Input) -> Result<Self> {
         let mut findings = Vec::new();
         let precision = Precision { stiffness: data_precision(&input.stiffness), mass: data_precision(&input.mass) };
-        let dofs = input.dofs;
+        let (dofs, rows) = (input.dofs, input.rows);
+        let names = RowNames { rows: &rows, dofs: dofs.as_deref() };
         let (stiffness, mass) =
-            rayon::join(|| symmetrised("stiffness", input.stiffness), || symmetrised("mass", input.mass));
+            rayon::join(|| symmetrised("stiffness", input.stiffness, names), || symmetrised("mass", input.mass, names));
         let ((mut stiffness, of_stiffness), (mut mass, of_mass)) = (stiffness?, mass?);
         findings.extend(of_stiffness.into_iter().chain(of_mass));
         assert!(stiffness.rows() == mass.rows(), "K has {} rows, M has {}", stiffness.rows(), mass.rows());
         check_not_swapped(&stiffness, &mass, dofs.as_deref())?;
-        check_diagonals(&stiffness, &mass, dofs.as_deref(), &mut findings)?;
+        check_diagonals(&stiffness, &mass, names, &mut findings)?;
         clear_negative_rounding(&mut mass);
         let scaling = Scaling::take_out(&mut stiffness, &mut mass)?;
         let (is_definite, bodies) = rayon::join(
-            || definite::refuse_indefinite(&mass, precision.mass, dofs.as_deref()),
+            || definite::refuse_indefinite(&mass, precision.mass, names),
             || Bodies::of(&stiffness, &node_of_row(stiffness.rows(), dofs.as_deref())),
         );
         is_definite?;
         let (nodes, fit) = (input.nodes, CoordinateFit::Unknown);
-        Ok(Self { stiffness, mass, scaling, precision, dofs, nodes, bodies, fit, findings })
+        Ok(Self { stiffness, mass, scaling, precision, dofs, nodes, rows, bodies, fit, findings })
+    }
+
+    /// What the rows are called in messages.
+    pub fn names(&self) -> RowNames<'_> {
+        RowNames { rows: &self.rows, dofs: self.dofs.as_deref() }
     }
 
     /// Number of degrees of freedom n.
@@ -250,6 +279,7 @@ impl Model {
             n_nodes: self.dofs.as_ref().map(n_nodes),
             n_bodies: self.bodies.n_bodies,
             weight: None,
+            rows: self.rows.clone(),
             findings: self.findings.clone(),
         }
     }
@@ -261,12 +291,17 @@ fn data_precision(matrix: &MatrixInput) -> f64 {
 }
 
 /// The matrix, symmetric to the bit, and what that took.
-fn symmetrised(name: &'static str, input: MatrixInput) -> Result<(SparseMatrix, Option<Finding>)> {
+fn symmetrised(name: &'static str, input: MatrixInput, names: RowNames<'_>) -> Result<(SparseMatrix, Option<Finding>)> {
     let mut matrix = input.matrix;
     let asymmetry = make_symmetric(&mut matrix);
     if asymmetry.relative > ASYMMETRY_FAIL {
-        let (row, col) = asymmetry.worst;
-        return Err(Error::Unsymmetric { matrix: name, asymmetry: asymmetry.relative, row: row + 1, col: col + 1 });
+        let place = format!(
+            "{}, column {}{}",
+            names.full(asymmetry.worst.0),
+            names.number(asymmetry.worst.1),
+            names.bracketed(asymmetry.worst.1)
+        );
+        return Err(Error::Unsymmetric { matrix: name, asymmetry: asymmetry.relative, place });
     }
     let is_mended = asymmetry.relative > 0.0;
     Ok((matrix, is_mended.then_some(Finding::Symmetrised { matrix: name, asymmetry: asymmetry.relative })))
@@ -309,7 +344,7 @@ fn cancelling_rows(matrix: &SparseMatrix, dofs: Option<&[Dof]>) -> f64 {
 fn check_diagonals(
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,
-    dofs: Option<&[Dof]>,
+    names: RowNames<'_>,
     findings: &mut Vec<Finding>,
 ) -> Result<()> {
     let n = stiffness.rows();
@@ -318,8 +353,8 @@ fn check_diagonals(
     if m_max == 0.0 && mass.data().iter().all(|m| *m == 0.0) {
         return Err(Error::NoMass);
     }
-    let (mut massless, mut particles, mut rounding) = (0, 0, 0);
-    let mut empty = Vec::new();
+    let (mut massless, mut rounding) = (0, 0);
+    let (mut empty, mut particles) = (Vec::new(), Vec::new());
     for row in 0..n {
         let k_empty = is_empty_row(stiffness, row);
         let m_empty = is_empty_row(mass, row);
@@ -328,22 +363,26 @@ fn check_diagonals(
             continue;
         }
         if k_empty {
-            particles += 1;
+            particles.push(row);
         } else if k_diag[row] == 0.0 {
-            return Err(Error::MultiplierRow { row: row + 1, dof: name_of(dofs, row) });
+            return Err(Error::MultiplierRow { row: names.number(row), dof: names.bracketed(row) });
         } else if k_diag[row] < 0.0 {
-            return Err(Error::NegativeStiffness { row: row + 1, dof: name_of(dofs, row), value: k_diag[row] });
+            return Err(Error::NegativeStiffness {
+                row: names.number(row),
+                dof: names.bracketed(row),
+                value: k_diag[row],
+            });
         }
         if m_empty {
             massless += 1;
         } else if m_diag[row] < -(n as f64) * f64::EPSILON * m_max {
-            return Err(Error::NegativeMass { row: row + 1, dof: name_of(dofs, row), value: m_diag[row] });
+            return Err(Error::NegativeMass { row: names.number(row), dof: names.bracketed(row), value: m_diag[row] });
         } else if m_diag[row] < 0.0 {
             rounding += 1;
         }
     }
     if let Some(first) = empty.first() {
-        return Err(Error::EmptyRows { n_rows: empty.len(), row: first + 1, dof: name_of(dofs, *first) });
+        return Err(Error::EmptyRows { n_rows: empty.len(), row: names.number(*first), dof: names.bracketed(*first) });
     }
     let mut note = |n_rows: usize, finding: fn(usize) -> Finding| {
         if n_rows > 0 {
@@ -351,9 +390,29 @@ fn check_diagonals(
         }
     };
     note(massless, |n_rows| Finding::MasslessRows { n_rows });
-    note(particles, |n_rows| Finding::FreeParticles { n_rows });
     note(rounding, |n_rows| Finding::NegativeMassByRounding { n_rows });
+    let of_particles = |first: &usize| Finding::FreeParticles { n_rows: particles.len(), first: names.full(*first) };
+    findings.extend(particles.first().map(of_particles));
+    findings.extend(penalties(&k_diag, names));
     Ok(())
+}
+
+/// Times the median diagonal entry of K above which a row is held or tied by a penalty: rotations of thick parts in millimetres and
+/// soft joints come to 10⁸ of each other.
+const PENALTY: f64 = 1e10;
+
+/// Rows whose stiffness no structure has.
+fn penalties(k_diag: &[f64], names: RowNames<'_>) -> Option<Finding> {
+    let mut sizes: Vec<f64> = k_diag.iter().copied().filter(|value| *value > 0.0).collect();
+    if sizes.is_empty() {
+        return None;
+    }
+    let middle = sizes.len() / 2;
+    let median = *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let stiff = |row: &usize| k_diag[*row] > PENALTY * median;
+    let n_rows = (0..k_diag.len()).filter(stiff).count();
+    let stiffest = (0..k_diag.len()).filter(stiff).max_by(|a, b| k_diag[*a].total_cmp(&k_diag[*b]))?;
+    Some(Finding::Penalties { n_rows, first: names.full(stiffest), ratio: k_diag[stiffest] / median })
 }
 
 /// Sets diagonal entries of M that are negative, which by now is rounding only, to zero.
@@ -363,11 +422,6 @@ fn clear_negative_rounding(mass: &mut SparseMatrix) {
             *value = 0.0;
         }
     }
-}
-
-/// What a row is called in messages: its node and direction, or nothing where unknown.
-fn name_of(dofs: Option<&[Dof]>, row: usize) -> String {
-    dofs.map_or_else(String::new, |dofs| format!(" ({})", dofs[row]))
 }
 
 fn is_empty_row(matrix: &SparseMatrix, row: usize) -> bool {

@@ -2,12 +2,14 @@
 
 use super::{MatrixFacts, Results, omega, rigid_body, warnings};
 use crate::basis::DynamicCoordinate;
-use crate::job::{Certify, ModeSelection};
+use crate::job::{Certify, Coupling, InterfaceJob, ModeSelection, Origin};
 use crate::model::RoundedCoordinates;
 use crate::modes::{Boundary, CLUSTER_GAP, CountedInterval};
+use crate::partition::InterfaceNode;
 use crate::report::{
-    Completeness, DroppedCoordinate, Generator, InterfaceReport, MassProperties, MatrixReport, ModeKind, ModeRow,
-    ModelReport, ReductionReport, ReportBody, RigidBodyModes, RigidBodySource, TrustInterval, Warning,
+    Completeness, DroppedCoordinate, Generator, InterfacePosition, InterfaceReport, MassProperties, MatrixReport,
+    ModeKind, ModeRow, ModelReport, PositionOrigin, ReductionReport, ReportBody, RigidBodyModes, RigidBodySource,
+    TrustInterval, Warning,
 };
 use crate::rigid::{ILL_CONDITIONED, RigidSource};
 
@@ -103,20 +105,34 @@ fn interfaces(results: &Results<'_>) -> Vec<InterfaceReport> {
     let mut rows: Vec<InterfaceReport> = Vec::new();
     for node in &partition.interface {
         let n_dofs = if node.directions.is_empty() { node.n_nodes } else { node.directions.len() };
+        let origin = origin(node, &results.job.interfaces);
+        let at = node.position.map(|position| InterfacePosition { node: node.label, position, origin });
         match rows.last_mut().filter(|row| row.name == node.name) {
             Some(row) => {
                 row.n_nodes += node.n_nodes;
                 row.n_dofs += n_dofs;
+                row.at.extend(at);
             }
             None => rows.push(InterfaceReport {
                 name: node.name.clone(),
                 coupling: node.coupling,
                 n_nodes: node.n_nodes,
                 n_dofs,
+                at: at.into_iter().collect(),
             }),
         }
     }
     rows
+}
+
+/// Where the place of an interface node comes from.
+fn origin(node: &InterfaceNode, jobs: &[InterfaceJob]) -> PositionOrigin {
+    let job = jobs.iter().find(|job| job.name == node.name);
+    match (node.coupling, job.map(|job| &job.origin)) {
+        (Coupling::Direct, _) => PositionOrigin::Node,
+        (Coupling::Rigid, Some(Origin::Point(_))) => PositionOrigin::Job,
+        (Coupling::Rigid, Some(Origin::Centroid) | None) => PositionOrigin::MeanOfNodes,
+    }
 }
 
 fn modes(results: &Results<'_>) -> Vec<ModeRow> {

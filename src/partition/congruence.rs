@@ -162,7 +162,7 @@ mod tests {
         let matrix = triplets.assemble(n, crate::sparse::Declared::Symmetric, "a".as_ref()).expect("a matrix").0;
         let n_internal = n - 40;
         let site = Some(Site { position: [0.0; 3], direction: Direction::Ux });
-        let dof = |origin, is_interface| ReducedDof { origin, is_interface, site, node: 0, label: None };
+        let dof = |origin, is_interface| ReducedDof { origin, is_interface, site, node: 0, dof: None };
         let mut dofs: Vec<ReducedDof> = (20..n - 20).map(|row| dof(DofOrigin::Row(row), false)).collect();
         for node in 0..2 {
             dofs.extend(Direction::ALL.map(|direction| dof(DofOrigin::RigidNode(node, direction), true)));

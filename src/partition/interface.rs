@@ -94,14 +94,11 @@ pub fn recovered_rows(model: &Model, recovery: Option<&RecoveryJob>) -> Result<V
 
 /// Rows by number: interface nodes where the rows belong to nodes with coordinates, bare rows otherwise.
 fn from_rows(model: &Model, catalogue: &Catalogue, job: &InterfaceJob, rows: &[usize]) -> Result<Vec<Resolved>> {
-    let n = model.n_dofs();
-    if let Some(row) = rows.iter().find(|row| **row >= n) {
-        return Err(Error::InterfaceRow { interface: job.name.clone(), row: *row, n });
-    }
+    let rows = rows.iter().map(|row| row_of_model(model, job, *row)).collect::<Result<Vec<usize>>>()?;
     if let (Some(dofs), false) = (&model.dofs, catalogue.positions.is_empty()) {
         let mut labels: Vec<i64> = Vec::new();
         let mut directions: HashMap<i64, Vec<Direction>> = HashMap::new();
-        for row in rows {
+        for row in &rows {
             let Dof { node, direction } = dofs[*row];
             directions.entry(node).or_insert_with(|| {
                 labels.push(node);
@@ -124,7 +121,17 @@ fn from_rows(model: &Model, catalogue: &Catalogue, job: &InterfaceJob, rows: &[u
         coupling: Coupling::Direct,
         n_nodes: rows.len(),
     };
-    Ok(vec![Resolved { node, rows: Rows::Own(rows.to_vec()) }])
+    Ok(vec![Resolved { node, rows: Rows::Own(rows) }])
+}
+
+/// The row of the model that a row of the files, both from zero, has become.
+fn row_of_model(model: &Model, job: &InterfaceJob, row: usize) -> Result<usize> {
+    let n = model.n_dofs() + model.rows.n_dropped();
+    let wrong = |found| Error::InterfaceRow { interface: job.name.clone(), row, found, n };
+    if row >= n {
+        return Err(wrong("does not exist"));
+    }
+    model.rows.find(row).ok_or_else(|| wrong("has neither stiffness nor mass and was dropped as asked"))
 }
 
 /// The rows and the position of each node of the model.
@@ -244,8 +251,8 @@ fn refuse_shared_rows(model: &Model, resolved: &[Resolved]) -> Result<()> {
         let (Rows::Own(rows) | Rows::Patch(rows)) = rows;
         for row in rows {
             if let Some(first) = owner.insert(*row, &node.name) {
-                let dof =
-                    model.dofs.as_ref().map_or_else(|| format!("row {row} (from zero)"), |dofs| dofs[*row].to_string());
+                let in_files = || format!("row {} (from zero)", model.rows.of(*row));
+                let dof = model.dofs.as_ref().map_or_else(in_files, |dofs| dofs[*row].to_string());
                 return Err(Error::DofTwice { dof, first: first.to_owned(), second: node.name.clone() });
             }
         }

@@ -26,6 +26,7 @@ use faer::Mat;
 use crate::error::{Error, Result};
 use crate::factor::Pencil;
 use crate::input::Dof;
+use crate::input::FileRows;
 use crate::job::InterfaceJob;
 use crate::model::{CoordinateFit, Finding, Model, ModelFacts, Precision, Scaling, Site};
 use crate::sparse::{Leading, SparseMatrix};
@@ -101,7 +102,7 @@ impl Partition {
         let mass = congruence::congruence(&model.mass, &transformation);
         drop(model.mass);
         let interface = resolved.into_nodes();
-        findings.extend(hanging_dofs(&stiffness, &transformation, &interface));
+        findings.extend(hanging_dofs(&stiffness, &transformation, (&interface, &facts.rows)));
         Ok(Self {
             cancellation,
             fit: model.fit,
@@ -156,7 +157,7 @@ impl Partition {
 
     /// What a dof is called in messages.
     pub fn name_of(&self, dof: usize) -> String {
-        self.dofs[dof].name(&self.interface)
+        self.dofs[dof].name(&self.interface, &self.model.rows)
     }
 
     /// K and M.
@@ -172,10 +173,14 @@ impl Partition {
 }
 
 /// Interface dofs that no stiffness reaches; the model has seen to it that they have mass.
-fn hanging_dofs(stiffness: &SparseMatrix, partition: &Transformation, interface: &[InterfaceNode]) -> Option<Finding> {
+fn hanging_dofs(
+    stiffness: &SparseMatrix,
+    partition: &Transformation,
+    (interface, rows): (&[InterfaceNode], &FileRows),
+) -> Option<Finding> {
     let is_bare =
         |dof: &usize| stiffness.outer_view(*dof).is_none_or(|row| row.data().iter().all(|value| *value == 0.0));
     let hanging: Vec<usize> = (partition.n_internal()..partition.dofs.len()).filter(is_bare).collect();
     let first = *hanging.first()?;
-    Some(Finding::HangingInterface { dof: partition.dofs[first].name(interface), n_dofs: hanging.len() })
+    Some(Finding::HangingInterface { dof: partition.dofs[first].name(interface, rows), n_dofs: hanging.len() })
 }

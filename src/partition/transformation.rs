@@ -6,7 +6,7 @@
 
 use super::interface::{InterfaceNode, Interfaces, Resolved, Rows};
 use crate::error::{Error, Result};
-use crate::input::Direction;
+use crate::input::{Direction, Dof, FileRows};
 use crate::model::{Model, RoundedCoordinates, Site, node_of_row};
 
 /// A dof of the partition.
@@ -20,8 +20,8 @@ pub struct ReducedDof {
     pub site: Option<Site>,
     /// Number of the node it belongs to, shared by the dofs of one node.
     pub node: u32,
-    /// Label of that node in the model, where it has one.
-    pub label: Option<i64>,
+    /// Node and direction in the model, where a map tells them.
+    pub dof: Option<Dof>,
 }
 
 /// Where a dof of the partition comes from.
@@ -35,11 +35,11 @@ pub enum DofOrigin {
 
 impl ReducedDof {
     /// What the dof is called in messages.
-    pub(super) fn name(&self, interface: &[InterfaceNode]) -> String {
-        match (self.origin, self.site, self.label) {
-            (DofOrigin::RigidNode(node, direction), ..) => format!("interface {} {direction}", interface[node].name),
-            (DofOrigin::Row(_), Some(site), Some(label)) => format!("node {label} {}", site.direction),
-            (DofOrigin::Row(row), ..) => format!("row {}", row + 1),
+    pub(super) fn name(&self, interface: &[InterfaceNode], rows: &FileRows) -> String {
+        match (self.origin, self.dof) {
+            (DofOrigin::RigidNode(node, direction), _) => format!("interface {} {direction}", interface[node].name),
+            (DofOrigin::Row(_), Some(dof)) => dof.to_string(),
+            (DofOrigin::Row(row), None) => format!("row {}", rows.of(row) + 1),
         }
     }
 }
@@ -141,7 +141,7 @@ struct Sites<'a> {
     /// How they move as K knows it, where their coordinates are rounded.
     rounded: Option<&'a RoundedCoordinates>,
     node_of_row: Vec<u32>,
-    label_of_row: Option<Vec<i64>>,
+    dofs: Option<&'a [Dof]>,
     n_nodes: u32,
 }
 
@@ -150,8 +150,7 @@ impl<'a> Sites<'a> {
         let of_row = model.sites();
         let node_of_row = node_of_row(model.n_dofs(), model.dofs.as_deref());
         let n_nodes = node_of_row.iter().max().map_or(0, |max| max + 1);
-        let label_of_row = model.dofs.as_ref().map(|dofs| dofs.iter().map(|dof| dof.node).collect());
-        Self { of_row, rounded: model.fit.rounded(), node_of_row, label_of_row, n_nodes }
+        Self { of_row, rounded: model.fit.rounded(), node_of_row, dofs: model.dofs.as_deref(), n_nodes }
     }
 }
 
@@ -176,7 +175,7 @@ impl Builder<'_> {
             is_interface: part == Part::Interface,
             site: self.sites.of_row.as_ref().map(|sites| sites[row]),
             node: self.sites.node_of_row[row],
-            label: self.sites.label_of_row.as_ref().map(|labels| labels[row]),
+            dof: self.sites.dofs.map(|dofs| dofs[row]),
         });
     }
 
@@ -197,7 +196,7 @@ impl Builder<'_> {
                 is_interface: part == Part::Interface,
                 site: Some(Site { position, direction }),
                 node: self.sites.n_nodes + index as u32,
-                label: None,
+                dof: None,
             });
         }
     }

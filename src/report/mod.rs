@@ -45,6 +45,7 @@ pub use stages::{Observer, StageClock, StageTime};
 pub use summary::summary;
 pub use trust::TrustInterval;
 pub use verification::{Against, VerificationReport};
+pub use words::unmet_check;
 
 /// Body and facts of one run; [`Report::to_json`] gives the document that `schemas/report.schema.json` describes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -191,7 +192,7 @@ impl ReductionReport {
 }
 
 /// One interface of the superelement.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct InterfaceReport {
     /// Its name in the job.
     pub name: String,
@@ -201,6 +202,31 @@ pub struct InterfaceReport {
     pub n_nodes: usize,
     /// Degrees of freedom of it.
     pub n_dofs: usize,
+    /// Its nodes in the superelement; none where coordinates are unknown.
+    pub at: Vec<InterfacePosition>,
+}
+
+/// Where a node of an interface is, in the units of the model.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct InterfacePosition {
+    /// Label of the node of the model, where it is one.
+    pub node: Option<i64>,
+    /// Its place.
+    pub position: [f64; 3],
+    /// Where that comes from.
+    pub origin: PositionOrigin,
+}
+
+/// Where the place of an interface node comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PositionOrigin {
+    /// It is a node of the model.
+    Node,
+    /// The mean of the nodes of a patch, each counted once: no centroid of its faces.
+    MeanOfNodes,
+    /// The job says it.
+    Job,
 }
 
 /// A coordinate that was left out.

@@ -1,8 +1,8 @@
 //! The words and figures that the summary and the page have in common.
 
-use super::{ModeKind, ReductionReport, table};
+use super::{InterfacePosition, InterfaceReport, ModeKind, PositionOrigin, ReductionReport, table};
 use crate::job::{Coupling, Eigensolver, Method};
-use crate::verification::check::{ActiveLimit, Check};
+use crate::verification::check::{ActiveLimit, Check, Verdict};
 
 pub(super) fn method(method: Method) -> &'static str {
     match method {
@@ -99,4 +99,37 @@ fn margin(margin: f64) -> String {
     } else {
         table::quantity(margin, 2)
     }
+}
+
+/// Where the nodes of an interface are: the first ones, and where the place of a patch comes from.
+pub(super) fn positions(interface: &InterfaceReport) -> Option<String> {
+    const SHOWN: usize = 2;
+    let place = |at: &InterfacePosition| {
+        let size = at.position.iter().fold(0.0_f64, |size, coordinate| size.max(coordinate.abs()));
+        let shown = |value: f64| table::quantity(if value.abs() <= 1e-12 * size { 0.0 } else { value }, 6);
+        let place = format!("({})", at.position.map(shown).join(", "));
+        match at.origin {
+            PositionOrigin::Node => place,
+            PositionOrigin::MeanOfNodes => format!("{place}, the mean of its nodes"),
+            PositionOrigin::Job => format!("{place}, as the job says"),
+        }
+    };
+    let mut places: Vec<String> = interface.at.iter().take(SHOWN).map(place).collect();
+    if interface.at.len() > SHOWN {
+        places.push(format!("… and {} more in the report", interface.at.len() - SHOWN));
+    }
+    (!places.is_empty()).then(|| format!("at {}", places.join(", ")))
+}
+
+/// A check that is not met, in one line: what, where, found, expected.
+pub fn unmet_check(check: &Check) -> String {
+    let [limit, ..] = self::limit(check);
+    let at = check.worst.as_ref().map(|worst| format!(" – {worst}")).unwrap_or_default();
+    let found = table::scientific(check.value, 2);
+    let expected = if check.verdict() == Verdict::Fail {
+        format!("{limit}, failing above {}", table::scientific(check.fail_above, 1))
+    } else {
+        limit
+    };
+    format!("{} {}{at} – found {found} – expected at most {expected}", check.id, check.name)
 }

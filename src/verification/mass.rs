@@ -71,8 +71,21 @@ pub(super) fn expected(evidence: &Evidence<'_>) -> Option<Check> {
         value: dense::worst(mass_error.into_iter().chain(shift)),
         limits: Limits { engineering: 1e-4, ..Limits::default() },
         fail_above: if may_lack_rows { TAKEN_OUT } else { 1e-2 },
-        worst: Some(format!("mass {}{centre}{lacks}", quantity(mass, 6))),
+        worst: Some(format!("{}{centre}{lacks}", found_mass(mass, expect.mass))),
     })
+}
+
+/// `mass 0.0027252, expected 2.725: ratio 1000, a unit slip?`
+fn found_mass(mass: f64, expected: Option<f64>) -> String {
+    let found = format!("mass {}", quantity(mass, 6));
+    let Some(expected) = expected else { return found };
+    let ratio = (expected / mass).max(mass / expected);
+    let decades = ratio.log10();
+    // A slip of units is a power of ten but for the mass that either number leaves out.
+    let is_slip = decades > 0.5 && (decades - decades.round()).abs() < 0.02;
+    let question = if is_slip { ", a unit slip?" } else { "" };
+    let ratio = if ratio > 1.01 { format!(": ratio {}{question}", quantity(ratio, 3)) } else { String::new() };
+    format!("{found}, expected {}{ratio}", quantity(expected, 6))
 }
 
 /// Share of the mass that supports may take out of a held model: one that lacks more has lost more than its supports.

@@ -40,6 +40,7 @@ pub(crate) fn input(model: &models::Model) -> Input {
         mass: matrix(model.n, &model.mass),
         nodes: (!dofs.is_empty()).then_some(nodes),
         dofs: (!dofs.is_empty()).then_some(dofs),
+        rows: Default::default(),
         digests: Default::default(),
         notes: Vec::new(),
     }

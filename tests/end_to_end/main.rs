@@ -8,3 +8,4 @@ mod recovery;
 mod results;
 #[cfg(feature = "hdf5")]
 mod same_bytes;
+mod told;

@@ -18,6 +18,9 @@ struct Mutation {
     file: String,
     before: String,
     after: String,
+    /// Folder of the package of the test, where it is not that of the program.
+    #[serde(default)]
+    member: String,
     test: [String; 2],
 }
 
@@ -48,12 +51,12 @@ fn the_table_fits_the_sources() {
     let table: Table = toml::from_str(include_str!("table.toml")).expect("a table");
     let mut names = std::collections::BTreeSet::new();
     for mutation in &table.mutation {
-        let Mutation { name, fact, file, before, after, test: [target, test] } = mutation;
+        let Mutation { name, fact, file, before, after, member, test: [target, test] } = mutation;
         assert!(names.insert(name), "{name} stands twice");
         assert!(!fact.is_empty() && before != after, "{name} changes nothing");
         let text = std::fs::read_to_string(root().join(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
         assert_eq!(text.matches(before.as_str()).count(), 1, "{name}: {before:?} in {file}");
-        let tests = sources(&root().join("tests").join(target));
+        let tests = sources(&root().join(member).join("tests").join(target));
         assert!(tests.contains(&format!("fn {test}(")), "{name}: no test {test} in {target}");
     }
     assert!(names.len() >= 25, "faults were taken out of the table");

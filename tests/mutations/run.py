@@ -36,13 +36,18 @@ def copy_sources():
 
 
 def run(tests):
-    """Whether `cargo test` passes for a target and a filter, and what it printed."""
-    target, test = tests
-    command = ["cargo", "test", "--test", target, "--", test]
+    """Whether `cargo test` passes for a target and a filter of the package in a folder, and what it printed."""
+    member, target, test = tests
+    command = ["cargo", "test", "--manifest-path", str(COPY / member / "Cargo.toml"), "--test", target, "--", test]
     # The dependencies are those of the repository itself and need no second build.
     environment = dict(os.environ, CARGO_TARGET_DIR=str(ROOT / "target"), RUST_BACKTRACE="0")
     ended = subprocess.run(command, cwd=COPY, env=environment, capture_output=True, text=True)
     return ended.returncode == 0, ended.stdout + ended.stderr
+
+
+def wanted_of(mutation):
+    """Folder of the package, target and filter of the test that has to notice a fault."""
+    return (mutation.get("member", ""), *mutation["test"])
 
 
 def outcome(mutation):
@@ -53,7 +58,7 @@ def outcome(mutation):
         return "cannot be put in: the place is not there exactly once", False
     path.write_text(sound.replace(mutation["before"], mutation["after"]))
     try:
-        passed, text = run(mutation["test"])
+        passed, text = run(wanted_of(mutation))
     finally:
         path.write_text(sound)
     if passed:
@@ -73,7 +78,7 @@ def main():
     if unknown:
         sys.exit(f"no such fault: {', '.join(sorted(unknown))}")
     copy_sources()
-    for tests in sorted({tuple(mutation["test"]) for mutation in chosen}):
+    for tests in sorted({wanted_of(mutation) for mutation in chosen}):
         passed, text = run(tests)
         if not passed or " 0 passed" in text.rsplit("test result:", 1)[-1]:
             sys.exit(f"{' '.join(tests)} does not pass without a fault:\n{text[-3000:]}")

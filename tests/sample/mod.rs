@@ -8,9 +8,9 @@ use supel::error::Result;
 use supel::job::{Coupling, Eigensolver, Job, Method};
 use supel::outcome::{Outcome, Resources};
 use supel::report::{
-    Completeness, DroppedCoordinate, Generator, InterfaceReport, MassProperties, MatrixReport, ModeKind, ModeRow,
-    ModelReport, Observer, ReductionReport, Report, ReportBody, RigidBodyModes, RigidBodySource, RunFacts, StageTime,
-    Warning, WorkCounters,
+    Completeness, DroppedCoordinate, Generator, InterfacePosition, InterfaceReport, MassProperties, MatrixReport,
+    ModeKind, ModeRow, ModelReport, Observer, PositionOrigin, ReductionReport, Report, ReportBody, RigidBodyModes,
+    RigidBodySource, RunFacts, StageTime, Warning, WorkCounters,
 };
 use supel::verification::check::{Check, Limits};
 use supel_runtime::{
@@ -86,8 +86,24 @@ fn body() -> ReportBody {
             method: Method::Herting,
             eigensolver: Eigensolver::Lanczos,
             interfaces: vec![
-                InterfaceReport { name: "hub".to_owned(), coupling: Coupling::Rigid, n_nodes: 96, n_dofs: 6 },
-                InterfaceReport { name: "foot".to_owned(), coupling: Coupling::Direct, n_nodes: 1, n_dofs: 3 },
+                InterfaceReport {
+                    name: "hub".to_owned(),
+                    coupling: Coupling::Rigid,
+                    n_nodes: 96,
+                    n_dofs: 6,
+                    at: vec![InterfacePosition {
+                        node: None,
+                        position: [0.25, 0.0, -1.5e-3],
+                        origin: PositionOrigin::MeanOfNodes,
+                    }],
+                },
+                InterfaceReport {
+                    name: "foot".to_owned(),
+                    coupling: Coupling::Direct,
+                    n_nodes: 1,
+                    n_dofs: 3,
+                    at: Vec::new(),
+                },
             ],
             n_interface: 9,
             n_inertia_relief: 6,

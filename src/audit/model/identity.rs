@@ -72,7 +72,7 @@ fn stored(superelement: &Superelement) -> Vec<String> {
 /// The same of the job, for a file that names no nodes.
 fn rows_asked(partition: &Partition) -> Vec<String> {
     let of = |dof: &ReducedDof| match dof.origin {
-        DofOrigin::Row(row) => format!("row {}", row + 1),
+        DofOrigin::Row(row) => format!("row {}", partition.model.rows.of(row) + 1),
         DofOrigin::RigidNode(node, _) => format!("row {}", node + 1),
     };
     partition.dofs[partition.n_internal..].iter().map(of).collect()

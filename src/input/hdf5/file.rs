@@ -12,7 +12,7 @@ use super::dataset::Dataset;
 use crate::error::{Error, Result};
 use crate::heap;
 use crate::input::allowance::{Allowance, Claim};
-use crate::input::regular;
+use crate::input::{foreign, regular};
 
 /// More links than any group of a real file has; the library itself would follow a damaged index for ever.
 const MAX_LINKS: usize = 1_000_000;
@@ -298,18 +298,17 @@ fn check_signature(path: &Path) -> Result<u64> {
     file.seek(SeekFrom::Start(0)).map_err(read)?;
     let mut head = Vec::with_capacity(32);
     file.take(32).read_to_end(&mut head).map_err(read)?;
+    foreign::refuse(path)?;
     let (found, advice) = looks_like(&head);
     Err(Error::Hdf5Signature { path: path.to_owned(), found, advice })
 }
 
 /// What a file that is not HDF5 is, judged by its first bytes, and what to do about it.
 fn looks_like(head: &[u8]) -> (&'static str, &'static str) {
-    const KINDS: [(&[u8], &str, &str); 7] = [
-        (b"MATLAB 5.0", "a MATLAB file of version 7 or older", "save it with -v7.3"),
+    const KINDS: [(&[u8], &str, &str); 5] = [
         (b"\xc0\xa8\xa3\xa9", "a CGNS file in ADF", "convert it with adf2hdf"),
         (b"@(#)ADF", "a CGNS file in ADF", "convert it with adf2hdf"),
         (b"\x1f\x8b", "a gzip file", "unpack it"),
-        (b"PK", "a zip file", "unpack it"),
         (b"CDF", "a classic netCDF file", "convert it with nccopy -k netCDF-4"),
         (b"%%MatrixMarket", "a Matrix Market file", "give it the name .mtx"),
     ];

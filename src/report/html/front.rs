@@ -147,7 +147,8 @@ fn interfaces(reduction: &ReductionReport) -> Vec<String> {
     let line = |interface: &crate::report::InterfaceReport| {
         let (nodes, dofs) =
             (counted(interface.n_nodes, "node", "nodes"), counted(interface.n_dofs, "coordinate", "coordinates"));
-        format!("{}: {} coupling, {nodes}, {dofs}", interface.name, words::coupling(interface.coupling))
+        let places = words::positions(interface).map(|places| format!(", {places}")).unwrap_or_default();
+        format!("{}: {} coupling, {nodes}, {dofs}{places}", interface.name, words::coupling(interface.coupling))
     };
     reduction.interfaces.iter().map(line).collect()
 }

@@ -111,6 +111,7 @@ fn reduced(page: &mut Page, reduction: &ReductionReport) {
         let nodes = table::counted(interface.n_nodes, "node", "nodes");
         let dofs = table::counted(interface.n_dofs, "dof", "dofs");
         page.entry("interface", &format!("{} · {coupling} · {nodes} · {dofs}", interface.name));
+        words::positions(interface).iter().for_each(|places| page.entry("", places));
     }
     let parts = words::coordinates(reduction);
     page.entry("coordinates", &format!("{} = {}", table::count(reduction.n_reduced as u64), parts.join(" + ")));

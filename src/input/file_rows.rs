@@ -1,0 +1,86 @@
+//! Rows by their numbers in the files, which stay what they are when rows are dropped.
+
+use super::Dof;
+
+/// Which rows of the files the rows of the matrices are.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FileRows {
+    /// The rows that are kept, in ascending order; absent where all are.
+    kept: Option<Vec<u32>>,
+    /// Rows that are not.
+    n_dropped: usize,
+}
+
+impl FileRows {
+    /// The rows that a filter keeps, one mark for each row of the files.
+    pub(super) fn kept(is_kept: &[bool]) -> Self {
+        let rows = is_kept.iter().zip(0u32..).filter(|(kept, _)| **kept).map(|(_, row)| row);
+        let kept: Vec<u32> = rows.collect();
+        Self { n_dropped: is_kept.len() - kept.len(), kept: Some(kept) }
+    }
+
+    /// Rows that are not among those of the matrices.
+    pub fn n_dropped(&self) -> usize {
+        self.n_dropped
+    }
+
+    /// The number in the files of a row of the matrices, both from zero.
+    pub fn of(&self, row: usize) -> usize {
+        self.kept.as_ref().map_or(row, |kept| kept[row] as usize)
+    }
+
+    /// The row of the matrices that a row of the files has become, both from zero; nothing where it was dropped.
+    pub fn find(&self, row_of_files: usize) -> Option<usize> {
+        let Some(kept) = &self.kept else { return Some(row_of_files) };
+        kept.binary_search(&u32::try_from(row_of_files).ok()?).ok()
+    }
+}
+
+/// What rows are called in messages: by number in the files, and by node and direction where a dof map tells them.
+#[derive(Clone, Copy, Debug)]
+pub struct RowNames<'a> {
+    /// Which rows of the files they are.
+    pub rows: &'a FileRows,
+    /// Node and direction of each row.
+    pub dofs: Option<&'a [Dof]>,
+}
+
+impl RowNames<'_> {
+    /// Number in the files, from one.
+    pub fn number(self, row: usize) -> usize {
+        self.rows.of(row) + 1
+    }
+
+    /// ` (node 40 rx)`, or nothing where unknown.
+    pub fn bracketed(self, row: usize) -> String {
+        self.dofs.map_or_else(String::new, |dofs| format!(" ({})", dofs[row]))
+    }
+
+    /// `row 238 (node 40 rx)`.
+    pub fn full(self, row: usize) -> String {
+        format!("row {}{}", self.number(row), self.bracketed(row))
+    }
+
+    /// `node 40 rx`, or `row 238` where no map tells it.
+    pub fn short(self, row: usize) -> String {
+        self.dofs.map_or_else(|| format!("row {}", self.number(row)), |dofs| dofs[row].to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::Direction;
+
+    #[test]
+    fn rows_keep_their_numbers_of_the_files() {
+        let rows = FileRows::kept(&[true, false, true, false, false, true]);
+        assert_eq!([0, 1, 2].map(|row| rows.of(row)), [0, 2, 5]);
+        assert_eq!([0, 1, 2, 5, 6].map(|row| rows.find(row)), [Some(0), None, Some(1), Some(2), None]);
+        assert_eq!((FileRows::default().of(7), FileRows::default().find(7)), (7, Some(7)));
+        let dofs = [Direction::Ux, Direction::Uy, Direction::Rx].map(|direction| Dof { node: 40, direction });
+        let names = RowNames { rows: &rows, dofs: Some(&dofs) };
+        assert_eq!((names.full(2), names.short(2)), ("row 6 (node 40 rx)".to_owned(), "node 40 rx".to_owned()));
+        assert_eq!(RowNames { dofs: None, ..names }.short(2), "row 6");
+    }
+}

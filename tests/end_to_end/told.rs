@@ -1,0 +1,308 @@
+//! What a run says of its input and of itself: by which names, how often, and with which way round.
+
+use std::fmt::Write;
+
+use supel::cli::ExitCode;
+
+use crate::place::{Ended, Place, supel};
+
+const FOOT: &str = "--interface foot=1,11,31,41 --method herting --modes 5";
+
+#[track_caller]
+fn assert_says(ended: &Ended, code: ExitCode, parts: &[&str]) {
+    assert_eq!(ended.code, code, "{}{}", ended.out, ended.err);
+    for part in parts {
+        assert!(ended.err.contains(part), "no {part:?} in {}", ended.err);
+    }
+}
+
+/// Entries of a Matrix Market file, row and column from one.
+fn entries(place: &Place, name: &str) -> Vec<(usize, usize, String)> {
+    let text = String::from_utf8(place.bytes(name)).expect("UTF-8");
+    let lines = text.lines().filter(|line| !line.starts_with('%')).skip(1);
+    let entry = |line: &str| {
+        let fields: Vec<&str> = line.split_whitespace().collect();
+        (fields[0].parse().expect("a row"), fields[1].parse().expect("a column"), fields[2].to_owned())
+    };
+    lines.map(entry).collect()
+}
+
+fn write_matrix(place: &Place, name: &str, n: usize, entries: &[(usize, usize, String)]) {
+    let mut text = format!("%%MatrixMarket matrix coordinate real symmetric\n{n} {n} {}\n", entries.len());
+    for (row, col, value) in entries {
+        writeln!(text, "{row} {col} {value}").expect("written");
+    }
+    place.write(name, text.as_bytes());
+}
+
+/// The free brick with two empty rows before its own: row 1 of the matrices is row 3 of the files, a dof of node 1.
+fn with_empty_rows() -> Place {
+    let place = Place::with_brick();
+    for name in ["K.mtx", "M.mtx"] {
+        let moved: Vec<_> =
+            entries(&place, name).into_iter().map(|(row, col, value)| (row + 2, col + 2, value)).collect();
+        write_matrix(&place, name, 137, &moved);
+    }
+    let dofs = String::from_utf8(place.bytes("dofs.txt")).expect("UTF-8");
+    place.write("dofs.txt", format!("900.1\n900.2\n{dofs}").as_bytes());
+    let nodes = String::from_utf8(place.bytes("nodes.csv")).expect("UTF-8");
+    place.write("nodes.csv", format!("{nodes}900,9,9,9\n").as_bytes());
+    place
+}
+
+/// Makes the diagonal entry of a row of the stiffness another one.
+fn with_diagonal(place: &Place, name: &str, row: usize, value: &str) {
+    let mut all = entries(place, name);
+    let n = all.iter().map(|entry| entry.0).max().expect("entries");
+    all.iter_mut().filter(|entry| (entry.0, entry.1) == (row, row)).for_each(|entry| entry.2 = value.to_owned());
+    write_matrix(place, name, n, &all);
+}
+
+#[test]
+fn rows_are_named_by_file_and_label_after_others_are_dropped() {
+    let negative = with_empty_rows();
+    with_diagonal(&negative, "K.mtx", 10, "-1e9");
+    let ended = negative.reduce(&negative.model_flags(), &format!("{FOOT} --drop-empty"));
+    assert_says(&ended, ExitCode::ModelPhysics, &["E-NEG-DIAG", "row 10 (node 3 uy)"]);
+    let ended =
+        negative.reduce(&negative.matrix_flags(), "--interface a=rows:2,3,4 --method herting --modes 5 --drop-empty");
+    assert_says(&ended, ExitCode::ModelPhysics, &["E-NEG-DIAG", "row 10 of the stiffness"]);
+
+    let lopsided = with_empty_rows();
+    let mut all = entries(&lopsided, "K.mtx");
+    let mirrored: Vec<_> = all.iter().filter(|e| e.0 != e.1).map(|e| (e.1, e.0, e.2.clone())).collect();
+    all.extend(mirrored);
+    let largest = all.iter().position(|entry| (entry.0, entry.1) == (12, 9)).expect("an entry");
+    all[largest].2 = "7e10".to_owned();
+    write_matrix(&lopsided, "K.mtx", 137, &all);
+    let text = String::from_utf8(lopsided.bytes("K.mtx")).expect("UTF-8");
+    lopsided.write("K.mtx", text.replace("real symmetric", "real general").as_bytes());
+    let ended = lopsided.reduce(&lopsided.model_flags(), &format!("{FOOT} --drop-empty"));
+    assert_says(&ended, ExitCode::InputData, &["E-UNSYMMETRIC", "row 12 (node 4 ux)", "column 9 (node 3 ux)"]);
+}
+
+/// Rows of an interface are those of the files, whatever was dropped before them.
+#[test]
+fn rows_of_an_interface_are_those_of_the_files() {
+    let whole = Place::with_brick();
+    let sound = "--interface a=rows:0,1,2,30,31,32,90,91,92 --method herting --modes 5";
+    whole.reduce(&whole.matrix_flags(), sound).expect(ExitCode::Done);
+    let expected = whole.superelement("x.supel");
+    let place = with_empty_rows();
+    let moved = "--interface a=rows:2,3,4,32,33,34,92,93,94 --method herting --modes 5 --drop-empty";
+    place.reduce(&place.matrix_flags(), moved).expect(ExitCode::Done);
+    let found = place.superelement("x.supel");
+    assert_eq!(found.tensors().stiffness, expected.tensors().stiffness);
+    let rows = serde_json::to_value(&found.metadata().coordinates[..2]).expect("JSON");
+    assert_eq!((&rows[0]["row"], &rows[1]["row"]), (&2.into(), &3.into()));
+
+    let dropped = place.reduce(&place.matrix_flags(), &moved.replace("rows:2,", "rows:1,"));
+    assert_says(
+        &dropped,
+        ExitCode::InputData,
+        &["E-INTERFACE-ROW", "row 1 has neither stiffness nor mass and was dropped"],
+    );
+    let beyond = place.reduce(&place.matrix_flags(), &moved.replace("rows:2,", "rows:137,"));
+    assert_says(&beyond, ExitCode::InputData, &["E-INTERFACE-ROW", "row 137 does not exist", "0 to 136"]);
+}
+
+/// CalculiX repeats labels of expanded shells and makes nodes that the deck does not have.
+#[test]
+fn maps_that_cannot_be_used_say_which_rows_and_how_to_go_on() {
+    let place = Place::with_brick();
+    let dofs = String::from_utf8(place.bytes("dofs.txt")).expect("UTF-8");
+    let lines: Vec<&str> = dofs.lines().collect();
+    let mut repeated = lines.clone();
+    repeated.splice(60..72, lines[..12].iter().copied());
+    place.write("dofs.txt", repeated.join("\n").as_bytes());
+    let by_rows = "give interfaces as rows from zero, as in --interface hub=rows:0,1,2";
+    let ended = place.reduce(&place.model_flags(), FOOT);
+    let which = "rows 1 and 61 are both ux of node 1; 12 rows (61, 62, 63, 64, …) repeat a dof";
+    assert_says(&ended, ExitCode::InputData, &["E-MAP-REPEATED", which, by_rows]);
+
+    let made: Vec<String> = lines.iter().map(|line| line.replace("45.", "10045.")).collect();
+    place.write("dofs.txt", made.join("\n").as_bytes());
+    let ended = place.reduce(&place.model_flags(), FOOT);
+    let which = "row 133 is at node 10045, which";
+    assert_says(
+        &ended,
+        ExitCode::InputData,
+        &["E-MAP-NODE", which, "3 rows (133, 134, 135) have no position", by_rows],
+    );
+    // The way that both messages show.
+    let rows = "--interface foot=rows:0,1,2,30,31,32,90,91,92 --method herting --modes 5";
+    place.reduce(&place.matrix_flags(), rows).expect(ExitCode::Done);
+}
+
+#[test]
+fn one_matrix_in_both_places() {
+    let place = Place::with_brick();
+    place.write("copy.mtx", &place.bytes("K.mtx"));
+    for mass in ["K.mtx", "copy.mtx"] {
+        let mut flags = place.model_flags();
+        flags[3] = place.text(mass);
+        assert_says(&place.reduce(&flags, FOOT), ExitCode::InputData, &["E-SAME-MATRIX", "K.mtx", mass, "one matrix"]);
+    }
+}
+
+#[test]
+fn an_expected_mass_names_the_ratio() {
+    let place = Place::with_brick();
+    let mass = 7850.0 * 0.31 * 0.23;
+    for (expected, parts) in [
+        (mass * 1000.0, vec!["M-16", "mass 559.705, expected 559705: ratio 1000, a unit slip?"]),
+        (mass / 1000.0, vec!["mass 559.705, expected 0.559705: ratio 1000, a unit slip?"]),
+        (mass * 1.3, vec!["mass 559.705, expected 727.617: ratio 1.3 –"]),
+    ] {
+        let job = format!(
+            "model = {{ stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\", \
+             expect = {{ mass = {expected} }} }}\n\
+             interface = [{{ name = \"foot\", nodes = [1, 11, 31, 41] }}]\n\
+             reduction = {{ method = \"herting\", modes = {{ count = 5 }} }}\nwrite = {{ superelement = \"x.supel\" }}\n"
+        );
+        place.write("job.toml", job.as_bytes());
+        let ended = supel(&["reduce", &place.text("job.toml"), "--quiet"]);
+        // The first check only knows the ratio to three digits, centre and all follow.
+        let parts: Vec<String> = parts.iter().map(|part| part.replace(" –", ", centre")).collect();
+        assert_says(&ended, ExitCode::CheckFailed, &parts.iter().map(String::as_str).collect::<Vec<_>>());
+        // One line for the check, one for the file.
+        assert_eq!(ended.err.lines().count(), 2, "{}", ended.err);
+        assert!(ended.out.is_empty());
+    }
+}
+
+#[test]
+fn interfaces_of_flags_replace_or_are_added_by_name() {
+    let place = Place::with_brick();
+    let job = "model = { stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\" }\n\
+               interface = [{ name = \"foot\", nodes = [1, 11, 31, 41] }, { name = \"tip\", nodes = [45] }]\n\
+               reduction = { method = \"herting\", modes = { count = 5 } }\nwrite = { superelement = \"x.supel\" }\n";
+    place.write("job.toml", job.as_bytes());
+    let job = place.text("job.toml");
+    let names = || -> Vec<(String, usize)> {
+        let report = place.report("x.report.json");
+        let interfaces = report["body"]["reduction"]["interfaces"].as_array().expect("interfaces").clone();
+        let of = |interface: &serde_json::Value| {
+            let n_nodes = interface["n_nodes"].as_u64().expect("a number") as usize;
+            (interface["name"].as_str().expect("a name").to_owned(), n_nodes)
+        };
+        interfaces.iter().map(of).collect()
+    };
+    let pair = |name: &str, n_nodes| (name.to_owned(), n_nodes);
+    let ended = supel(&["reduce", &job, "--interface", "tip=44,45", "--interface", "side=21"]).expect(ExitCode::Done);
+    assert!(ended.err.contains("the flag replaces interface \"tip\" of the job"), "{}", ended.err);
+    assert!(ended.err.contains("the flag adds interface \"side\" to the 2 of the job"), "{}", ended.err);
+    assert_eq!(names(), [pair("foot", 4), pair("tip", 2), pair("side", 1)]);
+    let ended = supel(&["reduce", &job, "--interface", "tip=44", "--quiet"]).expect(ExitCode::Done);
+    assert_eq!(ended.err, "");
+    let twice = supel(&["reduce", &job, "--interface", "a=44", "--interface", "a=45"]).expect(ExitCode::Usage);
+    assert!(twice.err.contains("E-INTERFACE-NAME"), "{}", twice.err);
+}
+
+/// Places of interfaces are in the summary, the document and the page, with where they come from.
+#[test]
+fn interfaces_say_where_they_are() {
+    let place = Place::with_brick();
+    let page = place.text("x.html");
+    let flags =
+        format!("--rigid-interface foot=1,11,31,41 --interface tip=45 --method herting --modes 5 --html {page}");
+    let ended = place.reduce(&place.model_flags(), &flags).expect(ExitCode::Done);
+    let report = place.report("x.report.json");
+    let interfaces = report["body"]["reduction"]["interfaces"].as_array().expect("interfaces").clone();
+    let at = |name: &str| {
+        let interface = interfaces.iter().find(|interface| interface["name"] == name).expect("an interface");
+        interface["at"][0].clone()
+    };
+    let (foot, tip) = (at("foot"), at("tip"));
+    assert_eq!((&foot["node"], &foot["origin"]), (&serde_json::Value::Null, &"mean-of-nodes".into()));
+    assert_eq!((&tip["node"], &tip["origin"]), (&45.into(), &"node".into()));
+    assert_eq!(tip["position"], serde_json::json!([1.0, 0.31, 0.23]));
+    let html = String::from_utf8(place.bytes("x.html")).expect("UTF-8");
+    for text in [&ended.out, &html] {
+        assert!(text.contains("at (1, 0.31, 0.23)"), "{text}");
+        assert!(text.contains(", the mean of its nodes"), "{text}");
+    }
+}
+
+/// Files of formats that are not read are recognised, whatever they are called and wherever they are given.
+#[test]
+fn formats_that_are_not_read_are_named() {
+    let place = Place::with_brick();
+    let mut zip = b"PK\x03\x04".to_vec();
+    zip.extend(b"\x14\0\0\0\0\0indices.npy");
+    let files: [(&str, &[u8], &str, &str); 8] = [
+        ("K.npz", &zip, "a NumPy archive (.npz)", "scipy.io.mmwrite"),
+        ("K.npy", b"\x93NUMPY\x01\0v\0", "a NumPy array", "scipy.io.mmwrite"),
+        ("K.mat", b"MATLAB 5.0 MAT-file, Platform: GLNXA64", "a MATLAB file of version 7 or older", "-v7.3"),
+        ("deck.inp", b"** made by hand\n*NODE, NSET=ALL\n1, 0, 0, 0\n", "an input deck", "SOLVER=MATRIXSTORAGE"),
+        ("part.msh", b"$MeshFormat\n4.1 0 8\n", "a Gmsh mesh", "meshio convert"),
+        ("job.frd", b"    1C\n    1UUSER\n", "a CalculiX result file", "meshio convert"),
+        ("wing.bdf", b"$ made by hand\nSOL 103\nCEND\nBEGIN BULK\n", "a Nastran deck", "meshio convert"),
+        ("model.zip", b"PK\x03\x04\x14\0\0\0\0\0model.mtx", "a zip archive", "unpack it"),
+    ];
+    for (name, bytes, found, advice) in files {
+        place.write(name, bytes);
+        for (flag, other) in
+            [("--stiffness", "K.mtx"), ("--mass", "M.mtx"), ("--dofs", "dofs.txt"), ("--nodes", "nodes.csv")]
+        {
+            let is_matrix = matches!(other, "K.mtx" | "M.mtx");
+            let flags: Vec<String> =
+                place.model_flags().iter().map(|text| text.replace(&place.text(other), &place.text(name))).collect();
+            assert!(flags.contains(&place.text(name)), "{flag}");
+            let ended = place.reduce(&flags, FOOT);
+            // Without its library HDF5 is refused by the name.
+            if cfg!(feature = "hdf5") || name != "K.mat" || !is_matrix {
+                assert_says(&ended, ExitCode::InputData, &["E-FORMAT", name, found, "– not read – expected", advice]);
+            }
+        }
+    }
+}
+
+#[test]
+fn an_output_without_its_folder_names_it() {
+    let place = Place::with_brick();
+    let flags = place.model_flags();
+    let mut args = vec!["reduce".to_owned(), "--output".to_owned(), place.text("no/such/x.supel")];
+    args.extend(flags);
+    args.extend(FOOT.split_whitespace().map(str::to_owned));
+    let ended = supel(&args.iter().map(String::as_str).collect::<Vec<_>>());
+    let folder = format!("the folder {} does not exist", place.text("no/such"));
+    assert_says(&ended, ExitCode::Io, &["E-FOLDER", "x.supel", &folder]);
+}
+
+#[test]
+fn text_is_no_superelement_and_is_shown() {
+    let place = Place::with_brick();
+    place.write("job.toml", b"[model]\nstiffness = \"K.mtx\"\n");
+    for command in ["inspect", "verify"] {
+        let ended = supel(&[command, &place.text("job.toml")]);
+        assert_says(&ended, ExitCode::InputData, &["not a superelement file: found text that begins `[model]`"]);
+    }
+}
+
+/// A document was asked for, and nothing else.
+#[test]
+fn json_and_quiet_go_together() {
+    let place = Place::with_brick();
+    let ended = place.reduce(&place.model_flags(), &format!("{FOOT} --json --quiet")).expect(ExitCode::Done);
+    assert!(ended.out.starts_with('{') && ended.err.is_empty(), "{}", ended.err);
+    let ended = supel(&["verify", &place.text("x.supel"), "--json", "-q"]).expect(ExitCode::Done);
+    assert!(ended.out.starts_with('{') && ended.err.is_empty(), "{}", ended.err);
+}
+
+/// Supports as some programs export them: springs of 1e36 on rows that stay in.
+#[test]
+fn penalties_are_mentioned() {
+    let place = Place::with_brick();
+    for row in [1, 2, 3] {
+        with_diagonal(&place, "K.mtx", row, "1e36");
+    }
+    let ended =
+        place.reduce(&place.matrix_flags(), "--interface a=rows:30,31,32,90,91,92 --method craig-bampton --modes 5");
+    assert!(matches!(ended.code, ExitCode::Done | ExitCode::CheckFailed), "{}{}", ended.out, ended.err);
+    let report = place.report("x.report.json");
+    let warnings = report["body"]["warnings"].as_array().expect("warnings").clone();
+    let penalty = warnings.iter().find(|warning| warning["code"] == "W-PENALTY").expect("a warning");
+    let message = penalty["message"].as_str().expect("a text");
+    assert!(message.contains("3 rows") && message.contains("at row ") && message.contains("e25 times"), "{message}");
+}
