@@ -35,6 +35,7 @@ fn partition(matrix: &SparseMatrix, mass: impl Fn(usize) -> f64, interface: &[us
         mass: read(diagonal(&mass)),
         dofs: None,
         nodes: None,
+        rows: Default::default(),
         digests: Default::default(),
         notes: Vec::new(),
     };
