@@ -118,6 +118,7 @@ fn input(model: &supel_models::Model) -> Input {
         mass: matrix_input(model.n, &model.mass),
         dofs: (!model.dofs.is_empty()).then(|| model.dofs.iter().map(dof).collect()),
         nodes: (!model.nodes.is_empty()).then_some(nodes),
+        rows: Default::default(),
         digests: Default::default(),
         notes: Vec::new(),
     }
