@@ -52,18 +52,18 @@ mod tests {
     #[test]
     fn every_reservation_is_said_and_none_that_is_not_there() {
         let (sound, past, failed) = (check("M-01", 0.5), check("M-05", 2.0), check("M-12", 20.0));
-        let said = |checks: &[Check], n_warnings, verdict| conclusion(checks, n_warnings, verdict);
-        assert_eq!(said(&[sound.clone()], 0, Verdict::Pass), "✓ verified: 1 check passed");
-        assert_eq!(said(&[sound.clone()], 1, Verdict::Warn), "! verified, with 1 warning");
+        let alone = [sound.clone()];
+        assert_eq!(conclusion(&alone, 0, Verdict::Pass), "✓ verified: 1 check passed");
+        assert_eq!(conclusion(&alone, 1, Verdict::Warn), "! verified, with 1 warning");
         let two = [past.clone(), sound.clone()];
-        assert_eq!(said(&two, 0, Verdict::Warn), "! verified, with 1 check past its limit (M-05)");
-        let three = [past.clone(), sound.clone(), check("M-23", 3.0)];
+        assert_eq!(conclusion(&two, 0, Verdict::Warn), "! verified, with 1 check past its limit (M-05)");
+        let three = [past.clone(), sound, check("M-23", 3.0)];
         assert_eq!(
-            said(&three, 2, Verdict::Warn),
+            conclusion(&three, 2, Verdict::Warn),
             "! verified, with 2 checks past their limits (M-05, M-23) and 2 warnings"
         );
-        assert_eq!(said(&[failed, past], 2, Verdict::Fail), "✗ not verified: 1 of 2 checks failed: M-12");
-        assert_eq!(said(&[sound], 0, Verdict::Fail), "✗ not verified: modes are missing");
+        assert_eq!(conclusion(&[failed, past], 2, Verdict::Fail), "✗ not verified: 1 of 2 checks failed: M-12");
+        assert_eq!(conclusion(&alone, 0, Verdict::Fail), "✗ not verified: modes are missing");
         assert_eq!(reserved_as(&two, 0), "with checks past their limits");
         assert_eq!(reserved_as(&two, 1), "with checks past their limits and warnings");
         assert_eq!(reserved_as(&[], 1), "with warnings");

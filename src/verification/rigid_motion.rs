@@ -38,17 +38,25 @@ pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[
     Check { value, limits: judged.limits, fail_above: judged.fail_above, ..check }
 }
 
-/// Limits of an energy that should be nothing: by the error bars of the modes, or where there are none by those of the rigid-body
-/// modes themselves.
+/// Limits of an energy that should be nothing: by the error bars of the modes and what few digits make of rigid-body motion itself,
+/// which those of modes with the interface held do not tell; without either by the moduli of its terms.
 pub(super) fn energy_limits(evidence: &Evidence<'_>, first: f64) -> Judged {
     let modes = &evidence.retained.modes;
     let known = modes.lambda.iter().zip(&modes.errors);
     let known = known.map(|(lambda, error)| Known { lambda: *lambda, relative_bar: error.data_bar });
     let noise = match modes.count() {
         0 => evidence.partition.cancellation * evidence.rigid.energy.noise / first,
-        _ => limits::noise(known, first),
+        _ => limits::noise(known, first).max(noise_of_digits(evidence) / first),
     };
     limits::of_energy(noise, share_of_data(evidence.partition))
+}
+
+/// What few digits of K can make of the energy of a rigid-body motion of unit modal mass.
+fn noise_of_digits(evidence: &Evidence<'_>) -> f64 {
+    match evidence.partition.has_few_digits() {
+        true => evidence.partition.energy_noise(evidence.rigid.massive()).into_iter().fold(0.0, f64::max),
+        false => 0.0,
+    }
 }
 
 /// M-05, residual.

@@ -121,7 +121,7 @@ fn fault(component: &Component, place: &Place, run: Run, reference: &Found) -> O
     if !report.exists() {
         let is_for_digits = ended.err.contains("[E-DATA-PRECISION]")
             || ended.err.contains("which the digits of the stiffness do not tell from not at all");
-        return (!is_for_digits).then(|| ended.err);
+        return (!is_for_digits).then_some(ended.err);
     }
     let body = place.report(&format!("{name}.report.json"))["body"].clone();
     if ended.code == ExitCode::CheckFailed {
