@@ -9,6 +9,8 @@ mod rigid_body;
 mod superelement;
 mod warnings;
 
+use std::collections::BTreeMap;
+
 use supel_runtime::Superelement;
 
 use crate::error::Result;
@@ -55,6 +57,12 @@ impl InputFacts {
             notes: input.notes.iter().filter(|note| note.warning_code().is_none()).map(ToString::to_string).collect(),
             warnings: input.notes.iter().filter_map(warning).collect(),
         }
+    }
+
+    /// Digests of the files by their roles, as the superelement records them.
+    pub fn digests(&self) -> BTreeMap<&'static str, &String> {
+        let [stiffness, mass] = &self.matrices;
+        BTreeMap::from([("stiffness", &stiffness.digest), ("mass", &mass.digest)])
     }
 }
 

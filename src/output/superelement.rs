@@ -1,6 +1,6 @@
 //! The superelement from the results of the stages.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use faer::{Mat, MatRef};
@@ -48,13 +48,15 @@ fn tensors(results: &Results<'_>) -> Tensors {
     let unit = |i: usize| if i < n_b { 1.0 } else { shape };
     let both = |a: &Mat<f64>, of: f64| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * of * unit(i) * unit(j));
     let rows = |a: &Mat<f64>, of: f64| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * of * unit(i));
+    // An amplitude is the smaller the larger its shape; those of rigid-body motion are not zero without an interface.
+    let amplitudes = |a: &Mat<f64>| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] / unit(i));
     let mut rigid_body_mass = reduction.rigid_body_mass.clone();
     rigid_body_mass *= faer::Scale(scaling.mass_unit());
     let nodes = named_nodes(results);
     Tensors {
         stiffness: matrix(both(&reduction.stiffness, scaling.stiffness_unit()).as_ref()),
         mass: matrix(both(&reduction.mass, scaling.mass_unit()).as_ref()),
-        rigid_body_modes: matrix(reduction.rigid_body_modes.as_ref()),
+        rigid_body_modes: matrix(amplitudes(&reduction.rigid_body_modes).as_ref()),
         rigid_body_mass: matrix(rigid_body_mass.as_ref()),
         interface_positions: nodes.iter().map(|node| node.position).collect(),
         interface_frames: vec![[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]; nodes.len()],
@@ -129,7 +131,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
     });
     let of_the_body = || Matrix::from_fn(6, 6, |i, j| tensors.rigid_body_mass[(i, j)]);
     let classical = evidence.rigid.is_classical.then(|| file::mass_properties(&of_the_body())).flatten();
-    let [stiffness, mass] = &results.input.matrices;
+    let digests = results.input.digests();
     Metadata {
         generator: file::Generator { name: env!("CARGO_PKG_NAME").into(), version: env!("CARGO_PKG_VERSION").into() },
         method: match results.job.reduction.method {
@@ -153,10 +155,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
             },
             mass_properties: classical,
         },
-        inputs: BTreeMap::from([
-            ("stiffness".to_owned(), stiffness.digest.clone()),
-            ("mass".to_owned(), mass.digest.clone()),
-        ]),
+        inputs: digests.into_iter().map(|(role, digest)| (role.to_owned(), digest.clone())).collect(),
         job: job_document(results.job),
         verification: verification(&results.checks(), verdict),
     }
