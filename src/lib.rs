@@ -55,7 +55,7 @@ pub mod rigid;
 pub mod sparse;
 pub mod verification;
 
-use audit::Audit;
+use audit::{Audit, Reference};
 use basis::Basis;
 use error::Result;
 use factor::{Analysis, Cholesky};
@@ -173,13 +173,15 @@ fn prepared(job: &Job, observer: &mut dyn Observer) -> Result<(InputFacts, Parti
 pub fn verify(superelement: &Superelement, job: Option<&Job>, observer: &mut dyn Observer) -> Result<Audit> {
     faer::set_global_parallelism(faer::Par::Seq);
 
-    observer.stage("verification");
-    let by_itself = audit::of_file(superelement)?;
-    let Some(job) = job else { return Ok(by_itself) };
-
+    let Some(job) = job else {
+        observer.stage("verification");
+        return audit::of_file(superelement);
+    };
     let (facts, partition) = prepared(job, observer)?;
 
+    observer.stage("reference");
+    let reference = Reference::new(job, &facts, &partition)?;
+
     observer.stage("comparison");
-    let against_model = audit::against_model(superelement, &partition, &facts)?;
-    Ok(by_itself.joined(against_model))
+    audit::against(superelement, &reference)
 }

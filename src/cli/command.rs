@@ -39,9 +39,17 @@ pub(super) struct VerifyCommand {
     pub(super) file: PathBuf,
     /// The model to compare with: checked, paths absolute.
     pub(super) job: Option<Job>,
+    pub(super) rerun: Rerun,
     pub(super) n_threads: usize,
     pub(super) answer: Answer,
     pub(super) strictness: Strictness,
+}
+
+/// Whether the job of a superelement is run again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rerun {
+    No,
+    Compared,
 }
 
 /// Show a superelement file.
@@ -103,6 +111,7 @@ fn build_verify(flags: VerifyFlags) -> Result<VerifyCommand> {
     Ok(VerifyCommand {
         file: flags.file,
         job: flags.job.as_deref().map(Job::read).transpose()?,
+        rerun: if flags.reproduce { Rerun::Compared } else { Rerun::No },
         n_threads: flags.threads.map_or_else(process::available_threads, usize::from),
         answer: match (flags.json, flags.quiet) {
             (true, _) => Answer::Json,

@@ -128,6 +128,8 @@ codes! {
     OutputName => "E-OUTPUT-NAME", Usage;
     MissingFlags => "E-FLAGS", Usage;
     FlagText => "E-FLAG-TEXT", Usage;
+    OtherVersion => "E-OTHER-VERSION", Usage;
+    KeptJob => "E-KEPT-JOB", Usage;
     Threads => "E-THREADS", Resources;
     Unsymmetric => "E-UNSYMMETRIC", InputData;
     Swapped => "E-SWAPPED", InputData;

@@ -55,6 +55,7 @@ pub use orthogonalisation::mass_qr;
 pub use quality::{MassOrthogonality, ModeError, mass_orthogonality};
 pub(crate) use random::SplitMix64;
 pub use retained::{Component, Retained};
+pub(crate) use search::mode_wish;
 pub use search::{SLICED_FROM, Search};
 pub use shifted::{Shifted, shift_of_factor, shifted};
 pub use slices::{LARGEST_SEARCH, ModeSource, SLICE};

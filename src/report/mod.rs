@@ -39,7 +39,7 @@ pub use rigid_body::{EffectiveMass, Grounding, MassRoute, RigidBodyEvidence};
 pub use stages::{Observer, StageClock, StageTime};
 pub use summary::summary;
 pub use trust::TrustInterval;
-pub use verification::{Against, VerificationReport};
+pub use verification::{Against, Reproduction, VerificationReport};
 
 /// Body and facts of one run; [`Report::to_json`] gives the document that `schemas/report.schema.json` describes.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -7,4 +7,5 @@ mod place;
 mod document;
 mod healthy;
 mod model;
+mod reproduced;
 mod tampered;
