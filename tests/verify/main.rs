@@ -9,3 +9,4 @@ mod healthy;
 mod model;
 mod reproduced;
 mod tampered;
+mod tampering;
