@@ -1059,6 +1059,23 @@ pub enum Error {
         /// What belongs there.
         expected: &'static str,
     },
+    /// A superelement of another version is to be made again.
+    #[error(
+        "{}: made by {found}, this is {} {} – only the same version gives the same bytes; run that one, or compare with \
+         --job and without --reproduce", path.display(), env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION")
+    )]
+    OtherVersion {
+        /// The file.
+        path: PathBuf,
+        /// Program and version that it names.
+        found: String,
+    },
+    /// The job kept in a superelement cannot be run again.
+    #[error("{}: the job kept in the file cannot be read; give the job with --job", path.display())]
+    KeptJob {
+        /// The file.
+        path: PathBuf,
+    },
     /// The working threads could not be started.
     #[error("{n_threads} threads cannot be started: {source} – ask for fewer with --threads")]
     Threads {

@@ -58,7 +58,7 @@ pub mod rigid;
 pub mod sparse;
 pub mod verification;
 
-use audit::Audit;
+use audit::{Audit, Reference};
 use basis::Basis;
 use error::{Error, Result};
 use factor::{Analysis, Cholesky};
@@ -197,15 +197,16 @@ pub fn verify(
 ) -> Result<Audit> {
     faer::set_global_parallelism(faer::Par::Seq);
 
-    observer.stage("verification");
-    let by_itself = audit::of_file(superelement)?;
-    let Some(job) = job else { return Ok(by_itself) };
-
+    let Some(job) = job else {
+        observer.stage("verification");
+        return audit::of_file(superelement);
+    };
     let (facts, partition) = prepared(job, resources, observer)?;
 
+    observer.stage("reference");
+    factor::comparison_within_memory(&partition, job, resources, superelement.tensors().frequencies.len())?;
+    let reference = Reference::new(job, &facts, &partition)?;
+
     observer.stage("comparison");
-    let n_modes = superelement.tensors().frequencies.len();
-    factor::comparison_within_memory(&partition, job, resources, n_modes)?;
-    let against_model = audit::against_model(superelement, &partition, &facts)?;
-    Ok(by_itself.joined(against_model))
+    audit::against(superelement, &reference)
 }

@@ -3,7 +3,8 @@
 use faer::{Mat, MatRef};
 use supel_runtime::{Coordinate, Matrix, Superelement};
 
-use super::spectrum::eigenpairs;
+use super::kept_job::kept_job;
+use super::spectrum::eigenvalues;
 use crate::dense;
 use crate::error::Result;
 use crate::job::Job;
@@ -15,7 +16,6 @@ use crate::verification::limits::{self, Judged, Known};
 const NOISE_FACTOR: f64 = 10.0;
 /// What the recorded error bars may excuse at most: a file cannot declare itself beyond judgement.
 const LARGEST_EXCUSE: f64 = 1e-3;
-
 /// A superelement with its matrices unpacked.
 pub(super) struct Content<'a> {
     pub(super) superelement: &'a Superelement,
@@ -35,8 +35,8 @@ pub(super) struct Content<'a> {
     pub(super) lambda: Vec<f64>,
     /// The first elastic eigenvalue, the unit that energies are compared with.
     pub(super) first: f64,
-    /// Rounding of the arithmetic and of the data in an energy, relative to `first`, as the error bars tell.
-    pub(super) noise: f64,
+    /// Rounding of the arithmetic and of the data in an energy, relative to `first`, as error bars tell.
+    noise: f64,
     /// Powers of two near 1/√(K̂ + λ₁M̂)_ii. Of K̂ alone nothing may be left: an interface that just holds the component
     /// has none.
     pub(super) scale: Vec<f64>,
@@ -45,7 +45,8 @@ pub(super) struct Content<'a> {
 }
 
 impl<'a> Content<'a> {
-    pub(super) fn of(superelement: &'a Superelement) -> Result<Self> {
+    /// The content of a file; without a model that tells the noise of its energies, the file's own error bars have to.
+    pub(super) fn of(superelement: &'a Superelement, noise: Option<f64>) -> Result<Self> {
         let tensors = superelement.tensors();
         let (k, m) = (unpacked(&tensors.stiffness), unpacked(&tensors.mass));
         let n_r = tensors.rigid_body_modes.cols();
@@ -58,8 +59,8 @@ impl<'a> Content<'a> {
             m_f: unpacked(&tensors.rigid_body_mass),
             n_b: superelement.n_interface(),
             boundary: boundary(superelement),
-            noise: noise(superelement, first),
-            job: serde_json::from_value(superelement.metadata().job.clone()).ok(),
+            noise: noise.unwrap_or_else(|| by_own_bars(superelement, first)),
+            job: kept_job(superelement),
             k,
             m,
             lambda,
@@ -112,18 +113,23 @@ impl<'a> Content<'a> {
 
     /// What a coordinate is called.
     pub(super) fn name_of(&self, coordinate: usize) -> String {
-        let metadata = self.superelement.metadata();
-        match metadata.coordinates[coordinate] {
-            Coordinate::Interface { node, direction } => {
-                let name = &metadata.interface_nodes[node].name;
-                format!("{name} {}", format!("{direction:?}").to_lowercase())
-            }
-            Coordinate::InterfaceRow { row } => format!("row {}", row + 1),
-            Coordinate::RigidBodyMode { index } => format!("rigid-body mode {}", index + 1),
-            Coordinate::InertiaRelief { index } => format!("inertia relief {}", index + 1),
-            Coordinate::ElasticMode { mode, .. } | Coordinate::FixedInterfaceMode { mode, .. } => {
-                format!("mode {}", mode + 1)
-            }
+        coordinate_name(self.superelement, coordinate)
+    }
+}
+
+/// What a coordinate of a superelement is called.
+pub(super) fn coordinate_name(superelement: &Superelement, coordinate: usize) -> String {
+    let metadata = superelement.metadata();
+    match metadata.coordinates[coordinate] {
+        Coordinate::Interface { node, direction } => {
+            let name = &metadata.interface_nodes[node].name;
+            format!("{name} {}", format!("{direction:?}").to_lowercase())
+        }
+        Coordinate::InterfaceRow { row } => format!("row {}", row + 1),
+        Coordinate::RigidBodyMode { index } => format!("rigid-body mode {}", index + 1),
+        Coordinate::InertiaRelief { index } => format!("inertia relief {}", index + 1),
+        Coordinate::ElasticMode { mode, .. } | Coordinate::FixedInterfaceMode { mode, .. } => {
+            format!("mode {}", mode + 1)
         }
     }
 }
@@ -147,7 +153,7 @@ pub(super) fn boundary(superelement: &Superelement) -> Boundary {
 
 /// The noise of energies relative to the first elastic one, by the bars that the file states. No file is written with a frequency that
 /// is unknown, and a bar that says so excuses nothing.
-fn noise(superelement: &Superelement, first: f64) -> f64 {
+fn by_own_bars(superelement: &Superelement, first: f64) -> f64 {
     let known = superelement.metadata().coordinates.iter().filter_map(|coordinate| match *coordinate {
         Coordinate::ElasticMode { frequency_hz, error_bar_hz: Some(bar), .. }
         | Coordinate::FixedInterfaceMode { frequency_hz, error_bar_hz: Some(bar), .. } => {
@@ -165,6 +171,6 @@ fn noise(superelement: &Superelement, first: f64) -> f64 {
 fn first_elastic((k, m): (MatRef<'_, f64>, MatRef<'_, f64>), n_r: usize, near: Option<f64>) -> Result<f64> {
     let ratios = (0..k.nrows()).filter(|i| k[(*i, *i)] > 0.0 && m[(*i, *i)] > 0.0).map(|i| k[(i, i)] / m[(i, i)]);
     let Some(near) = near.or_else(|| ratios.reduce(f64::min)) else { return Ok(1.0) };
-    let pairs = eigenpairs(k, m, near)?;
-    Ok(pairs.values.get(n_r).copied().filter(|value| *value > 0.0).unwrap_or(near))
+    let values = eigenvalues(k, m, near)?;
+    Ok(values.get(n_r).copied().filter(|value| *value > 0.0).unwrap_or(near))
 }

@@ -5,16 +5,20 @@
 //! Û       r × n_r
 //! ω       n_modes    rad/s
 //! ```
-//! Nothing of the run that made the file is taken over but the error bars it recorded. What the file holds more than
-//! once has to agree: K̂ and M̂ give the frequencies again, M̂ and Û the mass and the loads of gravity, the positions of
+//! What the file holds more than once has to agree: K̂ and M̂ give the frequencies again, M̂ and Û the mass and the loads of gravity, the positions of
 //! the interface nodes the rigid-body modes. The identifiers are those of the report.
 
 mod content;
 mod inertia_relief;
+mod jobs;
+mod kept_job;
 mod mass;
 mod model;
 mod named_modes;
+mod notes;
 mod record;
+mod recovery;
+mod reproduction;
 mod rigid_motion;
 mod spectrum;
 
@@ -24,9 +28,13 @@ use crate::error::Result;
 use crate::verification::check::{Check, Verdict};
 
 use content::Content;
+use notes::Compared;
 
-pub use model::against_model;
+pub use kept_job::{is_of_this_version, kept_job};
+pub use model::Reference;
+pub use notes::Unvouched;
 pub use record::rewritten;
+pub use reproduction::reproduced;
 
 /// What was found.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,6 +43,8 @@ pub struct Audit {
     pub checks: Vec<Check>,
     /// What could not be judged, one sentence each.
     pub notes: Vec<String>,
+    /// Fields whose content nothing here vouches for.
+    pub unvouched: Vec<Unvouched>,
 }
 
 impl Audit {
@@ -62,26 +72,49 @@ impl Audit {
 /// # Errors
 /// A dense eigenproblem that does not converge.
 pub fn of_file(superelement: &Superelement) -> Result<Audit> {
-    let content = Content::of(superelement)?;
-    let spectrum = spectrum::Spectrum::of(&content)?;
+    let content = Content::of(superelement, None)?;
+    let mut audit = checked(&content)?;
+    audit.checks.extend(kept_job::n_modes(&content));
+    let audit = audit.sorted();
+    Ok(Audit { unvouched: notes::fields(superelement, Compared::Alone), ..audit })
+}
+
+/// A superelement checked against the rest of itself and against the reference, which also says what rounding may do.
+///
+/// # Errors
+/// A dense eigenproblem that does not converge.
+pub fn against(superelement: &Superelement, reference: &Reference<'_>) -> Result<Audit> {
+    let by_itself = checked(&Content::of(superelement, Some(reference.noise()))?)?;
+    let audit = by_itself.joined(reference.against(superelement)?);
+    Ok(Audit { unvouched: notes::fields(superelement, Compared::WithJob), ..audit })
+}
+
+fn checked(content: &Content<'_>) -> Result<Audit> {
+    let spectrum = spectrum::Spectrum::of(content)?;
     let mut audit = Audit::default();
-    audit.checks.push(spectrum::modal_masses(&content));
-    audit.checks.extend(rigid_motion::positions(&content));
-    audit.checks.push(rigid_motion::null_space(&content));
-    audit.checks.push(rigid_motion::energy(&content));
-    audit.checks.push(rigid_motion::zero_modes(&content)?);
-    audit.checks.push(spectrum::block_coupling(&content));
-    audit.checks.push(spectrum::frequencies(&content, &spectrum));
-    audit.checks.extend(named_modes::residual(&content));
-    audit.checks.extend(mass::rigid_body_mass(&content));
-    audit.checks.extend(mass::stated(&content));
-    audit.checks.extend(mass::expected(&content));
-    audit.checks.extend(mass::gravity(&content));
-    audit.checks.extend(inertia_relief::identity(&content));
-    audit.checks.push(spectrum::condition(&content)?);
-    audit.checks.push(spectrum::symmetry(&content));
-    audit.checks.push(spectrum::definiteness(&content, &spectrum));
-    audit.checks.extend(record::checks(&content));
-    audit.notes = record::notes(&content);
+    audit.checks.push(spectrum::modal_masses(content));
+    audit.checks.extend(rigid_motion::positions(content));
+    audit.checks.push(rigid_motion::null_space(content));
+    audit.checks.push(rigid_motion::energy(content));
+    audit.checks.push(rigid_motion::zero_modes(content)?);
+    audit.checks.push(spectrum::block_coupling(content));
+    audit.checks.push(spectrum::frequencies(content, &spectrum));
+    audit.checks.extend(named_modes::mixing(content));
+    audit.checks.extend(named_modes::residual(content));
+    audit.checks.extend(mass::rigid_body_mass(content));
+    audit.checks.extend(mass::stated(content));
+    audit.checks.extend(mass::expected(content));
+    audit.checks.extend(mass::gravity(content));
+    audit.checks.extend(inertia_relief::identity(content));
+    audit.checks.push(spectrum::condition(content)?);
+    audit.checks.push(spectrum::symmetry(content));
+    audit.checks.push(spectrum::definiteness(content, &spectrum));
+    audit.checks.extend(recovery::rigid_motion(content));
+    audit.checks.extend(rigid_motion::declaration(content));
+    audit.checks.push(kept_job::accounts(content));
+    audit.checks.push(record::verdicts(content));
+    audit.checks.push(record::consistent(content)?);
+    audit.checks.push(kept_job::agrees(content));
+    audit.notes = notes::notes(content);
     Ok(audit.sorted())
 }

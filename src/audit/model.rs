@@ -1,71 +1,220 @@
 //! A superelement against the full matrices of its job.
 //!
 //! ```text
-//! K, M    n' × n'   of the partition
-//! K − σM  n' × n'   factored whole, σ < 0: no block of the interface, no constraint modes, no shift at zero
-//! Q       n' × n_r  zero modes found by inverse iteration, also where coordinates are known
-//! U       n' × k    static answers to loads on the interface, by conjugate gradients on K
-//! X       n' × m    elastic modes by the other eigensolver
+//! K, M          n' × n'     of the partition
+//! K − σM        n' × n'     factored whole, σ < 0: zero modes and free-free modes
+//! K_II − σM_II  n_I × n_I   factored, σ < 0: static answers by conjugate gradients on K_II, fixed-interface modes
+//! W             n' × q      the columns of the basis, made again
+//! WᵀKW, WᵀMW    q × q       what K̂ and M̂ have to be, but for signs, rotations of repeated modes and the mixing
 //! ```
-//! Nothing here uses the factor of K_II at shift zero that the reduction rests on. An interior in equilibrium is
-//! Ψ_S u_B, so U and Q show K̂_BB and M̂_BB without constraint modes: UᵀKU = U_Bᵀ K̂_BB U_B and likewise M̂.
+//! The [`Reference`] is made of the job and its files alone. Nothing in it uses the factor of K_II at shift zero that the
+//! reduction rests on, its eigensolver or its order of elimination, and nothing comes from the file that is judged.
 
+mod alignment;
+mod asked;
+mod bars;
+mod columns;
+mod comparison;
+mod entries;
 mod full;
 mod identity;
-mod modes;
+mod interior;
+mod motions;
+mod projection;
 mod scaled;
-mod statics;
 
+use faer::Mat;
 use supel_runtime::Superelement;
 
 use super::Audit;
 use crate::error::Result;
 use crate::factor::Analysis;
+use crate::job::Job;
+use crate::modes::Boundary;
 use crate::output::InputFacts;
 use crate::partition::Partition;
+use crate::rigid::{self, RigidBodyModes};
+use crate::verification::check::{Check, Limits};
 
+use alignment::{Combination, Freedom, combination};
+use asked::AskedModes;
+use columns::{Columns, Motions};
+use comparison::Comparison;
 use full::Full;
+use interior::Interior;
+use motions::KnownMotions;
+use projection::Projected;
 use scaled::Scaled;
 
-/// Compares a superelement with the full matrices.
-///
-/// # Errors
-/// K − σM is not definite; an eigensolver fails.
-pub fn against_model(superelement: &Superelement, partition: &Partition, facts: &InputFacts) -> Result<Audit> {
-    let mut audit = Audit::default();
-    audit.checks.push(identity::digests(superelement, facts));
-    audit.checks.push(identity::interface(superelement, partition));
-    if superelement.n_interface() != partition.n_interface() {
-        audit.notes.push("the interface of the job has another number of dofs: nothing else was compared".to_owned());
-        return Ok(audit.sorted());
+/// What a superelement of a job has to be, found without one.
+pub struct Reference<'a> {
+    job: &'a Job,
+    facts: &'a InputFacts,
+    partition: &'a Partition,
+    motions: KnownMotions,
+    asked: AskedModes,
+    projected: Projected,
+    /// The first elastic eigenvalue.
+    first: f64,
+}
+
+impl<'a> Reference<'a> {
+    /// Finds zero modes, elastic modes and static answers of the full model, and projects its matrices on them.
+    ///
+    /// # Errors
+    /// K − σM is not definite; an eigensolver fails; a Sturm count falls on an eigenvalue.
+    pub fn new(job: &'a Job, facts: &'a InputFacts, partition: &'a Partition) -> Result<Self> {
+        let (given, _) = rigid::rigid_body_modes(partition)?;
+        let analysis = Analysis::new(partition.pencil())?;
+        let found = Free::new(job, partition, (&analysis, &given))?;
+        drop(analysis);
+        let Free { zero, motions, asked, first } = found;
+        let unit = given.is_classical.then(|| given.modes.as_ref());
+        let (asked, columns) = match asked {
+            Some(asked) if partition.n_interface() == 0 && zero.count() > 0 => {
+                let columns = Columns::modal(deflated(&given, &zero), &asked);
+                (asked, columns)
+            }
+            asked => {
+                let relieved = if motions.has_unit() { given.modes.as_ref() } else { zero.orthonormal.as_ref() };
+                with_interior(job, partition, (asked, Motions { carried: &given, relieved }), first)?
+            }
+        };
+        let projected = Projected::new(partition, columns, unit);
+        Ok(Self { job, facts, partition, motions, asked: asked.without_shapes(), projected, first })
     }
-    let scaled = Scaled::of(superelement, partition)?;
-    let analysis = Analysis::new(partition.pencil())?;
-    let full = Full::new(partition, &analysis)?;
-    audit.checks.push(statics::rigid_body_count(&scaled, &full));
-    if scaled.u.ncols() == full.rigid.count() {
-        let witness = modes::Witness::of(superelement, &scaled, &full)?;
-        audit.checks.push(witness.backward_error());
-        audit.checks.push(witness.frequencies(&scaled));
-        audit.checks.push(witness.count(&scaled)?);
-        if scaled.n_b == 0 {
-            audit.notes.push("no interface: its statics and its rigid-body motions were not compared".to_owned());
+
+    /// What rounding and the digits of the data make of an energy, relative to that of the first elastic mode.
+    pub(super) fn noise(&self) -> f64 {
+        self.asked.noise(self.first)
+    }
+
+    /// Compares a superelement with what it has to be.
+    ///
+    /// # Errors
+    /// A dense eigenproblem that does not converge.
+    pub(super) fn against(&self, superelement: &Superelement) -> Result<Audit> {
+        let mut audit = Audit::default();
+        let checks = &mut audit.checks;
+        checks.push(identity::digests(superelement, self.facts));
+        checks.push(identity::generator(superelement));
+        checks.extend(identity::jobs(superelement, self.job));
+        checks.push(identity::interface(superelement, self.partition));
+        checks.push(identity::statements(superelement, (self.partition, self.job), &self.motions));
+        checks.push(self.asked.backward_error());
+        checks.extend(self.asked.count());
+        checks.push(identity::n_modes(superelement, &self.asked));
+        checks.push(identity::modal_coordinates(superelement, &self.projected, self.asked.boundary));
+        checks.extend(identity::dropped(superelement, &self.projected, self.asked.boundary));
+        checks.push(self.solves());
+        let file = Scaled::of(superelement, self.partition);
+        checks.push(bars::frequencies(&file, &self.asked, self.partition.precision));
+        checks.push(bars::error_bars(superelement, &self.asked));
+        checks.push(self.motions.count(&file));
+        if file.n_b != self.partition.n_interface() {
+            audit.notes.push("the interface of the job has another number of dofs: no matrix was compared".to_owned());
             return Ok(audit.sorted());
         }
-        audit.checks.extend(statics::rigid_body_modes(&scaled, &full));
-        let answers = statics::Answers::of(&scaled, &full)?;
-        audit.checks.push(statics::solves(&full, &answers));
-        audit.checks.push(statics::stiffness(&scaled, &full, &answers));
-        audit.checks.push(statics::mass(&scaled, &full, &answers));
-        audit.checks.extend(statics::gravity(&scaled, &full, &answers));
-        match witness.shapes(&scaled, &full, &answers) {
-            Some(check) => audit.checks.push(check),
-            None => {
-                audit.notes.push("rounding of the stiffness leaves the shapes of its modes open: not compared".into())
-            }
+        if file.u.ncols() != self.motions.n_zero {
+            audit.notes.push("the model is held or free in another way: no matrix was compared".to_owned());
+            return Ok(audit.sorted());
         }
-    } else {
-        audit.notes.push("the model is held or free in another way: nothing else was compared".to_owned());
+        checks.extend(self.motions.checks(&file));
+        self.matrices(superelement, &file, &mut audit)?;
+        Ok(audit.sorted())
     }
-    Ok(audit.sorted())
+
+    /// Everything that has the coordinates of the file.
+    fn matrices(&self, superelement: &Superelement, file: &Scaled, audit: &mut Audit) -> Result<()> {
+        let projected = &self.projected;
+        let b = match identity::places(superelement, projected, self.asked.boundary) {
+            Some(kept) => {
+                let is_modal = file.n_b == 0 && self.motions.n_zero > 0;
+                let relief = (!self.motions.has_unit() && file.n_b > 0).then(|| self.motions.combination(file).0);
+                let mixing = file.mixing.as_ref().filter(|_| !is_modal).map(Mat::as_ref);
+                let freedom = Freedom { kept: &kept, groups: &self.asked.groups, relief, mixing };
+                combination(file, projected, &freedom)
+            }
+            None => {
+                audit.notes.push(
+                    "its modes are not those of the job: of its matrices only the interface was compared".to_owned(),
+                );
+                Combination::of_interface(projected)
+            }
+        };
+        let comparison = Comparison { projected, superelement, file, b, first: self.first };
+        audit.checks.extend(comparison.checks()?);
+        Ok(())
+    }
+
+    /// M-10: how well the static answers solve the full model.
+    fn solves(&self) -> Check {
+        let limits = Limits { engineering: 1e-10, arithmetic: self.motions.rounding(), data: 0.0 };
+        Check {
+            id: "M-10",
+            name: "static loads on the full model were solved",
+            equation: "max ‖f − K_II x‖ / ‖f‖ in the norm of (K_II − σM_II)⁻¹, by conjugate gradients",
+            value: self.projected.residual,
+            limits,
+            fail_above: limits.value().max(1e-6),
+            worst: Some(format!("{} motions of the interface", self.projected.n_probes())),
+        }
+    }
+}
+
+/// What a factor of all dofs gives.
+struct Free {
+    zero: RigidBodyModes,
+    motions: KnownMotions,
+    /// The modes asked for, where they are those of the free interface.
+    asked: Option<AskedModes>,
+    first: f64,
+}
+
+impl Free {
+    /// The factor is gone before the count takes place for its own.
+    fn new(job: &Job, partition: &Partition, (analysis, given): (&Analysis, &RigidBodyModes)) -> Result<Self> {
+        let full = Full::new(partition, analysis)?;
+        let is_modal = partition.n_interface() == 0 && full.zero.count() > 0;
+        let boundary = if is_modal { Boundary::FreeInterface } else { Boundary::of(job.reduction.method) };
+        let asked = match boundary {
+            Boundary::FreeInterface => Some(AskedModes::free(&full, deflated(given, &full.zero), &job.reduction)?),
+            Boundary::FixedInterface => None,
+        };
+        let motions = KnownMotions::of(&full, given);
+        let Full { zero, first, factor, .. } = full;
+        drop(factor);
+        let asked = asked.map(|asked| asked.counted(partition, analysis, first)).transpose()?;
+        Ok(Self { zero, motions, asked, first })
+    }
+}
+
+/// The motions that elastic modes are orthogonal to: those of the coordinates, where they are all.
+fn deflated<'a>(given: &'a RigidBodyModes, zero: &'a RigidBodyModes) -> &'a RigidBodyModes {
+    if given.count() == zero.count() { given } else { zero }
+}
+
+/// Columns that take a factor of the interior, and the modes of the held interface where those are asked for.
+fn with_interior(
+    job: &Job,
+    partition: &Partition,
+    (asked, motions): (Option<AskedModes>, Motions<'_>),
+    first: f64,
+) -> Result<(AskedModes, Columns)> {
+    let probes = columns::probes(partition);
+    if partition.n_internal == 0 {
+        let asked = asked.map_or_else(|| AskedModes::held(None, partition, &job.reduction), Ok)?;
+        let columns = Columns::new(partition, None, motions, (&asked, probes));
+        return Ok((asked, columns));
+    }
+    let analysis = Analysis::new(partition.internal())?;
+    let interior = Interior::new(partition, &analysis, first)?;
+    let (asked, is_counted) = match asked {
+        Some(asked) => (asked, true),
+        None => (AskedModes::held(Some(&interior), partition, &job.reduction)?, false),
+    };
+    let columns = Columns::new(partition, Some(&interior), motions, (&asked, probes));
+    drop(interior);
+    let asked = if is_counted { asked } else { asked.counted(partition, &analysis, first)? };
+    Ok((asked, columns))
 }

@@ -55,6 +55,39 @@ pub(super) fn residual(content: &Content<'_>) -> Option<Check> {
     })
 }
 
+/// M-03: without an interface the named columns are rigid-body modes and modes, whose inertia is known: M̂ = Cᵀ [M_F 0; 0 I] C.
+pub(super) fn mixing(content: &Content<'_>) -> Option<Check> {
+    let mixing = content.superelement.tensors().mixing.as_ref().filter(|_| content.n_b == 0)?;
+    let coordinates = &content.superelement.metadata().coordinates;
+    let inertia = |i: usize, j: usize| match (&coordinates[i], &coordinates[j]) {
+        (Coordinate::RigidBodyMode { index: a }, Coordinate::RigidBodyMode { index: b }) => {
+            if *a.max(b) < content.n_rigid() { content.m_f[(*a, *b)] } else { f64::NAN }
+        }
+        _ => f64::from(u8::from(i == j)),
+    };
+    let (n, c) = (coordinates.len(), unpacked(mixing));
+    let named = Mat::from_fn(n, n, inertia);
+    let expected = dense::gram(c.as_ref(), dense::product(named.as_ref(), c.as_ref()).as_ref());
+    let mut worst = (0.0, None);
+    for j in 0..n {
+        for i in 0..=j {
+            let error = (expected[(i, j)] - content.m[(i, j)]).abs();
+            if dense::worse(error, worst.0) {
+                worst = (error, Some(format!("{} and {}", content.name_of(i), content.name_of(j))));
+            }
+        }
+    }
+    Some(Check {
+        id: "M-03",
+        name: "mixing makes the named modes orthonormal",
+        equation: "max |M̂ − Cᵀ [M_F 0; 0 I] C|",
+        value: worst.0,
+        limits: Limits { engineering: 1e-10, ..Limits::default() },
+        fail_above: 1e-8,
+        worst: worst.1,
+    })
+}
+
 fn backward_error(content: &Content<'_>, lambda: f64, q: &[f64]) -> f64 {
     let (r, b) = (content.n_reduced(), content.n_b);
     let d = &content.scale;

@@ -1,14 +1,18 @@
-//! What the file records beside its matrices: that it is whole, the verification of its making, the job: M-26.
+//! What the file records of its making: that it is whole, and the verification of that day: M-26.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
-use supel_runtime::{Direction, RigidBodyModes, Superelement, Verdict};
+use supel_runtime::{CheckSummary, Coordinate, Superelement, Verdict};
 
 use super::content::Content;
-use crate::job::Method;
+use super::kept_job::is_of_this_version;
+use super::spectrum::condition;
+use crate::error::Result;
+use crate::job::Certify;
 use crate::verification::check::{Check, Limits};
 
-fn flaw(name: &'static str, equation: &'static str, flaws: &[String]) -> Check {
+/// A check that counts flaws.
+pub(super) fn flaw(name: &'static str, equation: &'static str, flaws: &[String]) -> Check {
     Check {
         id: "M-26",
         name,
@@ -27,13 +31,8 @@ pub fn rewritten(superelement: &Superelement, bytes: &[u8]) -> Check {
     flaw("file is whole", "1 where its content written again is not the file, else 0", &flaws)
 }
 
-/// M-26: the recorded verification and the job agree with the rest.
-pub(super) fn checks(content: &Content<'_>) -> Vec<Check> {
-    vec![recorded(content), job(content)]
-}
-
-/// A superelement that was written although a check failed stays one.
-fn recorded(content: &Content<'_>) -> Check {
+/// M-26: a superelement that was written although a check failed stays one.
+pub(super) fn verdicts(content: &Content<'_>) -> Check {
     let verification = &content.superelement.metadata().verification;
     let failed = verification.checks.iter().filter(|check| check.verdict == Verdict::Fail);
     let mut flaws: Vec<String> = failed.map(|check| format!("{} failed", check.id)).collect();
@@ -43,59 +42,105 @@ fn recorded(content: &Content<'_>) -> Check {
     flaw("no check failed when it was made", "number of failed checks on record", &flaws)
 }
 
-/// Method, units, interfaces and axes are those of the job kept in the file.
-fn job(content: &Content<'_>) -> Check {
-    let metadata = content.superelement.metadata();
-    let mut flaws = Vec::new();
-    if let Some(job) = &content.job {
-        let method = match job.reduction.method {
-            Method::CraigBampton => supel_runtime::Method::CraigBampton,
-            Method::Herting => supel_runtime::Method::Herting,
-        };
-        if method != metadata.method {
-            flaws.push("another method".to_owned());
-        }
-        if job.model.units != metadata.units {
-            flaws.push("other units".to_owned());
-        }
-        let asked: BTreeSet<&str> = job.interfaces.iter().map(|interface| interface.name.as_str()).collect();
-        let found: BTreeSet<&str> = metadata.interface_nodes.iter().map(|node| node.name.as_str()).collect();
-        if !found.is_empty() && found != asked {
-            flaws.push("other interfaces".to_owned());
-        }
+/// Checks that every reduction records, some of them more than once.
+const RECORDED: [(&str, usize); 15] = [
+    ("M-01", 1),
+    ("M-02", 1),
+    ("M-03", 1),
+    ("M-04", 1),
+    ("M-05", 1),
+    ("M-09", 1),
+    ("M-10", 1),
+    ("M-12", 2),
+    ("M-13", 1),
+    ("M-14", 2),
+    ("M-16", 1),
+    ("M-23", 2),
+    ("M-25", 2),
+    // Where a job asks for the count, or for its proof.
+    ("M-06", 0),
+    ("M-11", 0),
+];
+
+/// M-26: the record is one of a reduction, its verdicts follow from its values, and the values that the file gives again are those.
+///
+/// # Errors
+/// A dense eigenproblem that does not converge.
+pub(super) fn consistent(content: &Content<'_>) -> Result<Check> {
+    let checks = &content.superelement.metadata().verification.checks;
+    let mut flaws: Vec<String> = checks
+        .iter()
+        .filter(|check| !follows(check))
+        .map(|check| format!("{} says {:?} of its value", check.id, check.verdict).to_lowercase())
+        .collect();
+    if is_of_this_version(content.superelement) {
+        flaws.extend(missing(content, checks));
+        flaws.extend(bars(content, checks));
+        flaws.extend(mass_condition(content, checks)?);
     }
-    // No job turns the axes of an interface node, and the matrices are in the inertial frame whatever the axes.
-    let inertial = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    if content.superelement.tensors().interface_frames.iter().any(|frame| *frame != inertial) {
-        flaws.push("turned axes of interface nodes".to_owned());
-    }
-    flaw("file is what its job asks for", "number of differences to the job kept in the file", &flaws)
+    Ok(flaw("the checks on record agree with the file", "number of records missing or contradicted", &flaws))
 }
 
-/// What the file alone cannot show.
-pub(super) fn notes(content: &Content<'_>) -> Vec<String> {
-    let (metadata, tensors) = (content.superelement.metadata(), content.superelement.tensors());
-    let mut notes = Vec::new();
-    if content.job.is_none() {
-        notes.push("the job kept in the file is of another version; what it expects was not compared".to_owned());
+/// A value within its limit passes, one past it does not, and what is no number fails.
+fn follows(check: &CheckSummary) -> bool {
+    match (check.value, check.verdict) {
+        (Some(value), Verdict::Pass) => value <= check.limit,
+        (Some(value), Verdict::Warn | Verdict::Fail) => value > check.limit,
+        (None, verdict) => verdict == Verdict::Fail,
     }
-    if metadata.model.rigid_body_modes == RigidBodyModes::Algebraic && content.n_rigid() > 0 {
-        notes.push("the rigid-body modes have no geometric meaning; mass and centre were not compared".to_owned());
-    }
-    if content.n_rigid() == 0 {
-        notes.push("the component is held: no rigid-body motion ties its stiffness and mass together".to_owned());
-    }
-    let beyond = [
-        ("damping", tensors.damping.is_some()),
-        ("load_vectors", tensors.load_vectors.is_some()),
-        ("recovery", tensors.recovery.is_some()),
-    ];
-    notes.extend(
-        beyond.iter().filter(|(_, is_there)| *is_there).map(|(name, _)| format!("`{name}` needs the full model")),
-    );
-    let has_rotations = metadata.interface_nodes.iter().any(|node| node.dofs.iter().any(|dof| *dof >= Direction::Rx));
-    if has_rotations && content.boundary == crate::modes::Boundary::FixedInterface && content.n_rigid() > 0 {
-        notes.push("what couples rotations of the interface to the modes in M̂ needs the full model".to_owned());
-    }
-    notes
+}
+
+fn missing(content: &Content<'_>, checks: &[CheckSummary]) -> Vec<String> {
+    let mut found: BTreeMap<&str, usize> = BTreeMap::new();
+    checks.iter().for_each(|check| *found.entry(&check.id).or_default() += 1);
+    let certify = content.job.as_ref().map(|job| job.run.certify);
+    let more = |id: &str| match id {
+        "M-06" => usize::from(matches!(certify, Some(Certify::Count | Certify::Full))),
+        "M-11" => usize::from(content.n_b > 0),
+        _ => 0,
+    };
+    let needed = RECORDED.iter().map(|(id, n)| (*id, n + more(id)));
+    let lacking = needed.filter(|(id, n)| found.get(id).copied().unwrap_or(0) < *n);
+    let mut flaws: Vec<String> = lacking.map(|(id, _)| format!("{id} is missing")).collect();
+    let is_known = |id: &str| {
+        let number = id.strip_prefix("M-").filter(|number| number.len() == 2).and_then(|number| number.parse().ok());
+        number.is_some_and(|number: u32| (1..=26).contains(&number))
+    };
+    flaws.extend(found.keys().filter(|id| !is_known(id)).map(|id| format!("{id} is no check")));
+    flaws
+}
+
+/// M-09 is the largest share that the digits of the data have in an error bar, relative to its frequency.
+fn bars(content: &Content<'_>, checks: &[CheckSummary]) -> Option<String> {
+    /// What the residual of a mode adds to its bar, relative to the digits and in itself, where nothing is wrong.
+    const RESIDUAL: [f64; 2] = [10.0, 1e-9];
+    /// What practice asks of it.
+    const LIMIT: f64 = 1e-4;
+    let record = checks.iter().find(|check| check.id == "M-09")?;
+    let metadata = content.superelement.metadata();
+    let named = metadata.coordinates.iter().chain(metadata.dropped.iter().map(|dropped| &dropped.column));
+    let relative = named.filter_map(|coordinate| match *coordinate {
+        Coordinate::ElasticMode { frequency_hz, error_bar_hz, .. }
+        | Coordinate::FixedInterfaceMode { frequency_hz, error_bar_hz, .. } => {
+            Some(error_bar_hz.map_or(f64::INFINITY, |bar| bar / frequency_hz))
+        }
+        _ => None,
+    });
+    let largest = relative.fold(0.0, f64::max);
+    // A bar that is no number has no place in the file, nor has the value.
+    let stated = record.value.unwrap_or(f64::INFINITY);
+    let agrees = stated <= largest * (1.0 + 1e-9) && largest <= stated * RESIDUAL[0] + RESIDUAL[1];
+    (!agrees || record.limit != LIMIT).then(|| "M-09 is not that of the error bars".to_owned())
+}
+
+/// The last M-23 on record is the condition of M̂ with a diagonal near one.
+fn mass_condition(content: &Content<'_>, checks: &[CheckSummary]) -> Result<Option<String>> {
+    /// The powers of two that bring a diagonal near one depend on the units, by a factor of √2 each way: the condition by 4.
+    const UNITS: f64 = 4.0;
+    /// Where hardly a digit is left the value is a sign of that and no more.
+    const LARGEST: f64 = 1e12;
+    let stated = checks.iter().rev().find(|check| check.id == "M-23").and_then(|check| check.value);
+    let found = condition(content)?.value;
+    let agrees = stated.is_some_and(|stated| (found / UNITS..=found * UNITS).contains(&stated));
+    Ok((found < LARGEST && !agrees).then(|| "M-23 is not that of the mass".to_owned()))
 }

@@ -4,6 +4,7 @@ use faer::{Mat, Side};
 use supel_runtime::{Coordinate, RigidBodyModes};
 
 use super::content::Content;
+use super::record::flaw;
 use crate::dense;
 use crate::error::Result;
 use crate::input::Direction;
@@ -12,11 +13,11 @@ use crate::modes::{Equilibrated, zero};
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::Judged;
 
-/// M-05: Û built again from the positions of the interface nodes, where it is the six unit motions.
-pub(super) fn positions(content: &Content<'_>) -> Option<Check> {
+/// How far Û is from the six unit motions of the interface nodes, relative to the largest displacement, and where; none where
+/// there are no nodes or not six motions.
+fn distance_to_unit_motions(content: &Content<'_>) -> Option<(f64, Option<String>)> {
     let metadata = content.superelement.metadata();
-    let is_classical = metadata.model.rigid_body_modes == RigidBodyModes::Geometric && content.n_rigid() == 6;
-    if !is_classical || metadata.interface_nodes.is_empty() {
+    if content.n_rigid() != 6 || metadata.interface_nodes.is_empty() {
         return None;
     }
     let positions = &content.superelement.tensors().interface_positions;
@@ -37,16 +38,38 @@ pub(super) fn positions(content: &Content<'_>) -> Option<Check> {
             }
         }
     }
+    Some(worst)
+}
+
+/// Both are made from the same numbers by one multiplication.
+const SAME_NUMBERS: f64 = 1e-12;
+
+/// M-05: Û built again from the positions of the interface nodes, where it is said to be the six unit motions.
+pub(super) fn positions(content: &Content<'_>) -> Option<Check> {
+    if content.superelement.metadata().model.rigid_body_modes != RigidBodyModes::Geometric {
+        return None;
+    }
+    let worst = distance_to_unit_motions(content)?;
     Some(Check {
         id: "M-05",
         name: "rigid-body modes fit the interface nodes",
         equation: "max |Û − unit motions of the positions|, relative to the largest displacement",
         value: worst.0,
-        // Both are made from the same numbers by one multiplication.
-        limits: Limits { engineering: 1e-12, ..Limits::default() },
+        limits: Limits { engineering: SAME_NUMBERS, ..Limits::default() },
         fail_above: 1e-9,
         worst: worst.1,
     })
+}
+
+/// M-26: rigid-body modes that are said to have no geometric meaning have none.
+pub(super) fn declaration(content: &Content<'_>) -> Option<Check> {
+    if content.superelement.metadata().model.rigid_body_modes != RigidBodyModes::Algebraic {
+        return None;
+    }
+    let (distance, _) = distance_to_unit_motions(content)?;
+    let flaws = if distance <= SAME_NUMBERS { vec!["they are the six unit motions".to_owned()] } else { Vec::new() };
+    let equation = "1 where Û declared algebraic is the unit motions of the positions, else 0";
+    Some(flaw("rigid-body modes are what they are said to be", equation, &flaws))
 }
 
 /// M-12: K̂ Û makes no force.

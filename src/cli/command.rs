@@ -43,9 +43,17 @@ pub(super) struct VerifyCommand {
     pub(super) file: PathBuf,
     /// The model to compare with: checked, paths absolute.
     pub(super) job: Option<Job>,
+    pub(super) rerun: Rerun,
     pub(super) threads: Threads,
     pub(super) answer: Answer,
     pub(super) strictness: Strictness,
+}
+
+/// Whether the job of a superelement is run again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rerun {
+    No,
+    Compared,
 }
 
 /// Show a superelement file.
@@ -123,6 +131,7 @@ fn build_verify(flags: VerifyFlags) -> Result<VerifyCommand> {
     Ok(VerifyCommand {
         file: flags.file,
         job: flags.job.as_deref().map(Job::read).transpose()?,
+        rerun: if flags.reproduce { Rerun::Compared } else { Rerun::No },
         threads: Threads::of(flags.threads),
         answer: match (flags.json, flags.quiet) {
             (true, _) => Answer::Json,

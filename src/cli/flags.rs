@@ -19,7 +19,7 @@ pub(super) enum Typed {
     /// Reduce a model, verify the result and write superelement and report
     #[command(after_help = EXIT_CODES)]
     Reduce(Box<ReduceFlags>),
-    /// Check a superelement file again: by itself, or with --job against the full matrices
+    /// Check a superelement file again: by itself, with --job against the full matrices, or made again
     #[command(after_help = EXIT_CODES)]
     Verify(VerifyFlags),
     /// Show what is in a superelement file
@@ -164,6 +164,9 @@ pub(super) struct VerifyFlags {
     /// Job document of the model: compare with its full matrices
     #[arg(long, value_name = "JOB")]
     pub(super) job: Option<PathBuf>,
+    /// Run the job again, that of --job or the one kept in the file, and compare bytes
+    #[arg(long)]
+    pub(super) reproduce: bool,
     /// Print the checks as JSON
     #[arg(long)]
     pub(super) json: bool,

@@ -82,7 +82,7 @@ fn answered(args: Vec<OsString>, form: Form, pipeline: Pipeline, terminal: &mut 
 fn execute(flags: flags::CommandLine, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
     match Command::build(flags)? {
         Command::Reduce(command) => reduce::run(&command, pipeline, terminal),
-        Command::Verify(command) => verify::run(&command, terminal),
+        Command::Verify(command) => verify::run(&command, pipeline, terminal),
         Command::Inspect(command) => inspect::run(&command, terminal),
         Command::RehearseReading => rehearsal::read_from_stdin(),
     }

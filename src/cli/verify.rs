@@ -1,26 +1,34 @@
-//! `supel verify`: a superelement file checked again, by itself or against the full matrices.
+//! `supel verify`: a superelement file checked again, by itself, against the full matrices, or made again.
+
+use std::path::Path;
 
 use supel_runtime::{Superelement, file_bytes};
 
 use super::answer::{Program, Terminal};
-use super::command::{Answer, Strictness, VerifyCommand};
+use super::command::{Answer, Rerun, Strictness, VerifyCommand};
 use super::exit_code::ExitCode;
 use super::progress::StageLine;
 use super::rehearsal::{self, Rehearsed};
 use super::unmet::unmet;
-use super::{accompanying, memory, process};
-use crate::audit;
+use super::{Pipeline, accompanying, memory, process};
+use crate::audit::{self, Audit};
 use crate::error::{Error, Result};
+use crate::job::Job;
 use crate::outcome::Resources;
-use crate::report::{Against, VerificationReport};
+use crate::report::{Against, Reproduction, VerificationReport};
 use crate::verification::check::Verdict;
 
-pub(super) fn run(command: &VerifyCommand, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
+pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
     let failed = |error| Error::of_superelement(&command.file, error);
     let bytes = file_bytes(&command.file).map_err(failed)?;
     let superelement = Superelement::from_bytes(&bytes).map_err(failed)?;
+    let rerun = match command.rerun {
+        Rerun::No => None,
+        Rerun::Compared => Some(job_to_run(command, &superelement)?),
+    };
     let resources = Resources { memory_bytes: memory::available_bytes() };
-    let rehearsed = match command.job.as_ref().filter(|_| terminal.program == Program::Supel) {
+    let to_read = command.job.as_ref().or(rerun.as_ref());
+    let rehearsed = match to_read.filter(|_| terminal.program == Program::Supel) {
         Some(job) => rehearsal::rehearse(&job.model, resources.allowed(job))?,
         None => Rehearsed::Nothing,
     };
@@ -29,13 +37,18 @@ pub(super) fn run(command: &VerifyCommand, terminal: &mut Terminal<'_>) -> Resul
     let mut stage_line = StageLine::new(terminal.progress);
     let verify = || crate::verify(&superelement, command.job.as_ref(), resources, &mut stage_line);
     let mut audit = threads.install(verify).map_err(|error| rehearsed.judge(error))?;
-    drop(stage_line);
     audit.checks.push(audit::rewritten(&superelement, &bytes));
     let digest = superelement.to_bytes().map_err(failed)?.digest;
     audit.checks.extend(accompanying::check(&command.file, &superelement, &digest));
+    if let Some(job) = &rerun {
+        let again = threads.install(|| pipeline(job, resources, &mut stage_line))?.superelement;
+        audit = reproduced(audit, &superelement, (&again, job));
+    }
+    drop(stage_line);
     let report = VerificationReport {
         digest,
         against: if command.job.is_some() { Against::Model } else { Against::File },
+        reproduction: if rerun.is_some() { Reproduction::Compared } else { Reproduction::None },
         audit,
     };
     match command.answer {
@@ -49,4 +62,30 @@ pub(super) fn run(command: &VerifyCommand, terminal: &mut Terminal<'_>) -> Resul
         (Verdict::Info | Verdict::Pass, _) | (Verdict::Warn, Strictness::Normal) => ExitCode::Done,
         (Verdict::Warn, Strictness::Strict) | (Verdict::Fail, _) => ExitCode::CheckFailed,
     })
+}
+
+/// The job that is run again: the one given, or the one kept in the file, with its paths relative to the file's folder.
+fn job_to_run(command: &VerifyCommand, superelement: &Superelement) -> Result<Job> {
+    if !audit::is_of_this_version(superelement) {
+        let generator = &superelement.metadata().generator;
+        let found = format!("{} {}", generator.name, generator.version);
+        return Err(Error::OtherVersion { path: command.file.clone(), found });
+    }
+    if let Some(job) = &command.job {
+        return Ok(job.clone());
+    }
+    let kept = audit::kept_job(superelement).ok_or_else(|| Error::KeptJob { path: command.file.clone() })?;
+    kept.validate()?;
+    kept.resolve(command.file.parent().unwrap_or(Path::new("")))
+}
+
+/// An audit with what running the job again has shown: where the bytes are the same, it vouches for every field but the job
+/// itself, whose paths were not compared.
+fn reproduced(audit: Audit, superelement: &Superelement, (again, job): (&Superelement, &Job)) -> Audit {
+    let check = audit::reproduced(superelement, again, job);
+    let is_same = check.verdict() == Verdict::Pass;
+    let Audit { mut checks, mut unvouched, notes } = audit;
+    unvouched.retain(|unvouched| !is_same || unvouched.field == "job");
+    checks.push(check);
+    Audit { checks, notes, unvouched }
 }

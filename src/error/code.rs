@@ -150,6 +150,8 @@ codes! {
     OutputKind => "E-OUTPUT-KIND", Io;
     MissingFlags => "E-FLAGS", Usage;
     FlagText => "E-FLAG-TEXT", Usage;
+    OtherVersion => "E-OTHER-VERSION", Usage;
+    KeptJob => "E-KEPT-JOB", Usage;
     Threads => "E-THREADS", Resources;
     Unsymmetric => "E-UNSYMMETRIC", InputData;
     Swapped => "E-SWAPPED", InputData;

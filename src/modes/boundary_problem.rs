@@ -320,6 +320,7 @@ mod tests {
             mass: matrix(&m),
             dofs: None,
             nodes: None,
+            rows: Default::default(),
             digests: Default::default(),
             notes: Vec::new(),
         };

@@ -57,6 +57,7 @@ pub(crate) use quality::rayleigh_quotients;
 pub use quality::{MassOrthogonality, ModeError, NOTICED_BAR, mass_orthogonality};
 pub(crate) use random::SplitMix64;
 pub use retained::{Component, Retained};
+pub(crate) use search::mode_wish;
 pub use search::{SLICED_FROM, Search};
 pub use shifted::{Shifted, shift_of_factor, shifted};
 pub use slices::{LARGEST_SEARCH, ModeSource, SLICE};

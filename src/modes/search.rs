@@ -43,7 +43,7 @@ impl<'a> Search<'a> {
         indefinite::refuse(component)?;
         let boundary = if component.is_modal() { Boundary::FreeInterface } else { Boundary::of(job.method) };
         let problem = BoundaryProblem { component, boundary };
-        let wanted = wanted(job.modes, component.partition);
+        let wanted = mode_wish(job.modes, component.partition);
         let edge = match wanted {
             Wanted::UpTo(limit) if limit > 0.0 => edge_of(&problem, limit)?,
             _ => None,
@@ -166,7 +166,8 @@ fn edge_of(problem: &BoundaryProblem<'_>, limit: f64) -> Result<Option<ElasticCo
     Ok(None)
 }
 
-fn wanted(selection: ModeSelection, partition: &Partition) -> Wanted {
+/// What a job asks of the spectrum, in scaled units.
+pub(crate) fn mode_wish(selection: ModeSelection, partition: &Partition) -> Wanted {
     match selection {
         // No model has more modes than degrees of freedom.
         ModeSelection::Count { count } => Wanted::Count(count.min(partition.n_dofs())),

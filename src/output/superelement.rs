@@ -48,13 +48,15 @@ fn tensors(results: &Results<'_>) -> Tensors {
     let unit = |i: usize| if i < n_b { 1.0 } else { shape };
     let both = |a: &Mat<f64>, of: f64| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * of * unit(i) * unit(j));
     let rows = |a: &Mat<f64>, of: f64| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * of * unit(i));
+    // An amplitude is the smaller the larger its shape; those of rigid-body motion are not zero without an interface.
+    let amplitudes = |a: &Mat<f64>| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] / unit(i));
     let mut rigid_body_mass = reduction.rigid_body_mass.clone();
     rigid_body_mass *= faer::Scale(scaling.mass_unit());
     let nodes = named_nodes(results);
     Tensors {
         stiffness: matrix(both(&reduction.stiffness, scaling.stiffness_unit()).as_ref()),
         mass: matrix(both(&reduction.mass, scaling.mass_unit()).as_ref()),
-        rigid_body_modes: matrix(reduction.rigid_body_modes.as_ref()),
+        rigid_body_modes: matrix(amplitudes(&reduction.rigid_body_modes).as_ref()),
         rigid_body_mass: matrix(rigid_body_mass.as_ref()),
         interface_positions: nodes.iter().map(|node| node.position).collect(),
         interface_frames: vec![[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]; nodes.len()],

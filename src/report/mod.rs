@@ -44,7 +44,7 @@ pub use rigid_body::{EffectiveMass, Grounding, MassRoute, RigidBodyEvidence};
 pub use stages::{Observer, StageClock, StageTime};
 pub use summary::summary;
 pub use trust::TrustInterval;
-pub use verification::{Against, VerificationReport};
+pub use verification::{Against, Reproduction, VerificationReport};
 pub use words::unmet_check;
 
 /// Body and facts of one run; [`Report::to_json`] gives the document that `schemas/report.schema.json` describes.

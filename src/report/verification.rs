@@ -24,6 +24,15 @@ pub enum Against {
     Model,
 }
 
+/// Whether its job was run again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reproduction {
+    /// No.
+    None,
+    /// Yes, and the bytes were compared.
+    Compared,
+}
+
 /// The checks of a superelement that was made earlier.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VerificationReport {
@@ -31,6 +40,8 @@ pub struct VerificationReport {
     pub digest: String,
     /// What it was compared with.
     pub against: Against,
+    /// Whether its job was run again.
+    pub reproduction: Reproduction,
     /// What was found.
     pub audit: Audit,
 }
@@ -54,11 +65,22 @@ impl VerificationReport {
             Against::Model => "the file and the full matrices of the job",
         };
         page.entry("compared with", against);
+        if self.reproduction == Reproduction::Compared {
+            page.entry("", "the superelement that the same job makes now, to the last bit");
+        }
         page.heading("Checked");
         body::checks(&mut page, &self.audit.checks);
         if !self.audit.notes.is_empty() {
             page.heading("Not judged");
             self.audit.notes.iter().for_each(|note| page.entry("note", note));
+        }
+        if !self.audit.unvouched.is_empty() {
+            page.heading("Not vouched for");
+            for field in &self.audit.unvouched {
+                let lines = table::wrap(&format!("{}: {}", field.field, field.reason), WIDTH - 6);
+                let lines = lines.iter().enumerate();
+                lines.for_each(|(at, line)| page.line(&format!("  {}{line}", if at == 0 { "" } else { "    " })));
+            }
         }
         page.line("");
         for line in table::wrap(&conclusion(&self.audit.checks, 0, self.audit.verdict()), WIDTH) {
@@ -86,7 +108,7 @@ struct Subject<'a> {
 
 impl Serialize for Document<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        let VerificationReport { digest, against, audit } = self.report;
+        let VerificationReport { digest, against, reproduction, audit } = self.report;
         let metadata = self.superelement.metadata();
         let subject = Subject {
             digest,
@@ -98,14 +120,16 @@ impl Serialize for Document<'_> {
             n_modes: self.superelement.tensors().frequencies.len(),
         };
         let checks: Vec<CheckLine<'_>> = audit.checks.iter().map(CheckLine::of).collect();
-        let mut document = serializer.serialize_struct("VerificationReport", 7)?;
+        let mut document = serializer.serialize_struct("VerificationReport", 9)?;
         document.serialize_field("format_version", &FORMAT_VERSION)?;
         document.serialize_field("generator", &Generator::default())?;
         document.serialize_field("verdict", &audit.verdict())?;
         document.serialize_field("subject", &subject)?;
         document.serialize_field("against", against)?;
+        document.serialize_field("reproduced", &(*reproduction == Reproduction::Compared))?;
         document.serialize_field("checks", &checks)?;
         document.serialize_field("notes", &audit.notes)?;
+        document.serialize_field("unvouched", &audit.unvouched)?;
         document.end()
     }
 }

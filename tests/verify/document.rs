@@ -24,7 +24,8 @@ fn reduced() -> Place {
 fn json_follows_its_schema_and_is_the_same_for_any_thread_count() {
     let place = reduced();
     let (file, job) = (place.text("x.supel"), place.text("kept.json"));
-    for args in [vec!["verify", &file, "--json"], vec!["verify", &file, "--json", "--job", &job]] {
+    for more in [vec![], vec!["--job", &job], vec!["--reproduce"]] {
+        let args = [vec!["verify", &file, "--json"], more].concat();
         let by = |threads: &str| supel(&[args.as_slice(), &["--threads", threads]].concat()).expect(ExitCode::Done).out;
         let one = by("1");
         let document: Value = serde_json::from_str(&one).expect("JSON");

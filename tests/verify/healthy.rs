@@ -59,6 +59,16 @@ fn held_component() {
     }
 }
 
+/// Its columns are its own modes. Scaled amplitudes differ from those in the units of the data.
+#[test]
+fn a_component_without_interface() {
+    let place = Place::with_brick();
+    for method in ["herting", "craig-bampton"] {
+        place.reduce(&place.model_flags(), &format!("--method {method} --modes 5")).expect(ExitCode::Done);
+        passes(&place, "no interface");
+    }
+}
+
 /// Guyan's reduction: no mode at all.
 #[test]
 fn without_modes() {

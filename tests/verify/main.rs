@@ -7,4 +7,6 @@ mod place;
 mod document;
 mod healthy;
 mod model;
+mod reproduced;
 mod tampered;
+mod tampering;

@@ -1,8 +1,17 @@
-//! Whether file and job speak of the same component: M-26.
+//! Whether file and job speak of the same component: M-26, M-06.
 
-use supel_runtime::{Coordinate, Superelement};
+use supel_runtime::{Coordinate, Generator, RigidBodyModes, Superelement};
 
+use super::asked::AskedModes;
+use super::columns::Named;
+use super::motions::KnownMotions;
+use super::projection::Projected;
+use crate::audit::jobs::differences;
+use crate::audit::kept_job::{band, is_of_this_version, kept_job};
+use crate::audit::record::flaw;
 use crate::input::Direction;
+use crate::job::{Job, Method, RecoveryPrecision};
+use crate::modes::Boundary;
 use crate::output::InputFacts;
 use crate::partition::{DofOrigin, InterfaceNode, Partition, ReducedDof};
 use crate::verification::check::{Check, Limits};
@@ -10,15 +19,16 @@ use crate::verification::check::{Check, Limits};
 /// M-26: digests of the inputs. Other files may hold the same matrices, which the other checks tell.
 pub(super) fn digests(superelement: &Superelement, facts: &InputFacts) -> Check {
     let recorded = &superelement.metadata().inputs;
+    let known = facts.digests();
     let is_matrix = |role: &str| matches!(role, "stiffness" | "mass");
     // Files of earlier versions record the matrices alone.
     let differs = |role: &str, digest: &str| match recorded.get(role) {
         Some(recorded) => recorded != digest,
         None => is_matrix(role),
     };
-    let found = facts.digests();
-    let others: Vec<&str> =
-        found.into_iter().filter(|(role, digest)| differs(role, digest)).map(|(role, _)| role).collect();
+    let others = known.iter().filter(|(role, digest)| differs(role, digest)).map(|(role, _)| *role);
+    let unknown = recorded.keys().map(String::as_str).filter(|role| !known.contains_key(role));
+    let others: Vec<&str> = others.chain(unknown).collect();
     Check {
         id: "M-26",
         name: "it was made from the files of the job",
@@ -28,6 +38,14 @@ pub(super) fn digests(superelement: &Superelement, facts: &InputFacts) -> Check 
         fail_above: Check::NEVER,
         worst: (!others.is_empty()).then(|| others.join(", ")),
     }
+}
+
+/// M-26: the program that made it, as far as this one can speak for it.
+pub(super) fn generator(superelement: &Superelement) -> Check {
+    let Generator { name, version } = &superelement.metadata().generator;
+    let flaws = if is_of_this_version(superelement) { Vec::new() } else { vec![format!("made by {name} {version}")] };
+    let check = flaw("it was made by this version", "1 where another program or version is named, else 0", &flaws);
+    Check { fail_above: Check::NEVER, ..check }
 }
 
 /// M-26: interface coordinates, one by one.
@@ -69,7 +87,7 @@ fn stored(superelement: &Superelement) -> Vec<String> {
     metadata.coordinates.iter().filter_map(of).collect()
 }
 
-/// The same of the job, for a file that names no nodes.
+/// Interface coordinates by the job, for a file that names no nodes.
 fn rows_asked(partition: &Partition) -> Vec<String> {
     let of = |dof: &ReducedDof| match dof.origin {
         DofOrigin::Row(row) => format!("row {}", partition.model.rows.of(row) + 1),
@@ -78,7 +96,7 @@ fn rows_asked(partition: &Partition) -> Vec<String> {
     partition.dofs[partition.n_internal..].iter().map(of).collect()
 }
 
-/// The same of the job, for a file that names nodes.
+/// Interface coordinates by the job, for a file that names nodes.
 fn nodes_asked(partition: &Partition) -> Vec<String> {
     let of = |node: &InterfaceNode| -> Vec<String> {
         let position = node.position.unwrap_or_default();
@@ -92,4 +110,168 @@ fn described(name: &str, label: Option<i64>, direction: &str, position: [f64; 3]
     let label = label.map(|label| format!(" node {label}")).unwrap_or_default();
     let [x, y, z] = position;
     format!("{name}{label} {direction} at ({x}, {y}, {z})")
+}
+
+/// M-06: the file has as many modes as the job asks for.
+pub(super) fn n_modes(superelement: &Superelement, asked: &AskedModes) -> Check {
+    let (stored, range) = (superelement.tensors().frequencies.len(), asked.n_asked());
+    let expected = stored.clamp(range.start, range.end - 1);
+    Check {
+        id: "M-06",
+        name: "it has the modes that the job asks for",
+        equation: "|modes of the job − frequencies stated|",
+        value: stored.abs_diff(expected) as f64,
+        limits: Limits::default(),
+        fail_above: 0.0,
+        worst: Some(format!("{expected} asked for, {stored} stated")),
+    }
+}
+
+/// The places of the file's modal coordinates among the columns made again, where both are of the same kinds.
+pub(super) fn places(superelement: &Superelement, projected: &Projected, boundary: Boundary) -> Option<Vec<usize>> {
+    let coordinates = &superelement.metadata().coordinates[superelement.n_interface()..];
+    let place = |coordinate: &Coordinate| {
+        let named = named(coordinate, boundary)?;
+        projected.named.iter().position(|known| *known == named)
+    };
+    coordinates.iter().map(place).collect()
+}
+
+fn named(coordinate: &Coordinate, boundary: Boundary) -> Option<Named> {
+    match (coordinate, boundary) {
+        (Coordinate::RigidBodyMode { index }, _) => Some(Named::Rigid(*index)),
+        (Coordinate::InertiaRelief { index }, _) => Some(Named::Relief(*index)),
+        (Coordinate::ElasticMode { mode, .. }, Boundary::FreeInterface)
+        | (Coordinate::FixedInterfaceMode { mode, .. }, Boundary::FixedInterface) => Some(Named::Mode(*mode)),
+        _ => None,
+    }
+}
+
+/// M-26: modal coordinates and what was left out are the columns of the method, each once and in order.
+pub(super) fn modal_coordinates(superelement: &Superelement, projected: &Projected, boundary: Boundary) -> Check {
+    let metadata = superelement.metadata();
+    let n_modes = superelement.tensors().frequencies.len();
+    let expected: Vec<Named> = projected
+        .named
+        .iter()
+        .copied()
+        .filter(|named| !matches!(named, Named::Mode(mode) if *mode >= n_modes))
+        .chain(
+            (projected.named.iter().filter(|named| matches!(named, Named::Mode(_))).count()..n_modes).map(Named::Mode),
+        )
+        .collect();
+    let kept = metadata.coordinates[superelement.n_interface()..].iter();
+    let kept: Vec<Option<Named>> = kept.map(|coordinate| named(coordinate, boundary)).collect();
+    let dropped: Vec<Option<Named>> = metadata.dropped.iter().map(|dropped| named(&dropped.column, boundary)).collect();
+    let place = |named: &Option<Named>| named.and_then(|named| expected.iter().position(|known| *known == named));
+    let mut flaws = Vec::new();
+    for (list, what) in [(&kept, "coordinate"), (&dropped, "column left out")] {
+        let places: Vec<Option<usize>> = list.iter().map(place).collect();
+        let out_of_order = (0..places.len()).find(|at| {
+            places[*at].is_none() || (*at > 0 && places[*at - 1].is_some_and(|before| Some(before) >= places[*at]))
+        });
+        flaws.extend(out_of_order.map(|at| format!("modal {what} {} is not that of the method", at + 1)));
+    }
+    for named in &expected {
+        let times = kept.iter().chain(&dropped).filter(|other| **other == Some(*named)).count();
+        if times != 1 {
+            flaws.push(format!("{named:?} is there {times} times").to_lowercase());
+        }
+    }
+    flaw("modal coordinates are those of the method", "number of columns missing, repeated or out of order", &flaws)
+}
+
+/// M-06: a column that was left out has to depend on those that were kept before it.
+pub(super) fn dropped(superelement: &Superelement, projected: &Projected, boundary: Boundary) -> Option<Check> {
+    /// A column keeps 1e-8 of its length at most; what its square tells of it ends at the root of ε.
+    const LEFT: f64 = 1e-6;
+    let columns = &superelement.metadata().dropped;
+    if columns.is_empty() {
+        return None;
+    }
+    let kept = places(superelement, projected, boundary)?;
+    let mut worst = (0.0, None);
+    for column in columns {
+        let named = named(&column.column, boundary)?;
+        let at = projected.named.iter().position(|known| *known == named)?;
+        let before: Vec<usize> = kept.iter().copied().filter(|other| *other < at).collect();
+        // What lies within the error of the column is not known to be there.
+        let left = (projected.remaining(at, &before) - projected.doubt(at)).max(0.0);
+        if crate::dense::worse(left, worst.0) {
+            worst = (left, Some(format!("{named:?}").to_lowercase()));
+        }
+    }
+    Some(Check {
+        id: "M-06",
+        name: "columns left out depend on those that were kept",
+        equation: "max ‖N_j − N_kept(…)‖ / ‖N_j‖, in the mass",
+        value: worst.0,
+        limits: Limits { engineering: LEFT, ..Limits::default() },
+        fail_above: 10.0 * LEFT,
+        worst: worst.1,
+    })
+}
+
+/// M-26: all that the file says of itself is what a reduction by the job makes.
+pub(super) fn statements(
+    superelement: &Superelement,
+    (partition, job): (&Partition, &Job),
+    motions: &KnownMotions,
+) -> Check {
+    let (metadata, tensors) = (superelement.metadata(), superelement.tensors());
+    let mut flaws = Vec::new();
+    let mut expect = |holds: bool, what: &str| {
+        if !holds {
+            flaws.push(what.to_owned());
+        }
+    };
+    let method = match job.reduction.method {
+        Method::CraigBampton => supel_runtime::Method::CraigBampton,
+        Method::Herting => supel_runtime::Method::Herting,
+    };
+    expect(metadata.method == method, "another method");
+    expect(metadata.units == job.model.units, "other units");
+    expect(metadata.model.n_dofs == partition.model.n_dofs as u64, "another number of degrees of freedom");
+    let rigid = if motions.is_geometric() { RigidBodyModes::Geometric } else { RigidBodyModes::Algebraic };
+    expect(metadata.model.rigid_body_modes == rigid, "rigid-body modes of another kind");
+    expect(metadata.model.mass_properties.is_some() == motions.is_classical, "mass properties");
+    expect(tensors.gravity.is_some() == motions.is_classical, "gravity");
+    expect(tensors.damping.is_none(), "damping");
+    expect(tensors.load_vectors.is_none(), "load vectors");
+    expect(metadata.flags.is_empty(), "flags");
+    expect(metadata.validity.assumptions.is_empty(), "assumptions about the simulation");
+    expect(metadata.validity.unloaded.is_empty(), "unloaded directions");
+    expect(metadata.validity.band_hz == band(superelement, job), "another band");
+    let asked = job.write.recovery.as_ref().map(|recovery| match recovery.precision {
+        RecoveryPrecision::Double => supel_runtime::Precision::Double,
+        RecoveryPrecision::Single => supel_runtime::Precision::Single,
+    });
+    let recovery = tensors.recovery.as_ref();
+    expect(recovery.is_some() == asked.is_some(), "recovery");
+    if let (Some(recovery), Some(asked)) = (recovery, asked) {
+        expect(recovery.precision() == asked, "recovery in another precision");
+        let is_row = |(found, row): (&supel_runtime::RecoveredDof, &(usize, crate::input::Dof))| {
+            found.node == row.1.node && found.direction as usize == row.1.direction as usize
+        };
+        let n_alike = recovery.dofs().iter().zip(&partition.recovered).filter(|pair| is_row(*pair)).count();
+        let n = partition.recovered.len();
+        expect(n_alike == n && recovery.dofs().len() == n, "recovered degrees of freedom");
+    }
+    flaw(
+        "it says of itself what the job makes",
+        "number of statements that are not those of a reduction by the job",
+        &flaws,
+    )
+}
+
+/// M-26: the job kept in the file asks for what the job at hand asks for, and in the same way.
+pub(super) fn jobs(superelement: &Superelement, job: &Job) -> Vec<Check> {
+    let name = "the job kept in it is the job";
+    let equation = "number of keys that decide what is made and differ; paths may differ";
+    let Some(kept) = kept_job(superelement) else {
+        return vec![flaw(name, equation, &["it is of another version".to_owned()])];
+    };
+    let found = differences(&kept, job);
+    let way = flaw("it was made in the way of the job", "number of keys that decide how and differ", &found.way);
+    vec![flaw(name, equation, &found.wanted), Check { fail_above: Check::NEVER, ..way }]
 }

@@ -1,0 +1,262 @@
+//! The job kept in the file, and whether the rest of the file is what it asks for: M-26, M-06.
+
+use std::collections::BTreeSet;
+
+use supel_runtime::{Coordinate, Generator, Method as FileMethod, RigidBodyModes, Superelement};
+
+use super::content::Content;
+use super::record::flaw;
+use crate::job::{Coupling, Job, Method, ModeSelection, NodeSelection, RecoveryPrecision};
+use crate::modes::Boundary;
+use crate::verification::check::{Check, Limits};
+
+/// The job kept in a file, where it is one of this version.
+pub fn kept_job(superelement: &Superelement) -> Option<Job> {
+    serde_json::from_value(superelement.metadata().job.clone()).ok()
+}
+
+/// Whether this program, in this version, made the file, as far as it says so.
+pub fn is_of_this_version(superelement: &Superelement) -> bool {
+    let Generator { name, version } = &superelement.metadata().generator;
+    name == env!("CARGO_PKG_NAME") && version == env!("CARGO_PKG_VERSION")
+}
+
+/// Method, units, interfaces, axes, band and recovery are those of the job kept in the file.
+pub(super) fn agrees(content: &Content<'_>) -> Check {
+    let (metadata, tensors) = (content.superelement.metadata(), content.superelement.tensors());
+    let mut flaws = Vec::new();
+    if let Some(job) = &content.job {
+        flaws.extend(by_job(content, job).iter().map(ToString::to_string));
+    } else if is_of_this_version(content.superelement) {
+        flaws.push("it is no job of the version that wrote it".to_owned());
+    }
+    // No job turns the axes of an interface node, and the matrices are in the inertial frame whatever the axes.
+    let inertial = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    if tensors.interface_frames.iter().any(|frame| *frame != inertial) {
+        flaws.push("turned axes of interface nodes".to_owned());
+    }
+    if is_of_this_version(content.superelement) {
+        let made_by_none = [
+            (tensors.damping.is_some(), "damping"),
+            (tensors.load_vectors.is_some(), "load vectors"),
+            (!metadata.flags.is_empty(), "flags"),
+            (!metadata.validity.assumptions.is_empty(), "assumptions about the simulation"),
+            (!metadata.validity.unloaded.is_empty(), "unloaded directions"),
+            (!metadata.inputs.contains_key("stiffness") || !metadata.inputs.contains_key("mass"), "no digests"),
+        ];
+        flaws.extend(made_by_none.iter().filter(|(is_there, _)| *is_there).map(|(_, what)| (*what).to_owned()));
+    }
+    flaw("file is what its job asks for", "number of differences to the job kept in the file", &flaws)
+}
+
+fn by_job(content: &Content<'_>, job: &Job) -> Vec<&'static str> {
+    let (metadata, tensors) = (content.superelement.metadata(), content.superelement.tensors());
+    let mut flaws = Vec::new();
+    let mut expect = |holds: bool, what: &'static str| {
+        if !holds {
+            flaws.push(what);
+        }
+    };
+    let method = match job.reduction.method {
+        Method::CraigBampton => FileMethod::CraigBampton,
+        Method::Herting => FileMethod::Herting,
+    };
+    expect(metadata.method == method, "another method");
+    expect(metadata.units == job.model.units, "other units");
+    let asked: BTreeSet<&str> = job.interfaces.iter().map(|interface| interface.name.as_str()).collect();
+    let found: BTreeSet<&str> = metadata.interface_nodes.iter().map(|node| node.name.as_str()).collect();
+    expect(found.is_empty() || found == asked, "other interfaces");
+    expect(found.is_empty() || labels(content) == labels_asked(job), "other interface nodes");
+    let is_by_rows = job.interfaces.iter().all(|interface| matches!(interface.nodes, NodeSelection::Rows { .. }));
+    expect(
+        metadata.interface_nodes.iter().all(|node| !is_patch(job, &node.name) || node.label.is_none()),
+        "a labelled patch",
+    );
+    expect(!found.is_empty() || !is_by_rows || rows(content) == rows_asked(job), "other interface rows");
+    expect(metadata.validity.band_hz == band(content.superelement, job), "another band");
+    let precision = job.write.recovery.as_ref().map(|recovery| match recovery.precision {
+        RecoveryPrecision::Double => supel_runtime::Precision::Double,
+        RecoveryPrecision::Single => supel_runtime::Precision::Single,
+    });
+    let recovery = tensors.recovery.as_ref();
+    expect(recovery.map(supel_runtime::Recovery::precision) == precision, "another recovery");
+    if let (Some(recovery), Some(NodeSelection::Labels(asked))) =
+        (recovery, job.write.recovery.as_ref().map(|recovery| &recovery.nodes))
+    {
+        let mut found: Vec<i64> = recovery.dofs().iter().map(|dof| dof.node).collect();
+        found.dedup();
+        expect(found == *asked, "other recovered nodes");
+    }
+    flaws
+}
+
+/// Whether an interface is a rigid patch: one node that the model does not have.
+fn is_patch(job: &Job, name: &str) -> bool {
+    job.interfaces.iter().any(|interface| interface.name == name && interface.coupling == Coupling::Rigid)
+}
+
+/// Labels of the interface nodes whose interface lists them.
+fn labels(content: &Content<'_>) -> Vec<i64> {
+    let is_listed = |name: &str| {
+        let of = |job: &Job| {
+            let interface = job.interfaces.iter().find(|interface| interface.name == name);
+            interface.is_some_and(|interface| matches!(interface.nodes, NodeSelection::Labels(_)))
+        };
+        content.job.as_ref().is_some_and(of)
+    };
+    let nodes = content.superelement.metadata().interface_nodes.iter();
+    nodes.filter(|node| is_listed(&node.name)).filter_map(|node| node.label).collect()
+}
+
+/// Labels that the interfaces list, those of patches left out: a patch is one node without a label.
+fn labels_asked(job: &Job) -> Vec<i64> {
+    let direct = job.interfaces.iter().filter(|interface| interface.coupling == Coupling::Direct);
+    let listed = direct.filter_map(|interface| match &interface.nodes {
+        NodeSelection::Labels(labels) => Some(labels.clone()),
+        _ => None,
+    });
+    listed.flatten().collect()
+}
+
+/// Interface rows of the file.
+fn rows(content: &Content<'_>) -> Vec<u64> {
+    let coordinates = content.superelement.metadata().coordinates.iter();
+    let of = |coordinate: &Coordinate| match coordinate {
+        Coordinate::InterfaceRow { row } => Some(*row),
+        _ => None,
+    };
+    coordinates.filter_map(of).collect()
+}
+
+fn rows_asked(job: &Job) -> Vec<u64> {
+    let of = |nodes: &NodeSelection| match nodes {
+        NodeSelection::Rows { rows } => rows.iter().map(|row| *row as u64).collect(),
+        _ => Vec::new(),
+    };
+    job.interfaces.iter().flat_map(|interface| of(&interface.nodes)).collect()
+}
+
+/// The band that a reduction states: as far as the job asks for modes, or as far as there are.
+pub(super) fn band(superelement: &Superelement, job: &Job) -> Option<[f64; 2]> {
+    match job.reduction.modes {
+        ModeSelection::UpTo { up_to_hz } => Some([0.0, up_to_hz]),
+        ModeSelection::Count { .. } => {
+            superelement.tensors().frequencies.last().map(|omega| [0.0, omega / std::f64::consts::TAU])
+        }
+    }
+}
+
+/// M-06: there are as many modes as the job kept in the file counts, or none beyond its band; fewer than counted and than the
+/// model has dofs for are a warning, because a mass of low rank has no more.
+pub(super) fn n_modes(content: &Content<'_>) -> Option<Check> {
+    /// A mode on the edge of a band belongs to it.
+    const EDGE: f64 = 1e-6;
+    let stated = content.superelement.tensors().frequencies.as_slice();
+    let (value, words) = match content.job.as_ref()?.reduction.modes {
+        ModeSelection::Count { count } => {
+            let n_without = if content.boundary == Boundary::FixedInterface { content.n_b } else { content.n_rigid() };
+            let n_dofs = usize::try_from(content.superelement.metadata().model.n_dofs).unwrap_or(usize::MAX);
+            let most = count.min(n_dofs.saturating_sub(n_without));
+            let text = format!("{count} asked for, {} stated", stated.len());
+            (most.saturating_sub(stated.len()), text)
+        }
+        ModeSelection::UpTo { up_to_hz } => {
+            let limit = up_to_hz * std::f64::consts::TAU * (1.0 + EDGE);
+            let n_beyond = stated.iter().filter(|omega| **omega > limit).count();
+            (n_beyond, format!("{n_beyond} beyond the band of {up_to_hz} Hz"))
+        }
+    };
+    Some(Check {
+        id: "M-06",
+        name: "modes are those that its job asks for",
+        equation: "number of modes short of the count, or beyond the band",
+        value: value as f64,
+        limits: Limits::default(),
+        fail_above: Check::NEVER,
+        worst: (value > 0).then_some(words),
+    })
+}
+
+/// M-26: every mode and every inertia relief is a coordinate or was left out by name; what is there belongs to the method, and
+/// mass properties, gravity and mixing are there where they belong.
+pub(super) fn accounts(content: &Content<'_>) -> Check {
+    let (metadata, tensors) = (content.superelement.metadata(), content.superelement.tensors());
+    let modal =
+        || metadata.coordinates[content.n_b..].iter().chain(metadata.dropped.iter().map(|column| &column.column));
+    let mut flaws = Vec::new();
+    let n_modes = tensors.frequencies.len();
+    let mut modes: Vec<usize> = modal().filter_map(|coordinate| coordinate.mode().map(|(mode, _)| mode)).collect();
+    modes.sort_unstable();
+    if modes != (0..n_modes).collect::<Vec<_>>() {
+        flaws.push(format!("of {n_modes} modes {} are coordinates or left out by name", modes.len()));
+    }
+    let frequency = |coordinate: &Coordinate| {
+        coordinate
+            .mode()
+            .and_then(|(mode, hertz)| Some((hertz, tensors.frequencies.get(mode)? / std::f64::consts::TAU)))
+    };
+    let differs = |(stated, known): (f64, f64)| (stated - known).abs() > 8.0 * f64::EPSILON * known;
+    if modal().filter_map(frequency).any(differs) {
+        flaws.push("a mode has two frequencies".to_owned());
+    }
+    let is_of_boundary = |coordinate: &Coordinate| match coordinate {
+        Coordinate::FixedInterfaceMode { .. } => content.boundary == Boundary::FixedInterface,
+        Coordinate::ElasticMode { .. } => content.boundary == Boundary::FreeInterface,
+        _ => true,
+    };
+    if !modal().all(is_of_boundary) {
+        flaws.push("modes of both boundaries".to_owned());
+    }
+    if metadata.dropped.iter().any(|dropped| dropped.column.is_interface()) {
+        flaws.push("an interface coordinate left out".to_owned());
+    }
+    let is_method = matches!(metadata.method, FileMethod::CraigBampton | FileMethod::Herting);
+    if is_method && is_of_this_version(content.superelement) {
+        flaws.extend(of_method(content).iter().map(ToString::to_string));
+    }
+    flaw("its parts belong together", "number of parts missing, surplus or of another method", &flaws)
+}
+
+fn of_method(content: &Content<'_>) -> Vec<&'static str> {
+    let (metadata, tensors) = (content.superelement.metadata(), content.superelement.tensors());
+    let modal =
+        || metadata.coordinates[content.n_b..].iter().chain(metadata.dropped.iter().map(|column| &column.column));
+    let mut flaws = Vec::new();
+    let mut expect = |holds: bool, what: &'static str| {
+        if !holds {
+            flaws.push(what);
+        }
+    };
+    let n_r = content.n_rigid();
+    let is_modal = content.n_b == 0 && n_r > 0;
+    let is_held = metadata.method == FileMethod::CraigBampton && !is_modal;
+    let boundary = if is_held { Boundary::FixedInterface } else { Boundary::FreeInterface };
+    expect(tensors.frequencies.is_empty() || content.boundary == boundary, "modes of another boundary");
+    let numbers = |pick: fn(&Coordinate) -> Option<usize>| -> Vec<usize> {
+        let mut numbers: Vec<usize> = modal().filter_map(pick).collect();
+        numbers.sort_unstable();
+        numbers
+    };
+    let relief = numbers(|coordinate| match coordinate {
+        Coordinate::InertiaRelief { index } => Some(*index),
+        _ => None,
+    });
+    let rigid = numbers(|coordinate| match coordinate {
+        Coordinate::RigidBodyMode { index } => Some(*index),
+        _ => None,
+    });
+    let all = |is_there: bool| if is_there { (0..n_r).collect() } else { Vec::new() };
+    expect(relief == all(!is_held && !is_modal), "inertia relief");
+    expect(rigid == all(is_modal), "rigid-body coordinates");
+    expect(tensors.mixing.is_some() == (!is_held && content.n_reduced() > content.n_b), "mixing");
+    // Mass properties and gravity take the six unit motions, which are the first six of seven and more.
+    let is_geometric = metadata.model.rigid_body_modes == RigidBodyModes::Geometric;
+    let is_classical = tensors.gravity.is_some();
+    expect(
+        metadata.model.mass_properties.is_some() == is_classical,
+        "gravity without mass properties, or these without it",
+    );
+    expect(is_classical || !is_geometric, "no gravity");
+    expect(!is_classical || is_geometric || n_r > 6, "rigid-body modes said to be algebraic");
+    flaws
+}

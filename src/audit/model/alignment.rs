@@ -1,0 +1,173 @@
+//! Which combination of the columns made again each stored column is.
+//!
+//! ```text
+//! R   n_N × n_η   signs of the modes, rotations inside their groups
+//! C   n_η × n_η   mixing: stored = named · C
+//! B   q × r'      [I 0; 0 RC]: stored columns are W B, r' = p + n_η
+//! ```
+//! The sign of a mode and the basis of modes that lie together are free, and so is the mixing: whatever they are, K̂ and M̂ have
+//! to be those of W B. R is the orthogonal matrix that brings both sets of columns together best, group by group, in what the
+//! interface, gravity and the recovered rows see of them.
+
+use std::ops::Range;
+
+use faer::linalg::solvers::Solve;
+use faer::{Mat, MatRef};
+
+use super::columns::Named;
+use super::projection::Projected;
+use super::scaled::Scaled;
+use crate::dense;
+
+/// Weight of recovered rows relative to those of the mass: in single precision they have seven digits, which may decide on what
+/// nothing else sees and on nothing more.
+const RECOVERED: f64 = 1e-3;
+
+/// What is free to turn.
+pub(super) struct Freedom<'a> {
+    /// The named column that each modal coordinate of the file is, as its place among those made again.
+    pub(super) kept: &'a [usize],
+    /// Ranges of modes that are one space.
+    pub(super) groups: &'a [Range<usize>],
+    /// Motions of the file's inertia relief from those made again, n_r × n_r; none where both are the same.
+    pub(super) relief: Option<Mat<f64>>,
+    /// C; none where the stored columns are the named ones, or orthonormal ones of the same span.
+    pub(super) mixing: Option<MatRef<'a, f64>>,
+}
+
+/// B, and what rounding of the mixing may make of it.
+pub(super) struct Combination {
+    /// B.
+    pub(super) columns: Mat<f64>,
+    /// |R||C||C⁻¹||C|: ε times this is what B may be off by (Higham 2002, section 8.1). Columns that nearly depend on each other
+    /// are put together from large parts of little.
+    pub(super) amplified: Mat<f64>,
+}
+
+/// B.
+pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedom<'_>) -> Combination {
+    let (p, n_named, n_eta) = (projected.n_probes(), projected.named.len(), freedom.kept.len());
+    let seen = seen(file, projected, freedom.mixing);
+    let mut turned = Mat::zeros(n_named, n_eta);
+    let mut place = |columns: &[usize], slots: &[usize], block: MatRef<'_, f64>| {
+        for (i, column) in columns.iter().enumerate() {
+            slots.iter().enumerate().for_each(|(j, slot)| turned[(*column, *slot)] = block[(i, j)]);
+        }
+    };
+    for columns in groups(&projected.named, freedom.groups) {
+        let slots: Vec<usize> = (0..n_eta).filter(|slot| columns.contains(&freedom.kept[*slot])).collect();
+        match projected.named[columns[0]] {
+            Named::Relief(_) => {
+                let n = columns.len();
+                let all = freedom.relief.clone().unwrap_or_else(|| Mat::identity(n, n));
+                let numbers: Vec<usize> = slots.iter().map(|slot| freedom.kept[*slot] - columns[0]).collect();
+                place(&columns, &slots, dense::columns(all.as_ref(), &numbers).as_ref());
+            }
+            Named::Rigid(_) | Named::Mode(_) => {
+                let [mine, files] =
+                    [(&seen[0], &columns), (&seen[1], &slots)].map(|(a, at)| dense::columns(a.as_ref(), at));
+                place(&columns, &slots, nearest_rotation(mine.as_ref(), files.as_ref()).as_ref());
+            }
+        }
+    }
+    let mut amplified = Mat::zeros(n_named, n_eta);
+    if let Some(mixing) = freedom.mixing {
+        let inverse = mixing.partial_piv_lu().solve(Mat::<f64>::identity(n_eta, n_eta));
+        let [sizes, of_inverse, of_turned] = [mixing, inverse.as_ref(), turned.as_ref()].map(absolute);
+        let back = dense::product(of_inverse.as_ref(), sizes.as_ref());
+        amplified = dense::product(of_turned.as_ref(), dense::product(sizes.as_ref(), back.as_ref()).as_ref());
+        turned = dense::product(turned.as_ref(), mixing);
+    }
+    let with_probes = |of_probes: Mat<f64>, of_named: &Mat<f64>| {
+        let mut whole = Mat::zeros(p + n_named, p + n_eta);
+        whole.as_mut().submatrix_mut(0, 0, p, p).copy_from(of_probes);
+        whole.as_mut().submatrix_mut(p, p, n_named, n_eta).copy_from(of_named);
+        whole
+    };
+    Combination {
+        columns: with_probes(Mat::identity(p, p), &turned),
+        amplified: with_probes(Mat::zeros(p, p), &amplified),
+    }
+}
+
+impl Combination {
+    /// The interface alone.
+    pub(super) fn of_interface(projected: &Projected) -> Self {
+        let (p, q) = (projected.n_probes(), projected.n_probes() + projected.named.len());
+        Self { columns: Mat::identity(q, p), amplified: Mat::zeros(q, p) }
+    }
+}
+
+fn absolute(a: MatRef<'_, f64>) -> Mat<f64> {
+    Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)].abs())
+}
+
+/// Places of the named columns that turn together, in their order.
+fn groups(named: &[Named], of_modes: &[Range<usize>]) -> Vec<Vec<usize>> {
+    let places =
+        |is: &dyn Fn(&Named) -> bool| -> Vec<usize> { (0..named.len()).filter(|at| is(&named[*at])).collect() };
+    let rigid = places(&|named| matches!(named, Named::Rigid(_)));
+    let relief = places(&|named| matches!(named, Named::Relief(_)));
+    let modes =
+        of_modes.iter().map(|group| places(&|named| matches!(named, Named::Mode(mode) if group.contains(mode))));
+    [rigid, relief].into_iter().chain(modes).filter(|group| !group.is_empty()).collect()
+}
+
+/// What interface, gravity, rigid-body motion and recovered rows see of the columns made again, and of the named ones of the file;
+/// f × n_N and f × n_η.
+fn seen(file: &Scaled, projected: &Projected, mixing: Option<MatRef<'_, f64>>) -> [Mat<f64>; 2] {
+    let (p, n_named, n_eta) = (projected.n_probes(), projected.named.len(), file.n_modal());
+    let of_file = |a: &Mat<f64>| a.as_ref().subcols(file.n_b, n_eta).to_owned();
+    let of_mine = |a: &Mat<f64>| a.as_ref().subcols(p, n_named).to_owned();
+    let mut pairs: Vec<[Mat<f64>; 2]> = Vec::new();
+    let mut add = |weight: f64, pair: [Mat<f64>; 2]| pairs.push(pair.map(|a| a * faer::Scale(weight)));
+    let inertia = |j: usize| projected.mass.matrix[(j, j)].max(f64::MIN_POSITIVE).sqrt();
+    let coupling = dense::product(projected.probes.transpose(), file.m.as_ref().subrows(0, file.n_b));
+    let weighted = |a: Mat<f64>| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] / inertia(i));
+    let known = projected.mass.matrix.as_ref().submatrix(0, p, p, n_named).to_owned();
+    add(1.0, [weighted(known), weighted(of_file(&coupling))]);
+    if let Some(motions) = projected.motions.as_ref().filter(|motions| motions.nrows() == file.u.ncols()) {
+        // Without an interface Û are the amplitudes ΨᵀMU: rigid-body motion as the stored columns see it.
+        add(1.0 / motions.norm_max(), [of_mine(motions), file.u.transpose().to_owned()]);
+    }
+    if let (Some(known), Some(stored)) = (&projected.recovery, &file.recovery)
+        && known.rows.nrows() == stored.nrows()
+    {
+        let modal = of_mine(&known.rows);
+        add(RECOVERED / modal.norm_max().max(f64::MIN_POSITIVE), [modal, of_file(stored)]);
+    }
+    let [mine, stored] = [0, 1].map(|which| stacked(pairs.iter().map(|pair| pair[which].as_ref()).collect()));
+    // Stored = named · C: the named columns of the file are its stored ones times C⁻¹.
+    let named = match mixing {
+        Some(mixing) => {
+            let solved = mixing.transpose().partial_piv_lu().solve(stored.transpose().to_owned());
+            solved.transpose().to_owned()
+        }
+        None => stored,
+    };
+    [mine, named]
+}
+
+/// Matrices of as many columns one below the other.
+fn stacked(parts: Vec<MatRef<'_, f64>>) -> Mat<f64> {
+    let n_rows = parts.iter().map(|part| part.nrows()).sum();
+    let mut all = Mat::zeros(n_rows, parts.first().map_or(0, |part| part.ncols()));
+    let mut at = 0;
+    for part in parts {
+        all.as_mut().subrows_mut(at, part.nrows()).copy_from(part);
+        at += part.nrows();
+    }
+    all
+}
+
+/// The orthonormal columns R that bring A R nearest to B (Schönemann 1966): U Vᵀ of AᵀB = U Σ Vᵀ.
+fn nearest_rotation(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
+    let product = dense::gram(a, b);
+    if product.shape() == (1, 1) {
+        return Mat::from_fn(1, 1, |_, _| if product[(0, 0)] < 0.0 { -1.0 } else { 1.0 });
+    }
+    match product.thin_svd() {
+        Ok(svd) => dense::product(svd.U(), svd.V().transpose()),
+        Err(_) => Mat::from_fn(product.nrows(), product.ncols(), |_, _| f64::NAN),
+    }
+}

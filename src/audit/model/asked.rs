@@ -1,0 +1,272 @@
+//! The modes that the job asks for, found by another eigensolver from another factor: M-01, M-06.
+//!
+//! Nothing of the file takes part: how many there are is what the job, the spectrum and a count of it say.
+
+use std::ops::Range;
+
+use faer::Mat;
+
+use super::full::Full;
+use super::interior::Interior;
+use crate::dense;
+use crate::error::Result;
+use crate::factor::{Analysis, SolveOperator, WholeCount, whole_count};
+use crate::job::{Eigensolver, ReductionJob};
+use crate::modes::{
+    Boundary, CLUSTER_GAP, Factored, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes, mode_wish,
+};
+use crate::partition::Partition;
+use crate::rigid::RigidBodyModes;
+use crate::sparse::{panels, product};
+use crate::verification::check::{Check, Limits};
+
+/// Seed of the start vectors; another one than any the reduction uses.
+const SEED: u64 = 0x0dd5_eed5;
+/// Where in the gap above the highest mode the count is taken: elsewhere than the reduction takes it.
+const PLACE: f64 = 0.29;
+/// Residual over θ at which the eigensolvers of the reduction take a pair.
+const RESIDUAL_OF_REDUCTION: f64 = 1e-13;
+/// Rounding of (K − σM)⁻¹ in units of ε times its largest eigenvalue, below which they take any.
+const FLOOR_OF_REDUCTION: f64 = 16.0;
+/// How much rounding may move an eigenvalue at the edge of a cluster or a band, in units of the gap that decides.
+const EDGE: f64 = 1e-2;
+
+/// Independent modes under the boundary of the job's method.
+pub(super) struct AskedModes {
+    pub(super) boundary: Boundary,
+    pub(super) modes: Modes,
+    /// How far each shape, mine or the file's, may lie outside the space of its group: the sine of an angle in the mass.
+    pub(super) angles: Vec<f64>,
+    /// What the residual of a shape of the file may add to its relative error bar, at most.
+    pub(super) residual_bars: Vec<f64>,
+    /// Ranges of modes that are compared as one space.
+    pub(super) groups: Vec<Range<usize>>,
+    /// What the job asks for, in scaled units.
+    wanted: Wanted,
+    n_zero: usize,
+    count: Option<WholeCount>,
+}
+
+impl AskedModes {
+    /// No modes at all: a component without internal dofs has none with its interface held.
+    fn none(partition: &Partition, wanted: Wanted) -> Self {
+        Self {
+            boundary: Boundary::FixedInterface,
+            modes: Modes::none(partition.n_internal),
+            angles: Vec::new(),
+            residual_bars: Vec::new(),
+            groups: Vec::new(),
+            wanted,
+            n_zero: 0,
+            count: None,
+        }
+    }
+
+    /// How far eigenvalues of the cluster of a mode lie apart, relatively: as much as its turning hides of K̂.
+    pub(super) fn width(&self, mode: usize) -> f64 {
+        let of = |group: &Range<usize>| 1.0 - self.modes.lambda[group.start] / self.modes.lambda[group.end - 1];
+        self.groups.iter().find(|group| group.contains(&mode)).map_or(0.0, of)
+    }
+
+    /// Modes with the interface free; `rigid` are the motions that the reduction deflates.
+    ///
+    /// # Errors
+    /// The eigensolver fails; the count falls on an eigenvalue.
+    pub(super) fn free(full: &Full<'_>, rigid: &RigidBodyModes, job: &ReductionJob) -> Result<Self> {
+        let problem = ModalProblem::free(full.partition, Some(rigid));
+        let mut found = Self::of(problem, (&full.factor, full.sigma), job, full.partition)?;
+        // Motions that K does not quite let pass are not those of the next operator: what they cost it is what tells both apart.
+        let energy = rigid.energy.largest_quotient / full.first;
+        for group in &found.groups {
+            let turn = energy / gap_of(&found.modes, full.sigma, group);
+            found.angles[group.clone()].iter_mut().for_each(|angle| *angle = (*angle + turn).min(1.0));
+        }
+        Ok(Self { boundary: Boundary::FreeInterface, n_zero: rigid.count(), ..found })
+    }
+
+    /// Modes with the interface held; none where there is no interior.
+    ///
+    /// # Errors
+    /// The eigensolver fails; the count falls on an eigenvalue.
+    pub(super) fn held(interior: Option<&Interior<'_>>, partition: &Partition, job: &ReductionJob) -> Result<Self> {
+        let Some(interior) = interior else {
+            return Ok(Self::none(partition, mode_wish(job.modes, partition)));
+        };
+        let problem = ModalProblem::held(partition);
+        Self::of(problem, (&interior.factor, interior.sigma), job, partition)
+    }
+
+    fn of(
+        problem: ModalProblem<'_>,
+        (factor, sigma): (&dyn SolveOperator, f64),
+        job: &ReductionJob,
+        partition: &Partition,
+    ) -> Result<Self> {
+        let wanted = mode_wish(job.modes, partition);
+        let request = ModeRequest { wanted, eigensolver: other_than(job.eigensolver), seed: SEED };
+        let modes = elastic_modes(problem, &Factored::new(factor, sigma), request)?;
+        let lacking = lacking(problem, (factor, sigma), &modes);
+        let groups = clusters(&modes, sigma);
+        let angles = angles(&modes, sigma, (&lacking, &groups));
+        let residual_bars = residual_bars(&modes, sigma, (&lacking, &groups));
+        let boundary = Boundary::FixedInterface;
+        Ok(Self { boundary, modes, angles, residual_bars, groups, wanted, n_zero: 0, count: None })
+    }
+
+    /// Counts the eigenvalues below a shift above the modes, by the inertia of the whole matrix.
+    ///
+    /// # Errors
+    /// The shift falls on an eigenvalue; no memory.
+    pub(super) fn counted(self, partition: &Partition, analysis: &Analysis, first: f64) -> Result<Self> {
+        let pencil = match self.boundary {
+            Boundary::FixedInterface => partition.internal(),
+            Boundary::FreeInterface => partition.pencil(),
+        };
+        let is_bare = self.modes.lambda.is_empty() && self.modes.next.is_none();
+        let sigma = if is_bare { PLACE * first } else { self.modes.shift_above(PLACE) };
+        Ok(Self { count: Some(whole_count(analysis, pencil, sigma)?), ..self })
+    }
+
+    /// All of it but the shapes, which are the largest part.
+    pub(super) fn without_shapes(self) -> Self {
+        let modes = Modes { shapes: Mat::zeros(0, 0), ..self.modes };
+        Self { modes, ..self }
+    }
+
+    /// What rounding and the digits of the data make of an energy, relative to that of the first elastic mode, by the error bars.
+    pub(super) fn noise(&self, first: f64) -> f64 {
+        let bars = self.modes.errors.iter().zip(&self.modes.lambda);
+        bars.map(|(error, lambda)| error.relative_bar * lambda / first).fold(0.0, f64::max)
+    }
+
+    pub(super) fn lambda(&self) -> &[f64] {
+        &self.modes.lambda
+    }
+
+    /// The numbers of modes that answer the request; more than one where rounding decides on a mode at its edge.
+    pub(super) fn n_asked(&self) -> Range<usize> {
+        let by_gap = |gap: f64| {
+            let all: Vec<f64> = self.modes.lambda.iter().copied().chain(self.modes.next).collect();
+            let mut n = match self.wanted {
+                Wanted::Count(count) => count.min(all.len()),
+                Wanted::UpTo(limit) => all.iter().take_while(|lambda| **lambda <= limit * (1.0 + gap)).count(),
+            };
+            while n > 0 && n < all.len() && all[n] - all[n - 1] <= gap * all[n] {
+                n += 1;
+            }
+            n.min(self.modes.count())
+        };
+        by_gap(CLUSTER_GAP * (1.0 - EDGE))..by_gap(CLUSTER_GAP * (1.0 + EDGE)) + 1
+    }
+
+    /// M-01: the modes found are modes.
+    pub(super) fn backward_error(&self) -> Check {
+        let mut worst = (0.0, None);
+        for (mode, error) in self.modes.errors.iter().enumerate() {
+            if dense::worse(error.backward, worst.0) {
+                worst = (error.backward, Some(format!("mode {}", mode + 1)));
+            }
+        }
+        Check {
+            id: "M-01",
+            name: "modes found again satisfy the full model",
+            equation: "max ‖Kx − λMx‖ / ((‖K‖ + λ‖M‖) ‖x‖), equilibrated",
+            value: worst.0,
+            limits: Limits { engineering: 1e-10, ..Limits::default() },
+            fail_above: 1e-7,
+            worst: worst.1,
+        }
+    }
+
+    /// M-06: the inertia of the whole matrix counts as many modes as were found again.
+    pub(super) fn count(&self) -> Option<Check> {
+        let count = self.count.as_ref()?;
+        let expected = self.modes.count() + self.n_zero;
+        Some(Check {
+            id: "M-06",
+            name: "modes found again are all there are",
+            equation: "|eigenvalues below σ − modes|, by the inertia of the whole K − σM at another shift",
+            value: count.below.abs_diff(expected) as f64,
+            limits: Limits::default(),
+            fail_above: 0.0,
+            worst: Some(format!("counted {}, found {expected}, pivot growth {:.1}", count.below, count.growth)),
+        })
+    }
+}
+
+fn other_than(eigensolver: Eigensolver) -> Eigensolver {
+    match eigensolver {
+        Eigensolver::Lanczos if cfg!(feature = "arpack") => Eigensolver::Arpack,
+        Eigensolver::Lanczos | Eigensolver::Arpack => Eigensolver::Lanczos,
+    }
+}
+
+/// Runs of modes that are one cluster. Their shapes turn under rounding, and are compared as one space; what that may hide in K̂_ηη
+/// is less than the difference of their eigenvalues.
+fn clusters(modes: &Modes, sigma: f64) -> Vec<Range<usize>> {
+    let lambda = &modes.lambda;
+    let mut groups = Vec::new();
+    let mut start = 0;
+    for end in 1..=lambda.len() {
+        if end == lambda.len() || lambda[end] - lambda[end - 1] > CLUSTER_GAP * (lambda[end] - sigma) {
+            groups.push(start..end);
+            start = end;
+        }
+    }
+    groups
+}
+
+/// The relative distance γ of the θ = 1/(λ − σ) of a group to all others.
+fn gap_of(modes: &Modes, sigma: f64, group: &Range<usize>) -> f64 {
+    let lambda = &modes.lambda;
+    let (low, high) = (lambda[group.start] - sigma, lambda[group.end - 1] - sigma);
+    let below = group.start.checked_sub(1).map(|j| (low / (lambda[j] - sigma) - 1.0).abs());
+    let above = lambda.get(group.end).copied().or(modes.next).map(|next| (high / (next - sigma) - 1.0).abs());
+    below.into_iter().chain(above).fold(1.0, f64::min)
+}
+
+/// δ/γ: what a shape lacks in θ, relatively, over the distance of its group (Davis and Kahan 1970).
+fn angles(modes: &Modes, sigma: f64, (lacking, groups): (&[f64], &[Range<usize>])) -> Vec<f64> {
+    let of_group = |group: &Range<usize>| {
+        let gap = gap_of(modes, sigma, group);
+        group.clone().map(move |j| (lacking[j] / gap).min(1.0))
+    };
+    groups.iter().flat_map(of_group).collect()
+}
+
+/// What a residual leaves of λ in doubt: by Kato and Temple Σδ²/γ of a cluster, δ at most (see the error bars of the modes).
+fn residual_bars(modes: &Modes, sigma: f64, (lacking, groups): (&[f64], &[Range<usize>])) -> Vec<f64> {
+    let of_cluster = |cluster: &Range<usize>| {
+        let sum: f64 = lacking[cluster.clone()].iter().map(|lacking| lacking * lacking).sum();
+        let gap = gap_of(modes, sigma, cluster);
+        cluster.clone().map(move |_| sum.sqrt().min(sum / gap))
+    };
+    groups.iter().flat_map(of_cluster).collect()
+}
+
+/// δ of each mode: with r the residual, δ² = rᵀ(K − σM)⁻¹r/(λ − σ) is what a shape lacks in θ = 1/(λ − σ), relatively; and what
+/// the reduction leaves of its own at most.
+fn lacking(problem: ModalProblem<'_>, (factor, sigma): (&dyn SolveOperator, f64), modes: &Modes) -> Vec<f64> {
+    let mut lacking = Vec::with_capacity(modes.count());
+    for columns in panels(modes.count()) {
+        let x = modes.shapes.as_ref().get(.., columns.clone());
+        let mut r = product(problem.stiffness, x);
+        let momenta = product(problem.mass, x);
+        for (at, j) in columns.clone().enumerate() {
+            let momentum = dense::column(momenta.as_ref(), at);
+            dense::add_scaled(dense::column_mut(r.as_mut(), at), -modes.lambda[j], momentum);
+        }
+        if let Some(rigid) = problem.rigid {
+            let resultant = dense::gram(rigid.orthonormal.as_ref(), r.as_ref());
+            dense::add_product(r.as_mut(), -1.0, rigid.mass_orthonormal.as_ref(), resultant.as_ref());
+        }
+        let mut y: Mat<f64> = r.clone();
+        factor.solve_in_place(y.as_mut());
+        for (j, energy) in columns.zip(dense::dots(r.as_ref(), y.as_ref())) {
+            let distance = modes.lambda[j] - sigma;
+            let floor = FLOOR_OF_REDUCTION * f64::EPSILON * distance / (modes.lambda[0] - sigma);
+            lacking.push((energy.max(0.0) / distance).sqrt() + RESIDUAL_OF_REDUCTION.max(floor));
+        }
+    }
+    lacking
+}

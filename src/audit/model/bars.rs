@@ -1,0 +1,100 @@
+//! Frequencies and their error bars against those found again: M-14, M-09.
+
+use supel_runtime::{Coordinate, Superelement};
+
+use super::asked::AskedModes;
+use super::scaled::Scaled;
+use crate::dense;
+use crate::model::Precision;
+use crate::verification::check::{Check, Limits};
+
+/// The most that rounding may excuse.
+const LARGEST_EXCUSE: f64 = 1e-3;
+/// Roundings of one sign may exceed their typical sum by this.
+const NOISE_FACTOR: f64 = 10.0;
+/// A difference this many times its bound is none of rounding.
+const FAR: f64 = 10.0;
+
+/// Of an error bar the share of the arithmetic: both frequencies were computed from the same data.
+fn share_of_arithmetic(precision: Precision) -> f64 {
+    f64::EPSILON / (f64::EPSILON + precision.stiffness)
+}
+
+/// M-14: stated frequencies against those found again.
+pub(super) fn frequencies(file: &Scaled, asked: &AskedModes, precision: Precision) -> Check {
+    let mut worst = (0.0, None);
+    for (mode, (stored, found)) in file.lambda.iter().zip(asked.lambda()).enumerate() {
+        let difference = 0.5 * (stored / found - 1.0).abs();
+        if dense::worse(difference, worst.0) {
+            worst = (difference, Some(format!("mode {}", mode + 1)));
+        }
+    }
+    let bars = asked.modes.errors.iter().map(|error| error.relative_bar).fold(0.0, f64::max);
+    let arithmetic = NOISE_FACTOR * bars * share_of_arithmetic(precision);
+    // A shape that is turned by an angle has a Rayleigh quotient that is off by the square.
+    let turned = asked.angles.iter().map(|angle| NOISE_FACTOR * angle * angle).fold(0.0, f64::max);
+    let limits =
+        Limits { engineering: 1e-10, arithmetic: arithmetic.max(turned), data: 0.0 }.capped(LARGEST_EXCUSE, 0.0);
+    Check {
+        id: "M-14",
+        name: "frequencies are those of the full model",
+        equation: "max |f_stated / f − 1|, f by another eigensolver on K − σM",
+        value: worst.0,
+        limits,
+        fail_above: FAR * limits.value(),
+        worst: worst.1,
+    }
+}
+
+/// M-09: error bars are those of the modes found again. The share of the data is one of shapes and matrices alone; what the residual
+/// adds is another eigensolver's own and may be anything up to a bound.
+pub(super) fn error_bars(superelement: &Superelement, asked: &AskedModes) -> Check {
+    /// Relative difference of the share of the data: shapes that differ by rounding have the same.
+    const SAME_SHAPES: f64 = 1e-6;
+    /// Relative difference of a bar that no turn of a shape excuses.
+    const LARGEST_TURN: f64 = 0.1;
+    let metadata = superelement.metadata();
+    let mut worst = (0.0, None);
+    for coordinate in metadata.coordinates.iter().chain(metadata.dropped.iter().map(|dropped| &dropped.column)) {
+        let (Coordinate::ElasticMode { mode, frequency_hz, error_bar_hz }
+        | Coordinate::FixedInterfaceMode { mode, frequency_hz, error_bar_hz }) = *coordinate
+        else {
+            continue;
+        };
+        let Some(error) = asked.modes.errors.get(mode) else { continue };
+        let of_residual = error.residual_bar.max(asked.residual_bars[mode]);
+        let value = match error_bar_hz {
+            Some(bar) => outside(2.0 * bar / frequency_hz, error.data_bar, NOISE_FACTOR * of_residual),
+            None if error.relative_bar.is_finite() => f64::INFINITY,
+            None => 0.0,
+        };
+        if dense::worse(value, worst.0) {
+            worst = (value, Some(format!("mode {}", mode + 1)));
+        }
+    }
+    let turned = asked.angles.iter().map(|angle| NOISE_FACTOR * angle).fold(0.0, f64::max);
+    let limits = Limits { engineering: SAME_SHAPES, arithmetic: turned, data: 0.0 }.capped(LARGEST_TURN, 0.0);
+    Check {
+        id: "M-09",
+        name: "error bars are those of the full model",
+        equation: "max distance of 2 bar/f from [data, data + residual], relative to the nearer end",
+        value: worst.0,
+        limits,
+        fail_above: FAR * limits.value(),
+        worst: worst.1,
+    }
+}
+
+/// How far a relative error bar lies outside of what it can be: the share of the data, and up to that of the residual more.
+fn outside(bar: f64, of_data: f64, of_residual: f64) -> f64 {
+    let (low, high) = (of_data, of_data + of_residual);
+    if bar < low {
+        (low - bar) / low
+    } else if bar > high {
+        (bar - high) / high
+    } else if bar.is_nan() {
+        bar
+    } else {
+        0.0
+    }
+}

@@ -1,0 +1,254 @@
+//! The columns of the basis, made again: constraint modes, inertia relief, modes.
+//!
+//! ```text
+//! P      n_B × p          motions of the interface: each dof, or random mixtures where there are too many
+//! Z      n' × p           [Ψ_S P; P], the interior in equilibrium, corrected so that it carries rigid-body motion (24)
+//! N      n_I × n_N        named columns: inertia relief K_II⁻¹(MU)_I (37), X_I − Ψ_S X_B (23), or the modes X_I (38)
+//! W      n' × (p + n_N)   [Z N]
+//! ```
+//! A stored column is a combination of named ones, so that K̂ and M̂ are those of W but for that combination.
+
+use faer::linalg::solvers::SolveLstsq;
+use faer::{Mat, MatRef};
+
+use super::asked::AskedModes;
+use super::interior::{Answers, Interior, column_products};
+use crate::dense;
+use crate::modes::{Boundary, SplitMix64};
+use crate::partition::Partition;
+use crate::rigid::RigidBodyModes;
+use crate::sparse::{Leading, product};
+
+/// Motions of the interface that are solved at most: more dofs than these are mixed at random.
+const MAX_PROBES: usize = 256;
+/// Seed of the mixing.
+const SEED: u64 = 0xa0d1;
+
+/// What a named column is; each in the order of the file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Named {
+    /// Rigid-body motion itself, M-orthonormal, in a component without interface.
+    Rigid(usize),
+    /// Inertia relief of a rigid-body mode.
+    Relief(usize),
+    /// An elastic mode.
+    Mode(usize),
+}
+
+/// W with what is known of its errors.
+pub(super) struct Columns {
+    /// W, n' × (p + n_N).
+    pub(super) shapes: Mat<f64>,
+    /// P, n_B × p.
+    pub(super) probes: Mat<f64>,
+    /// What the columns behind the first p are.
+    pub(super) named: Vec<Named>,
+    /// Energy of the error of each column, as a length: √(eᵀKe).
+    pub(super) energy_errors: Vec<f64>,
+    /// Inertia of the error of each column: √(eᵀMe).
+    pub(super) inertia_errors: Vec<f64>,
+    /// The largest error of a static answer relative to itself.
+    pub(super) residual: f64,
+}
+
+/// The motions of the component as a rigid body.
+#[derive(Clone, Copy)]
+pub(super) struct Motions<'a> {
+    /// Those that the constraint modes are made to carry.
+    pub(super) carried: &'a RigidBodyModes,
+    /// Those that inertia relief answers: as many as there are zero modes.
+    pub(super) relieved: MatRef<'a, f64>,
+}
+
+/// P: the identity, or as many random mixtures as are solved, of dofs that weigh alike in energy.
+pub(super) fn probes(partition: &Partition) -> Mat<f64> {
+    let (n_i, n_b) = (partition.n_internal, partition.n_interface());
+    if n_b <= MAX_PROBES {
+        return Mat::identity(n_b, n_b);
+    }
+    let mut probes = Mat::zeros(n_b, MAX_PROBES);
+    SplitMix64::new(SEED).fill(probes.as_mut());
+    let stiffness = |i: usize| partition.stiffness.get(n_i + i, n_i + i).copied().unwrap_or(0.0);
+    let scale: Vec<f64> = (0..n_b).map(|i| dense::power_of_two_root(stiffness(i))).collect();
+    Mat::from_fn(n_b, MAX_PROBES, |i, j| probes[(i, j)] * scale[i])
+}
+
+impl Columns {
+    /// W of a component with an interface, or held without one.
+    pub(super) fn new(
+        partition: &Partition,
+        interior: Option<&Interior<'_>>,
+        motions: Motions<'_>,
+        (asked, probes): (&AskedModes, Mat<f64>),
+    ) -> Self {
+        let (n_i, p, n_modes) = (partition.n_internal, probes.ncols(), asked.modes.count());
+        let is_accelerated = asked.boundary == Boundary::FreeInterface;
+        let n_relief = if is_accelerated { motions.relieved.ncols() } else { 0 };
+        let relief = (0..n_relief).map(Named::Relief);
+        let named: Vec<Named> = relief.chain((0..n_modes).map(Named::Mode)).collect();
+        let mut columns = Self {
+            shapes: Mat::zeros(partition.n_dofs(), p + named.len()),
+            energy_errors: vec![0.0; p + named.len()],
+            inertia_errors: vec![0.0; p + named.len()],
+            residual: 0.0,
+            probes,
+            named,
+        };
+        columns.shapes.as_mut().subrows_mut(n_i, partition.n_interface()).subcols_mut(0, p).copy_from(&columns.probes);
+        let Some(interior) = interior else { return columns };
+        let follower = Follower::new(partition, interior, motions.carried);
+        let statics = follower.follow(columns.probes.as_ref());
+        columns.residual = columns.take(0, statics);
+        if is_accelerated {
+            columns.accelerate(&follower, (motions.relieved, asked));
+        } else {
+            let mut at = columns.shapes.as_mut().subrows_mut(0, n_i).subcols_mut(p, n_modes);
+            at.copy_from(&asked.modes.shapes);
+        }
+        columns.add_angles(partition, asked);
+        columns
+    }
+
+    /// W of a free component without interface: its rigid-body modes and its elastic modes.
+    pub(super) fn modal(motions: &RigidBodyModes, asked: &AskedModes) -> Self {
+        let (n_r, n_modes) = (motions.count(), asked.modes.count());
+        let rounding = |j: usize| if j < n_r { f64::EPSILON } else { asked.angles[j - n_r] };
+        let size = |j: usize| if j < n_r { asked.lambda().first() } else { asked.lambda().get(j - n_r) };
+        let omega = |j: usize| size(j).copied().unwrap_or(1.0).sqrt();
+        Self {
+            shapes: dense::beside(motions.orthonormal.as_ref(), asked.modes.shapes.as_ref()),
+            probes: Mat::zeros(0, 0),
+            named: (0..n_r).map(Named::Rigid).chain((0..n_modes).map(Named::Mode)).collect(),
+            energy_errors: (0..n_r + n_modes).map(|j| rounding(j) * omega(j)).collect(),
+            inertia_errors: (0..n_r + n_modes).map(rounding).collect(),
+            residual: 0.0,
+        }
+    }
+
+    /// p.
+    pub(super) fn n_probes(&self) -> usize {
+        self.probes.ncols()
+    }
+
+    /// N of inertia relief and mode acceleration.
+    fn accelerate(&mut self, follower: &Follower<'_>, (relieved, asked): (MatRef<'_, f64>, &AskedModes)) {
+        let (n_i, p, n_r) = (follower.partition.n_internal, self.n_probes(), relieved.ncols());
+        let momenta = product(&follower.partition.mass, relieved);
+        let relief = follower.answer(momenta.as_ref().subrows(0, n_i));
+        self.take(p, relief);
+        let (x_i, x_b) = asked.modes.shapes.as_ref().split_at_row(n_i);
+        let mut accelerated = follower.follow(x_b);
+        accelerated.x *= faer::Scale(-1.0);
+        accelerated.x += x_i;
+        self.take(p + n_r, accelerated);
+    }
+
+    /// Puts answers into the interior of columns, with what they lack; gives back how much that is.
+    fn take(&mut self, first: usize, answers: Motion) -> f64 {
+        let (n_i, n) = (answers.x.nrows(), answers.x.ncols());
+        self.shapes.as_mut().subrows_mut(0, n_i).subcols_mut(first, n).copy_from(&answers.x);
+        self.energy_errors[first..first + n].copy_from_slice(&answers.energy_errors);
+        self.inertia_errors[first..first + n].copy_from_slice(&answers.inertia_errors);
+        answers.residual
+    }
+
+    /// What the angle α of a mode adds to its column. With the interface held it is the mode itself: α in inertia, α√λ in energy.
+    /// Accelerated, X_I − Ψ_S X_B of the error: no more energy than the error itself, and inertia by the first eigenvalue of the
+    /// interior, for which the softest column stands. Turning inside of a cluster changes energies by its width.
+    fn add_angles(&mut self, partition: &Partition, asked: &AskedModes) {
+        let (p, softest) = (self.n_probes(), self.softest(partition));
+        for (slot, named) in self.named.iter().enumerate() {
+            let Named::Mode(mode) = *named else { continue };
+            let (angle, lambda) = (asked.angles[mode], asked.lambda()[mode]);
+            let inertia = match asked.boundary {
+                Boundary::FixedInterface => angle,
+                Boundary::FreeInterface => angle * (lambda / softest).min(1.0 / f64::EPSILON),
+            };
+            self.energy_errors[p + slot] += (angle + asked.width(mode)) * lambda.sqrt();
+            self.inertia_errors[p + slot] += inertia;
+        }
+    }
+
+    /// The least energy of a named column for its inertia.
+    fn softest(&self, partition: &Partition) -> f64 {
+        let pencil = partition.internal();
+        let interior = self.shapes.as_ref().subrows(0, partition.n_internal).subcols(self.n_probes(), self.named.len());
+        let energies = column_products(product(pencil.stiffness, interior).as_ref(), interior);
+        let inertias = column_products(product(pencil.mass, interior).as_ref(), interior);
+        let ratios = energies.iter().zip(&inertias).filter(|(_, inertia)| **inertia > 0.0).map(|(e, m)| e / m);
+        ratios.fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Motions of the interior, with what they lack.
+struct Motion {
+    /// n_I × k.
+    x: Mat<f64>,
+    energy_errors: Vec<f64>,
+    inertia_errors: Vec<f64>,
+    residual: f64,
+}
+
+/// How the interior follows the interface.
+struct Follower<'a> {
+    partition: &'a Partition,
+    interior: &'a Interior<'a>,
+    /// U_I − Ψ_S U_B and U_B⁺, where rigid-body motion is carried.
+    defect: Option<(Mat<f64>, Mat<f64>)>,
+}
+
+impl<'a> Follower<'a> {
+    /// U_I − Ψ_S U_B is K_II⁻¹(KU)_I: where the digits of K do not let U pass, it is what the correction of (24) adds, and otherwise
+    /// rounding.
+    fn new(partition: &'a Partition, interior: &'a Interior<'a>, carried: &RigidBodyModes) -> Self {
+        let (n_i, n_b) = (partition.n_internal, partition.n_interface());
+        let is_carried = carried.count() > 0 && n_b > 0;
+        let defect = is_carried.then(|| {
+            let motion = carried.orthonormal.as_ref();
+            let forces = product(&partition.stiffness, motion);
+            let defect = interior.solve(forces.as_ref().subrows(0, n_i)).x;
+            (defect, left_inverse(partition, motion.subrows(n_i, n_b)))
+        });
+        Self { partition, interior, defect }
+    }
+
+    /// Ψ_S X_B = −K_II⁻¹K_IB X_B + (U_I − K_II⁻¹K_IB U_B) U_B⁺ X_B.
+    fn follow(&self, x_b: MatRef<'_, f64>) -> Motion {
+        let n_i = self.partition.n_internal;
+        let mut border = Mat::zeros(self.partition.n_dofs(), x_b.ncols());
+        border.as_mut().subrows_mut(n_i, x_b.nrows()).copy_from(x_b);
+        let mut forces = product(&self.partition.stiffness, border.as_ref());
+        forces *= faer::Scale(-1.0);
+        let mut motion = self.answer(forces.as_ref().subrows(0, n_i));
+        if let Some((defect, inverse)) = &self.defect {
+            let shares = dense::product(inverse.as_ref(), x_b);
+            dense::add_product(motion.x.as_mut(), 1.0, defect.as_ref(), shares.as_ref());
+        }
+        motion
+    }
+
+    /// K_II⁻¹ F.
+    fn answer(&self, loads: MatRef<'_, f64>) -> Motion {
+        let Answers { x, errors, direct, residual } = self.interior.solve(loads);
+        let pencil = self.partition.internal();
+        let lengths = |matrix: Leading<'_>, errors: &Mat<f64>| -> Vec<f64> {
+            let squares = column_products(product(matrix, errors.as_ref()).as_ref(), errors.as_ref());
+            squares.into_iter().map(|square| square.max(0.0).sqrt()).collect()
+        };
+        let both = |matrix: Leading<'_>| {
+            let (own, direct) = (lengths(matrix, &errors), lengths(matrix, &direct));
+            own.iter().zip(direct).map(|(own, direct)| own + direct).collect()
+        };
+        Motion { energy_errors: both(pencil.stiffness), inertia_errors: both(pencil.mass), x, residual }
+    }
+}
+
+/// A matrix U_B⁺ with U_B⁺ U_B = I, n_r × n_B: least squares with rows weighted by stiffness, as (24) is corrected.
+fn left_inverse(partition: &Partition, u_b: MatRef<'_, f64>) -> Mat<f64> {
+    let (n_i, n_b) = (partition.n_internal, u_b.nrows());
+    let stiffness = |i: usize| partition.stiffness.get(n_i + i, n_i + i).copied().unwrap_or(0.0);
+    let weight: Vec<f64> = (0..n_b).map(|i| if stiffness(i) > 0.0 { stiffness(i).sqrt() } else { 1.0 }).collect();
+    let weighted = Mat::from_fn(n_b, u_b.ncols(), |i, j| weight[i] * u_b[(i, j)]);
+    let weights = Mat::from_fn(n_b, n_b, |i, j| if i == j { weight[i] } else { 0.0 });
+    weighted.qr().solve_lstsq(&weights)
+}

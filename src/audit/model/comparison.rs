@@ -1,0 +1,97 @@
+//! Everything in the file that has its coordinates, against the columns made again.
+
+use faer::{Mat, MatRef};
+use supel_runtime::Superelement;
+
+use super::alignment::Combination;
+use super::entries::{Kind, compared, rows, statics};
+use super::projection::Projected;
+use super::scaled::Scaled;
+use crate::audit::content::coordinate_name;
+use crate::error::Result;
+use crate::verification::check::Check;
+
+/// A file and the columns made again that its stored columns are combinations of.
+pub(super) struct Comparison<'a> {
+    pub(super) projected: &'a Projected,
+    pub(super) superelement: &'a Superelement,
+    pub(super) file: &'a Scaled,
+    /// B, q × (p + as many modal coordinates as are compared).
+    pub(super) b: Combination,
+    /// The first elastic eigenvalue.
+    pub(super) first: f64,
+}
+
+impl Comparison<'_> {
+    /// All checks.
+    ///
+    /// # Errors
+    /// A dense eigenproblem that does not converge.
+    pub(super) fn checks(&self) -> Result<Vec<Check>> {
+        let Self { projected, file, first, .. } = self;
+        let (p, b) = (projected.n_probes(), &self.b);
+        let name = |i: usize| self.name_of(i);
+        let (stiffness, mass) = (projected.stiffness.combined(b), projected.mass.combined(b));
+        let (k, m) = (self.mixed(file.k.as_ref()), self.mixed(file.m.as_ref()));
+        let mut checks = vec![
+            compared(k.as_ref(), &stiffness, (Kind::Energy, p), &name),
+            compared(m.as_ref(), &mass, (Kind::Inertia, p), &name),
+        ];
+        if p > 0 {
+            checks.push(statics(k.as_ref(), [&stiffness, &mass], *first, p)?);
+        }
+        if let (Some(expected), Some(stored)) = (&projected.gravity, &file.gravity) {
+            let words = ("M-18", "loads of gravity are those of the full model", "max |g − ΨᵀMe|_i / (√M̂_ii √m)");
+            let at = |axis: usize, i: usize| format!("{} along {}", name(i), ["x", "y", "z"][axis]);
+            let found = self.mixed_rows(stored.as_ref());
+            checks.push(rows(found.as_ref(), &expected.combined(b), f64::EPSILON, (words, &at)));
+        }
+        if let (Some(expected), Some(stored)) = (&projected.recovery, &file.recovery)
+            && expected.rows.nrows() == stored.nrows()
+        {
+            let words = (
+                "M-15",
+                "recovered rows are those of the full model",
+                "max |W − TΨ|_ij, relative to the displacements of like columns",
+            );
+            let at = |row: usize, i: usize| format!("{} of {}", self.row_name(row), name(i));
+            let found = self.mixed_rows(stored.as_ref());
+            checks.push(rows(found.as_ref(), &expected.combined(b), file.recovery_rounding, (words, &at)));
+        }
+        Ok(checks)
+    }
+
+    /// How many modal coordinates are compared.
+    fn n_modal(&self) -> usize {
+        self.b.columns.ncols() - self.projected.n_probes()
+    }
+
+    /// A matrix of the file with its interface rows and columns mixed as the probes are.
+    fn mixed(&self, a: MatRef<'_, f64>) -> Mat<f64> {
+        let half = self.mixed_rows(a);
+        self.mixed_rows(half.transpose())
+    }
+
+    /// Rows of the file with their interface columns mixed as the probes are.
+    fn mixed_rows(&self, a: MatRef<'_, f64>) -> Mat<f64> {
+        let (n_b, p) = (self.file.n_b, self.projected.n_probes());
+        let interface = crate::dense::product(a.subcols(0, n_b), self.projected.probes.as_ref());
+        Mat::from_fn(a.nrows(), p + self.n_modal(), |i, j| if j < p { interface[(i, j)] } else { a[(i, n_b + j - p)] })
+    }
+
+    fn name_of(&self, i: usize) -> String {
+        let (n_b, p) = (self.file.n_b, self.projected.n_probes());
+        if i < p && p < n_b {
+            format!("mixture {} of the interface", i + 1)
+        } else {
+            coordinate_name(self.superelement, n_b + i - p)
+        }
+    }
+
+    fn row_name(&self, row: usize) -> String {
+        let dof = self.superelement.tensors().recovery.as_ref().map(|recovery| recovery.dofs()[row]);
+        dof.map_or_else(String::new, |dof| {
+            format!("node {} {}", dof.node, format!("{:?}", dof.direction).to_lowercase())
+        })
+    }
+}

@@ -1,0 +1,199 @@
+//! Rigid-body motion of the full model against Û and M_F: M-05, M-16.
+
+use faer::linalg::solvers::SolveLstsq;
+use faer::{Mat, MatRef};
+
+use super::full::Full;
+use super::scaled::Scaled;
+use crate::dense;
+use crate::model::diagonal;
+use crate::rigid::{RigidBodyModes, RigidSource, energies_of_terms};
+use crate::sparse::product_and_terms;
+use crate::verification::check::{Check, Limits};
+
+/// Roundings of one sign may exceed their typical sum by this.
+const NOISE_FACTOR: f64 = 10.0;
+/// The most that rounding may excuse.
+const LARGEST_EXCUSE: f64 = 1e-3;
+/// Relative difference of numbers that both are made of the same coordinates by a few multiplications.
+const SAME_COORDINATES: f64 = 1e-14;
+
+/// What the full model says of its rigid-body motion.
+pub(super) struct KnownMotions {
+    /// Zero modes of K, by inverse iteration.
+    pub(super) n_zero: usize,
+    /// Q_B of the zero modes, n_B × n_r.
+    zero: Mat<f64>,
+    /// The unit motions, where the file's are those.
+    unit: Option<UnitMotions>,
+    /// Whether mass and the directions of gravity are known: one free body with coordinates.
+    pub(super) is_classical: bool,
+    /// Rounding of K relative to the first elastic eigenvalue: what a displacement may be off by.
+    rounding: f64,
+}
+
+struct UnitMotions {
+    /// U_B, n_B × n_r.
+    interface: Mat<f64>,
+    /// UᵀMU.
+    mass: Mat<f64>,
+    /// |U|ᵀ|M||U|, of which the mass is rounded by ε.
+    terms: Vec<f64>,
+}
+
+impl KnownMotions {
+    /// `given` are the motions that the reduction starts from.
+    pub(super) fn of(full: &Full<'_>, given: &RigidBodyModes) -> Self {
+        let partition = full.partition;
+        let (n_i, n_b) = (partition.n_internal, partition.n_interface());
+        let n_zero = full.zero.count();
+        let (k, m) = (diagonal(&partition.stiffness), diagonal(&partition.mass));
+        let ratios = k.iter().zip(&m).filter(|(_, m)| **m > 0.0).map(|(k, m)| k / m);
+        let condition = ratios.fold(1.0, f64::max) / full.first;
+        let is_geometric = given.source == RigidSource::Geometric && given.count() == n_zero && given.n_mechanisms == 0;
+        let unit = is_geometric.then(|| {
+            let modes = given.modes.as_ref();
+            let (momenta, terms) = product_and_terms(&partition.mass, modes);
+            UnitMotions {
+                interface: modes.subrows(n_i, n_b).to_owned(),
+                mass: dense::gram(modes, momenta.as_ref()),
+                terms: energies_of_terms(modes, terms.as_ref()),
+            }
+        });
+        Self {
+            n_zero,
+            zero: full.zero.orthonormal.as_ref().subrows(n_i, n_b).to_owned(),
+            unit,
+            is_classical: given.is_classical,
+            rounding: (NOISE_FACTOR * f64::EPSILON * condition).min(LARGEST_EXCUSE),
+        }
+    }
+
+    /// Whether the file has to say that its rigid-body modes are the six unit motions.
+    pub(super) fn is_geometric(&self) -> bool {
+        self.unit.is_some() && self.is_classical
+    }
+
+    /// Whether inertia relief answers the unit motions, whatever they are called.
+    pub(super) fn has_unit(&self) -> bool {
+        self.unit.is_some()
+    }
+
+    /// What rounding of K may move a displacement by, relatively.
+    pub(super) fn rounding(&self) -> f64 {
+        self.rounding
+    }
+
+    /// M-05: how many motions of the full model are free.
+    pub(super) fn count(&self, file: &Scaled) -> Check {
+        let stored = file.u.ncols();
+        Check {
+            id: "M-05",
+            name: "full model has as many free motions",
+            equation: "|zero modes of K − n_r|, by inverse iteration",
+            value: stored.abs_diff(self.n_zero) as f64,
+            limits: Limits::default(),
+            fail_above: 0.0,
+            worst: Some(format!("{} in the model, {stored} in the file", self.n_zero)),
+        }
+    }
+
+    /// Motions of the file from the zero modes, A with Û_B = Q_B A, n_r × n_r; and what is left over.
+    pub(super) fn combination(&self, file: &Scaled) -> (Mat<f64>, f64) {
+        // Rows weighted by inertia make translations and rotations count alike.
+        let weight: Vec<f64> = (0..file.n_b).map(|i| file.m[(i, i)].max(0.0).sqrt()).collect();
+        let weighted = |a: MatRef<'_, f64>| Mat::from_fn(a.nrows(), a.ncols(), |i, j| weight[i] * a[(i, j)]);
+        let (q, u) = (weighted(self.zero.as_ref()), weighted(file.u.as_ref().subrows(0, file.n_b)));
+        let combination = q.qr().solve_lstsq(&u);
+        let mut left = u.clone();
+        dense::add_product(left.as_mut(), -1.0, q.as_ref(), combination.as_ref());
+        let ratio = |j: usize| dense::norm(dense::column(left.as_ref(), j)) / dense::norm(dense::column(u.as_ref(), j));
+        (combination, dense::worst((0..u.ncols()).map(ratio)))
+    }
+
+    /// M-05: Û moves the interface as zero modes of the full model do, and as the coordinates say; M-16: and has their inertia.
+    pub(super) fn checks(&self, file: &Scaled) -> Vec<Check> {
+        let mut checks: Vec<Check> = self.unit.iter().flat_map(|unit| unit.checks(file)).collect();
+        if self.n_zero == 0 || file.n_b == 0 {
+            return checks;
+        }
+        let (combination, left) = self.combination(file);
+        let limits = Limits { engineering: 1e-9, arithmetic: self.rounding, data: 0.0 };
+        checks.push(Check {
+            id: "M-05",
+            name: "rigid-body modes are free in the full model",
+            equation: "max ‖Û_B − Q_B A‖ / ‖Û_B‖, Q by inverse iteration",
+            value: left,
+            limits,
+            fail_above: limits.value().max(1e-6),
+            worst: None,
+        });
+        // QᵀMQ = I, so that U = Q A has the inertia AᵀA.
+        let inertia = dense::gram(combination.as_ref(), combination.as_ref());
+        let (value, worst) = difference(&file.m_f, &inertia);
+        checks.push(Check {
+            id: "M-16",
+            name: "rigid-body mass is that of the zero modes",
+            equation: "max |M_F − AᵀQᵀMQA|_ij / √(ii jj)",
+            value,
+            limits,
+            fail_above: limits.value().max(1e-6),
+            worst,
+        });
+        checks
+    }
+}
+
+impl UnitMotions {
+    fn checks(&self, file: &Scaled) -> Vec<Check> {
+        let mut worst = (0.0, None);
+        for j in 0..self.interface.ncols() {
+            let expected = dense::column(self.interface.as_ref(), j);
+            let largest = expected.iter().fold(1.0f64, |max, value| max.max(value.abs()));
+            for (i, value) in expected.iter().enumerate() {
+                let error = (file.u[(i, j)] - value).abs() / largest;
+                if dense::worse(error, worst.0) {
+                    worst = (error, Some(format!("rigid-body mode {}, interface dof {}", j + 1, i + 1)));
+                }
+            }
+        }
+        let of_coordinates = Check {
+            id: "M-05",
+            name: "rigid-body modes are unit motions of the job's nodes",
+            equation: "max |Û_B − U_B|, relative to the largest displacement",
+            value: worst.0,
+            limits: Limits { engineering: SAME_COORDINATES, ..Limits::default() },
+            fail_above: 10.0 * SAME_COORDINATES,
+            worst: worst.1,
+        };
+        let (value, worst) = difference(&file.m_f, &self.mass);
+        let share = |j: usize| self.terms[j] / self.mass[(j, j)];
+        let terms = (0..self.terms.len()).map(share).fold(1.0, f64::max);
+        let limits = Limits { engineering: 1e-13, arithmetic: NOISE_FACTOR * f64::EPSILON * terms, data: 0.0 };
+        let inertia = Check {
+            id: "M-16",
+            name: "rigid-body mass is that of the full model",
+            equation: "max |M_F − UᵀMU|_ij / √(ii jj), U unit motions",
+            value,
+            limits,
+            fail_above: 10.0 * limits.value(),
+            worst,
+        };
+        vec![of_coordinates, inertia]
+    }
+}
+
+/// max |A − B|_ij / √(B_ii B_jj), and where.
+fn difference(found: &Mat<f64>, expected: &Mat<f64>) -> (f64, Option<String>) {
+    let mut worst = (0.0, None);
+    for j in 0..expected.ncols() {
+        for i in 0..=j {
+            let size = (expected[(i, i)] * expected[(j, j)]).sqrt();
+            let error = (found[(i, j)] - expected[(i, j)]).abs() / size;
+            if dense::worse(error, worst.0) {
+                worst = (error, Some(format!("rigid-body modes {} and {}", i + 1, j + 1)));
+            }
+        }
+    }
+    worst
+}

@@ -1,0 +1,189 @@
+//! The matrices of the full model on the columns made again, with what is known of their errors.
+//!
+//! ```text
+//! WᵀKW, WᵀMW   q × q      q = p + n_N
+//! WᵀMe         q × 3      e a unit translation
+//! TW           m × q      rows of the model that the file recovers
+//! ```
+//! Nothing larger outlives this stage.
+
+use faer::{Mat, MatRef};
+
+use super::alignment::Combination;
+use super::columns::{Columns, Named};
+use crate::dense;
+use crate::partition::Partition;
+use crate::rigid::energies_of_terms;
+use crate::sparse::{SparseMatrix, panels, product, product_and_terms};
+
+/// A symmetric form on some columns w, whose own errors are e.
+#[derive(Clone)]
+pub(super) struct Form {
+    /// wᵀAw, q × q.
+    pub(super) matrix: Mat<f64>,
+    /// √(eᵀAe).
+    pub(super) errors: Vec<f64>,
+    /// √(|w|ᵀ|A||w|): rounding of an entry is ε times the product of two of these.
+    pub(super) terms: Vec<f64>,
+}
+
+/// A linear map of some columns.
+#[derive(Clone)]
+pub(super) struct Rows {
+    /// m × q.
+    pub(super) rows: Mat<f64>,
+    /// What the entries of each column may be off by.
+    pub(super) errors: Vec<f64>,
+    /// How large the entries of each column may be.
+    pub(super) sizes: Vec<f64>,
+}
+
+/// The full model on the columns W.
+pub(super) struct Projected {
+    /// P, n_B × p.
+    pub(super) probes: Mat<f64>,
+    pub(super) named: Vec<Named>,
+    pub(super) stiffness: Form,
+    pub(super) mass: Form,
+    /// (WᵀMe)ᵀ, 3 × q, where the directions are known.
+    pub(super) gravity: Option<Rows>,
+    /// TW, where rows are recovered.
+    pub(super) recovery: Option<Rows>,
+    /// (WᵀMU)ᵀ, n_r × q, U the unit motions; of a component without interface that has them.
+    pub(super) motions: Option<Mat<f64>>,
+    /// The largest error of a static answer relative to itself.
+    pub(super) residual: f64,
+}
+
+impl Projected {
+    /// Projects the matrices; `unit` are the unit motions, translations first, where the directions are known.
+    pub(super) fn new(partition: &Partition, columns: Columns, unit: Option<MatRef<'_, f64>>) -> Self {
+        let (shapes, n_probes) = (columns.shapes.as_ref(), columns.n_probes());
+        let stiffness = form(&partition.stiffness, shapes, columns.energy_errors);
+        let mass = form(&partition.mass, shapes, columns.inertia_errors);
+        let gravity = unit.map(|unit| loads(partition, unit.subcols(0, 3), shapes, &mass));
+        let recovery = (!partition.recovered.is_empty()).then(|| recovered(partition, shapes, (&mass, n_probes)));
+        let is_modal = columns.probes.ncols() == 0;
+        let motions =
+            unit.filter(|_| is_modal).map(|unit| dense::gram(product(&partition.mass, unit).as_ref(), shapes));
+        let Columns { probes, named, residual, .. } = columns;
+        Self { probes, named, stiffness, mass, gravity, recovery, motions, residual }
+    }
+
+    /// p.
+    pub(super) fn n_probes(&self) -> usize {
+        self.probes.ncols()
+    }
+
+    /// The error of a named column relative to its length in the mass, ten times over: it is no more than an estimate.
+    pub(super) fn doubt(&self, column: usize) -> f64 {
+        const NOISE_FACTOR: f64 = 10.0;
+        let at = self.n_probes() + column;
+        let length = self.mass.matrix[(at, at)].max(f64::MIN_POSITIVE).sqrt();
+        NOISE_FACTOR * self.mass.errors[at] / length
+    }
+
+    /// The share of its length in the mass that a named column keeps once others are taken out of it.
+    pub(super) fn remaining(&self, column: usize, others: &[usize]) -> f64 {
+        /// Square of a share below which a column among the others is rounding.
+        const DEPENDENT: f64 = 1e-14;
+        let at: Vec<usize> = others.iter().chain([&column]).map(|place| self.n_probes() + place).collect();
+        let gram = |i: usize, j: usize| self.mass.matrix[(at[i], at[j])];
+        let length = |i: usize| gram(i, i).max(f64::MIN_POSITIVE).sqrt();
+        // Cholesky of the Gram matrix of unit columns; what is left on the diagonal are the squares of the shares.
+        let n = at.len();
+        let mut lower = Mat::<f64>::zeros(n, n);
+        let mut left = 0.0;
+        for j in 0..n {
+            let product =
+                |i: usize, k: usize, lower: &Mat<f64>| (0..k).map(|l| lower[(i, l)] * lower[(j, l)]).sum::<f64>();
+            left = gram(j, j) / length(j).powi(2) - product(j, j, &lower);
+            if left <= DEPENDENT {
+                continue;
+            }
+            lower[(j, j)] = left.sqrt();
+            for i in j + 1..n {
+                lower[(i, j)] = (gram(i, j) / (length(i) * length(j)) - product(i, j, &lower)) / lower[(j, j)];
+            }
+        }
+        left.max(0.0).sqrt()
+    }
+}
+
+/// wᵀAw, panel by panel.
+fn form(matrix: &SparseMatrix, shapes: MatRef<'_, f64>, errors: Vec<f64>) -> Form {
+    let q = shapes.ncols();
+    let (mut projected, mut terms) = (Mat::zeros(q, q), Vec::with_capacity(q));
+    for columns in panels(q) {
+        let panel = shapes.get(.., columns.clone());
+        let (image, sizes) = product_and_terms(matrix, panel);
+        terms.extend(energies_of_terms(panel, sizes.as_ref()).into_iter().map(f64::sqrt));
+        projected.as_mut().get_mut(.., columns).copy_from(dense::gram(shapes, image.as_ref()));
+    }
+    dense::symmetrise(&mut projected);
+    // Entries of a column are rounded by ε of themselves, which is a motion as large as ε times its terms.
+    let errors = errors.iter().zip(&terms).map(|(error, terms)| error + f64::EPSILON * terms).collect();
+    Form { matrix: projected, errors, terms }
+}
+
+/// (WᵀMe)ᵀ for unit motions e: no more than the product of both lengths in the mass.
+fn loads(partition: &Partition, along: MatRef<'_, f64>, shapes: MatRef<'_, f64>, mass: &Form) -> Rows {
+    let loads = product(&partition.mass, along);
+    let length = dense::dots(along, loads.as_ref()).into_iter().fold(0.0, f64::max).sqrt();
+    let columns = 0..shapes.ncols();
+    Rows {
+        rows: dense::gram(loads.as_ref(), shapes),
+        errors: columns.clone().map(|j| length * (mass.errors[j] + f64::EPSILON * mass.terms[j])).collect(),
+        sizes: columns.map(|j| length * mass.matrix[(j, j)].max(0.0).sqrt()).collect(),
+    }
+}
+
+/// TW. What a column lacks is a motion of like columns: displacements for its inertia are as large as theirs.
+fn recovered(partition: &Partition, shapes: MatRef<'_, f64>, (mass, n_probes): (&Form, usize)) -> Rows {
+    let rows = Mat::from_fn(partition.recovered.len(), shapes.ncols(), |i, j| {
+        let entries = partition.transformation.rows[partition.recovered[i].0].entries();
+        entries.map(|(dof, factor)| factor * shapes[(dof as usize, j)]).sum()
+    });
+    let length = |j: usize| mass.matrix[(j, j)].max(0.0).sqrt();
+    let largest = |j: usize| dense::column(rows.as_ref(), j).iter().fold(0.0f64, |max, value| max.max(value.abs()));
+    let (mut errors, mut sizes) = (Vec::new(), Vec::new());
+    for like in [0..n_probes, n_probes..shapes.ncols()] {
+        let share = |j: usize| if length(j) > 0.0 { largest(j) / length(j) } else { 0.0 };
+        let share = like.clone().map(share).fold(0.0, f64::max);
+        errors.extend(like.clone().map(|j| share * mass.errors[j] + f64::EPSILON * largest(j)));
+        sizes.extend(like.map(|j| share * length(j)));
+    }
+    Rows { rows, errors, sizes }
+}
+
+impl Form {
+    /// BᵀAB: the form on combinations of its columns.
+    pub(super) fn combined(&self, combination: &Combination) -> Self {
+        let b = combination.columns.as_ref();
+        let mut matrix = dense::product(b.transpose(), dense::product(self.matrix.as_ref(), b).as_ref());
+        dense::symmetrise(&mut matrix);
+        let norms: Vec<f64> = (0..self.matrix.nrows()).map(|j| self.matrix[(j, j)].max(0.0).sqrt()).collect();
+        Self { matrix, errors: with_rounding(&self.errors, &norms, combination), terms: summed(&self.terms, b) }
+    }
+}
+
+impl Rows {
+    /// The rows of combinations of the columns.
+    pub(super) fn combined(&self, combination: &Combination) -> Self {
+        let b = combination.columns.as_ref();
+        let errors = with_rounding(&self.errors, &self.sizes, combination);
+        Self { rows: dense::product(self.rows.as_ref(), b), errors, sizes: summed(&self.sizes, b) }
+    }
+}
+
+/// Errors of combinations: those of the columns, and of the combination itself on columns of these sizes.
+fn with_rounding(errors: &[f64], sizes: &[f64], combination: &Combination) -> Vec<f64> {
+    let (errors, rounding) =
+        (summed(errors, combination.columns.as_ref()), summed(sizes, combination.amplified.as_ref()));
+    errors.iter().zip(rounding).map(|(error, rounding)| error + f64::EPSILON * rounding).collect()
+}
+
+/// |B|ᵀ of sizes of columns: what they add up to at most.
+fn summed(sizes: &[f64], b: MatRef<'_, f64>) -> Vec<f64> {
+    (0..b.ncols()).map(|k| sizes.iter().enumerate().map(|(j, size)| size * b[(j, k)].abs()).sum()).collect()
+}

@@ -1,0 +1,117 @@
+//! What could not be judged, and which fields nothing vouches for.
+
+use serde::Serialize;
+use supel_runtime::{RigidBodyModes, Superelement};
+
+use super::content::Content;
+
+/// What was not judged of this file, besides the fields that no file can vouch for.
+pub(super) fn notes(content: &Content<'_>) -> Vec<String> {
+    let metadata = content.superelement.metadata();
+    let mut notes = Vec::new();
+    if content.job.is_none() {
+        notes.push("the job kept in the file is of another version; what it expects was not compared".to_owned());
+    }
+    if metadata.model.rigid_body_modes == RigidBodyModes::Algebraic && content.n_rigid() > 0 {
+        notes.push("the rigid-body modes have no geometric meaning; mass and centre were not compared".to_owned());
+    }
+    if content.n_rigid() == 0 {
+        notes.push("the component is held: no rigid-body motion ties its stiffness and mass together".to_owned());
+    }
+    notes
+}
+
+/// A field whose content nothing vouches for, as far as it was looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Unvouched {
+    /// A tensor, or a field of the metadata with all below it; `[]` stands for each element of a list.
+    pub field: &'static str,
+    /// Why not.
+    pub reason: &'static str,
+}
+
+const fn unvouched(field: &'static str, reason: &'static str) -> Unvouched {
+    Unvouched { field, reason }
+}
+
+const NOT_AT_HAND: &str = "names things of a model that is not at hand";
+
+/// What the file alone cannot vouch for.
+const ALONE: [Unvouched; 22] = [
+    unvouched("generator", "a file has no other sign of who made it"),
+    unvouched("units", "the job kept in it is the only other place, and may be changed too"),
+    unvouched("interface_nodes[].label", NOT_AT_HAND),
+    unvouched(
+        "interface_nodes[].position",
+        "the rigid-body modes are the only other place; algebraic ones have no positions",
+    ),
+    unvouched("coordinates[].row", NOT_AT_HAND),
+    unvouched(
+        "coordinates[].error_bar_hz",
+        "comes from the digits and terms of K and M; only the largest is tied to M-09",
+    ),
+    unvouched("dropped[].column", "a column that was left out is in no matrix"),
+    unvouched("dropped[].reason", "words for people"),
+    unvouched("model.n_dofs", NOT_AT_HAND),
+    unvouched("model.rigid_body_modes", "without interface nodes nothing else tells unit motions from others"),
+    unvouched(
+        "model.mass_properties",
+        "a component whose rigid-body modes are not six unit motions has no other place for them",
+    ),
+    unvouched("inputs", "digests of files that are not at hand"),
+    unvouched("job", "what was asked for is known from the file itself only"),
+    unvouched("verification", "values are the rounding of one run, and warnings of its report are not in the file"),
+    unvouched("frequencies", "modes left out everywhere leave a file that agrees with itself"),
+    unvouched("stiffness", "a change that keeps rigid-body motion and frequencies agrees with the rest"),
+    unvouched("mass", "a change that keeps rigid-body inertia, gravity and frequencies agrees with the rest"),
+    unvouched("gravity", "of a component whose rigid-body modes are not six unit motions nothing else has it"),
+    unvouched("mixing", "the length of a named column is in no other place"),
+    unvouched("rigid_body_mass", "of a held component there is none"),
+    unvouched(
+        "recovery",
+        "rigid-body motion ties its interface columns, nothing its modal ones; any node may have any place",
+    ),
+    unvouched("recovery_dofs", NOT_AT_HAND),
+];
+
+/// What a comparison with the job cannot vouch for either.
+const WITH_JOB: [Unvouched; 5] = [
+    unvouched("generator", "another version that makes the same leaves no other sign; a warning says so"),
+    unvouched("dropped[].reason", "words for people"),
+    unvouched("job", "files may move, and repeated entries are added or refused: the matrices are compared"),
+    unvouched("verification", "values are the rounding of one run; each property was measured anew"),
+    unvouched("inputs", "other files may hold the same matrices; a warning says so"),
+];
+
+/// The fields of a superelement that a comparison does not vouch for.
+pub(super) fn fields(superelement: &Superelement, compared: Compared) -> Vec<Unvouched> {
+    let (metadata, tensors) = (superelement.metadata(), superelement.tensors());
+    let list: &[Unvouched] = match compared {
+        Compared::Alone => &ALONE,
+        Compared::WithJob => &WITH_JOB,
+    };
+    let is_algebraic = metadata.model.rigid_body_modes == RigidBodyModes::Algebraic;
+    let is_there = |unvouched: &&Unvouched| match unvouched.field {
+        "units" => metadata.units.is_some(),
+        "interface_nodes[].label" => metadata.interface_nodes.iter().any(|node| node.label.is_some()),
+        "interface_nodes[].position" => is_algebraic && !metadata.interface_nodes.is_empty(),
+        "coordinates[].row" => superelement.n_interface() > 0 && metadata.interface_nodes.is_empty(),
+        "coordinates[].error_bar_hz" => !tensors.frequencies.is_empty(),
+        "dropped[].column" | "dropped[].reason" => !metadata.dropped.is_empty(),
+        "model.rigid_body_modes" => metadata.interface_nodes.is_empty(),
+        "mixing" => tensors.mixing.is_some(),
+        "model.mass_properties" => is_algebraic && metadata.model.mass_properties.is_some(),
+        "gravity" => is_algebraic && tensors.gravity.is_some(),
+        "rigid_body_mass" => superelement.n_rigid() == 0,
+        "recovery" | "recovery_dofs" => tensors.recovery.is_some(),
+        _ => true,
+    };
+    list.iter().filter(is_there).copied().collect()
+}
+
+/// What a superelement was compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Compared {
+    Alone,
+    WithJob,
+}

@@ -1,0 +1,134 @@
+//! Sound superelements of every kind, with the jobs that made them.
+
+use std::path::Path;
+
+use supel::cli::ExitCode;
+use supel::job::Job;
+use supel_models::{Ends, Material, brick, spring};
+use supel_runtime::Superelement;
+
+use crate::place::{Place, steel_brick, supel};
+
+/// A sound superelement and its job.
+pub(super) struct Subject {
+    pub(super) name: &'static str,
+    pub(super) superelement: Superelement,
+    /// The file's own bytes are in its folder.
+    place: Place,
+}
+
+impl Subject {
+    /// The job, its paths absolute.
+    pub(super) fn job(&self) -> Job {
+        Job::read(&self.place.path("job.toml")).expect("a job")
+    }
+
+    fn of(name: &'static str, place: Place, job: &str) -> Self {
+        place.write("job.toml", job.as_bytes());
+        supel(&["reduce", &place.text("job.toml"), "--quiet"]).expect(ExitCode::Done);
+        Self { name, superelement: place.superelement("x.supel"), place }
+    }
+}
+
+const FILES: &str = r#"
+    stiffness = "K.mtx"
+    mass = "M.mtx"
+"#;
+const MESH: &str = r#"
+    dofs = "dofs.txt"
+    nodes = "nodes.csv"
+    units = "SI"
+"#;
+
+fn text(model: &str, interfaces: &str, reduction: &str, write: &str) -> String {
+    format!("[model]\n{model}\n{interfaces}\n[reduction]\n{reduction}\n[write]\nsuperelement = \"x.supel\"\n{write}\n")
+}
+
+fn patch(name: &str, nodes: &str, coupling: &str) -> String {
+    format!("[[interface]]\nname = \"{name}\"\nnodes = {nodes}\ncoupling = \"{coupling}\"\n")
+}
+
+/// The bundled bracket by both methods, with recovered nodes.
+#[cfg(feature = "hdf5")]
+fn bracket(name: &'static str, method: &str) -> Subject {
+    let place = Place::with_example();
+    let job = String::from_utf8(place.bytes("job.toml")).expect("UTF-8");
+    let job = job.replace("herting", method).replace("bracket.supel", "x.supel");
+    let job = job + "recovery = { nodes = { within = { sphere = { center = [0, 0, 40], radius = 12 } } } }\n";
+    Subject::of(name, place, &job)
+}
+
+/// A brick with direct and rigid interfaces, recovered in single precision.
+fn solid(name: &'static str, method: &str) -> Subject {
+    let place = Place::with(&steel_brick());
+    let interfaces = patch("foot", "[1, 11, 31, 41]", "direct") + &patch("head", "[5, 15, 35]", "rigid");
+    let reduction = format!("method = \"{method}\"\nmodes = {{ count = 6 }}");
+    let recovery = "recovery = { nodes = [22, 23, 24], precision = \"single\" }";
+    Subject::of(name, place, &text(&(FILES.to_owned() + MESH), &interfaces, &reduction, recovery))
+}
+
+/// So many modes that some depend on others: nine nodes of two layers are interface.
+fn dropped() -> Subject {
+    let place = Place::with(&brick([2, 2, 2], [0.4, 0.31, 0.23], &Material::STEEL_SI));
+    let labels = (1..=24).map(|label: i32| label.to_string()).collect::<Vec<_>>().join(", ");
+    let interfaces = patch("most", &format!("[{labels}]"), "direct");
+    let reduction = "method = \"herting\"\nmodes = { count = 12 }";
+    Subject::of("columns left out", place, &text(&(FILES.to_owned() + MESH), &interfaces, reduction, ""))
+}
+
+/// A beam of square section, whose bending modes are in pairs.
+fn square() -> Subject {
+    let place = Place::with(&brick([6, 2, 2], [1.0, 0.2, 0.2], &Material::STEEL_SI));
+    let interfaces = patch("foot", "[1, 8, 22, 29]", "rigid");
+    let reduction = "method = \"craig-bampton\"\nmodes = { up_to_hz = 6000 }";
+    let recovery = "recovery = { nodes = [18, 49] }\n[scene]\nboundaries = [\"fix:foot\"]";
+    Subject::of("repeated modes", place, &text(&(FILES.to_owned() + MESH), &interfaces, reduction, recovery))
+}
+
+/// Rows alone, free and held.
+fn rows(name: &'static str, ends: Ends, method: &str) -> Subject {
+    let place = Place::with(&spring(12, ends));
+    let interfaces = "[[interface]]\nname = \"ends\"\nnodes = { rows = [0, 11] }\n";
+    let reduction = format!("method = \"{method}\"\nmodes = {{ count = 4 }}");
+    Subject::of(name, place, &text(FILES, interfaces, &reduction, ""))
+}
+
+/// A solid without interface: its own modes.
+fn modal() -> Subject {
+    let place = Place::with(&steel_brick());
+    let reduction = "method = \"herting\"\nmodes = { count = 5 }";
+    let recovery = "recovery = { nodes = [22, 23, 24] }";
+    Subject::of("no interface", place, &text(&(FILES.to_owned() + MESH), "", reduction, recovery))
+}
+
+/// Rows without mass: M is singular.
+fn massless() -> Subject {
+    let mut model = steel_brick();
+    // Node 23, inside.
+    model.mass.retain(|(i, j, _)| !(66..69).contains(i) && !(66..69).contains(j));
+    let place = Place::with(&model);
+    let interfaces = patch("foot", "[1, 11, 31, 41]", "direct");
+    let reduction = "method = \"craig-bampton\"\nmodes = { count = 5 }";
+    Subject::of("rows without mass", place, &text(&(FILES.to_owned() + MESH), &interfaces, reduction, ""))
+}
+
+pub(super) fn subjects() -> Vec<Subject> {
+    let mut subjects = vec![
+        solid("solid, Herting", "herting"),
+        solid("solid, Craig-Bampton", "craig-bampton"),
+        dropped(),
+        square(),
+        rows("rows, free", Ends::Free, "herting"),
+        rows("rows, held", Ends::Fixed, "craig-bampton"),
+        modal(),
+        massless(),
+    ];
+    #[cfg(feature = "hdf5")]
+    subjects.extend([bracket("bracket, Herting", "herting"), bracket("bracket, Craig-Bampton", "craig-bampton")]);
+    subjects
+}
+
+/// Where the documents are.
+pub(super) fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
