@@ -60,8 +60,9 @@ impl Known {
         let facts = InputFacts::of(&read);
         let model = Model::new(read).expect("a model");
         let recovered = recovered_rows(&model, job.write.recovery.as_ref()).expect("nodes");
-        let partition = Partition::new(model, &job.interfaces).expect("interfaces");
-        Self { job, facts, partition: Partition { recovered, ..partition } }
+        let mut partition = Partition::new(model, &job.interfaces).expect("interfaces");
+        partition.recovered = recovered;
+        Self { job, facts, partition }
     }
 }
 
