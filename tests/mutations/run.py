@@ -17,6 +17,9 @@ import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COPY = ROOT / "target" / "mutations"
+TARGET = ROOT / "target" / "mutated"
+# A build for each fault: it has to be quick rather than its tests.
+QUICK_BUILD = {"CARGO_PROFILE_DEV_OPT_LEVEL": "1", "CARGO_PROFILE_DEV_DEBUG": "0"}
 
 
 def copy_sources():
@@ -39,8 +42,8 @@ def run(tests):
     """Whether `cargo test` passes for a target and a filter of the package in a folder, and what it printed."""
     member, target, test = tests
     command = ["cargo", "test", "--manifest-path", str(COPY / member / "Cargo.toml"), "--test", target, "--", test]
-    # The dependencies are those of the repository itself and need no second build.
-    environment = dict(os.environ, CARGO_TARGET_DIR=str(ROOT / "target"), RUST_BACKTRACE="0")
+    # A folder of its own: in a shared one cargo may take what a fault made for the work of the sources.
+    environment = dict(os.environ, CARGO_TARGET_DIR=str(TARGET), RUST_BACKTRACE="0", **QUICK_BUILD)
     ended = subprocess.run(command, cwd=COPY, env=environment, capture_output=True, text=True)
     return ended.returncode == 0, ended.stdout + ended.stderr
 

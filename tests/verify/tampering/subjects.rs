@@ -58,6 +58,17 @@ fn bracket(name: &'static str, method: &str) -> Subject {
     Subject::of(name, place, &job)
 }
 
+#[cfg(feature = "hdf5")]
+fn brackets() -> Vec<Subject> {
+    vec![bracket("bracket, Herting", "herting"), bracket("bracket, Craig-Bampton", "craig-bampton")]
+}
+
+/// The mesh of the bundled example takes HDF5.
+#[cfg(not(feature = "hdf5"))]
+fn brackets() -> Vec<Subject> {
+    Vec::new()
+}
+
 /// A brick with direct and rigid interfaces, recovered in single precision.
 fn solid(name: &'static str, method: &str) -> Subject {
     let place = Place::with(&steel_brick());
@@ -123,8 +134,7 @@ pub(super) fn subjects() -> Vec<Subject> {
         modal(),
         massless(),
     ];
-    #[cfg(feature = "hdf5")]
-    subjects.extend([bracket("bracket, Herting", "herting"), bracket("bracket, Craig-Bampton", "craig-bampton")]);
+    subjects.extend(brackets());
     subjects
 }
 
