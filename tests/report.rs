@@ -51,6 +51,9 @@ fn values_that_are_no_numbers_stay_a_document_that_fails() {
     assert_eq!(document["body"]["verdict"], "fail");
 }
 
+/// Objects that list what there is: a job may do without any of it.
+const LISTS: [&str; 1] = ["/body/model/files"];
+
 /// Each object of the schema is closed: a field too many or too few anywhere is refused.
 #[test]
 fn schema_is_strict_at_every_object() {
@@ -63,6 +66,9 @@ fn schema_is_strict_at_every_object() {
         let mut more = good.clone();
         more.pointer_mut(&place).and_then(Value::as_object_mut).expect("object").insert("surplus".into(), 1.into());
         assert!(!validator.is_valid(&more), "surplus field accepted at `{place}`");
+        if LISTS.contains(&place.as_str()) {
+            continue;
+        }
         for key in good.pointer(&place).and_then(Value::as_object).expect("object").keys() {
             let mut less = good.clone();
             less.pointer_mut(&place).and_then(Value::as_object_mut).expect("object").remove(key);

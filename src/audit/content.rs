@@ -37,6 +37,8 @@ pub(super) struct Content<'a> {
     pub(super) first: f64,
     /// Rounding of the arithmetic and of the data in an energy, relative to `first`, as error bars tell.
     noise: f64,
+    /// Whether a model tells that, and not the file itself.
+    noise_is_known: bool,
     /// Powers of two near 1/√(K̂ + λ₁M̂)_ii. Of K̂ alone nothing may be left: an interface that just holds the component
     /// has none.
     pub(super) scale: Vec<f64>,
@@ -59,6 +61,7 @@ impl<'a> Content<'a> {
             m_f: unpacked(&tensors.rigid_body_mass),
             n_b: superelement.n_interface(),
             boundary: boundary(superelement),
+            noise_is_known: noise.is_some(),
             noise: noise.unwrap_or_else(|| by_own_bars(superelement, first)),
             job: kept_job(superelement),
             k,
@@ -82,7 +85,10 @@ impl<'a> Content<'a> {
     /// Limits of an energy that should be nothing, relative to that of the first elastic mode. A file does not say how many digits
     /// its matrices had, and all that its bars explain counts alike.
     pub(super) fn energy_limits(&self) -> Judged {
-        limits::of_energy(self.noise, 1.0)
+        match self.noise_is_known {
+            true => limits::of_energy(self.noise, 1.0),
+            false => limits::of_unexplained_energy(self.noise),
+        }
     }
 
     /// Limits of a force of rigid-body motion, in the scales of K̂ + λ₁M̂.

@@ -33,7 +33,7 @@ use crate::job::Job;
 use crate::modes::Boundary;
 use crate::output::InputFacts;
 use crate::partition::Partition;
-use crate::rigid::{self, RigidBodyModes};
+use crate::rigid::{self, RigidBodyModes, RigidSource};
 use crate::verification::check::{Check, Limits};
 
 use alignment::{Combination, Freedom, combination};
@@ -56,6 +56,8 @@ pub struct Reference<'a> {
     projected: Projected,
     /// The first elastic eigenvalue.
     first: f64,
+    /// What few digits make of the energy of rigid-body motion.
+    noise_of_digits: f64,
 }
 
 impl<'a> Reference<'a> {
@@ -76,17 +78,21 @@ impl<'a> Reference<'a> {
                 (asked, columns)
             }
             asked => {
-                let relieved = if motions.has_unit() { given.modes.as_ref() } else { zero.orthonormal.as_ref() };
-                with_interior(job, partition, (asked, Motions { carried: &given, relieved }), first)?
+                let (relieved, source) = match motions.has_unit() {
+                    true => (given.modes.as_ref(), RigidSource::Geometric),
+                    false => (zero.orthonormal.as_ref(), RigidSource::Algebraic),
+                };
+                with_interior(job, partition, (asked, Motions { carried: &given, relieved, source }), first)?
             }
         };
         let projected = Projected::new(partition, columns, unit);
-        Ok(Self { job, facts, partition, motions, asked: asked.without_shapes(), projected, first })
+        let noise_of_digits = rigid::noise_of_digits(partition, &given);
+        Ok(Self { job, facts, partition, motions, asked: asked.without_shapes(), projected, first, noise_of_digits })
     }
 
     /// What rounding and the digits of the data make of an energy, relative to that of the first elastic mode.
     pub(super) fn noise(&self) -> f64 {
-        self.asked.noise(self.first)
+        self.asked.noise(self.first).max(self.noise_of_digits / self.first)
     }
 
     /// Compares a superelement with what it has to be.

@@ -69,8 +69,7 @@ fn costly_rotations(motions: &Motions<'_>, nodes: &Nodes, body: &Body, held: &[D
         let witnesses: Vec<usize> = body.rows.iter().copied().filter(is_witness).collect();
         let residual = |motion: usize| motions.residual(body, &witnesses, motion);
         let noise = (0..FIRST_ROTATION).map(residual).fold(motions.rounding(), f64::max);
-        let (energy, terms) = motions.energy(body, rotation);
-        let has_energy = is_free && energy > FREE_BELOW_NOISE * motions.rounding() * terms;
+        let has_energy = is_free && turning_costs(motions, body, rotation);
         let residual = residual(rotation);
         let is_costly = residual > NOTICEABLE * noise || has_energy;
         is_costly.then_some(Costly { rotation, residual, witnesses, is_free })
@@ -79,6 +78,14 @@ fn costly_rotations(motions: &Motions<'_>, nodes: &Nodes, body: &Body, held: &[D
     let mut costly: Vec<Costly> = (0..3).filter(|axis| !is_said(axis)).filter_map(look).collect();
     costly.sort_by(|a, b| b.residual.total_cmp(&a.residual));
     costly
+}
+
+/// Whether a rotation costs more than rounding, and more than soft springs to ground can hold of it. Those hold displacements by unit
+/// rotation, which are one at most, no stiffer than they hold the translations all together.
+fn turning_costs(motions: &Motions<'_>, body: &Body, rotation: usize) -> bool {
+    let (energy, terms) = motions.energy(body, rotation);
+    let moving: f64 = (0..FIRST_ROTATION).map(|translation| motions.energy(body, translation).0.max(0.0)).sum();
+    energy > FREE_BELOW_NOISE * motions.rounding() * terms + NOTICEABLE * moving
 }
 
 /// What is to be said where supports touch nearly all rows of the bodies that they hold.

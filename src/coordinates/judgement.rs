@@ -5,7 +5,7 @@ use super::free::Free;
 use super::mended::mended;
 use super::motions::Motions;
 use super::zeros::{Zeros, counted, n_loose_rows, whole};
-use crate::error::{Error, Result};
+use crate::error::{Error, ErrorClass, Result};
 use crate::model::{CoordinateFit, Misfit};
 use crate::sparse::product;
 
@@ -47,11 +47,21 @@ pub(super) fn settled(motions: &Motions<'_>, doubts: &[Doubt]) -> Result<Coordin
             let noise = case.free.iter().fold(0.0, |max: f64, free| max.max(free.noise));
             match counted(&whole, noise)? {
                 Some(n_zero) if n_zero <= n_explained => Ok(CoordinateFit::Exact),
-                _ => case.supports(&Zeros::of(&whole)?),
+                _ => match Zeros::of(&whole) {
+                    Ok(zeros) => case.supports(&zeros),
+                    Err(error) if is_of_the_arithmetic(&error) => Ok(CoordinateFit::Unknown),
+                    Err(error) => Err(error),
+                },
             }
         }
         false => case.rotations(&Zeros::of(&whole)?),
     }
+}
+
+/// Whether an error says that motions without energy cannot be told from others: the stages that need them say why.
+fn is_of_the_arithmetic(error: &Error) -> bool {
+    matches!(error, Error::NotDefinite { .. } | Error::IndefiniteStiffness { .. } | Error::DigitsTooFew { .. })
+        || error.class() == ErrorClass::NumericalLimit
 }
 
 impl Case<'_> {

@@ -30,7 +30,7 @@ mod zeros;
 
 use crate::error::Result;
 use crate::input::Direction;
-use crate::model::{CoordinateFit, Model};
+use crate::model::{CoordinateFit, Finding, Model};
 
 use motions::Motions;
 use nodes::Nodes;
@@ -51,6 +51,7 @@ pub fn compared(model: Model, held: &[Direction]) -> Result<Model> {
     let fit = if doubts.is_empty() { CoordinateFit::Exact } else { judgement::settled(&motions, &doubts)? };
     let mut findings = model.findings.clone();
     findings.extend(doubt::untested(&motions, &doubts));
+    findings.extend(matches!(fit, CoordinateFit::Unknown).then_some(Finding::MotionsUncounted));
     findings.extend(doubt::not_held(&motions, held));
     findings.extend(mass::by_direction(&motions, &nodes, &doubts));
     Ok(Model { fit, findings, ..model })

@@ -113,7 +113,14 @@ fn begins_as_deck(head: &[u8]) -> bool {
 
 /// A section of a Nastran deck or its first card, below comments of a dollar.
 fn begins_as_bulk(head: &[u8]) -> bool {
-    const WORDS: [&[u8]; 6] = [b"SOL ", b"CEND", b"BEGIN BULK", b"GRID,", b"GRID ", b"GRID*"];
-    let line = lines(head).find(|line| !line.starts_with(b"$")).unwrap_or_default();
-    WORDS.iter().any(|word| line.len() >= word.len() && line[..word.len()].eq_ignore_ascii_case(word))
+    const SECTIONS: [&[u8]; 3] = [b"SOL ", b"CEND", b"BEGIN BULK"];
+    let line = lines(head).find(|line| !line.starts_with(b"$")).unwrap_or_default().to_ascii_uppercase();
+    SECTIONS.iter().any(|word| line.starts_with(word)) || line.strip_prefix(b"GRID").is_some_and(is_rest_of_card)
+}
+
+/// What follows the name of a card that has a number first; a column of a table may have the name of a card.
+fn is_rest_of_card(rest: &[u8]) -> bool {
+    let field = rest.strip_prefix(b"*").unwrap_or(rest);
+    let field = field.strip_prefix(b",").unwrap_or(field).trim_ascii_start();
+    field.first().is_some_and(u8::is_ascii_digit)
 }

@@ -60,7 +60,6 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
         notes.extend(model.symmetric.and_then(|triangle| take_triangle(matrix, triangle)));
         notes.extend(last_row_empty(matrix));
     }
-    refuse_same(&stiffness, &mass)?;
     let n = stiffness.matrix.rows();
     let mut digests = BTreeMap::new();
     let nodes = model.nodes.as_deref().map(|path| read_nodes(path, allowance, &mut digests)).transpose()?;
@@ -244,16 +243,6 @@ fn take_notes(matrix: Matrix, notes: &mut Vec<InputNote>) -> (MatrixInput, Order
         notes.push(InputNote::Mirrored { path: input.path.clone() });
     }
     (input, order)
-}
-
-/// Refuses one matrix in both places. Small diagonal ones may be equal by themselves: those of springs and masses of one.
-fn refuse_same(stiffness: &MatrixInput, mass: &MatrixInput) -> Result<()> {
-    let is_coupled = || stiffness.matrix.nnz() > stiffness.matrix.rows();
-    if (stiffness.path == mass.path || is_coupled()) && stiffness.matrix == mass.matrix {
-        let (stiffness, mass) = (stiffness.path.clone(), mass.path.clone());
-        return Err(Error::SameMatrix { stiffness, mass });
-    }
-    Ok(())
 }
 
 fn refuse_duplicates(matrix: &MatrixInput, duplicates: Duplicates) -> Result<()> {

@@ -128,6 +128,8 @@ pub enum Finding {
         /// Rows of the bodies that supports touch.
         n_rows: usize,
     },
+    /// The motions without energy of a held model cannot be counted, so that nothing confirms the coordinates at its supports.
+    MotionsUncounted,
     /// Nodes of a held body that have another mass in one direction than in another.
     MassByDirection {
         /// How many.
@@ -159,7 +161,7 @@ impl Finding {
             Self::Penalties { .. } => Some("W-PENALTY"),
             Self::NegativeMassByRounding { .. } => Some("W-NEGATIVE-MASS"),
             Self::ConstrainedInterface { .. } => Some("W-CONSTRAINED-INTERFACE"),
-            Self::CoordinatesUntested { .. } => Some("W-COORD-UNTESTED"),
+            Self::CoordinatesUntested { .. } | Self::MotionsUncounted => Some("W-COORD-UNTESTED"),
             Self::MassByDirection { .. } => Some("W-MASS-DIRECTION"),
             Self::RotationsFree { .. } => Some("W-NOT-HELD"),
             Self::HangingInterface { .. } => Some("W-HANGING"),
@@ -204,6 +206,10 @@ impl std::fmt::Display for Finding {
                      compare the coordinates and the dof map with; check that rows and map are in one order"
                 )
             }
+            Self::MotionsUncounted => f.write_str(
+                "K is too badly conditioned to count its motions without energy: nothing confirms the coordinates where supports are; \
+                 check that rows and map are in one order",
+            ),
             Self::MassByDirection { n_nodes, at } => write!(
                 f,
                 "{n_nodes} nodes have another mass in one direction than in another, the first are {at}: check that they have no \
@@ -239,6 +245,7 @@ impl Model {
     /// # Panics
     /// If K and M differ in size, which reading has ruled out.
     pub fn new(input: Input) -> Result<Self> {
+        refuse_same(&input.stiffness, &input.mass)?;
         let mut findings = Vec::new();
         let precision = Precision { stiffness: data_precision(&input.stiffness), mass: data_precision(&input.mass) };
         let (dofs, rows) = (input.dofs, input.rows);
@@ -283,6 +290,16 @@ impl Model {
             findings: self.findings.clone(),
         }
     }
+}
+
+/// Refuses one matrix in both places. Small diagonal ones may be equal by themselves: those of springs and masses of one.
+fn refuse_same(stiffness: &MatrixInput, mass: &MatrixInput) -> Result<()> {
+    let is_coupled = || stiffness.matrix.nnz() > stiffness.matrix.rows();
+    if (stiffness.path == mass.path || is_coupled()) && stiffness.matrix == mass.matrix {
+        let (stiffness, mass) = (stiffness.path.clone(), mass.path.clone());
+        return Err(Error::SameMatrix { stiffness, mass });
+    }
+    Ok(())
 }
 
 fn data_precision(matrix: &MatrixInput) -> f64 {

@@ -170,6 +170,14 @@ fn zero_energy(partition: &Partition, x: MatRef<'_, f64>, terms: MatRef<'_, f64>
     (0..x.ncols()).map(level).fold(0.0, f64::max)
 }
 
+/// What few digits of K can make of the energy of a rigid-body motion of unit modal mass.
+pub(crate) fn noise_of_digits(partition: &Partition, rigid: &RigidBodyModes) -> f64 {
+    match partition.has_few_digits() {
+        true => partition.energy_noise(rigid.massive()).into_iter().fold(0.0, f64::max),
+        false => 0.0,
+    }
+}
+
 /// The largest ‖Kq‖ / ‖ |K||q| ‖ of the columns.
 fn largest_residual(stiffness: &SparseMatrix, q: MatRef<'_, f64>) -> f64 {
     let (forces, terms) = product_and_terms(stiffness, q);

@@ -9,7 +9,7 @@ use super::residual::Worst;
 use super::spectrum::{NOT_FREE, Spectrum, zero_level};
 use super::{Evidence, coordinate_name, reduced_norms, rigid_name, share_of_data};
 use crate::dense;
-use crate::rigid::scales;
+use crate::rigid::{noise_of_digits, scales};
 
 /// How far roundings of one sign may exceed their typical sum.
 const NOISE_FACTOR: f64 = 10.0;
@@ -46,17 +46,9 @@ pub(super) fn energy_limits(evidence: &Evidence<'_>, first: f64) -> Judged {
     let known = known.map(|(lambda, error)| Known { lambda: *lambda, relative_bar: error.data_bar });
     let noise = match modes.count() {
         0 => evidence.partition.cancellation * evidence.rigid.energy.noise / first,
-        _ => limits::noise(known, first).max(noise_of_digits(evidence) / first),
+        _ => limits::noise(known, first).max(noise_of_digits(evidence.partition, evidence.rigid) / first),
     };
     limits::of_energy(noise, share_of_data(evidence.partition))
-}
-
-/// What few digits of K can make of the energy of a rigid-body motion of unit modal mass.
-fn noise_of_digits(evidence: &Evidence<'_>) -> f64 {
-    match evidence.partition.has_few_digits() {
-        true => evidence.partition.energy_noise(evidence.rigid.massive()).into_iter().fold(0.0, f64::max),
-        false => 0.0,
-    }
 }
 
 /// M-05, residual.

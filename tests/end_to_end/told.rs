@@ -280,6 +280,18 @@ fn text_is_no_superelement_and_is_shown() {
     }
 }
 
+/// A table may have columns named like the cards of a deck.
+#[test]
+fn a_table_with_a_column_named_grid_is_read() {
+    let place = Place::with_brick();
+    let dofs = String::from_utf8(place.bytes("dofs.txt")).expect("UTF-8");
+    let rows: Vec<String> = dofs.lines().map(|line| line.replace('.', ",")).collect();
+    place.write("dofs.txt", format!("grid,component\n{}\n", rows.join("\n")).as_bytes());
+    place.reduce(&place.model_flags(), FOOT).expect(ExitCode::Done);
+    place.write("dofs.txt", b"GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\n");
+    assert_says(&place.reduce(&place.model_flags(), FOOT), ExitCode::InputData, &["E-FORMAT", "a Nastran deck"]);
+}
+
 /// A document was asked for, and nothing else.
 #[test]
 fn json_and_quiet_go_together() {

@@ -38,7 +38,11 @@ fn unsymmetric_stiffness() {
     let error = refused(&model);
     let Error::Unsymmetric { matrix: "stiffness", asymmetry, .. } = error else { panic!("{error}") };
     assert!((asymmetry - 1e-3).abs() < 1e-12, "{asymmetry:e}");
-    assert_says(&error, ErrorClass::InputData, &["stiffness", "row 5 (node 2 uy), column 2 (node 1 uy)", "1.0e-3", "leave out"]);
+    assert_says(
+        &error,
+        ErrorClass::InputData,
+        &["stiffness", "row 5 (node 2 uy), column 2 (node 1 uy)", "1.0e-3", "leave out"],
+    );
 }
 
 #[test]
@@ -145,7 +149,7 @@ fn rows_without_mass_and_free_particles_are_findings() {
     assert_eq!(model.findings, [Finding::MasslessRows { n_rows: 9 }]);
     let particle = models::Model { stiffness: Vec::new(), ..spring(1, Ends::Free) };
     let model = Model::new(input(&join(&spring(3, Ends::Fixed), &particle, &[]))).expect("a free particle");
-    assert_eq!(model.findings, [Finding::FreeParticles { n_rows: 1, first: "row 3".to_owned() }]);
+    assert_eq!(model.findings, [Finding::FreeParticles { n_rows: 1, first: "row 4 (node 4 ux)".to_owned() }]);
     assert_eq!(model.bodies.n_bodies, 2);
 }
 

@@ -45,6 +45,9 @@ pub(super) struct AskedModes {
     wanted: Wanted,
     n_zero: usize,
     count: Option<WholeCount>,
+    /// What few digits leave of the backward error of a mode that is kept apart from motions which K does not quite let pass: half a
+    /// unit of the last digit in every entry.
+    of_digits: f64,
 }
 
 impl AskedModes {
@@ -59,6 +62,7 @@ impl AskedModes {
             wanted,
             n_zero: 0,
             count: None,
+            of_digits: 0.0,
         }
     }
 
@@ -110,7 +114,8 @@ impl AskedModes {
         let angles = angles(&modes, sigma, (&lacking, &groups));
         let residual_bars = residual_bars(&modes, sigma, (&lacking, &groups));
         let boundary = Boundary::FixedInterface;
-        Ok(Self { boundary, modes, angles, residual_bars, groups, wanted, n_zero: 0, count: None })
+        let of_digits = if partition.has_few_digits() { partition.precision.stiffness } else { 0.0 };
+        Ok(Self { boundary, modes, angles, residual_bars, groups, wanted, n_zero: 0, count: None, of_digits })
     }
 
     /// Counts the eigenvalues below a shift above the modes, by the inertia of the whole matrix.
@@ -172,8 +177,8 @@ impl AskedModes {
             name: "modes found again satisfy the full model",
             equation: "max ‖Kx − λMx‖ / ((‖K‖ + λ‖M‖) ‖x‖), equilibrated",
             value: worst.0,
-            limits: Limits { engineering: 1e-10, ..Limits::default() },
-            fail_above: 1e-7,
+            limits: Limits { engineering: 1e-10, arithmetic: 0.0, data: self.of_digits },
+            fail_above: self.of_digits.max(1e-7),
             worst: worst.1,
         }
     }

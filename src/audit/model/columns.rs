@@ -16,7 +16,7 @@ use super::interior::{Answers, Interior, column_products};
 use crate::dense;
 use crate::modes::{Boundary, SplitMix64};
 use crate::partition::Partition;
-use crate::rigid::RigidBodyModes;
+use crate::rigid::{RigidBodyModes, RigidSource};
 use crate::sparse::{Leading, product};
 
 /// Motions of the interface that are solved at most: more dofs than these are mixed at random.
@@ -58,6 +58,8 @@ pub(super) struct Motions<'a> {
     pub(super) carried: &'a RigidBodyModes,
     /// Those that inertia relief answers: as many as there are zero modes.
     pub(super) relieved: MatRef<'a, f64>,
+    /// Where those come from: by the coordinates they are exact, and rounding turns zero modes of K.
+    pub(super) source: RigidSource,
 }
 
 /// P: the identity, or as many random mixtures as are solved, of dofs that weigh alike in energy.
@@ -101,6 +103,7 @@ impl Columns {
         columns.residual = columns.take(0, statics);
         if is_accelerated {
             columns.accelerate(&follower, (motions.relieved, asked));
+            columns.add_turns(&follower, motions);
         } else {
             let mut at = columns.shapes.as_mut().subrows_mut(0, n_i).subcols_mut(p, n_modes);
             at.copy_from(&asked.modes.shapes);
@@ -166,6 +169,24 @@ impl Columns {
             };
             self.energy_errors[p + slot] += (angle + asked.width(mode)) * lambda.sqrt();
             self.inertia_errors[p + slot] += inertia;
+        }
+    }
+
+    /// What the elastic motion in zero modes found by iteration, K_II⁻¹(KQ)_I of length δ in the mass, adds to inertia relief: δ/λ in
+    /// inertia and δ/√λ in energy, λ the first eigenvalue of the interior, for which the softest column stands.
+    fn add_turns(&mut self, follower: &Follower<'_>, motions: Motions<'_>) {
+        if motions.source == RigidSource::Geometric {
+            return;
+        }
+        let (p, softest) = (self.n_probes(), self.softest(follower.partition));
+        let forces = product(&follower.partition.stiffness, motions.relieved);
+        let elastic = follower.answer(forces.as_ref().subrows(0, follower.partition.n_internal)).x;
+        let squares =
+            column_products(product(follower.partition.internal().mass, elastic.as_ref()).as_ref(), elastic.as_ref());
+        for (slot, square) in squares.into_iter().enumerate() {
+            let turn = square.max(0.0).sqrt();
+            self.energy_errors[p + slot] += turn / softest.sqrt();
+            self.inertia_errors[p + slot] += turn / softest;
         }
     }
 

@@ -18,6 +18,8 @@ pub(super) struct Full<'a> {
     pub(super) zero: RigidBodyModes,
     /// The first elastic eigenvalue.
     pub(super) first: f64,
+    /// What roundings of K leave of an energy, relative to that: how far they turn motions towards each other.
+    pub(super) noise: f64,
 }
 
 impl<'a> Full<'a> {
@@ -30,12 +32,14 @@ impl<'a> Full<'a> {
         let found = shifted(analysis, problem, &|dof| partition.name_of(dof))?;
         let shapes = found.lowest.shapes.as_ref().subcols(0, found.n_zero).to_owned();
         let first = found.lowest.lambda.get(found.n_zero).copied().or(found.lowest.next).unwrap_or(1.0);
+        let looked_at = &found.lowest.errors[..found.lowest.count().min(found.n_zero + 1)];
+        let noise = looked_at.iter().map(|error| error.zero_level / first).fold(0.0, f64::max);
         let zero = RigidBodyModes {
             modes: shapes.clone(),
             mass_orthonormal: product(&partition.mass, shapes.as_ref()),
             orthonormal: shapes,
             ..RigidBodyModes::none(partition.n_dofs())
         };
-        Ok(Self { partition, factor: found.factor, sigma: found.sigma, zero, first })
+        Ok(Self { partition, factor: found.factor, sigma: found.sigma, zero, first, noise })
     }
 }

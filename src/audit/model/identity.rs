@@ -185,29 +185,33 @@ pub(super) fn modal_coordinates(superelement: &Superelement, projected: &Project
 pub(super) fn dropped(superelement: &Superelement, projected: &Projected, boundary: Boundary) -> Option<Check> {
     /// A column keeps 1e-8 of its length at most; what its square tells of it ends at the root of ε.
     const LEFT: f64 = 1e-6;
+    /// The most that rounding excuses: a column of which a hundredth is left is another one.
+    const LARGEST_EXCUSE: f64 = 1e-2;
     let columns = &superelement.metadata().dropped;
     if columns.is_empty() {
         return None;
     }
     let kept = places(superelement, projected, boundary)?;
-    let mut worst = (0.0, None);
+    let (mut worst, mut rounding) = ((0.0, None), 0.0f64);
     for column in columns {
         let named = named(&column.column, boundary)?;
         let at = projected.named.iter().position(|known| *known == named)?;
         let before: Vec<usize> = kept.iter().copied().filter(|other| *other < at).collect();
+        rounding = rounding.max(projected.rounding_of_share(at, &before));
         // What lies within the error of the column is not known to be there.
         let left = (projected.remaining(at, &before) - projected.doubt(at)).max(0.0);
         if crate::dense::worse(left, worst.0) {
             worst = (left, Some(format!("{named:?}").to_lowercase()));
         }
     }
+    let limits = Limits { engineering: LEFT, arithmetic: rounding.min(LARGEST_EXCUSE), data: 0.0 };
     Some(Check {
         id: "M-06",
         name: "columns left out depend on those that were kept",
         equation: "max ‖N_j − N_kept(…)‖ / ‖N_j‖, in the mass",
         value: worst.0,
-        limits: Limits { engineering: LEFT, ..Limits::default() },
-        fail_above: 10.0 * LEFT,
+        limits,
+        fail_above: 10.0 * limits.value(),
         worst: worst.1,
     })
 }

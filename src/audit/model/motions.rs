@@ -15,6 +15,9 @@ use crate::verification::check::{Check, Limits};
 const NOISE_FACTOR: f64 = 10.0;
 /// The most that rounding may excuse.
 const LARGEST_EXCUSE: f64 = 1e-3;
+/// The most that roundings of K excuse of its zero modes: one that may be any other motion is compared with nothing, and the file's are
+/// held to the coordinates instead.
+const LARGEST_TURN: f64 = 1.0;
 /// Relative difference of numbers that both are made of the same coordinates by a few multiplications.
 const SAME_COORDINATES: f64 = 1e-14;
 
@@ -30,6 +33,9 @@ pub(super) struct KnownMotions {
     pub(super) is_classical: bool,
     /// Rounding of K relative to the first elastic eigenvalue: what a displacement may be off by.
     rounding: f64,
+    /// How far roundings of K turn its zero modes towards elastic ones.
+    turn: f64,
+    has_few_digits: bool,
 }
 
 struct UnitMotions {
@@ -66,6 +72,8 @@ impl KnownMotions {
             unit,
             is_classical: given.is_classical,
             rounding: (NOISE_FACTOR * f64::EPSILON * condition).min(LARGEST_EXCUSE),
+            turn: (NOISE_FACTOR * full.noise).min(LARGEST_TURN),
+            has_few_digits: partition.has_few_digits(),
         }
     }
 
@@ -118,7 +126,9 @@ impl KnownMotions {
             return checks;
         }
         let (combination, left) = self.combination(file);
-        let limits = Limits { engineering: 1e-9, arithmetic: self.rounding, data: 0.0 };
+        let of_digits = if self.has_few_digits { self.turn } else { 0.0 };
+        let arithmetic = self.rounding.max(if self.has_few_digits { 0.0 } else { self.turn });
+        let limits = Limits { engineering: 1e-9, arithmetic, data: of_digits };
         checks.push(Check {
             id: "M-05",
             name: "rigid-body modes are free in the full model",

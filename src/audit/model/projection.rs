@@ -83,6 +83,16 @@ impl Projected {
         NOISE_FACTOR * self.mass.errors[at] / length
     }
 
+    /// What rounding of products with M makes of that share: ε of the terms of each column, whose sum the square of the share is off by.
+    pub(super) fn rounding_of_share(&self, column: usize, others: &[usize]) -> f64 {
+        const NOISE_FACTOR: f64 = 10.0;
+        let square = |place: &usize| {
+            let at = self.n_probes() + place;
+            self.mass.terms[at].powi(2) / self.mass.matrix[(at, at)].max(f64::MIN_POSITIVE)
+        };
+        (NOISE_FACTOR * f64::EPSILON * others.iter().chain([&column]).map(square).sum::<f64>()).sqrt()
+    }
+
     /// The share of its length in the mass that a named column keeps once others are taken out of it.
     pub(super) fn remaining(&self, column: usize, others: &[usize]) -> f64 {
         /// Square of a share below which a column among the others is rounding.

@@ -121,7 +121,8 @@ fn i_19_rounded_coordinates() {
             let place = with_nodes(&model, |_, x| x.map(|x| rounded(x, digits)));
             let ended = place.reduce(&place.model_flags(), rest);
             assert_done(&place, &ended, &["W-COORD-ROUNDED"]);
-            assert!(ended.out.contains("rigid-body modes were taken from the matrices"), "{}", ended.out);
+            let words = ended.out.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(words.contains("rigid-body modes were taken from the matrices"), "{words}");
             let superelement = place.superelement("x.supel");
             assert_eq!(superelement.tensors().rigid_body_modes.cols(), 6, "{name}, {digits} digits");
             // Frequencies as with exact coordinates, within the bars of both.

@@ -175,7 +175,7 @@ fn i_23_outputs_that_cannot_be() {
     let place = chain();
     std::fs::create_dir(place.path("folder.supel")).expect("a folder");
     for (output, code) in [
-        (place.text("missing/x.supel"), "E-WRITE"),
+        (place.text("missing/x.supel"), "E-FOLDER"),
         (format!("{}/{}.supel", place.text(""), "a".repeat(300)), "E-WRITE"),
         (place.text("x.txt"), "E-OUTPUT-NAME"),
         (place.text(".supel"), "E-OUTPUT-NAME"),
