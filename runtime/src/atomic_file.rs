@@ -233,7 +233,7 @@ fn create_beside(target: &Path, name: &std::ffi::OsStr) -> io::Result<(File, Pat
     under_a_free_name(target, name, |path| OpenOptions::new().write(true).create_new(true).open(path))
 }
 
-/// Does something with the first temporary name beside `target` that nothing has.
+/// Does something with the first temporary name in the folder of `target` that nothing has.
 fn under_a_free_name<T>(
     target: &Path,
     name: &std::ffi::OsStr,

@@ -44,7 +44,7 @@ pub(super) fn staged(path: &Path, bytes: &[u8]) -> Result<StagedFile> {
 }
 
 /// Refuses an output that has no place before the model is read, with the error that its writing would end in: an empty
-/// file is written beside each and dropped.
+/// file is written in the folder of each and dropped.
 pub(super) fn refuse_unwritable(write: &WriteJob) -> Result<()> {
     // The superelement gives others their names: its folder is told first.
     outputs(write)

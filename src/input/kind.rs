@@ -48,7 +48,7 @@ pub(super) fn hdf5_location(path: &Path) -> Option<(PathBuf, Option<String>)> {
     (has_extension(path, &CONTAINERS) || is_hdf5(path)).then(|| (path.to_owned(), None))
 }
 
-/// A mesh in HDF5, or in XML beside it.
+/// A mesh in HDF5, or in XML that refers to it.
 pub(super) fn is_hdf5_mesh(path: &Path) -> bool {
     const MESHES: [&str; 6] = ["h5m", "hmf", "med", "rmed", "xdmf", "xmf"];
     has_extension(path, &MESHES) || is_hdf5(path)

@@ -6,6 +6,7 @@
 
 mod bodies;
 mod definite;
+mod finding;
 mod fit;
 mod scaling;
 mod site;
@@ -15,10 +16,12 @@ mod weight;
 use std::collections::HashSet;
 
 use crate::error::{Error, Result};
-use crate::input::{Direction, Dof, DofMap, FileRows, Input, MatrixInput, Nodes, RowNames};
+use crate::input::{Dof, DofMap, FileRows, Input, MatrixInput, Nodes, RowNames};
 use crate::sparse::{Leading, SparseMatrix};
 
 pub use bodies::{Bodies, node_of_row};
+use finding::PENALTY;
+pub use finding::{ASYMMETRY_WARN, Finding};
 pub use fit::{CoordinateFit, Misfit, RoundedCoordinates};
 pub use scaling::Scaling;
 pub use site::{Frame, Site, recentred};
@@ -76,162 +79,6 @@ pub struct Precision {
     pub mass: f64,
 }
 
-/// Something the checks found that is no error.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Finding {
-    /// K or M was symmetric to rounding only and was replaced by its symmetric part.
-    Symmetrised {
-        /// `stiffness` or `mass`.
-        matrix: &'static str,
-        /// max |A − Aᵀ| / max |A|.
-        asymmetry: f64,
-    },
-    /// Rows without mass: their frequencies are infinite and are never returned.
-    MasslessRows {
-        /// How many.
-        n_rows: usize,
-    },
-    /// Rows without stiffness that carry mass: free particles, each a zero mode.
-    FreeParticles {
-        /// How many.
-        n_rows: usize,
-        /// The first of them.
-        first: String,
-    },
-    /// Rows held by a stiffness far beyond that of the structure.
-    Penalties {
-        /// How many.
-        n_rows: usize,
-        /// The stiffest.
-        first: String,
-        /// Its diagonal entry, as multiple of the median.
-        ratio: f64,
-    },
-    /// Diagonal entries of M that are negative by rounding only.
-    NegativeMassByRounding {
-        /// How many.
-        n_rows: usize,
-    },
-    /// An interface node that lacks a direction which most nodes have.
-    ConstrainedInterface {
-        /// The interface.
-        interface: String,
-        /// The node.
-        node: i64,
-        /// The directions it lacks.
-        lacks: Vec<Direction>,
-    },
-    /// Supports touch nearly all rows, so that the others cannot confirm the coordinates.
-    CoordinatesUntested {
-        /// Rows that supports touch.
-        n_touched: usize,
-        /// Rows of the bodies that supports touch.
-        n_rows: usize,
-    },
-    /// The motions without energy of a held model cannot be counted, so that nothing confirms the coordinates at its supports.
-    MotionsUncounted,
-    /// Nodes of a held body that have another mass in one direction than in another.
-    MassByDirection {
-        /// How many.
-        n_nodes: usize,
-        /// Some of them.
-        at: String,
-    },
-    /// Rotations that the job says to be held and that K lets pass.
-    RotationsFree {
-        /// The rotations, `rx` to `rz`.
-        rotations: Vec<Direction>,
-    },
-    /// Interface dofs with mass and no stiffness.
-    HangingInterface {
-        /// What the first is called.
-        dof: String,
-        /// How many.
-        n_dofs: usize,
-    },
-}
-
-impl Finding {
-    /// The code of the warning that a finding is, or nothing where it is a remark.
-    pub fn warning(&self) -> Option<&'static str> {
-        match self {
-            Self::Symmetrised { asymmetry, .. } => (*asymmetry > ASYMMETRY_WARN).then_some("W-UNSYMMETRIC"),
-            Self::MasslessRows { .. } => None,
-            Self::FreeParticles { .. } => Some("W-FREE-PARTICLE"),
-            Self::Penalties { .. } => Some("W-PENALTY"),
-            Self::NegativeMassByRounding { .. } => Some("W-NEGATIVE-MASS"),
-            Self::ConstrainedInterface { .. } => Some("W-CONSTRAINED-INTERFACE"),
-            Self::CoordinatesUntested { .. } | Self::MotionsUncounted => Some("W-COORD-UNTESTED"),
-            Self::MassByDirection { .. } => Some("W-MASS-DIRECTION"),
-            Self::RotationsFree { .. } => Some("W-NOT-HELD"),
-            Self::HangingInterface { .. } => Some("W-HANGING"),
-        }
-    }
-}
-
-impl std::fmt::Display for Finding {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Symmetrised { matrix, asymmetry } => {
-                write!(
-                    f,
-                    "the {matrix} matrix was symmetric to {asymmetry:.1e} only and was replaced by its symmetric part"
-                )
-            }
-            Self::MasslessRows { n_rows } => write!(f, "{n_rows} rows have no mass: their frequencies are infinite"),
-            Self::FreeParticles { n_rows, first } => {
-                write!(f, "{n_rows} rows have mass and no stiffness, the first is {first}: free particles")
-            }
-            Self::Penalties { n_rows, first, ratio } => write!(
-                f,
-                "{n_rows} rows have a stiffness of {PENALTY:.0e} times the median and more, at most {ratio:.0e} times at {first}: penalties \
-                 that hold or tie dofs; they take digits from what they touch, leave held dofs out of both matrices"
-            ),
-            Self::NegativeMassByRounding { n_rows } => {
-                write!(f, "{n_rows} diagonal entries of the mass are negative by rounding and were set to zero")
-            }
-            Self::ConstrainedInterface { interface, node, lacks } => {
-                let lacks: Vec<String> = lacks.iter().map(ToString::to_string).collect();
-                write!(
-                    f,
-                    "node {node} of interface {interface:?} has no {}, as other nodes have: it is held there, and the \
-                     interface does without",
-                    lacks.join(", ")
-                )
-            }
-            Self::CoordinatesUntested { n_touched, n_rows } => {
-                write!(
-                    f,
-                    "translations make forces at {n_touched} of {n_rows} rows: supports that touch so many rows leave too few to \
-                     compare the coordinates and the dof map with; check that rows and map are in one order"
-                )
-            }
-            Self::MotionsUncounted => f.write_str(
-                "K is too badly conditioned to count its motions without energy: nothing confirms the coordinates where supports are; \
-                 check that rows and map are in one order",
-            ),
-            Self::MassByDirection { n_nodes, at } => write!(
-                f,
-                "{n_nodes} nodes have another mass in one direction than in another, the first are {at}: check that they have no \
-                 local frames, which in a held component look like supports"
-            ),
-            Self::RotationsFree { rotations } => {
-                let rotations: Vec<String> = rotations.iter().map(ToString::to_string).collect();
-                write!(
-                    f,
-                    "model.held_rotations lists {}, which the stiffness lets pass: nothing holds it",
-                    rotations.join(", ")
-                )
-            }
-            Self::HangingInterface { dof, n_dofs } => {
-                write!(f, "{n_dofs} interface dofs have mass and no stiffness, the first is {dof}: they move freely")
-            }
-        }
-    }
-}
-
-/// Above this relative asymmetry a finding becomes a warning; below it the asymmetry is rounding of the producer.
-pub const ASYMMETRY_WARN: f64 = 1e-12;
 /// Above this relative asymmetry the matrix is not that of a conservative structure.
 pub const ASYMMETRY_FAIL: f64 = 1e-6;
 
@@ -413,10 +260,6 @@ fn check_diagonals(
     findings.extend(penalties(&k_diag, names));
     Ok(())
 }
-
-/// Times the median diagonal entry of K above which a row is held or tied by a penalty: rotations of thick parts in millimetres and
-/// soft joints come to 10⁸ of each other.
-const PENALTY: f64 = 1e10;
 
 /// Rows whose stiffness no structure has.
 fn penalties(k_diag: &[f64], names: RowNames<'_>) -> Option<Finding> {

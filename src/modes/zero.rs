@@ -35,7 +35,7 @@ pub(crate) fn is_zero(lambda: f64, level: f64) -> bool {
     lambda.is_nan() || level.is_nan() || lambda.abs() <= level
 }
 
-/// Whether a negative Rayleigh quotient is no instability, being negligible beside the first elastic one.
+/// Whether a negative Rayleigh quotient is no instability, being negligible compared with the first elastic one.
 pub(crate) fn is_negligible(lambda: f64, first_elastic: Option<f64>) -> bool {
     -lambda <= NEGLIGIBLE * first_elastic.unwrap_or(0.0)
 }

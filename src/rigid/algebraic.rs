@@ -62,7 +62,7 @@ pub(crate) fn zero_modes(partition: &Partition) -> Result<(RigidBodyModes, Optio
 pub(super) const COUNTED_BELOW: f64 = 1e-4;
 
 /// A soft mode looks like a mechanism where rounding of few digits is larger than its energy: more zero modes than bodies can have are
-/// believed where that rounding is nothing beside the first elastic mode.
+/// believed where that rounding is nothing compared with the first elastic mode.
 fn refuse_uncounted(partition: &Partition, found: &Shifted<'_>) -> Result<()> {
     let n_of_bodies = 6 * partition.model.n_bodies;
     if found.n_zero <= n_of_bodies || !partition.has_few_digits() {

@@ -109,7 +109,7 @@ fn is_rounding(partition: &Partition, (lambda, noise): (f64, f64)) -> Result<boo
     }
 }
 
-/// Mechanisms by few digits are believed where what rounding makes is nothing beside the softest motion that is none.
+/// Mechanisms by few digits are believed where what rounding makes is nothing compared with the softest motion that is none.
 fn refuse_uncounted(
     partition: &Partition,
     constraint: &ConstraintModes,

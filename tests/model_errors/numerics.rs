@@ -131,7 +131,7 @@ fn with_spectrum(lambda: &[f64]) -> models::Model {
     models::Model { stiffness, mass, dofs: Vec::new(), ..spring(n, Ends::Free) }
 }
 
-/// A rigid-body motion of an energy below zero is rounding of whoever made K as long as it is nothing beside the first elastic mode;
+/// A rigid-body motion of an energy below zero is rounding of whoever made K as long as it is nothing compared with the first elastic mode;
 /// what is more is an eigenvalue of K, which is counted before K is called indefinite.
 #[test]
 fn negative_energy_of_a_rigid_body_motion_is_rounding_or_counted() {
