@@ -1410,7 +1410,7 @@ pub enum Error {
     },
     /// A pivot of a matrix that should be definite was not positive.
     #[error(
-        "the stiffness with the interface held is not positive definite – elimination stopped at {dof} – expected a positive pivot – the structure has a mechanism there or is unstable"
+        "the stiffness with the interface held is not positive definite – elimination stopped at {dof} – expected a positive pivot – the structure has a mechanism there or is unstable, or a penalty far above all else takes its digits"
     )]
     NotDefinite {
         /// The dof eliminated when it happened.

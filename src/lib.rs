@@ -60,10 +60,11 @@ pub mod verification;
 
 use audit::{Audit, Reference};
 use basis::Basis;
+use coordinates::Levers;
 use error::{Error, Result};
 use factor::{Analysis, Cholesky};
 use input::Allowance;
-use job::Job;
+use job::{Coupling, Job};
 use model::Model;
 use modes::{Component, ModeSource, Retained};
 use outcome::{Outcome, Resources};
@@ -174,7 +175,9 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     let model = Model::new(read)?;
 
     observer.stage("coordinates");
-    let model = coordinates::compared(model, &job.model.held_rotations)?;
+    let is_tied = job.interfaces.iter().any(|interface| interface.coupling == Coupling::Rigid);
+    let levers = if is_tied { Levers::Used } else { Levers::Unused };
+    let model = coordinates::compared(model, &job.model.held_rotations, levers)?;
 
     observer.stage("partition");
     let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;

@@ -6,6 +6,7 @@ use supel_runtime::{Coordinate, Generator, Method as FileMethod, RigidBodyModes,
 
 use super::content::Content;
 use super::record::flaw;
+use super::rigid_motion::is_nearly_unit;
 use crate::job::{Coupling, Job, Method, ModeSelection, NodeSelection, RecoveryPrecision};
 use crate::modes::Boundary;
 use crate::verification::check::{Check, Limits};
@@ -257,6 +258,7 @@ fn of_method(content: &Content<'_>) -> Vec<&'static str> {
         "gravity without mass properties, or these without it",
     );
     expect(is_classical || !is_geometric, "no gravity");
-    expect(!is_classical || is_geometric || n_r > 6, "rigid-body modes said to be algebraic");
+    let is_told = is_geometric || n_r > 6 || is_nearly_unit(content);
+    expect(!is_classical || is_told, "rigid-body modes said to be algebraic");
     flaws
 }

@@ -3,6 +3,7 @@
 use supel_runtime::{MassProperties, RigidBodyModes, mass_properties};
 
 use super::content::{Content, unpacked};
+use super::rigid_motion::is_nearly_unit;
 use crate::dense;
 use crate::verification::check::{Check, Limits};
 
@@ -49,7 +50,8 @@ fn rounding(content: &Content<'_>) -> f64 {
 /// Mass properties by M̂ and Û, where Û is the six unit motions.
 fn properties(content: &Content<'_>) -> Option<MassProperties> {
     let metadata = content.superelement.metadata();
-    if metadata.model.rigid_body_modes != RigidBodyModes::Geometric || content.n_rigid() < 6 {
+    let is_unit = metadata.model.rigid_body_modes == RigidBodyModes::Geometric || is_nearly_unit(content);
+    if !is_unit || content.n_rigid() < 6 {
         return None;
     }
     // Mechanisms come behind the motions of the body.
@@ -94,7 +96,7 @@ pub(super) fn stated(content: &Content<'_>) -> Option<Check> {
         value,
         // The inertia about the centre is what is left of that about the origin, which may be far away.
         limits: Limits { engineering: 1e-8, ..Limits::default() },
-        fail_above: 1e-5,
+        fail_above: 1e-6,
         worst: found.as_ref().map(described),
     })
 }

@@ -37,9 +37,10 @@ const fn unvouched(field: &'static str, reason: &'static str) -> Unvouched {
 const NOT_AT_HAND: &str = "names things of a model that is not at hand";
 
 /// What the file alone cannot vouch for.
-const ALONE: [Unvouched; 22] = [
+const ALONE: [Unvouched; 24] = [
     unvouched("generator", "a file has no other sign of who made it"),
     unvouched("units", "the job kept in it is the only other place, and may be changed too"),
+    unvouched("interface_nodes[].name", "the job kept in it is the only other place, and may be changed too"),
     unvouched("interface_nodes[].label", NOT_AT_HAND),
     unvouched(
         "interface_nodes[].position",
@@ -58,9 +59,13 @@ const ALONE: [Unvouched; 22] = [
         "model.mass_properties",
         "a component whose rigid-body modes are not six unit motions has no other place for them",
     ),
+    unvouched("validity.band_hz", "the job kept in it is the only other place, and may be changed too"),
     unvouched("inputs", "digests of files that are not at hand"),
     unvouched("job", "what was asked for is known from the file itself only"),
-    unvouched("verification", "values are the rounding of one run, and warnings of its report are not in the file"),
+    unvouched(
+        "verification",
+        "values are the rounding of one run, a check may stand there more than once, and warnings of its report are not in the file",
+    ),
     unvouched("frequencies", "modes left out everywhere leave a file that agrees with itself"),
     unvouched("stiffness", "a change that keeps rigid-body motion and frequencies agrees with the rest"),
     unvouched("mass", "a change that keeps rigid-body inertia, gravity and frequencies agrees with the rest"),

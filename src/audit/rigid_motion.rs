@@ -61,6 +61,13 @@ pub(super) fn positions(content: &Content<'_>) -> Option<Check> {
     })
 }
 
+/// Whether Û are the unit motions of the nodes, or those as K knows them where coordinates are rounded.
+pub(super) fn is_nearly_unit(content: &Content<'_>) -> bool {
+    /// What rounded coordinates leave at most.
+    const ROUNDED: f64 = 1e-2;
+    distance_to_unit_motions(content).is_some_and(|(distance, _)| distance <= ROUNDED)
+}
+
 /// M-26: rigid-body modes that are said to have no geometric meaning have none.
 pub(super) fn declaration(content: &Content<'_>) -> Option<Check> {
     if content.superelement.metadata().model.rigid_body_modes != RigidBodyModes::Algebraic {

@@ -27,7 +27,7 @@ pub(super) fn check(file: &Path, superelement: &Superelement, digest: &str) -> O
     };
     Some(Check {
         id: "M-26",
-        name: "report in its folder is of this file",
+        name: "report in its folder names this file",
         equation: "1 where the report carries another digest, else 0",
         value: if difference.is_some() { 1.0 } else { 0.0 },
         limits: Limits::default(),

@@ -29,7 +29,9 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
         Program::Supel => rehearsal::rehearse(&command.job.model, resources.allowed(&command.job))?,
         Program::Other => Rehearsed::Nothing,
     };
-    terminal.tell_threads(command.threads);
+    if command.answer != Answer::Nothing {
+        terminal.tell_threads(command.threads);
+    }
     let threads = process::threads(command.threads.used)?;
     let mut stage_line = StageLine::new(terminal.progress);
     let mut clock = StageClock::new(&mut stage_line);

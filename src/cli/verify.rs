@@ -13,6 +13,7 @@ use super::unmet::unmet;
 use super::{Pipeline, accompanying, memory, process};
 use crate::audit::{self, Audit};
 use crate::error::{Error, Result};
+use crate::input::regular;
 use crate::job::Job;
 use crate::outcome::Resources;
 use crate::report::{Against, Reproduction, VerificationReport};
@@ -20,6 +21,7 @@ use crate::verification::check::Verdict;
 
 pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
     let failed = |error| Error::of_superelement(&command.file, error);
+    regular::open(&command.file).map(drop)?;
     let bytes = file_bytes(&command.file).map_err(failed)?;
     let superelement = Superelement::from_bytes(&bytes).map_err(failed)?;
     let rerun = match command.rerun {
@@ -32,7 +34,9 @@ pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Te
         Some(job) => rehearsal::rehearse(&job.model, resources.allowed(job))?,
         None => Rehearsed::Nothing,
     };
-    terminal.tell_threads(command.threads);
+    if command.answer != Answer::Nothing {
+        terminal.tell_threads(command.threads);
+    }
     let threads = process::threads(command.threads.used)?;
     let mut stage_line = StageLine::new(terminal.progress);
     let verify = || crate::verify(&superelement, command.job.as_ref(), resources, &mut stage_line);

@@ -50,11 +50,19 @@ pub(super) fn doubts(motions: &Motions<'_>, nodes: &Nodes, held: &[Direction]) -
     let of_body = |(number, body): (usize, &Body)| {
         let costly = costly_rotations(motions, nodes, body, held);
         let n_touched = body.rows.iter().filter(|row| nodes.is_touched[nodes.of(**row)]).count();
-        let is_in_doubt = n_touched > 0 || !costly.is_empty();
+        let is_in_doubt = n_touched > 0 || !costly.is_empty() || is_blind(motions, nodes, body, held);
         let untouched = || body.rows.iter().copied().filter(|row| nodes.is_untouched(*row)).collect();
         is_in_doubt.then(|| Doubt { body: number, n_touched, untouched: untouched(), costly })
     };
     motions.bodies.iter().enumerate().filter_map(of_body).collect()
+}
+
+/// Whether a rotation costs energy and no row may be asked for it, because every node lacks a displacement that it makes: of a plate
+/// without in-plane displacements right coordinates make none of those, and wrong ones do.
+fn is_blind(motions: &Motions<'_>, nodes: &Nodes, body: &Body, held: &[Direction]) -> bool {
+    (0..3).filter(|axis| !held.contains(&Direction::ALL[FIRST_ROTATION + axis])).any(|axis| {
+        body.rows.iter().all(|row| !nodes.is_witness(*row, axis)) && turning_costs(motions, body, FIRST_ROTATION + axis)
+    })
 }
 
 /// Rotations that do not vanish where they should, the worst first.
@@ -116,6 +124,8 @@ pub(super) struct Place {
     pub(super) at: String,
     /// The largest displacement over that of the median node, or over what six digits lose.
     pub(super) concentration: f64,
+    /// The largest displacement, in units of the size of the body.
+    pub(super) largest: f64,
 }
 
 impl Place {
@@ -137,6 +147,6 @@ impl Place {
         let median = nodes.get(nodes.len() / 2).map_or(0.0, |node| node.0);
         let at: Vec<String> = nodes.iter().take(SHOWN_NODES).map(|(_, row)| motions.name_of(*row)).collect();
         let concentration = nodes.first().map_or(1.0, |node| node.0 / median.max(SIX_DIGITS));
-        Self { at: at.join(", "), concentration }
+        Self { at: at.join(", "), concentration, largest: nodes.first().map_or(0.0, |node| node.0) }
     }
 }

@@ -17,6 +17,9 @@ const ROUNDED: f64 = 1e-2;
 /// stands out by 10³ to 10⁴.
 const EVEN: f64 = 100.0;
 /// Names of the six motions.
+/// Displacement out of place, in units of the size of a held body, that coordinates of five digits leave. Of a free body zero modes mend
+/// what patches are tied by; of a held one nothing does, and in a thin part little displacement is much stiffness.
+const FIVE_DIGITS: f64 = 2e-5;
 const MOTIONS: [&str; 6] = [
     "translation along x",
     "translation along y",
@@ -33,14 +36,24 @@ struct Case<'a> {
     free: Vec<Free>,
     /// Motions without energy that the coordinates explain, and rows that move by themselves.
     n_explained: usize,
+    levers: Levers,
+}
+
+/// Whether the result depends on coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Levers {
+    /// Rigid patches tie nodes by them.
+    Used,
+    /// Interfaces are coupled directly.
+    Unused,
 }
 
 /// Settles the doubts about coordinates, by the motions without energy that K has.
-pub(super) fn settled(motions: &Motions<'_>, doubts: &[Doubt]) -> Result<CoordinateFit> {
+pub(super) fn settled(motions: &Motions<'_>, doubts: &[Doubt], levers: Levers) -> Result<CoordinateFit> {
     let momenta = product(&motions.model.mass, motions.centred.as_ref());
     let free: Vec<Free> = motions.bodies.iter().map(|body| Free::of(motions, body, &momenta)).collect::<Result<_>>()?;
     let n_explained = free.iter().map(|free| free.n_free).sum::<usize>() + n_loose_rows(motions);
-    let case = Case { motions, doubts, free, n_explained };
+    let case = Case { motions, doubts, free, n_explained, levers };
     let whole = whole(motions)?;
     match doubts.iter().all(|doubt| doubt.costly.is_empty()) {
         true => {
@@ -76,10 +89,10 @@ impl Case<'_> {
         let cost = self.of_first_elastic(cost(&worst), zeros);
         let n_rows: usize = doubts.iter().map(|doubt| motions.bodies[doubt.body].rows.len()).sum();
         let n_touched: usize = doubts.iter().map(|doubt| doubt.n_touched).sum();
-        // Where supports touch most rows, the others are no witness.
+        // Where supports touch most rows, the others are no witness; where they touch none, there is none.
         let is_unexplained = zeros.count() > self.n_explained
             && cost.energy > ROUNDED
-            && (2 * n_touched > n_rows || zeros.n_rigid(motions, doubts)? > self.n_explained);
+            && (2 * n_touched > n_rows || n_touched == 0 || zeros.n_rigid(motions, doubts)? > self.n_explained);
         if !is_unexplained {
             return Ok(CoordinateFit::Exact);
         }
@@ -97,11 +110,17 @@ impl Case<'_> {
             return Ok(CoordinateFit::Exact);
         };
         let rotations: Vec<usize> = worst.costly.iter().map(|costly| costly.rotation).collect();
-        let Place { at, concentration } = Place::of(motions, &worst.costly[0].witnesses, &rotations);
+        let Place { at, concentration, largest } = Place::of(motions, &worst.costly[0].witnesses, &rotations);
         // Of a node out of place all but what the median node shows is too much.
         let expected = if concentration <= EVEN { ROUNDED } else { ROUNDED.min(cost.energy / concentration.powi(2)) };
         let is_rounded = !cost.energy.is_nan() && cost.energy <= expected;
+        let is_held = worst.costly.iter().all(|costly| !costly.is_free);
+        if is_rounded && is_held && self.levers == Levers::Used && largest > FIVE_DIGITS {
+            let of = "the size of the component, by nodes out of place under rigid patches";
+            return Err(self.misfit(zeros, &rotations, Cost { energy: largest, of, expected: FIVE_DIGITS }, at));
+        }
         if is_rounded && zeros.count() >= self.n_of_right_coordinates() {
+            self.supports(zeros)?;
             let misfit = Misfit { rotation: AXES[rotations[0] % 3], energy: cost.energy, of: cost.of, at };
             return Ok(CoordinateFit::Rounded(mended(motions, &self.free, zeros, misfit)?));
         }

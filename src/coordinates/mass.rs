@@ -2,7 +2,8 @@
 //!
 //! A unit translation of all nodes gives every node a momentum along it, the same for every direction: the blocks of M that
 //! couple translations are multiples of the identity. In another frame at some nodes the blocks are turned, and K alone could
-//! not tell the frames from supports. A lumped mass, whose blocks couple no two nodes, is the same in every frame.
+//! not tell the frames from supports. A lumped mass, whose blocks couple no two nodes, is the same in every frame; that of
+//! nodes with rotations is not looked at, because a beam's is another along it than across.
 
 use super::doubt::Doubt;
 use super::motions::Motions;
@@ -27,11 +28,12 @@ pub(super) fn by_direction(motions: &Motions<'_>, nodes: &Nodes, doubts: &[Doubt
     let (momenta, terms) = product_and_terms(&motions.model.mass, translations);
     let share = DIFFERENT.max(DIGITS * motions.model.precision.mass);
     // The momenta of a node: row by row its three directions, column by column the three translations.
-    let mut rows_of = vec![[usize::MAX; 3]; nodes.count()];
+    let (mut rows_of, mut turns) = (vec![[usize::MAX; 3]; nodes.count()], vec![false; nodes.count()]);
     for row in held.iter().flat_map(|doubt| &motions.bodies[doubt.body].rows) {
         let direction = motions.sites[*row].direction;
-        if !direction.is_rotation() {
-            rows_of[nodes.of(*row)][direction.axis()] = *row;
+        match direction.is_rotation() {
+            true => turns[nodes.of(*row)] = true,
+            false => rows_of[nodes.of(*row)][direction.axis()] = *row,
         }
     }
     let is_turned = |rows: &[usize; 3]| {
@@ -40,7 +42,9 @@ pub(super) fn by_direction(motions: &Motions<'_>, nodes: &Nodes, doubts: &[Doubt
         let expected = |k: usize| if k / 3 == k % 3 { mass } else { 0.0 };
         (0..9).any(|k| (momenta[(rows[k / 3], k % 3)] - expected(k)).abs() > share * size)
     };
-    let is_whole = |node: usize, rows: &[usize; 3]| !nodes.is_near_lack(node) && !rows.contains(&usize::MAX);
+    // The consistent mass of a beam or shell is another along it than across, and its part at a removed node is missing.
+    let is_whole =
+        |node: usize, rows: &[usize; 3]| !turns[node] && !nodes.is_near_lack(node) && !rows.contains(&usize::MAX);
     let whole = rows_of.iter().enumerate().filter(|(node, rows)| is_whole(*node, rows));
     let turned: Vec<usize> = whole.filter(|(_, rows)| is_turned(rows)).map(|(_, rows)| rows[0]).collect();
     let label = |row: &usize| motions.model.dofs.as_ref().map_or_else(String::new, |dofs| dofs[*row].node.to_string());

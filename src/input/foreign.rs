@@ -8,18 +8,39 @@ use crate::error::{Error, Result};
 
 /// Bytes looked at.
 const HEAD: u64 = 1 << 12;
-/// What is read in place of a format of matrices, of a mesh, or of both.
-const MATRIX: &str = "a matrix in Matrix Market, HDF5 or lines `row column value`";
-const MESH: &str = "nodes as a table, or a mesh as XDMF, MED or HDF5";
-const DECK: &str = "matrices, a dof map and nodes";
+/// What a file is read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Wanted {
+    /// Stiffness or mass.
+    Matrix,
+    /// Nodes, or the dof of each row.
+    Table,
+}
+
+impl Wanted {
+    fn expected(self) -> &'static str {
+        match self {
+            Self::Matrix => "a matrix in Matrix Market, HDF5 or lines `row column value`",
+            Self::Table => "a table, a dof map, or a mesh as XDMF, MED or HDF5",
+        }
+    }
+}
+
+/// What to do where a mesh was given for a matrix.
+const NO_MATRIX: &str = "it holds no assembled matrices: have the program that made the model write them";
+/// What to do where a deck was given for a matrix.
+const FROM_DECK: &str =
+    "have the program write its matrices (CalculiX: *FREQUENCY, SOLVER=MATRIXSTORAGE; Abaqus: *MATRIX GENERATE)";
+/// What to do where numbers of Python were given for a table.
+const AS_TABLE: &str = "write the numbers as a table with the header node,x,y,z, or as node.direction for each row";
 
 /// A format that is not read.
 struct Foreign {
     /// Whether a file begins as one of it does.
     begins: fn(&[u8]) -> bool,
     found: &'static str,
-    expected: &'static str,
-    advice: &'static str,
+    for_matrix: &'static str,
+    for_table: &'static str,
 }
 
 /// The formats, the more particular first.
@@ -27,52 +48,50 @@ const FORMATS: [Foreign; 8] = [
     Foreign {
         begins: |head| head.starts_with(b"PK") && holds(head, b".npy"),
         found: "a NumPy archive (.npz)",
-        expected: MATRIX,
-        advice: "write it by scipy.io.mmwrite(\"K.mtx\", scipy.sparse.load_npz(\"K.npz\"), precision=17)",
+        for_matrix: "write it by scipy.io.mmwrite(\"K.mtx\", scipy.sparse.load_npz(\"K.npz\"), precision=17)",
+        for_table: AS_TABLE,
     },
     Foreign {
         begins: |head| head.starts_with(b"PK"),
         found: "a zip archive",
-        expected: "the file itself or a gzipped one",
-        advice: "unpack it",
+        for_matrix: "unpack it",
+        for_table: "unpack it",
     },
     Foreign {
         begins: |head| head.starts_with(b"\x93NUMPY"),
         found: "a NumPy array (.npy)",
-        expected: MATRIX,
-        advice: "write it by scipy.io.mmwrite(\"K.mtx\", scipy.sparse.csc_matrix(numpy.load(\"K.npy\")), precision=17)",
+        for_matrix: "write it by scipy.io.mmwrite(\"K.mtx\", scipy.sparse.csc_matrix(numpy.load(\"K.npy\")), precision=17)",
+        for_table: AS_TABLE,
     },
     Foreign {
         begins: |head| head.starts_with(b"MATLAB 5.0"),
         found: "a MATLAB file of version 7 or older (.mat)",
-        expected: "a MATLAB file of version 7.3, which is HDF5",
-        advice: "save it with -v7.3, as in save('K.mat', 'K', '-v7.3')",
+        for_matrix: "save it with -v7.3, which is HDF5, as in save('K.mat', 'K', '-v7.3')",
+        for_table: AS_TABLE,
     },
     Foreign {
         begins: |head| first_line(head).starts_with(b"$MeshFormat"),
         found: "a Gmsh mesh (.msh)",
-        expected: MESH,
-        advice: "convert it by `meshio convert mesh.msh mesh.xdmf`",
+        for_matrix: NO_MATRIX,
+        for_table: "convert it by `meshio convert mesh.msh mesh.xdmf`",
     },
     Foreign {
         begins: |head| head.starts_with(b"    1C"),
         found: "a CalculiX result file (.frd)",
-        expected: MESH,
-        advice: "take the nodes of the deck, by `meshio convert deck.inp mesh.xdmf`",
+        for_matrix: NO_MATRIX,
+        for_table: "take the nodes of the deck, by `meshio convert deck.inp mesh.xdmf`",
     },
     Foreign {
         begins: begins_as_deck,
         found: "an input deck of Abaqus or CalculiX (.inp)",
-        expected: DECK,
-        advice: "have the program write its matrices (CalculiX: *FREQUENCY, SOLVER=MATRIXSTORAGE; Abaqus: *MATRIX GENERATE) \
-                 and take the nodes by `meshio convert deck.inp mesh.xdmf`",
+        for_matrix: FROM_DECK,
+        for_table: "take the nodes by `meshio convert deck.inp mesh.xdmf`",
     },
     Foreign {
         begins: begins_as_bulk,
         found: "a Nastran deck (.bdf)",
-        expected: DECK,
-        advice: "have the program write its matrices (DMIG or OP4, read by pyNastran and written by scipy.io.mmwrite) and take \
-                 the nodes by `meshio convert deck.bdf mesh.xdmf`",
+        for_matrix: "have the program write its matrices (DMIG or OP4, read by pyNastran and written by scipy.io.mmwrite)",
+        for_table: "take the nodes by `meshio convert deck.bdf mesh.xdmf`",
     },
 ];
 
@@ -80,13 +99,14 @@ const FORMATS: [Foreign; 8] = [
 ///
 /// # Errors
 /// [`Error::FormatNotRead`]; those of opening the file.
-pub(super) fn refuse(path: &Path) -> Result<()> {
+pub(super) fn refuse(path: &Path, wanted: Wanted) -> Result<()> {
     let mut head = Vec::new();
     let read = regular::open(path)?.take(HEAD).read_to_end(&mut head);
     read.map_err(|source| Error::Read { path: path.to_owned(), source })?;
     match FORMATS.iter().find(|format| (format.begins)(&head)) {
-        Some(Foreign { found, expected, advice, .. }) => {
-            Err(Error::FormatNotRead { path: path.to_owned(), found, expected, advice })
+        Some(Foreign { found, for_matrix, for_table, .. }) => {
+            let advice = if wanted == Wanted::Matrix { for_matrix } else { for_table };
+            Err(Error::FormatNotRead { path: path.to_owned(), found, expected: wanted.expected(), advice })
         }
         None => Ok(()),
     }

@@ -6,6 +6,7 @@ use std::path::Path;
 use super::allowance::Allowance;
 use super::blocks::LastLine;
 use super::dof_map::{self, DirectionBase};
+use super::foreign::Wanted;
 use super::kind::{hdf5_location, is_hdf5_mesh};
 use super::matrix_market::{OrderSource, TextMatrix};
 use super::regular::{digest, unchanged};
@@ -137,7 +138,7 @@ fn read_matrix(model: &ModelJob, role: Role, allowance: &Allowance) -> Result<Ma
             unchanged(&file, || read_hdf5_matrix(&file, group.as_deref(), role, allowance)).map(Matrix::Hdf5)
         }
         None => unchanged(path, || {
-            foreign::refuse(path)?;
+            foreign::refuse(path, Wanted::Matrix)?;
             matrix_market::read(path, model.symmetric, allowance)
         })
         .map(Matrix::Text),
@@ -152,7 +153,7 @@ fn read_nodes(path: &Path, allowance: &Allowance, digests: &mut Digests) -> Resu
         let nodes = if is_hdf5_mesh(path) {
             read_hdf5_nodes(path, allowance, digests)?
         } else {
-            foreign::refuse(path)?;
+            foreign::refuse(path, Wanted::Table)?;
             node_table::read(path, allowance)?
         };
         Ok((nodes, digest(path)?))
@@ -278,7 +279,7 @@ fn extend(input: MatrixInput, n: usize, notes: &mut Vec<InputNote>) -> MatrixInp
 }
 
 fn read_dofs(path: &Path, n: usize, nodes: Option<(&Nodes, &Path)>, notes: &mut Vec<InputNote>) -> Result<DofMap> {
-    foreign::refuse(path)?;
+    foreign::refuse(path, Wanted::Table)?;
     let read = dof_map::read(path, n)?;
     if read.n_rows != n {
         return Err(Error::DofCount { path: path.to_owned(), found: read.n_rows, n });

@@ -13,7 +13,6 @@ use crate::error::{Error, Result};
 use crate::job::{Job, Method, ModeSelection};
 use crate::modes::Boundary;
 use crate::partition::DofOrigin;
-use crate::rigid::RigidSource;
 use crate::verification::check::{Check, Verdict};
 
 /// Puts the units back and names every coordinate.
@@ -146,11 +145,9 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
         flags: BTreeSet::new(),
         model: file::ModelSummary {
             n_dofs: evidence.partition.model.n_dofs as u64,
-            rigid_body_modes: match evidence.rigid.source {
-                RigidSource::Geometric if evidence.rigid.is_classical && evidence.rigid.n_mechanisms == 0 => {
-                    file::RigidBodyModes::Geometric
-                }
-                _ => file::RigidBodyModes::Algebraic,
+            rigid_body_modes: match evidence.rigid.are_unit_motions(evidence.partition) {
+                true => file::RigidBodyModes::Geometric,
+                false => file::RigidBodyModes::Algebraic,
             },
             mass_properties: classical,
         },

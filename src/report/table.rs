@@ -30,10 +30,11 @@ pub(crate) fn shorten(text: &str, columns: usize) -> String {
     format!("{}…", kept.trim_end())
 }
 
-/// `text` broken between words into lines of at most `columns`; a longer word stays whole.
+/// `text` broken at blanks into lines of at most `columns`; a longer word stays whole, and so do several blanks and any other white
+/// space, which may be part of a name.
 pub(crate) fn wrap(text: &str, columns: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
+    for word in text.split(' ') {
         match lines.last_mut() {
             Some(line) if width(line) + 1 + width(word) <= columns => {
                 line.push(' ');
@@ -117,7 +118,8 @@ pub(crate) fn bytes(size: u64) -> String {
         value /= 1024.0;
         unit = larger;
     }
-    if unit == "bytes" { format!("{size} bytes") } else { format!("{} {unit}", quantity(value, 3)) }
+    let noun = if size == 1 { "byte" } else { "bytes" };
+    if unit == "bytes" { format!("{size} {noun}") } else { format!("{} {unit}", quantity(value, 3)) }
 }
 
 /// `0.012 s`, `1.24 s`, `2 min 05 s`.

@@ -17,8 +17,9 @@ use faer::{Mat, MatRef};
 
 use crate::dense;
 use crate::error::Result;
+use crate::job::Coupling;
 use crate::modes::{Equilibrated, zero};
-use crate::partition::Partition;
+use crate::partition::{InterfaceNode, Partition};
 use crate::sparse::{Leading, SparseMatrix, absolute_product, product, product_and_terms};
 
 pub use algebraic::from_matrices;
@@ -77,6 +78,18 @@ impl RigidBodyModes {
     /// n_r.
     pub fn count(&self) -> usize {
         self.modes.ncols()
+    }
+
+    /// Whether the rows of the interface are the six unit motions of its nodes to the bit: by the coordinates, or at rigid patches,
+    /// whose nodes K ties as it knows them.
+    pub fn are_unit_motions(&self, partition: &Partition) -> bool {
+        let is_of_patches = || {
+            let is_patch = |node: &InterfaceNode| node.coupling == Coupling::Rigid;
+            partition.fit.rounded().is_some()
+                && !partition.interface.is_empty()
+                && partition.interface.iter().all(is_patch)
+        };
+        self.is_classical && self.n_mechanisms == 0 && (self.source == RigidSource::Geometric || is_of_patches())
     }
 
     /// The motions of Q that have mass, n' × (n_r − n_massless), M-orthonormal.

@@ -95,7 +95,7 @@ pub(crate) struct Chain {
 
 /// The partition of a generated model.
 pub(crate) fn partition(model: &models::Model, interfaces: &[InterfaceJob]) -> Result<Partition, Error> {
-    Partition::new(coordinates::compared(Model::new(input(model))?, &[])?, interfaces)
+    Partition::new(coordinates::compared(Model::new(input(model))?, &[], coordinates::Levers::Used)?, interfaces)
 }
 
 /// The partition and its rigid-body modes, from coordinates where there are any.

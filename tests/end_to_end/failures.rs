@@ -151,7 +151,7 @@ fn a_matrix_cut_anywhere_is_refused() {
 fn a_report_of_another_run_is_noticed() {
     let place = expecting(1.0);
     reduce(&place, &[]).expect(ExitCode::Done);
-    let (file, name) = (place.text("x.supel"), "report in its folder is of this file");
+    let (file, name) = (place.text("x.supel"), "report in its folder names this file");
     let verified = supel(&["verify", &file, "--strict"]).expect(ExitCode::Done);
     assert!(verified.out.contains(name), "{}", verified.out);
     place.write("job.toml", &expecting(1.001).bytes("job.toml"));

@@ -230,15 +230,21 @@ fn formats_that_are_not_read_are_named() {
     let place = Place::with_brick();
     let mut zip = b"PK\x03\x04".to_vec();
     zip.extend(b"\x14\0\0\0\0\0indices.npy");
-    let files: [(&str, &[u8], &str, &str); 8] = [
-        ("K.npz", &zip, "a NumPy archive (.npz)", "scipy.io.mmwrite"),
-        ("K.npy", b"\x93NUMPY\x01\0v\0", "a NumPy array", "scipy.io.mmwrite"),
-        ("K.mat", b"MATLAB 5.0 MAT-file, Platform: GLNXA64", "a MATLAB file of version 7 or older", "-v7.3"),
-        ("deck.inp", b"** made by hand\n*NODE, NSET=ALL\n1, 0, 0, 0\n", "an input deck", "SOLVER=MATRIXSTORAGE"),
-        ("part.msh", b"$MeshFormat\n4.1 0 8\n", "a Gmsh mesh", "meshio convert"),
-        ("job.frd", b"    1C\n    1UUSER\n", "a CalculiX result file", "meshio convert"),
-        ("wing.bdf", b"$ made by hand\nSOL 103\nCEND\nBEGIN BULK\n", "a Nastran deck", "meshio convert"),
-        ("model.zip", b"PK\x03\x04\x14\0\0\0\0\0model.mtx", "a zip archive", "unpack it"),
+    let table = "write the numbers as a table";
+    let files: [(&str, &[u8], &str, [&str; 2]); 8] = [
+        ("K.npz", &zip, "a NumPy archive (.npz)", ["scipy.io.mmwrite", table]),
+        ("K.npy", b"\x93NUMPY\x01\0v\0", "a NumPy array", ["scipy.io.mmwrite", table]),
+        ("K.mat", b"MATLAB 5.0 MAT-file, Platform: GLNXA64", "a MATLAB file of version 7 or older", ["-v7.3", table]),
+        (
+            "deck.inp",
+            b"** by hand\n*NODE, NSET=ALL\n1, 0, 0, 0\n",
+            "an input deck",
+            ["MATRIXSTORAGE", "meshio convert"],
+        ),
+        ("part.msh", b"$MeshFormat\n4.1 0 8\n", "a Gmsh mesh", ["no assembled matrices", "meshio convert"]),
+        ("job.frd", b"    1C\n    1UUSER\n", "a CalculiX result file", ["no assembled matrices", "meshio convert"]),
+        ("wing.bdf", b"$ by hand\nSOL 103\nCEND\nBEGIN BULK\n", "a Nastran deck", ["OP4", "meshio convert"]),
+        ("model.zip", b"PK\x03\x04\x14\0\0\0\0\0model.mtx", "a zip archive", ["unpack it", "unpack it"]),
     ];
     for (name, bytes, found, advice) in files {
         place.write(name, bytes);
@@ -252,6 +258,7 @@ fn formats_that_are_not_read_are_named() {
             let ended = place.reduce(&flags, FOOT);
             // Without its library HDF5 is refused by the name.
             if cfg!(feature = "hdf5") || name != "K.mat" || !is_matrix {
+                let advice = advice[usize::from(!is_matrix)];
                 assert_says(&ended, ExitCode::InputData, &["E-FORMAT", name, found, "– not read – expected", advice]);
             }
         }

@@ -158,7 +158,7 @@ fn a_disk_that_goes_away_leaves_outputs_that_can_be_told_apart() {
             n_mixed += 1;
             assert_eq!((ended.code, &digest), (Some(7), &earlier), "{what}");
             assert!(ended.err.contains("is new, its old content is in"), "{what}");
-            assert!(case.verified().contains("report in its folder is of this file"), "{what}: {}", case.verified());
+            assert!(case.verified().contains("report in its folder names this file"), "{what}: {}", case.verified());
             assert!(case.verified().contains("! warn"), "{what}: {}", case.verified());
         } else {
             assert_of_one_run(&case, &ended, Some(&earlier), &what);

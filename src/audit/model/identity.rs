@@ -24,7 +24,7 @@ pub(super) fn digests(superelement: &Superelement, facts: &InputFacts) -> Check 
     // Files of earlier versions record the matrices alone.
     let differs = |role: &str, digest: &str| match recorded.get(role) {
         Some(recorded) => recorded != digest,
-        None => is_matrix(role),
+        None => is_matrix(role) || is_of_this_version(superelement),
     };
     let others = known.iter().filter(|(role, digest)| differs(role, digest)).map(|(role, _)| *role);
     let unknown = recorded.keys().map(String::as_str).filter(|role| !known.contains_key(role));
@@ -199,7 +199,7 @@ pub(super) fn dropped(superelement: &Superelement, projected: &Projected, bounda
         let before: Vec<usize> = kept.iter().copied().filter(|other| *other < at).collect();
         rounding = rounding.max(projected.rounding_of_share(at, &before));
         // What lies within the error of the column is not known to be there.
-        let left = (projected.remaining(at, &before) - projected.doubt(at)).max(0.0);
+        let left = (projected.remaining(at, &before) - projected.doubt(at)).max(0.0) * projected.length(at).min(1.0);
         if crate::dense::worse(left, worst.0) {
             worst = (left, Some(format!("{named:?}").to_lowercase()));
         }

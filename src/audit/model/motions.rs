@@ -31,6 +31,8 @@ pub(super) struct KnownMotions {
     unit: Option<UnitMotions>,
     /// Whether mass and the directions of gravity are known: one free body with coordinates.
     pub(super) is_classical: bool,
+    /// Whether the file has to say that Û are the unit motions of its nodes.
+    is_declared: bool,
     /// Rounding of K relative to the first elastic eigenvalue: what a displacement may be off by.
     rounding: f64,
     /// How far roundings of K turn its zero modes towards elastic ones.
@@ -71,6 +73,7 @@ impl KnownMotions {
             zero: full.zero.orthonormal.as_ref().subrows(n_i, n_b).to_owned(),
             unit,
             is_classical: given.is_classical,
+            is_declared: given.are_unit_motions(partition),
             rounding: (NOISE_FACTOR * f64::EPSILON * condition).min(LARGEST_EXCUSE),
             turn: (NOISE_FACTOR * full.noise).min(LARGEST_TURN),
             has_few_digits: partition.has_few_digits(),
@@ -79,7 +82,7 @@ impl KnownMotions {
 
     /// Whether the file has to say that its rigid-body modes are the six unit motions.
     pub(super) fn is_geometric(&self) -> bool {
-        self.unit.is_some() && self.is_classical
+        self.is_declared
     }
 
     /// Whether inertia relief answers the unit motions, whatever they are called.

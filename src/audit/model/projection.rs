@@ -83,6 +83,15 @@ impl Projected {
         NOISE_FACTOR * self.mass.errors[at] / length
     }
 
+    /// Length of a named column in the mass; that of the mode it is made of is one.
+    pub(super) fn length(&self, column: usize) -> f64 {
+        let at = self.n_probes() + column;
+        match self.named[column] {
+            Named::Mode(_) => self.mass.matrix[(at, at)].max(0.0).sqrt(),
+            Named::Rigid(_) | Named::Relief(_) => 1.0,
+        }
+    }
+
     /// What rounding of products with M makes of that share: ε of the terms of each column, whose sum the square of the share is off by.
     pub(super) fn rounding_of_share(&self, column: usize, others: &[usize]) -> f64 {
         const NOISE_FACTOR: f64 = 10.0;

@@ -8,6 +8,7 @@ use super::dataset::Dataset;
 use super::file::{H5, Member, with_memory};
 use super::{hmf, med, moab, xdmf};
 use crate::error::{Error, Result};
+use crate::input::foreign::{self, Wanted};
 use crate::input::{Allowance, Nodes, regular};
 
 /// Bytes of a node: position, label, and the labels once more while they are compared.
@@ -111,6 +112,7 @@ fn is_xml(path: &Path) -> Result<bool> {
 }
 
 fn read_hdf5(path: &Path, allowance: &Allowance) -> Result<Mesh> {
+    foreign::refuse(path, Wanted::Table)?;
     let h5 = H5::open(path, allowance)?;
     let mesh = read_format(&h5)?;
     h5.hold(NODE * mesh.coordinates.len() as u64)?;

@@ -7,6 +7,7 @@ use super::compressed::{Compressed, Major};
 use super::file::{Group, H5, Member, with_memory};
 use super::search::{MatrixRole, find_matrix};
 use crate::error::{Error, Result};
+use crate::input::foreign::{self, Wanted};
 use crate::input::regular::digest;
 use crate::input::{Allowance, MatrixInput, significant_digits};
 use crate::sparse::Declared;
@@ -48,6 +49,7 @@ pub(crate) fn read_matrix_within(
 }
 
 fn read_matrix_once(path: &Path, group: Option<&str>, role: MatrixRole, allowance: &Allowance) -> Result<MatrixInput> {
+    foreign::refuse(path, Wanted::Matrix)?;
     let h5 = H5::open(path, allowance)?;
     let start = h5.root()?.group(group.unwrap_or("/"))?;
     let stated = if group.is_some() { Convention::of(&start, &start.members()?)? } else { None };
