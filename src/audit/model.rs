@@ -27,6 +27,7 @@ use faer::Mat;
 use supel_runtime::Superelement;
 
 use super::Audit;
+use super::spectrum::condition_of;
 use crate::error::Result;
 use crate::factor::Analysis;
 use crate::job::Job;
@@ -45,6 +46,9 @@ use interior::Interior;
 use motions::KnownMotions;
 use projection::Projected;
 use scaled::Scaled;
+
+/// Condition of a reduced mass in which lengths of columns are rounding.
+const SINGULAR: f64 = 1e-2 / f64::EPSILON;
 
 /// What a superelement of a job has to be, found without one.
 pub struct Reference<'a> {
@@ -111,9 +115,15 @@ impl<'a> Reference<'a> {
         checks.extend(self.asked.count());
         checks.push(identity::n_modes(superelement, &self.asked));
         checks.push(identity::modal_coordinates(superelement, &self.projected, self.asked.boundary));
-        checks.extend(identity::dropped(superelement, &self.projected, self.asked.boundary));
         checks.push(self.solves());
         let file = Scaled::of(superelement, self.partition);
+        match condition_of(file.m.as_ref())? < SINGULAR {
+            true => checks.extend(identity::dropped(superelement, &self.projected, self.asked.boundary)),
+            false => audit.notes.push(
+                "its mass is singular: which columns depend on those that were kept is not seen in it".to_owned(),
+            ),
+        }
+        let checks = &mut audit.checks;
         checks.push(bars::frequencies(&file, &self.asked, self.partition.precision));
         checks.push(bars::error_bars(superelement, &self.asked));
         checks.push(self.motions.count(&file));
@@ -180,7 +190,7 @@ struct Free {
 impl Free {
     /// The factor is gone before the count takes place for its own.
     fn new(job: &Job, partition: &Partition, (analysis, given): (&Analysis, &RigidBodyModes)) -> Result<Self> {
-        let full = Full::new(partition, analysis)?;
+        let full = Full::new(partition, analysis, given)?;
         let is_modal = partition.n_interface() == 0 && full.zero.count() > 0;
         let boundary = if is_modal { Boundary::FreeInterface } else { Boundary::of(job.reduction.method) };
         let asked = match boundary {

@@ -139,13 +139,7 @@ pub(super) fn block_coupling(content: &Content<'_>) -> Check {
 
 /// M-23: conditioning of M̂, which every explicit integrator and every initial acceleration divides by.
 pub(super) fn condition(content: &Content<'_>) -> Result<Check> {
-    let d: Vec<f64> = (0..content.n_reduced()).map(|i| dense::power_of_two_root(content.m[(i, i)])).collect();
-    let n = d.len();
-    let scaled = Mat::from_fn(n, n, |i, j| content.m[(i, j)] * d[i] * d[j]);
-    let (values, _) = dense::symmetric_eigen(scaled.as_ref())?;
-    let (least, most) = (values.first().copied().unwrap_or(1.0), values.last().copied().unwrap_or(1.0));
-    // A semidefinite mass is judged by M-25.
-    let value = if least > 0.0 { most / least } else { 1.0 / f64::EPSILON };
+    let value = condition_of(content.m.as_ref())?;
     Ok(Check {
         id: "M-23",
         name: "condition of the reduced mass",
@@ -155,6 +149,16 @@ pub(super) fn condition(content: &Content<'_>) -> Result<Check> {
         fail_above: f64::INFINITY,
         worst: None,
     })
+}
+
+/// λ_max / λ_min of D M D with unit diagonal. A semidefinite mass is judged by M-25.
+pub(super) fn condition_of(m: MatRef<'_, f64>) -> Result<f64> {
+    let n = m.nrows();
+    let d: Vec<f64> = (0..n).map(|i| dense::power_of_two_root(m[(i, i)])).collect();
+    let scaled = Mat::from_fn(n, n, |i, j| m[(i, j)] * d[i] * d[j]);
+    let (values, _) = dense::symmetric_eigen(scaled.as_ref())?;
+    let (least, most) = (values.first().copied().unwrap_or(1.0), values.last().copied().unwrap_or(1.0));
+    Ok(if least > 0.0 { most / least } else { 1.0 / f64::EPSILON })
 }
 
 /// M-25, symmetry: clients keep one triangle.

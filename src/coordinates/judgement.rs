@@ -87,18 +87,24 @@ impl Case<'_> {
             return Ok(CoordinateFit::Exact);
         };
         let cost = self.of_first_elastic(cost(&worst), zeros);
-        let n_rows: usize = doubts.iter().map(|doubt| motions.bodies[doubt.body].rows.len()).sum();
         let n_touched: usize = doubts.iter().map(|doubt| doubt.n_touched).sum();
         // Where supports touch most rows, the others are no witness; where they touch none, there is none.
         let is_unexplained = zeros.count() > self.n_explained
             && cost.energy > ROUNDED
-            && (2 * n_touched > n_rows || n_touched == 0 || zeros.n_rigid(motions, doubts)? > self.n_explained);
+            && (self.are_mostly_touched() || n_touched == 0 || zeros.n_rigid(motions, doubts)? > self.n_explained);
         if !is_unexplained {
             return Ok(CoordinateFit::Exact);
         }
         let costly: Vec<usize> = (0..6).filter(|motion| self.costs_energy(worst, *motion)).collect();
         let place = Place::of(motions, &motions.bodies[worst.body].rows, &costly);
         Err(self.misfit(zeros, &costly, cost, place.at))
+    }
+
+    /// Whether supports touch most rows of the bodies in doubt.
+    fn are_mostly_touched(&self) -> bool {
+        let n_rows: usize = self.doubts.iter().map(|doubt| self.motions.bodies[doubt.body].rows.len()).sum();
+        let n_touched: usize = self.doubts.iter().map(|doubt| doubt.n_touched).sum();
+        2 * n_touched > n_rows
     }
 
     /// Rotations make forces where no support is.
@@ -120,7 +126,10 @@ impl Case<'_> {
             return Err(self.misfit(zeros, &rotations, Cost { energy: largest, of, expected: FIVE_DIGITS }, at));
         }
         if is_rounded && zeros.count() >= self.n_of_right_coordinates() {
-            self.supports(zeros)?;
+            // Of a body whose rows are nearly all touched the others say little, and the number of motions all.
+            if self.are_mostly_touched() {
+                self.supports(zeros)?;
+            }
             let misfit = Misfit { rotation: AXES[rotations[0] % 3], energy: cost.energy, of: cost.of, at };
             return Ok(CoordinateFit::Rounded(mended(motions, &self.free, zeros, misfit)?));
         }

@@ -56,6 +56,9 @@ pub struct Frame {
     pub size: f64,
 }
 
+/// Distances relative to the farthest coordinate that are rounding of a mean.
+const ONE_PLACE: f64 = 1e-12;
+
 impl Frame {
     /// Of the dofs that are listed.
     pub fn of(sites: &[Site], dofs: &[usize]) -> Self {
@@ -71,7 +74,9 @@ impl Frame {
             (0..3).map(|axis| (position[axis] - centre[axis]).powi(2)).sum::<f64>().sqrt()
         };
         let size = dofs.iter().map(distance).fold(0.0, f64::max);
-        Self { centre, size: if size > 0.0 { size } else { 1.0 } }
+        // The mean of one place is that place but for rounding.
+        let far = sites.iter().flat_map(|site| site.position).fold(0.0f64, |max, x| max.max(x.abs()));
+        Self { centre, size: if size > ONE_PLACE * far { size } else { 1.0 } }
     }
 }
 

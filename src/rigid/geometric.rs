@@ -111,7 +111,10 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
     if let Some(energy) = energies.first().filter(|energy| **energy < -zero) {
         refuse_negative(partition, *energy, noise)?;
     }
-    let n_free = energies.iter().filter(|energy| **energy <= zero).count();
+    let mut n_free = energies.iter().filter(|energy| **energy <= zero).count();
+    if n_free < energies.len() && is_free_to_k(partition, &energies, noise)? {
+        n_free = energies.len();
+    }
     let orthonormal = dense::product(orthonormal.as_ref(), directions.as_ref().subcols(0, n_free));
     let energy = RigidEnergy {
         largest_quotient: energies[..n_free].iter().fold(0.0, |max: f64, energy| max.max(energy.abs())),
@@ -121,6 +124,23 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
     };
     let is_classical = n_free + massless.ncols() == 6;
     Ok(Body { dofs: dofs.to_vec(), orthonormal, massless, is_classical, energy })
+}
+
+/// Whether motions that cost more than the digits of K explain are zero modes of K all the same: coordinates have digits too, and in a
+/// slender part those of coordinates cost more. The coordinates have been compared with K by the worst that its digits can do.
+fn is_free_to_k(partition: &Partition, energies: &[f64], noise: f64) -> Result<bool> {
+    /// Roundings of one sign, of coordinates and of entries.
+    const NOISE_FACTOR: f64 = 10.0;
+    let is_near = energies.iter().all(|energy| *energy <= NOISE_FACTOR * noise);
+    if !is_near || partition.model.n_bodies > 1 {
+        return Ok(false);
+    }
+    match algebraic::zero_modes(partition) {
+        Ok((zero, ..)) => Ok(zero.count() >= energies.len()),
+        // Whether K is definite is for others to say.
+        Err(Error::IndefiniteStiffness { .. } | Error::NotDefinite { .. } | Error::DigitsTooFew { .. }) => Ok(false),
+        Err(error) => Err(error),
+    }
 }
 
 /// The spectrum tells whether K is indefinite, or rounded by whoever made it.

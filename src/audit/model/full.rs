@@ -2,9 +2,9 @@
 
 use crate::error::Result;
 use crate::factor::{Analysis, Cholesky};
-use crate::modes::{ModalProblem, shifted};
+use crate::modes::{ModalProblem, Shifted, shifted, zero};
 use crate::partition::Partition;
-use crate::rigid::RigidBodyModes;
+use crate::rigid::{RigidBodyModes, RigidSource};
 use crate::sparse::product;
 
 /// The full model with a factor of K − σM on all dofs.
@@ -27,12 +27,13 @@ impl<'a> Full<'a> {
     ///
     /// # Errors
     /// K − σM is not definite; the eigensolver fails.
-    pub(super) fn new(partition: &'a Partition, analysis: &'a Analysis) -> Result<Self> {
+    pub(super) fn new(partition: &'a Partition, analysis: &'a Analysis, given: &RigidBodyModes) -> Result<Self> {
         let problem = ModalProblem::free(partition, None);
         let found = shifted(analysis, problem, &|dof| partition.name_of(dof))?;
-        let shapes = found.lowest.shapes.as_ref().subcols(0, found.n_zero).to_owned();
-        let first = found.lowest.lambda.get(found.n_zero).copied().or(found.lowest.next).unwrap_or(1.0);
-        let looked_at = &found.lowest.errors[..found.lowest.count().min(found.n_zero + 1)];
+        let n_zero = confirmed(&found, given);
+        let shapes = found.lowest.shapes.as_ref().subcols(0, n_zero).to_owned();
+        let first = found.lowest.lambda.get(n_zero).copied().or(found.lowest.next).unwrap_or(1.0);
+        let looked_at = &found.lowest.errors[..found.lowest.count().min(n_zero + 1)];
         let noise = looked_at.iter().map(|error| error.zero_level / first).fold(0.0, f64::max);
         let zero = RigidBodyModes {
             modes: shapes.clone(),
@@ -42,4 +43,16 @@ impl<'a> Full<'a> {
         };
         Ok(Self { partition, factor: found.factor, sigma: found.sigma, zero, first, noise })
     }
+}
+
+/// How many modes are zero: by their own levels, or as many as the coordinates say where none of those is above the largest level, which
+/// is what the motions of the coordinates are held to.
+fn confirmed(found: &Shifted<'_>, given: &RigidBodyModes) -> usize {
+    let n_given = if given.source == RigidSource::Geometric { given.count() } else { 0 };
+    if n_given <= found.n_zero || n_given > found.lowest.count() {
+        return found.n_zero;
+    }
+    let largest = found.lowest.errors[..n_given].iter().map(|error| error.zero_level).fold(0.0, f64::max);
+    let are_zero = found.lowest.lambda[..n_given].iter().all(|lambda| zero::is_zero(*lambda, largest));
+    if are_zero { n_given } else { found.n_zero }
 }

@@ -61,7 +61,7 @@ impl Projected {
         let (shapes, n_probes) = (columns.shapes.as_ref(), columns.n_probes());
         let stiffness = form(&partition.stiffness, shapes, columns.energy_errors);
         let mass = form(&partition.mass, shapes, columns.inertia_errors);
-        let gravity = unit.map(|unit| loads(partition, unit.subcols(0, 3), shapes, &mass));
+        let gravity = unit.map(|unit| loads(partition, unit.subcols(0, 3), shapes, (&mass, n_probes)));
         let recovery = (!partition.recovered.is_empty()).then(|| recovered(partition, shapes, (&mass, n_probes)));
         let is_modal = columns.probes.ncols() == 0;
         let motions =
@@ -146,14 +146,27 @@ fn form(matrix: &SparseMatrix, shapes: MatRef<'_, f64>, errors: Vec<f64>) -> For
 }
 
 /// (WᵀMe)ᵀ for unit motions e: no more than the product of both lengths in the mass.
-fn loads(partition: &Partition, along: MatRef<'_, f64>, shapes: MatRef<'_, f64>, mass: &Form) -> Rows {
+fn loads(
+    partition: &Partition,
+    along: MatRef<'_, f64>,
+    shapes: MatRef<'_, f64>,
+    (mass, n_probes): (&Form, usize),
+) -> Rows {
     let loads = product(&partition.mass, along);
     let length = dense::dots(along, loads.as_ref()).into_iter().fold(0.0, f64::max).sqrt();
     let columns = 0..shapes.ncols();
+    let own = |j: usize| mass.matrix[(j, j)].max(0.0).sqrt();
+    // What one column of a kind lacks another may lack as well: all come from the same factor.
+    let share = |like: std::ops::Range<usize>| {
+        let shares = like.filter(|j| own(*j) > 0.0).map(|j| mass.errors[j] / own(j));
+        shares.fold(0.0, f64::max)
+    };
+    let shares = [share(0..n_probes), share(n_probes..shapes.ncols())];
+    let error = |j: usize| mass.errors[j].max(shares[usize::from(j >= n_probes)] * own(j));
     Rows {
         rows: dense::gram(loads.as_ref(), shapes),
-        errors: columns.clone().map(|j| length * (mass.errors[j] + f64::EPSILON * mass.terms[j])).collect(),
-        sizes: columns.map(|j| length * mass.matrix[(j, j)].max(0.0).sqrt()).collect(),
+        errors: columns.clone().map(|j| length * (error(j) + f64::EPSILON * mass.terms[j])).collect(),
+        sizes: columns.map(|j| length * own(j)).collect(),
     }
 }
 
