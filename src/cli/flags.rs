@@ -133,7 +133,7 @@ pub(super) struct RunFlags {
     /// Working threads; changes no result [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(super) threads: Option<u16>,
-    /// Memory the run may use, in GiB [default: what is free]
+    /// Memory for matrices, factors and vectors of the run, in GiB [default: what is free]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub(super) memory_gib: Option<f64>,
     /// How the factor is kept: mixed takes half the memory and more time [default: double]

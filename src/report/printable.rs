@@ -71,6 +71,7 @@ mod tests {
     #[test]
     fn what_acts_is_written_out_and_the_rest_stays() {
         assert_eq!(printable("Δx – 12 µm, naïve, 軸, 🔩"), "Δx – 12 µm, naïve, 軸, 🔩");
+        assert_eq!(printable("hu\u{ad}b\u{3164}\u{e000}"), "hu\\u{ad}b\\u{3164}\\u{e000}");
         assert_eq!(printable("\x1b[2J\x1b[H✓\u{9b}8m\u{202e}\0\n"), "\\u{1b}[2J\\u{1b}[H✓\\u{9b}8m\\u{202e}\\u{0}\\n");
     }
 

@@ -148,6 +148,12 @@ mod tests {
     use super::*;
 
     #[test]
+    fn white_space_of_names_stays() {
+        assert_eq!(wrap("two  blanks\nand \u{2028}", 80), ["two  blanks\nand \u{2028}"]);
+        assert_eq!(wrap("one two", 4), ["one", "two"]);
+    }
+
+    #[test]
     fn numbers_read_as_people_write_them() {
         assert_eq!(count(0), "0");
         assert_eq!(count(1234), "1,234");

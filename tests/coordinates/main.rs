@@ -11,4 +11,5 @@ mod faults;
 mod place;
 mod sound;
 mod table;
+mod thin;
 mod told;

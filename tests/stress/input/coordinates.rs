@@ -6,6 +6,7 @@ use supel_models::{Inertia, Material, Model, Section, brick, frame};
 
 use super::{assert_done, assert_refused};
 use crate::place::{Place, steel_brick};
+use supel::cli::ExitCode;
 
 /// A block of 4 × 2 × 2 bricks, its foot, and a plate of 1 : 100 whose edge is held.
 fn models() -> [(&'static str, Model, &'static str); 2] {
@@ -125,6 +126,11 @@ fn i_19_rounded_coordinates() {
             assert!(words.contains("rigid-body modes were taken from the matrices"), "{words}");
             let superelement = place.superelement("x.supel");
             assert_eq!(superelement.tensors().rigid_body_modes.cols(), 6, "{name}, {digits} digits");
+            // What is verified stays verified.
+            let (file, job) = (place.text("x.supel"), place.text("kept.json"));
+            place.write("kept.json", crate::place::supel(&["inspect", &file, "--job"]).out.as_bytes());
+            crate::place::supel(&["verify", &file]).expect(ExitCode::Done);
+            crate::place::supel(&["verify", &file, "--job", &job]).expect(ExitCode::Done);
             // Frequencies as with exact coordinates, within the bars of both.
             for (mode, reference) in modes(&place).into_iter().zip(modes(&exact)) {
                 assert!(

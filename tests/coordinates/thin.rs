@@ -1,0 +1,92 @@
+//! Models that leave few witnesses: thin, slender, flat, or of a single node.
+
+use supel::coordinates::{Levers, compared};
+use supel::error::Error;
+use supel::model::{CoordinateFit, Model as Checked};
+use supel_models::transform::supported;
+use supel_models::{Inertia, Material, Model, Section, brick, frame};
+
+use crate::chain::input;
+
+fn fit(model: &Model, levers: Levers) -> Result<CoordinateFit, Error> {
+    Ok(compared(Checked::new(input(model))?, &[], levers)?.fit)
+}
+
+#[track_caller]
+fn assert_refused(model: &Model, what: &str) {
+    for levers in [Levers::Used, Levers::Unused] {
+        let found = fit(model, levers);
+        assert!(matches!(found, Err(Error::CoordinatesDoNotFit { .. })), "{what}: {found:?}");
+    }
+}
+
+fn with_nodes(model: &Model, place: impl Fn([f64; 3]) -> [f64; 3]) -> Model {
+    Model { nodes: model.nodes.iter().map(|node| place(*node)).collect(), ..model.clone() }
+}
+
+/// Beams that cross in a plane, with the dofs of bending alone: uz, rx and ry.
+fn grillage() -> Model {
+    let (nx, ny) = (6, 5);
+    let nodes: Vec<[f64; 3]> = (0..nx * ny).map(|k| [0.2 * f64::from(k % nx), 0.17 * f64::from(k / nx), 0.0]).collect();
+    let along = (0..nx * ny).filter(|k| k % nx + 1 < nx).map(|k| [k as usize, k as usize + 1]);
+    let across = (0..nx * (ny - 1)).map(|k| [k as usize, (k + nx) as usize]);
+    let edges: Vec<[usize; 2]> = along.chain(across).collect();
+    let whole = frame(&nodes, &edges, &Section::round(0.01), &Material::STEEL_SI, Inertia::Consistent);
+    supported(&whole, |(_, direction)| matches!(direction, 0 | 1 | 5))
+}
+
+/// No node of a plate in bending has in-plane displacements: right coordinates make none, and wrong ones are seen all the same.
+#[test]
+fn wrong_coordinates_of_a_plate_without_inplane_dofs() {
+    let sound = grillage();
+    assert!(matches!(fit(&sound, Levers::Used), Ok(CoordinateFit::Exact)));
+    // In-plane places matter and heights do not: nothing in K depends on them.
+    assert!(matches!(fit(&with_nodes(&sound, |[x, y, z]| [x, y, z + 0.3]), Levers::Used), Ok(CoordinateFit::Exact)));
+    assert_refused(&with_nodes(&sound, |[x, y, z]| [z, y, x]), "x and z exchanged");
+    assert_refused(&with_nodes(&sound, |[x, y, z]| [x, z, y]), "y and z exchanged");
+    assert_refused(&with_nodes(&sound, |[x, y, z]| [y, z, x]), "axes cycled");
+    assert_refused(&with_nodes(&sound, |[x, y, z]| [y, x, z]), "x and y exchanged");
+    let mut bent = sound.clone();
+    bent.nodes[13] = [bent.nodes[13][0] + 0.03, bent.nodes[13][1], 0.01];
+    assert_refused(&bent, "one node out of place");
+}
+
+/// A map that goes direction by direction makes forces at all rows of a free frame, as if supports held it everywhere.
+#[test]
+fn rows_in_another_order_of_a_slender_frame() {
+    let nodes: Vec<[f64; 3]> =
+        (0..20).map(|k| f64::from(k)).map(|k| [0.1 * k, 0.2 * (0.7 * k).sin(), 0.15 * (0.4 * k).cos()]).collect();
+    let edges: Vec<[usize; 2]> = (0..19).map(|k| [k, k + 1]).collect();
+    for diameter in [0.02, 0.002, 0.0002] {
+        let sound = frame(&nodes, &edges, &Section::round(diameter), &Material::STEEL_SI, Inertia::Consistent);
+        assert!(matches!(fit(&sound, Levers::Used), Ok(CoordinateFit::Exact)), "{diameter}");
+        let mut wrong = sound.clone();
+        wrong.dofs.sort_by_key(|(node, direction)| (*direction, *node));
+        assert_refused(&wrong, &format!("{diameter}, direction by direction"));
+    }
+}
+
+/// What is left of a beam behind a clamped node is a node by itself, held by the rest of its beam.
+#[test]
+fn a_body_of_one_node_is_held_like_any_other() {
+    let nodes: Vec<[f64; 3]> = (0..12).map(|k| [0.31 * f64::from(k), 0.7, 0.2 + 0.1 * f64::from(k)]).collect();
+    let edges: Vec<[usize; 2]> = (0..11).map(|k| [k, k + 1]).collect();
+    let whole = frame(&nodes, &edges, &Section::round(0.03), &Material::STEEL_SI, Inertia::Consistent);
+    let clamped = supported(&whole, |(label, _)| label == 11);
+    let found = fit(&clamped, Levers::Used);
+    assert!(matches!(found, Ok(CoordinateFit::Exact)), "{found:?}");
+}
+
+/// Nothing mends what rigid patches tie by the coordinates of another state of a held part; without patches nothing depends on them.
+#[test]
+fn coordinates_of_another_state_of_a_thin_held_part() {
+    let plate = brick([16, 8, 1], [1.0, 0.5, 0.005], &Material::STEEL_SI);
+    let wall = plate.groups["XMIN"].clone();
+    let held = supported(&plate, move |(label, _)| wall.contains(&label));
+    let wavy = with_nodes(&held, |[x, y, z]| [x, y, z + 0.002 * (9.0 * x).sin()]);
+    let found = fit(&wavy, Levers::Used);
+    assert!(matches!(found, Err(Error::CoordinatesDoNotFit { .. })), "{found:?}");
+    let five_digits =
+        with_nodes(&held, |place| place.map(|x| format!("{:.4e}", x + 0.1234567).parse().expect("a number")));
+    assert!(fit(&five_digits, Levers::Used).is_ok());
+}
