@@ -100,9 +100,10 @@ fn an_aircraft_of_ten_digits_is_reduced_and_its_frequencies_are_those_of_the_f06
 #[test]
 fn what_is_warned_of_the_aircraft_is_what_ten_digits_cost() {
     let Some(pairs) = corpus() else { return };
-    for (method, expected) in
-        [("herting", vec!["M-05", "M-09", "M-14", "M-24", "M-25"]), ("craig-bampton", vec!["M-05", "M-09", "M-24"])]
-    {
+    for (method, expected) in [
+        ("herting", vec!["M-05", "M-09", "M-14", "M-24", "M-25"]),
+        ("craig-bampton", vec!["M-05", "M-09", "M-24", "M-25"]),
+    ] {
         let body = reduced(&pairs, method);
         let found = warned(&body);
         let ids: Vec<&str> = found.iter().map(|line| &line[..4]).collect();
