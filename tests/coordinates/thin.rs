@@ -55,7 +55,7 @@ fn wrong_coordinates_of_a_plate_without_inplane_dofs() {
 #[test]
 fn rows_in_another_order_of_a_slender_frame() {
     let nodes: Vec<[f64; 3]> =
-        (0..20).map(|k| f64::from(k)).map(|k| [0.1 * k, 0.2 * (0.7 * k).sin(), 0.15 * (0.4 * k).cos()]).collect();
+        (0..20).map(f64::from).map(|k| [0.1 * k, 0.2 * (0.7 * k).sin(), 0.15 * (0.4 * k).cos()]).collect();
     let edges: Vec<[usize; 2]> = (0..19).map(|k| [k, k + 1]).collect();
     for diameter in [0.02, 0.002, 0.0002] {
         let sound = frame(&nodes, &edges, &Section::round(diameter), &Material::STEEL_SI, Inertia::Consistent);

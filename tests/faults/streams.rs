@@ -1,6 +1,5 @@
 //! Streams that take nothing, files that may not grow, a parent that is gone.
 
-use std::io::Write;
 use std::process::{Command, Stdio};
 
 use supel_models::{Ends, spring};
@@ -91,6 +90,8 @@ fn a_file_that_may_not_grow_is_an_error() {
 #[cfg(feature = "hdf5")]
 #[test]
 fn the_child_ends_with_its_parent() {
+    use std::io::Write;
+
     let place = Place::with(&spring(5, Ends::Free));
     // Reading this takes seconds.
     let file = hdf5_metno::File::create(place.path("zeros.hmf")).expect("a file");

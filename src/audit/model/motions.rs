@@ -29,15 +29,22 @@ pub(super) struct KnownMotions {
     zero: Mat<f64>,
     /// The unit motions, where the file's are those.
     unit: Option<UnitMotions>,
-    /// Whether mass and the directions of gravity are known: one free body with coordinates.
-    pub(super) is_classical: bool,
-    /// Whether the file has to say that Û are the unit motions of its nodes.
-    is_declared: bool,
+    meaning: Meaning,
     /// Rounding of K relative to the first elastic eigenvalue: what a displacement may be off by.
     rounding: f64,
-    /// How far roundings of K turn its zero modes towards elastic ones.
-    turn: f64,
-    has_few_digits: bool,
+    /// Limits of what zero modes of K differ by from the motions of the coordinates: roundings turn them towards elastic ones.
+    of_zero_modes: Limits,
+}
+
+/// What the rigid-body modes of a file are known by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Meaning {
+    /// They are the unit motions of its nodes, and it has to say so.
+    Unit,
+    /// Nearly: mass and the directions of gravity are known.
+    Classical,
+    /// They span the motions without energy.
+    Zero,
 }
 
 struct UnitMotions {
@@ -58,6 +65,8 @@ impl KnownMotions {
         let (k, m) = (diagonal(&partition.stiffness), diagonal(&partition.mass));
         let ratios = k.iter().zip(&m).filter(|(_, m)| **m > 0.0).map(|(k, m)| k / m);
         let condition = ratios.fold(1.0, f64::max) / full.first;
+        let rounding = (NOISE_FACTOR * f64::EPSILON * condition).min(LARGEST_EXCUSE);
+        let turn = (NOISE_FACTOR * full.noise).min(LARGEST_TURN);
         let is_geometric = given.source == RigidSource::Geometric && given.count() == n_zero && given.n_mechanisms == 0;
         let unit = is_geometric.then(|| {
             let modes = given.modes.as_ref();
@@ -72,17 +81,27 @@ impl KnownMotions {
             n_zero,
             zero: full.zero.orthonormal.as_ref().subrows(n_i, n_b).to_owned(),
             unit,
-            is_classical: given.is_classical,
-            is_declared: given.are_unit_motions(partition),
-            rounding: (NOISE_FACTOR * f64::EPSILON * condition).min(LARGEST_EXCUSE),
-            turn: (NOISE_FACTOR * full.noise).min(LARGEST_TURN),
-            has_few_digits: partition.has_few_digits(),
+            meaning: match (given.are_unit_motions(partition), given.is_classical) {
+                (true, _) => Meaning::Unit,
+                (false, true) => Meaning::Classical,
+                (false, false) => Meaning::Zero,
+            },
+            rounding,
+            of_zero_modes: match partition.has_few_digits() {
+                true => Limits { engineering: 1e-9, arithmetic: rounding, data: turn },
+                false => Limits { engineering: 1e-9, arithmetic: rounding.max(turn), data: 0.0 },
+            },
         }
     }
 
     /// Whether the file has to say that its rigid-body modes are the six unit motions.
     pub(super) fn is_geometric(&self) -> bool {
-        self.is_declared
+        self.meaning == Meaning::Unit
+    }
+
+    /// Whether mass and the directions of gravity are known: one free body with coordinates.
+    pub(super) fn is_classical(&self) -> bool {
+        self.meaning != Meaning::Zero
     }
 
     /// Whether inertia relief answers the unit motions, whatever they are called.
@@ -129,9 +148,7 @@ impl KnownMotions {
             return checks;
         }
         let (combination, left) = self.combination(file);
-        let of_digits = if self.has_few_digits { self.turn } else { 0.0 };
-        let arithmetic = self.rounding.max(if self.has_few_digits { 0.0 } else { self.turn });
-        let limits = Limits { engineering: 1e-9, arithmetic, data: of_digits };
+        let limits = self.of_zero_modes;
         checks.push(Check {
             id: "M-05",
             name: "rigid-body modes are free in the full model",
