@@ -8,7 +8,7 @@
 //! **No memory.** Most allocations of this crate and of those it builds on cannot fail for their callers: the standard library prints a
 //! line and aborts, with `RUST_BACKTRACE=1` after a backtrace for which there is no memory either, and the linear algebra crate panics. No
 //! stable hook lets a program decide. So [`Heap`], the allocator of the program, decides itself: where the system has no memory it writes
-//! the line of [`Error::OutOfMemory`](crate::error::Error::OutOfMemory) with the running stage, removes what was being written, and ends
+//! the line of [`Error::OutOfMemory`] with the running stage, removes what was being written, and ends
 //! the process. An allocation whose failure is handled is made within [`fallibly`] and gets its failure back.
 
 use std::alloc::{GlobalAlloc, Layout, System};

@@ -25,7 +25,7 @@ pub struct ModeError {
     /// ε ‖K‖ ‖x‖² / xᵀMx, equilibrated: an eigenvalue of this size is rounding of whoever made K, whatever the terms of
     /// xᵀKx, which may all vanish for a matrix that was itself projected.
     pub rounding_floor: f64,
-    /// λ up to which the motion costs no energy as far as anybody can tell; see [`super::zero`].
+    /// λ up to which the motion costs no energy as far as anybody can tell; see `modes::zero`.
     pub zero_level: f64,
 }
 
