@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use supel_runtime::FileError;
 
-use crate::report::table::{bytes, quantity};
+use crate::number::{bytes, quantity};
 
 pub use code::{ErrorClass, INTERNAL_CODE, USAGE_CODE};
 
@@ -479,7 +479,7 @@ pub enum Error {
         /// Label of the node.
         node: i64,
         /// Direction.
-        direction: crate::input::Direction,
+        direction: crate::dofs::Direction,
         /// All rows that repeat an earlier one, in words.
         repeated: String,
     },
@@ -1334,7 +1334,7 @@ pub enum Error {
         /// The interface.
         interface: String,
         /// The dof.
-        dof: crate::input::Dof,
+        dof: crate::dofs::Dof,
     },
     /// A row number beyond the matrices.
     #[error("interface {interface:?}: row {row} {found} – expected one of 0 to {} with stiffness or mass – rows count from zero, as in the files", n.saturating_sub(1))]

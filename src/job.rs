@@ -13,8 +13,9 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use crate::dofs::Direction;
 use crate::error::{Error, Result};
-use crate::input::{Direction, Triangle};
+use crate::sparse::Triangle;
 
 pub use document::Notation;
 pub use interface::{Coupling, InterfaceJob, NodeSelection, Origin, Region};

@@ -6,9 +6,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use hdf5_metno::{File, Group};
+use supel::dofs::Nodes;
 use supel::error::{Error, ErrorClass};
+use supel::input::MatrixInput;
 use supel::input::hdf5::{MatrixRole, read_matrix, read_nodes};
-use supel::input::{MatrixInput, Nodes};
 use tempfile::TempDir;
 
 const K: [[f64; 3]; 3] = [[2.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]];

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use supel_runtime::Superelement;
 
-use crate::input::regular;
+use crate::regular_file;
 use crate::verification::check::{Check, Limits};
 
 /// More than the report of any run takes.
@@ -48,7 +48,7 @@ fn report_path(file: &Path, superelement: &Superelement) -> Option<PathBuf> {
 /// The document, if it is a report.
 fn read(path: &Path) -> Option<Value> {
     let mut bytes = Vec::new();
-    regular::open(path).ok()?.take(MAX_BYTES).read_to_end(&mut bytes).ok()?;
+    regular_file::open(path).ok()?.take(MAX_BYTES).read_to_end(&mut bytes).ok()?;
     let report: Value = serde_json::from_slice(&bytes).ok()?;
     report["body"]["format_version"].is_number().then_some(report)
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 
-use crate::{input, job};
+use crate::job;
 
 /// Turns finite element models into verified superelements for multibody simulation.
 #[derive(Debug, Parser)]
@@ -218,7 +218,7 @@ pub(super) enum Precision {
     Auto,
 }
 
-impl From<Triangle> for input::Triangle {
+impl From<Triangle> for crate::sparse::Triangle {
     fn from(triangle: Triangle) -> Self {
         match triangle {
             Triangle::Lower => Self::Lower,

@@ -7,12 +7,12 @@ use super::answer::Terminal;
 use super::command::{InspectAnswer, InspectCommand};
 use super::exit_code::ExitCode;
 use crate::error::{Error, Result};
-use crate::input::regular;
+use crate::regular_file;
 use crate::report::{inspection, json_text};
 
 pub(super) fn run(command: &InspectCommand, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
     let failed = |error| Error::of_superelement(&command.file, error);
-    regular::open(&command.file).map(drop)?;
+    regular_file::open(&command.file).map(drop)?;
     let bytes = file_bytes(&command.file).map_err(failed)?;
     let file_bytes = bytes.len();
     let superelement = Superelement::from_bytes(&bytes).map_err(failed)?;

@@ -13,15 +13,15 @@ use super::unmet::unmet;
 use super::{Pipeline, accompanying, memory, process};
 use crate::audit::{self, Audit};
 use crate::error::{Error, Result};
-use crate::input::regular;
 use crate::job::Job;
 use crate::outcome::Resources;
+use crate::regular_file;
 use crate::report::{Against, Reproduction, VerificationReport};
 use crate::verification::check::Verdict;
 
 pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
     let failed = |error| Error::of_superelement(&command.file, error);
-    regular::open(&command.file).map(drop)?;
+    regular_file::open(&command.file).map(drop)?;
     let bytes = file_bytes(&command.file).map_err(failed)?;
     let superelement = Superelement::from_bytes(&bytes).map_err(failed)?;
     let rerun = match command.rerun {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::free::FREE_BELOW_NOISE;
 use super::motions::{Body, Motions};
 use super::nodes::Nodes;
-use crate::input::Direction;
+use crate::dofs::Direction;
 use crate::model::Finding;
 
 /// A force is worth a look when it exceeds this many times the noise of the data, or that of a translation: what a producer

@@ -163,7 +163,7 @@ impl Case<'_> {
         if doubt.costly.iter().any(|costly| costly.is_free) {
             return self.of_first_elastic(self.free[doubt.body].largest_quotient, zeros);
         }
-        let stiffness = crate::model::diagonal(&motions.model.stiffness);
+        let stiffness = crate::sparse::diagonal(&motions.model.stiffness);
         let share = |costly: &Costly| {
             let of_row = |row: &usize| motions.forces[(*row, costly.rotation)].powi(2) / stiffness[*row];
             let energy: f64 = costly.witnesses.iter().filter(|row| stiffness[**row] > 0.0).map(of_row).sum();

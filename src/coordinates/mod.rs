@@ -28,8 +28,8 @@ mod motions;
 mod nodes;
 mod zeros;
 
+use crate::dofs::Direction;
 use crate::error::Result;
-use crate::input::Direction;
 use crate::model::{CoordinateFit, Finding, Model};
 
 pub use judgement::Levers;

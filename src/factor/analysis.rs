@@ -12,11 +12,12 @@ mod tasks;
 
 use std::ops::Range;
 
+use super::Storage;
 use super::panels::Shape;
-use super::{Pencil, Storage};
 use crate::error::{Error, Result};
 use crate::heap::fallibly;
 use crate::partition::Partition;
+use crate::sparse::Pencil;
 use order::{EliminationTree, NONE};
 use supernodes::Supernodes;
 

@@ -12,10 +12,11 @@ use super::multifrontal::{Keep, Numbers, Stop, eliminate};
 use super::refined::{Refined, Refinement};
 use super::solve::by_solutions;
 use super::substitution::Factor;
-use super::{Analysis, Pencil, SolveOperator, Storage};
+use super::{Analysis, SolveOperator, Storage};
 use crate::dense;
 use crate::error::{Error, Result};
-use crate::model::diagonal;
+use crate::sparse::Pencil;
+use crate::sparse::diagonal;
 
 /// Pivots below this share of their diagonal entry are rounding: a singular matrix leaves 50 to 500 ε, and a healthy one
 /// of which less were left would have lost all but three digits.

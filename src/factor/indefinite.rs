@@ -9,10 +9,11 @@ use super::elimination::{Kind, PANEL};
 use super::matrix::Shifted;
 use super::multifrontal::{Keep, Numbers, eliminate};
 use super::substitution::Factor;
-use super::{Analysis, Pencil, Storage};
+use super::{Analysis, Storage};
 use crate::dense;
 use crate::error::{Error, Result};
-use crate::model::diagonal;
+use crate::sparse::Pencil;
+use crate::sparse::diagonal;
 
 pub use whole::{WholeCount, whole_count};
 

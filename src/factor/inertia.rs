@@ -6,12 +6,13 @@
 
 use faer::{Mat, MatMut};
 
+use super::Analysis;
 use super::indefinite::Indefinite;
 use super::multifrontal::Keep;
-use super::{Analysis, Pencil};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::partition::Partition;
+use crate::sparse::Pencil;
 use crate::sparse::{Leading, SparseMatrix};
 
 /// Numbers of eigenvalues below a shift.

@@ -2,9 +2,10 @@
 
 use faer::{Mat, MatMut};
 
+use super::Analysis;
 use super::analysis::Supernode;
-use super::{Analysis, Pencil};
 use crate::sparse::Leading;
+use crate::sparse::Pencil;
 
 /// D (K − σM) D with a diagonal D, never formed as a whole.
 #[derive(Clone, Copy, Debug)]

@@ -29,8 +29,6 @@ mod rows;
 mod solve;
 mod substitution;
 
-use crate::sparse::Leading;
-
 pub use analysis::Analysis;
 pub use cholesky::Cholesky;
 pub use indefinite::{WholeCount, whole_count};
@@ -49,20 +47,4 @@ pub enum Storage {
     Double,
     /// Rounded to four bytes; conjugate gradients make solves as accurate as in double precision.
     Single,
-}
-
-/// A symmetric pencil in its order of elimination: K and M of one size, whose combinations K − σM are factored.
-#[derive(Clone, Copy, Debug)]
-pub struct Pencil<'a> {
-    /// K, n × n.
-    pub stiffness: Leading<'a>,
-    /// M, n × n.
-    pub mass: Leading<'a>,
-}
-
-impl<'a> Pencil<'a> {
-    /// Of two matrices or leading blocks.
-    pub fn new(stiffness: impl Into<Leading<'a>>, mass: impl Into<Leading<'a>>) -> Self {
-        Self { stiffness: stiffness.into(), mass: mass.into() }
-    }
 }

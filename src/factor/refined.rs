@@ -14,11 +14,12 @@ use std::sync::{Mutex, OnceLock};
 
 use faer::{Mat, MatMut, MatRef};
 
+use super::Analysis;
 use super::multifrontal::{Numbers, lock};
 use super::substitution::Factor;
-use super::{Analysis, Pencil};
 use crate::dense;
 use crate::error::{Error, Result};
+use crate::sparse::Pencil;
 use crate::sparse::{absolute_product, product};
 
 /// Right-hand sides that are solved for at once, with nine blocks of so many columns beside them.

@@ -1,6 +1,6 @@
 //! Bounds of rounding errors, themselves rounded up.
 
-use super::Pencil;
+use crate::sparse::Pencil;
 
 /// Half the distance of one to the next double: the largest relative error of one operation.
 const UNIT: f64 = f64::EPSILON / 2.0;

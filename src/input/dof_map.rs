@@ -8,7 +8,7 @@ use std::path::Path;
 use super::banner::excerpt;
 use super::source::{Source, read_error};
 use super::table::{FirstLine, Row, Table, is_node_column, open_first_line};
-use super::{Direction, Dof, DofMap, Nodes};
+use crate::dofs::{Direction, Dof, DofMap, Nodes};
 use crate::error::{Error, Result};
 
 const EXPECTED: &str = "lines `node.direction`, or a header with the columns node and dof";

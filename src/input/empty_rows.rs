@@ -1,6 +1,7 @@
 //! Rows that neither matrix uses: constrained or unused degrees of freedom that were exported all the same.
 
-use super::{DofMap, FileRows, InputNote, MatrixInput};
+use super::{InputNote, MatrixInput};
+use crate::dofs::{DofMap, FileRows};
 use crate::sparse::SparseMatrix;
 
 /// Drops the rows and columns without stiffness and mass from both matrices and from the dof map; says which are left.

@@ -3,8 +3,8 @@
 use std::io::Read;
 use std::path::Path;
 
-use super::regular;
 use crate::error::{Error, Result};
+use crate::regular_file;
 
 /// Bytes looked at.
 const HEAD: u64 = 1 << 12;
@@ -101,7 +101,7 @@ const FORMATS: [Foreign; 8] = [
 /// [`Error::FormatNotRead`]; those of opening the file.
 pub(super) fn refuse(path: &Path, wanted: Wanted) -> Result<()> {
     let mut head = Vec::new();
-    let read = regular::open(path)?.take(HEAD).read_to_end(&mut head);
+    let read = regular_file::open(path)?.take(HEAD).read_to_end(&mut head);
     read.map_err(|source| Error::Read { path: path.to_owned(), source })?;
     match FORMATS.iter().find(|format| (format.begins)(&head)) {
         Some(Foreign { found, for_matrix, for_table, .. }) => {

@@ -3,8 +3,8 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use super::regular;
 use crate::job::ModelJob;
+use crate::regular_file;
 
 /// Every file of a model with what it is, those that its files refer to among them. Files that cannot be read are listed all the same.
 pub fn files(model: &ModelJob) -> Vec<(&'static str, PathBuf)> {
@@ -33,7 +33,7 @@ fn mesh_data(_: &Path) -> Vec<PathBuf> {
 pub fn hdf5_file(model: &ModelJob) -> Option<PathBuf> {
     let matrices = [&model.stiffness, &model.mass].into_iter().filter_map(|path| Some(hdf5_location(path)?.0));
     let nodes = model.nodes.iter().filter(|path| is_hdf5_mesh(path)).cloned();
-    matrices.chain(nodes).find(|path| regular::open(path).is_ok())
+    matrices.chain(nodes).find(|path| regular_file::open(path).is_ok())
 }
 
 /// File and group of a matrix in HDF5, told by `file.h5:/group`, by the extension or by the content.
@@ -62,7 +62,7 @@ fn has_extension(path: &Path, known: &[&str]) -> bool {
 /// Whether a file starts as HDF5 does, or does so behind the block of 512 bytes that MATLAB puts first.
 fn is_hdf5(path: &Path) -> bool {
     const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";
-    let Ok(file) = regular::open(path) else { return false };
+    let Ok(file) = regular_file::open(path) else { return false };
     let mut start = Vec::new();
     let is_read = file.take(512 + SIGNATURE.len() as u64).read_to_end(&mut start).is_ok();
     is_read && (start.starts_with(SIGNATURE) || start.get(512..).is_some_and(|rest| rest.starts_with(SIGNATURE)))

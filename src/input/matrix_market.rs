@@ -7,14 +7,15 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
+use super::MatrixInput;
 use super::allowance::{Allowance, Claim};
 use super::banner::{Head, HeadReader, square_order};
 use super::blocks::{BLOCK_BYTES, LastLine, for_each_batch};
 use super::digits::significant_digits;
 use super::entries::{Entries, Fault, MIN_LINE_BYTES, parse_entries};
 use super::gathering::{Gathered, Gathering};
-use super::{MatrixInput, Triangle};
 use crate::error::{Error, Result};
+use crate::sparse::Triangle;
 use crate::sparse::{Declared, MAX_ORDER};
 
 /// Order up to which a matrix may be empty; its row pointers take 8 MiB.

@@ -9,13 +9,13 @@ use super::dof_map::{self, DirectionBase};
 use super::foreign::Wanted;
 use super::kind::{hdf5_location, is_hdf5_mesh};
 use super::matrix_market::{OrderSource, TextMatrix};
-use super::regular::{digest, unchanged};
-use super::{
-    DofMap, FileRows, InputNote, MatrixInput, Nodes, Triangle, empty_rows, foreign, matrix_market, node_table,
-};
+use super::{InputNote, MatrixInput, empty_rows, foreign, matrix_market, node_table};
+use crate::dofs::{DofMap, FileRows, Nodes};
 use crate::error::{Error, Result};
 use crate::job::{Duplicates, ModelJob};
+use crate::regular_file::{digest, unchanged};
 use crate::sparse::SparseMatrix;
+use crate::sparse::Triangle;
 
 /// A finite element model as it was read: matrices of one size, a dof map that fits them, nodes that fit the map.
 #[derive(Clone, Debug)]

@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use super::Nodes;
 use super::allowance::Allowance;
 use super::table::{Table, is_node_column, open_first_line};
+use crate::dofs::Nodes;
 use crate::error::{Error, Result};
 
 const EXPECTED: &str = "a header with the columns node, x, y, z";

@@ -3,7 +3,8 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use super::{Dof, Triangle};
+use crate::dofs::Dof;
+use crate::sparse::Triangle;
 
 /// A remark on the input that is no error. Its text is one line for the report.
 #[derive(Clone, Debug, PartialEq, Eq)]

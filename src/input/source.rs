@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use flate2::bufread::MultiGzDecoder;
 
-use super::regular;
 use crate::error::{Error, Result};
+use crate::regular_file;
 
 /// Inflation that is always too much, as deflate itself ends at 1032:1.
 const MAX_RATIO: u64 = 1000;
@@ -36,7 +36,7 @@ impl Source {
     /// Opens a regular file.
     pub(super) fn open(path: &Path) -> Result<Self> {
         let read_error = |source| Error::Read { path: path.to_owned(), source };
-        let file = regular::open(path)?;
+        let file = regular_file::open(path)?;
         let digest = DigestReader { file, hasher: blake3::Hasher::new(), n_read: 0 };
         let mut reader = BufReader::with_capacity(READ_AHEAD, digest);
         let is_gzip = reader.fill_buf().map_err(read_error)?.starts_with(&[0x1f, 0x8b]);

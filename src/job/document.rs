@@ -8,7 +8,7 @@ use std::path::Path;
 
 use super::Job;
 use crate::error::{Error, Result};
-use crate::input::regular;
+use crate::regular_file;
 
 /// The keys of a job by the table they belong to; `[]` stands for each element of a list.
 const KEYS: &[(&str, &[&str])] = &[
@@ -83,7 +83,7 @@ pub(super) fn text_of(path: &Path) -> Result<String> {
     let failed = |source| Error::Read { path: path.to_owned(), source };
     let wrong = |message: String| Error::JobSyntax { path: path.to_owned(), line: None, message };
     let mut bytes = Vec::new();
-    regular::open(path)?.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
+    regular_file::open(path)?.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
     if bytes.len() as u64 > MAX_BYTES {
         return Err(wrong(format!("longer than {MAX_BYTES} bytes; no job document is, is this a matrix?")));
     }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Deserializer, Serialize, de};
 
-use crate::input::Direction;
+use crate::dofs::Direction;
 
 /// One interface node of the superelement, or a set of nodes that all become interface nodes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::{Coupling, InterfaceJob, Job, ModeSelection, NodeSelection, Origin, Region};
+use crate::dofs::Direction;
 use crate::error::{Error, Result};
-use crate::input::Direction;
 
 const POSITIVE: &str = "a positive number";
 const FINITE: &str = "a finite number";

@@ -5,7 +5,7 @@
 
 use std::collections::HashMap;
 
-use crate::input::Dof;
+use crate::dofs::Dof;
 use crate::sparse::SparseMatrix;
 
 /// The connected parts of the node graph of K.

@@ -9,11 +9,11 @@
 
 use faer::Mat;
 
-use super::diagonal;
 use crate::dense;
+use crate::dofs::RowNames;
 use crate::error::{Error, Result};
-use crate::input::RowNames;
-use crate::modes::SplitMix64;
+use crate::random::SplitMix64;
+use crate::sparse::diagonal;
 use crate::sparse::{SparseMatrix, product};
 
 /// Steps of Lanczos: an eigenvalue a tenth of the spectrum's width outside of it converges by e⁻¹⁵ in them.
@@ -73,7 +73,7 @@ impl Lanczos<'_> {
     fn run(&self, see: &mut dyn FnMut(usize, &[f64])) -> Mat<f64> {
         let n = self.scale.len();
         let mut unit = Mat::zeros(n, 1);
-        SplitMix64::new(crate::modes::SEED).fill(unit.as_mut());
+        SplitMix64::new(crate::random::SEED).fill(unit.as_mut());
         for (value, scale) in dense::column_mut(unit.as_mut(), 0).iter_mut().zip(self.scale) {
             *value *= f64::from(u8::from(*scale > 0.0));
         }

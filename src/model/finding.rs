@@ -1,6 +1,6 @@
 //! What the checks of a model found that is no error: remarks and warnings, one sentence each.
 
-use crate::input::Direction;
+use crate::dofs::Direction;
 
 /// Above this relative asymmetry a finding becomes a warning; below it the asymmetry is rounding of the producer.
 pub const ASYMMETRY_WARN: f64 = 1e-12;

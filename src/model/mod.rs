@@ -15,9 +15,10 @@ mod weight;
 
 use std::collections::HashSet;
 
+use crate::dofs::{Dof, DofMap, FileRows, Nodes, RowNames};
 use crate::error::{Error, Result};
-use crate::input::{Dof, DofMap, FileRows, Input, MatrixInput, Nodes, RowNames};
-use crate::sparse::{Leading, SparseMatrix};
+use crate::input::{Input, MatrixInput};
+use crate::sparse::{Precision, SparseMatrix, diagonal};
 
 pub use bodies::{Bodies, node_of_row};
 use finding::PENALTY;
@@ -68,15 +69,6 @@ pub struct ModelFacts {
     pub rows: FileRows,
     /// What was found and mended.
     pub findings: Vec<Finding>,
-}
-
-/// Relative precision of the data: half a unit of the last decimal digit, or ε/2 for binary data.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Precision {
-    /// Of the entries of K.
-    pub stiffness: f64,
-    /// Of the entries of M.
-    pub mass: f64,
 }
 
 /// Above this relative asymmetry the matrix is not that of a conservative structure.
@@ -286,9 +278,4 @@ fn clear_negative_rounding(mass: &mut SparseMatrix) {
 
 fn is_empty_row(matrix: &SparseMatrix, row: usize) -> bool {
     matrix.outer_view(row).is_none_or(|view| view.data().iter().all(|value| *value == 0.0))
-}
-
-/// The diagonal of a matrix, zero where no entry is stored.
-pub fn diagonal<'a>(matrix: impl Into<Leading<'a>>) -> Vec<f64> {
-    matrix.into().diagonal()
 }

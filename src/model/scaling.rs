@@ -1,8 +1,8 @@
 //! Powers of two taken out of K and M.
 
-use super::diagonal;
 use crate::error::{Error, Result};
 use crate::sparse::SparseMatrix;
+use crate::sparse::diagonal;
 
 /// Largest and smallest exponents: what is left at the upper end takes the sums of many entries, at the lower end entries
 /// of a 10⁻¹⁸ th of the largest with all their digits.

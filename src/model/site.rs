@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::Model;
-use crate::input::{Direction, Dof};
+use crate::dofs::{Direction, Dof};
 
 /// Where a dof is and which way it points.
 #[derive(Clone, Copy, Debug, PartialEq)]

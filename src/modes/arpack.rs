@@ -20,10 +20,10 @@ use faer::{Mat, MatMut, MatRef};
 
 use super::eigenproblem::{EigenWork, Eigenpairs, Interval, Problem, Wanted, are_clustered, is_above, mass_norm};
 use super::finite::rows_with_mass;
-use super::random::SplitMix64;
 use super::ritz::{RESIDUAL_FLOOR, ROUNDING, TOLERANCE};
 use crate::dense;
 use crate::error::{Error, Result};
+use crate::random::SplitMix64;
 use crate::sparse::product;
 
 use sweep::{Call, Request, Sweep};

@@ -4,14 +4,15 @@ use faer::{Mat, MatMut, MatRef};
 
 use super::eigenproblem::Interval;
 use super::operator::{Factored, FreeAtZero, RefinedAtZero, ShiftInvert};
-use super::random::SplitMix64;
-use super::{Component, Equilibrated, ModalProblem, SEED, SETTLED, Shifted, shifted};
+use super::{Component, Equilibrated, ModalProblem, SETTLED, Shifted, shifted};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, InertiaCount, ShiftedFactor, count_below};
 use crate::job::Method;
-use crate::model::diagonal;
 use crate::partition::Partition;
+use crate::random::SEED;
+use crate::random::SplitMix64;
+use crate::sparse::diagonal;
 use crate::sparse::product;
 
 /// The boundary condition modes are computed under.

@@ -23,11 +23,13 @@
 use super::boundary_problem::{BoundaryProblem, ElasticCount, median_ratio};
 use super::finite::{above_all, most_finite};
 use super::slices::{Band, ModeSource, missing};
-use super::{Boundary, Equilibrated, ModeError, Modes, SEED};
+use super::{Boundary, Equilibrated, ModeError, Modes};
 use crate::dense;
 use crate::error::{Error, Result};
-use crate::factor::{InertiaCount, Pencil};
+use crate::factor::InertiaCount;
 use crate::job::Certify;
+use crate::random::SEED;
+use crate::sparse::Pencil;
 
 /// Sturm counts against the modes found.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,8 +7,8 @@ use faer::MatRef;
 use rayon::prelude::*;
 
 use crate::dense;
-use crate::factor::Pencil;
 use crate::sparse::Leading;
+use crate::sparse::Pencil;
 
 /// Rows worth a thread of their own: tens of microseconds of work.
 const ROWS_PER_TASK: usize = 1024;

@@ -10,7 +10,7 @@ use faer::{Mat, Side};
 use super::Component;
 use crate::dense;
 use crate::error::{Error, Result};
-use crate::model::diagonal;
+use crate::sparse::diagonal;
 
 /// Roundings that an eigenvalue of S may be made of, in units of ε and of the precision of the data times the terms of S.
 const ROUNDINGS: f64 = 100.0;

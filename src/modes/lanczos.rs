@@ -18,10 +18,10 @@ use super::block_width::block_width;
 use super::columns::Columns;
 use super::eigenproblem::{CLUSTER_GAP, EigenWork, Eigenpairs, Interval, Problem, Wanted, is_above};
 use super::orthogonalisation::combine_in_place;
-use super::random::SplitMix64;
 use super::ritz::Ritz;
 use crate::dense;
 use crate::error::Result;
+use crate::random::SplitMix64;
 use crate::sparse::product;
 
 /// Restarts after which an iteration that has not converged never will.

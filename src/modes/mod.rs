@@ -27,7 +27,6 @@ mod next_block;
 mod operator;
 mod orthogonalisation;
 mod quality;
-mod random;
 mod retained;
 mod ritz;
 mod search;
@@ -40,7 +39,7 @@ use faer::Mat;
 use crate::dense;
 use crate::error::Result;
 use crate::job::Eigensolver;
-use crate::model::Precision;
+use crate::sparse::Precision;
 use crate::sparse::product;
 
 pub(crate) use boundary_problem::massive;
@@ -55,7 +54,6 @@ pub use operator::{Factored, FreeAtZero, RefinedAtZero, ShiftInvert};
 pub use orthogonalisation::mass_qr;
 pub(crate) use quality::rayleigh_quotients;
 pub use quality::{MassOrthogonality, ModeError, NOTICED_BAR, mass_orthogonality};
-pub(crate) use random::SplitMix64;
 pub use retained::{Component, Retained};
 pub(crate) use search::mode_wish;
 pub use search::{SLICED_FROM, Search};
@@ -234,9 +232,6 @@ const SETTLED: f64 = 1e-12;
 const CARRIES_NOTHING: f64 = 1e-14;
 /// Share of λ that the residual of such a mode may leave in doubt, a tenth of what M-24 looks at.
 const SETTLED_BAR: f64 = 1e-10;
-/// Seed of the first attempt; a repeated one takes another.
-pub const SEED: u64 = 0x5eed_0001;
-
 /// Finds elastic modes with a shift-invert operator.
 ///
 /// Where few soft motions spread the spectrum over many powers of ten, a search leaves the modes far above them with few

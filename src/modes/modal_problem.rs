@@ -2,11 +2,11 @@
 
 use faer::{Mat, MatRef};
 
-use crate::factor::Pencil;
-use crate::model::Precision;
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
 use crate::sparse::Leading;
+use crate::sparse::Pencil;
+use crate::sparse::Precision;
 
 /// A symmetric pencil whose modes are wanted, with what is deflated.
 #[derive(Clone, Copy, Debug)]

@@ -7,8 +7,8 @@ use crate::basis::{Carried, ConstraintModes};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::factor::SolveOperator;
-use crate::model::diagonal;
 use crate::rigid::RigidBodyModes;
+use crate::sparse::diagonal;
 use crate::sparse::{SparseMatrix, product};
 
 /// X ← (K − σM)⁻¹ F on blocks.

@@ -7,11 +7,12 @@
 use super::boundary_problem::median_ratio;
 use super::eigenproblem::Wanted;
 use super::operator::Factored;
-use super::{ModalProblem, ModeError, ModeRequest, Modes, SEED, elastic_modes, zero};
+use super::{ModalProblem, ModeError, ModeRequest, Modes, elastic_modes, zero};
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, Cholesky, few_digits, whole_count};
 use crate::job::Eigensolver;
 use crate::partition::Partition;
+use crate::random::SEED;
 use crate::rigid::RigidBodyModes;
 
 /// A factor of K − σM and the lowest modes found on the way.
@@ -133,8 +134,8 @@ fn refuse_negative(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::factor::Pencil;
-    use crate::model::Precision;
+    use crate::sparse::Pencil;
+    use crate::sparse::Precision;
     use crate::sparse::SparseMatrix;
 
     const BINARY: Precision = Precision { stiffness: f64::EPSILON / 2.0, mass: f64::EPSILON / 2.0 };

@@ -22,10 +22,11 @@ use rayon::prelude::*;
 use super::boundary_problem::{BoundaryProblem, ElasticCount};
 use super::counts::{Counts, middle};
 use super::eigenproblem::{EigenWork, Eigenpairs, Interval, Problem, are_clustered};
-use super::{CLUSTER_GAP, Modes, SEED, judged, pairs_between, settled_at};
+use super::{CLUSTER_GAP, Modes, judged, pairs_between, settled_at};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::job::Eigensolver;
+use crate::random::SEED;
 use crate::sparse::product;
 
 /// Modes that a slice of a band is to have.

@@ -111,7 +111,7 @@ fn named_nodes(results: &Results<'_>) -> Vec<file::InterfaceNode> {
     named.collect::<Option<Vec<_>>>().unwrap_or_default()
 }
 
-pub(super) fn direction_of(direction: crate::input::Direction) -> file::Direction {
+pub(super) fn direction_of(direction: crate::dofs::Direction) -> file::Direction {
     file::Direction::ALL[direction as usize]
 }
 

@@ -147,7 +147,7 @@ pub(super) fn cancellation(matrix: &SparseMatrix, product: &SparseMatrix, transf
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input::Direction;
+    use crate::dofs::Direction;
     use crate::model::Site;
     use crate::partition::ReducedDof;
 

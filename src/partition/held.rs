@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::input::Direction;
+use crate::dofs::Direction;
 use crate::job::Coupling;
 use crate::model::{Finding, Model};
 

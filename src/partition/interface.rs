@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::region::contains;
+use crate::dofs::{Direction, Dof};
 use crate::error::{Error, Result};
-use crate::input::{Direction, Dof};
 use crate::job::{Coupling, InterfaceJob, NodeSelection, Origin, RecoveryJob};
 use crate::model::Model;
 

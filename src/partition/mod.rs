@@ -23,12 +23,13 @@ use std::sync::OnceLock;
 
 use faer::Mat;
 
+use crate::dofs::Dof;
+use crate::dofs::FileRows;
 use crate::error::{Error, Result};
-use crate::factor::Pencil;
-use crate::input::Dof;
-use crate::input::FileRows;
 use crate::job::InterfaceJob;
-use crate::model::{CoordinateFit, Finding, Model, ModelFacts, Precision, Scaling, Site};
+use crate::model::{CoordinateFit, Finding, Model, ModelFacts, Scaling, Site};
+use crate::sparse::Pencil;
+use crate::sparse::Precision;
 use crate::sparse::{Leading, SparseMatrix};
 
 use roundings::{PatchEntries, Roundings};

@@ -5,8 +5,8 @@
 //! coordinates are rounded, the motion that K knows instead of the one by the coordinates.
 
 use super::interface::{InterfaceNode, Interfaces, Resolved, Rows};
+use crate::dofs::{Direction, Dof, FileRows};
 use crate::error::{Error, Result};
-use crate::input::{Direction, Dof, FileRows};
 use crate::model::{Model, RoundedCoordinates, Site, node_of_row};
 
 /// A dof of the partition.

@@ -1,6 +1,6 @@
 //! The verdict in one line, of a reduction and of a file alike.
 
-use super::table::counted;
+use crate::number::counted;
 use crate::verification::check::{Check, Verdict};
 
 /// The line at the end of a summary: what passed, what did not, and with what reservations.

@@ -7,6 +7,7 @@ use super::page::{Page, Paint, Tone, verdict_word};
 use super::summary::body;
 use super::table::{self, Align};
 use super::words;
+use crate::number;
 use crate::report::MassProperties;
 use crate::verification::check::Verdict;
 
@@ -31,10 +32,10 @@ fn head(page: &mut Page, superelement: &Superelement, file_bytes: u64) {
     let generator = &metadata.generator;
     let made_by = format!("{} {} · format version {FORMAT_VERSION}", generator.name, generator.version);
     page.entry("made by", &made_by);
-    page.entry("size", &table::bytes(file_bytes));
+    page.entry("size", &number::bytes(file_bytes));
     let sizes = format!("{} interface + {} modal", superelement.n_interface(), superelement.n_modal());
     page.entry("coordinates", &format!("{} = {sizes}", superelement.n_coordinates()));
-    page.entry("rigid body", &table::counted(superelement.n_rigid(), "mode", "modes"));
+    page.entry("rigid body", &number::counted(superelement.n_rigid(), "mode", "modes"));
     let tensors = superelement.tensors();
     let optional = [
         ("damping", tensors.damping.is_some()),
@@ -59,7 +60,7 @@ fn model(page: &mut Page, superelement: &Superelement) {
     let metadata = superelement.metadata();
     page.heading("Model");
     let units = metadata.units.as_ref().map(|units| format!(" · units {units}")).unwrap_or_default();
-    page.entry("model", &format!("{} dofs{units}", table::count(metadata.model.n_dofs)));
+    page.entry("model", &format!("{} dofs{units}", number::count(metadata.model.n_dofs)));
     if let Some(properties) = &metadata.model.mass_properties {
         let properties = MassProperties {
             mass: Some(properties.mass),
@@ -79,7 +80,7 @@ fn interface(page: &mut Page, nodes: &[InterfaceNode]) {
         .map(|node| {
             let label = node.label.map(|label| format!("node {label}")).unwrap_or_default();
             let dofs: Vec<String> = node.dofs.iter().map(|dof| format!("{dof:?}").to_lowercase()).collect();
-            let position = node.position.map(|coordinate| table::quantity(coordinate, 5)).join(", ");
+            let position = node.position.map(|coordinate| number::quantity(coordinate, 5)).join(", ");
             [node.name.clone(), label, dofs.join(" "), format!("({position})")]
         })
         .collect();
@@ -133,8 +134,8 @@ fn column(column: &Coordinate) -> String {
 fn checks(page: &mut Page, superelement: &Superelement) {
     let verification = &superelement.metadata().verification;
     let row = |check: &CheckSummary| {
-        let value = check.value.map_or_else(|| "NaN".to_owned(), |value| table::scientific(value, 2));
-        [check.id.clone(), value, "limit".to_owned(), table::scientific(check.limit, 1)]
+        let value = check.value.map_or_else(|| "NaN".to_owned(), |value| number::scientific(value, 2));
+        [check.id.clone(), value, "limit".to_owned(), number::scientific(check.limit, 1)]
     };
     let rows: Vec<[String; 4]> = verification.checks.iter().map(row).collect();
     let align = [Align::Left, Align::Right, Align::Left, Align::Right];

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::html::escaped;
-use super::table::scientific;
 use super::{Completeness, Report, RunFacts, Warning, words};
+use crate::number::scientific;
 use crate::verification::check::{Check, Verdict};
 
 /// What a value past its limit, a warning and a missing certificate are to the test suite.

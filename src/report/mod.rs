@@ -27,6 +27,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use crate::job::{Coupling, Eigensolver, Method};
+use crate::number;
 use crate::verification::check::{Check, Verdict};
 
 pub use explanation::{EXPLANATIONS, Explanation, Proof, explanation};
@@ -309,17 +310,17 @@ impl Completeness {
                 format!(
                     "the modes are likely complete: a Sturm count finds {n_counted} below {} Hz and all were found, but its pivots \
                  grew {} times more than its signs can be trusted with",
-                    table::quantity(*below_hz, 9),
-                    table::quantity(*doubt, 2)
+                    number::quantity(*below_hz, 9),
+                    number::quantity(*doubt, 2)
                 )
             }
             Self::SturmCount { below_hz, n_counted, n_found, .. } if n_counted == n_found => format!(
                 "the modes are complete: a Sturm count finds {n_counted} below {} Hz and all were found",
-                table::quantity(*below_hz, 9)
+                number::quantity(*below_hz, 9)
             ),
             Self::SturmCount { below_hz, n_counted, n_found, .. } => format!(
                 "the modes are incomplete: a Sturm count finds {n_counted} below {} Hz, found were {n_found}",
-                table::quantity(*below_hz, 9)
+                number::quantity(*below_hz, 9)
             ),
         }
     }

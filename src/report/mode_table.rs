@@ -2,6 +2,7 @@
 
 use super::page::{Page, Tone};
 use super::table::{self, Align};
+use crate::number;
 
 /// Modes stand in this many columns.
 const COLUMNS: usize = 3;
@@ -30,9 +31,9 @@ pub(crate) fn mode_table(page: &mut Page, modes: &[Mode]) {
     let Some(highest) = modes.iter().map(|mode| mode.frequency_hz).reduce(f64::max) else {
         return;
     };
-    let decimals = usize::try_from(DIGITS - 1 - table::decade(highest)).unwrap_or(0).min(9);
+    let decimals = usize::try_from(DIGITS - 1 - number::decade(highest)).unwrap_or(0).min(9);
     let row = |mode: &Mode| {
-        let bar = mode.error_bar_hz.map(|bar| format!("± {}", table::scientific(bar, 2))).unwrap_or_default();
+        let bar = mode.error_bar_hz.map(|bar| format!("± {}", number::scientific(bar, 2))).unwrap_or_default();
         [mode.number.to_string(), format!("{:.decimals$}", mode.frequency_hz), bar]
     };
     let is_long = modes.len() > SHOWN;

@@ -1,4 +1,4 @@
-//! Text in columns and numbers as people write them.
+//! Text in columns.
 
 /// How a column is aligned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,96 +53,6 @@ pub(crate) fn columns<const N: usize>(rows: &[[String; N]], align: [Align; N]) -
     rows.iter().map(|row| std::array::from_fn(|column| pad(&row[column], widths[column], align[column]))).collect()
 }
 
-/// `123,486`.
-pub(crate) fn count(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (position, digit) in digits.chars().enumerate() {
-        if position > 0 && (digits.len() - position).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-/// `1 body`, `2 bodies`.
-pub(crate) fn counted(number: usize, one: &str, many: &str) -> String {
-    format!("{} {}", count(number as u64), if number == 1 { one } else { many })
-}
-
-/// A quantity with about `digits` significant digits, in plain notation where that is short.
-pub(crate) fn quantity(value: f64, digits: usize) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    let decade = decade(value);
-    if !value.is_finite() || !(-3..6).contains(&decade) {
-        return scientific(value, digits);
-    }
-    let decimals = usize::try_from(digits as i32 - 1 - decade).unwrap_or(0);
-    let text = format!("{value:.decimals$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
-}
-
-/// `1.2e-09` with the exponent's sign and two digits, so that columns align.
-pub(crate) fn scientific(value: f64, digits: usize) -> String {
-    if value.is_nan() {
-        return "NaN".to_owned();
-    }
-    if value.is_infinite() {
-        return if value > 0.0 { "∞".to_owned() } else { "-∞".to_owned() };
-    }
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    let text = format!("{value:.*e}", digits.saturating_sub(1));
-    match text.split_once('e') {
-        Some((mantissa, exponent)) => {
-            let (sign, size) = exponent.strip_prefix('-').map_or(('+', exponent), |size| ('-', size));
-            format!("{mantissa}e{sign}{size:0>2}")
-        }
-        None => text,
-    }
-}
-
-/// Powers of 1024 with three digits: `41.2 MiB`.
-pub(crate) fn bytes(size: u64) -> String {
-    const UNITS: [&str; 4] = ["KiB", "MiB", "GiB", "TiB"];
-    let mut value = size as f64;
-    let mut unit = "bytes";
-    for larger in UNITS {
-        if value < 1000.0 {
-            break;
-        }
-        value /= 1024.0;
-        unit = larger;
-    }
-    let noun = if size == 1 { "byte" } else { "bytes" };
-    if unit == "bytes" { format!("{size} {noun}") } else { format!("{} {unit}", quantity(value, 3)) }
-}
-
-/// `0.012 s`, `1.24 s`, `2 min 05 s`.
-pub(crate) fn duration(seconds: f64) -> String {
-    if seconds < 120.0 {
-        let decimals = if seconds < 1.0 {
-            3
-        } else if seconds < 10.0 {
-            2
-        } else {
-            1
-        };
-        return format!("{seconds:.decimals$} s");
-    }
-    let whole = seconds.round() as u64;
-    format!("{} min {:02} s", whole / 60, whole % 60)
-}
-
-/// The power of ten of the leading digit.
-pub(crate) fn decade(value: f64) -> i32 {
-    if value == 0.0 || !value.is_finite() { 0 } else { value.abs().log10().floor() as i32 }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -151,21 +61,6 @@ mod tests {
     fn white_space_of_names_stays() {
         assert_eq!(wrap("two  blanks\nand \u{2028}", 80), ["two  blanks\nand \u{2028}"]);
         assert_eq!(wrap("one two", 4), ["one", "two"]);
-    }
-
-    #[test]
-    fn numbers_read_as_people_write_them() {
-        assert_eq!(count(0), "0");
-        assert_eq!(count(1234), "1,234");
-        assert_eq!(count(123_486), "123,486");
-        assert_eq!(quantity(41.2, 6), "41.2");
-        assert_eq!(quantity(1.234e-3, 6), "0.001234");
-        assert_eq!(quantity(-2.5e-9, 3), "-2.50e-09");
-        assert_eq!(scientific(1.25e-13, 2), "1.2e-13");
-        assert_eq!(scientific(f64::INFINITY, 2), "∞");
-        assert_eq!(bytes(999), "999 bytes");
-        assert_eq!(bytes(43_200_000), "41.2 MiB");
-        assert_eq!(duration(125.4), "2 min 05 s");
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! The words and figures that the summary and the page have in common.
 
-use super::{InterfacePosition, InterfaceReport, ModeKind, PositionOrigin, ReductionReport, table};
+use super::{InterfacePosition, InterfaceReport, ModeKind, PositionOrigin, ReductionReport};
 use crate::job::{Coupling, Eigensolver, Method};
+use crate::number;
 use crate::verification::check::{ActiveLimit, Check, Verdict};
 
 pub(super) fn method(method: Method) -> &'static str {
@@ -56,19 +57,19 @@ pub(super) fn boundary(code: &str) -> String {
 
 /// What the coordinates of the reduced model are, each part with its number.
 pub(super) fn coordinates(reduction: &ReductionReport) -> Vec<String> {
-    let mut parts = vec![format!("{} interface", table::count(reduction.n_interface as u64))];
+    let mut parts = vec![format!("{} interface", number::count(reduction.n_interface as u64))];
     for (n, what) in [(reduction.n_inertia_relief, "inertia relief"), (reduction.n_rigid_body(), "rigid-body")] {
         if n > 0 {
-            parts.push(format!("{} {what}", table::count(n as u64)));
+            parts.push(format!("{} {what}", number::count(n as u64)));
         }
     }
-    parts.push(table::counted(reduction.n_modes, "elastic mode", "elastic modes"));
+    parts.push(number::counted(reduction.n_modes, "elastic mode", "elastic modes"));
     parts
 }
 
 /// The lower end of an interval of frequencies; a shift below zero has none.
 pub(super) fn lower_end(hz: f64, digits: usize) -> String {
-    if hz < 0.0 { "below 0".to_owned() } else { table::quantity(hz, digits) }
+    if hz < 0.0 { "below 0".to_owned() } else { number::quantity(hz, digits) }
 }
 
 /// Limit, its source and the margin; dashes where a check has none.
@@ -76,7 +77,7 @@ pub(super) fn limit(check: &Check) -> [String; 3] {
     if !check.is_judged() {
         return ["–", "–", "–"].map(str::to_owned);
     }
-    let limit = table::scientific(check.limits.value(), 1);
+    let limit = number::scientific(check.limits.value(), 1);
     [limit, active_limit(check.limits.active()).to_owned(), margin(check.margin())]
 }
 
@@ -95,9 +96,9 @@ fn margin(margin: f64) -> String {
     } else if margin >= 1e6 {
         "> 1e6".to_owned()
     } else if margin >= 10.0 {
-        table::count(margin as u64)
+        number::count(margin as u64)
     } else {
-        table::quantity(margin, 2)
+        number::quantity(margin, 2)
     }
 }
 
@@ -106,7 +107,7 @@ pub(super) fn positions(interface: &InterfaceReport) -> Option<String> {
     const SHOWN: usize = 2;
     let place = |at: &InterfacePosition| {
         let size = at.position.iter().fold(0.0_f64, |size, coordinate| size.max(coordinate.abs()));
-        let shown = |value: f64| table::quantity(if value.abs() <= 1e-12 * size { 0.0 } else { value }, 6);
+        let shown = |value: f64| number::quantity(if value.abs() <= 1e-12 * size { 0.0 } else { value }, 6);
         let place = format!("({})", at.position.map(shown).join(", "));
         match at.origin {
             PositionOrigin::Node => place,
@@ -125,9 +126,9 @@ pub(super) fn positions(interface: &InterfaceReport) -> Option<String> {
 pub fn unmet_check(check: &Check) -> String {
     let [limit, ..] = self::limit(check);
     let at = check.worst.as_ref().map(|worst| format!(" – {worst}")).unwrap_or_default();
-    let found = table::scientific(check.value, 2);
+    let found = number::scientific(check.value, 2);
     let expected = if check.verdict() == Verdict::Fail {
-        format!("{limit}, failing above {}", table::scientific(check.fail_above, 1))
+        format!("{limit}, failing above {}", number::scientific(check.fail_above, 1))
     } else {
         limit
     };

@@ -11,8 +11,9 @@ use crate::error::{Error, Result};
 use crate::factor::Cholesky;
 use crate::job::Eigensolver;
 use crate::model::Site;
-use crate::modes::{Factored, ModalProblem, ModeRequest, SEED, Wanted, elastic_modes};
+use crate::modes::{Factored, ModalProblem, ModeRequest, Wanted, elastic_modes};
 use crate::partition::Partition;
+use crate::random::SEED;
 
 /// Below this ratio of singular values the interface does not react a motion.
 const RANK_TOLERANCE: f64 = 1e-10;
@@ -98,7 +99,7 @@ fn rank_within(partition: &Partition, rigid: &RigidBodyModes, tolerance: f64) ->
 /// What each dof is multiplied by to be compared with others: a rotation by the size of the component.
 pub(crate) fn scales(partition: &Partition) -> Vec<f64> {
     let size = partition.sites().map_or(1.0, |sites| size_of(&sites));
-    let stiffness = crate::model::diagonal(&partition.stiffness);
+    let stiffness = crate::sparse::diagonal(&partition.stiffness);
     let scale = |dof: usize| match partition.dofs[dof].site {
         Some(site) if site.direction.is_rotation() => size,
         Some(_) => 1.0,

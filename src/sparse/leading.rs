@@ -81,12 +81,17 @@ impl<'a> From<&'a SparseMatrix> for Leading<'a> {
     }
 }
 
+/// The diagonal of a matrix, zero where no entry is stored.
+pub fn diagonal<'a>(matrix: impl Into<Leading<'a>>) -> Vec<f64> {
+    matrix.into().diagonal()
+}
+
 #[cfg(test)]
 mod tests {
     use faer::Mat;
 
     use super::*;
-    use crate::modes::SplitMix64;
+    use crate::random::SplitMix64;
     use crate::sparse::{Declared, Triplets, absolute_product, product, product_and_terms};
 
     const ORDER: usize = 30;

@@ -8,11 +8,15 @@
 mod assembly;
 mod by_rows;
 mod leading;
+mod pencil;
 mod product;
+mod triangle;
 
 pub(crate) use by_rows::{RowStorage, balanced_ranges, filled};
-pub use leading::Leading;
+pub use leading::{Leading, diagonal};
+pub use pencil::{Pencil, Precision};
 pub use product::{absolute_product, multiply, panels, product, product_and_terms};
+pub use triangle::Triangle;
 
 /// A symmetric sparse matrix in compressed rows, both triangles stored, indices sorted, no duplicates.
 pub type SparseMatrix = sprs::CsMatI<f64, u32, usize>;

@@ -3,7 +3,7 @@
 use super::Evidence;
 use super::check::{Check, Limits};
 use crate::modes::Mending;
-use crate::report::table;
+use crate::number;
 
 /// M-06, where a count was made: judged interval by interval, so that a mode too many in one does not hide one missing in
 /// another.
@@ -29,7 +29,7 @@ pub(super) fn count(evidence: &Evidence<'_>) -> Option<Check> {
             certificate.count.clamped,
             certificate.count.free,
             certificate.count.growth,
-            table::scientific(certificate.doubt(), 2)
+            number::scientific(certificate.doubt(), 2)
         )),
     })
 }

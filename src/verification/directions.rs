@@ -4,7 +4,7 @@ use faer::Mat;
 
 use super::Evidence;
 use crate::dense;
-use crate::input::Direction;
+use crate::dofs::Direction;
 use crate::model::Site;
 use crate::partition::Partition;
 use crate::sparse::product;

@@ -12,8 +12,8 @@ use super::check::{Check, Limits};
 use super::limits::UNKNOWN;
 use super::residual::{AT_REST, Residuals, Rows, Worst};
 use crate::dense;
-use crate::factor::Pencil;
 use crate::modes::{Boundary, MassOrthogonality, ModeError, NOTICED_BAR, mass_orthogonality};
+use crate::sparse::Pencil;
 use crate::sparse::panels;
 
 /// Residual of a solve beyond which the free modes are computed by another factor ([`crate::modes`] says why).

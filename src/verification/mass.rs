@@ -6,7 +6,7 @@ use super::check::{Check, Limits};
 use super::rigid_body::mass_difference;
 use super::{Evidence, rigid_name};
 use crate::dense;
-use crate::report::table::quantity;
+use crate::number::quantity;
 
 /// M-16: ÛᵀM̂Û against UᵀMU.
 pub(super) fn preserved(evidence: &Evidence<'_>) -> Check {

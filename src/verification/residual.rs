@@ -10,8 +10,8 @@ use faer::{Mat, MatRef};
 
 use super::Evidence;
 use crate::dense;
-use crate::factor::Pencil;
 use crate::modes::Equilibrated;
+use crate::sparse::Pencil;
 use crate::sparse::product_and_terms;
 
 /// Share of its own norm below which the terms of a row are at rest: a pair may leave 10⁻¹³ of a row's norm (M-01), which a

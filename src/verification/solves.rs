@@ -97,7 +97,7 @@ fn constraint_panel(evidence: &Evidence<'_>, g: MatRef<'_, f64>) -> Mat<f64> {
 /// Normal numbers in the scales of the interface, from a fixed seed.
 fn gaussian(n_b: usize, scale: &[f64]) -> Mat<f64> {
     let mut uniform = Mat::zeros(2 * n_b, PROBES);
-    crate::modes::SplitMix64::new(crate::modes::SEED).fill(uniform.as_mut());
+    crate::random::SplitMix64::new(crate::random::SEED).fill(uniform.as_mut());
     // Box and Muller, from numbers in (−1, 1).
     Mat::from_fn(n_b, PROBES, |i, j| {
         let radius = (-2.0 * uniform[(2 * i, j)].abs().max(f64::MIN_POSITIVE).ln()).sqrt();

@@ -4,8 +4,9 @@ use supel::basis::constraint_modes;
 use supel::error::Error;
 use supel::factor::{Analysis, Cholesky};
 use supel::job::{Certify, Eigensolver, InterfaceJob, Method, ModeSelection, ReductionJob};
-use supel::modes::{Certificate, Component, ModeSource, Modes, SEED, Search, certified, mass_orthogonality};
+use supel::modes::{Certificate, Component, ModeSource, Modes, Search, certified, mass_orthogonality};
 use supel::partition::DofOrigin;
+use supel::random::SEED;
 use supel::rigid;
 use supel_models::Model;
 

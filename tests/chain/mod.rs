@@ -12,13 +12,15 @@ use supel::basis::{
     Basis, ConstraintModes, DynamicColumns, constraint_modes, fixed_interface_columns, mode_acceleration_columns,
 };
 use supel::coordinates;
+use supel::dofs::{Direction, Dof, Nodes};
 use supel::error::Error;
 use supel::factor::{Analysis, Cholesky};
-use supel::input::{Direction, Dof, Input, MatrixInput, Nodes};
+use supel::input::{Input, MatrixInput};
 use supel::job::{Coupling, Eigensolver, InterfaceJob, NodeSelection, Origin};
 use supel::model::Model;
-use supel::modes::{Factored, FreeAtZero, ModalProblem, ModeRequest, Modes, SEED, Wanted, elastic_modes};
+use supel::modes::{Factored, FreeAtZero, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes};
 use supel::partition::Partition;
+use supel::random::SEED;
 use supel::reduction::Reduction;
 use supel::rigid::{self, RigidBodyModes};
 use supel::sparse::{AssemblyNotes, Declared, Triplets};

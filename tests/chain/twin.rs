@@ -3,7 +3,7 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef, Side};
 use supel::basis::Basis;
-use supel::input::Direction;
+use supel::dofs::Direction;
 use supel::job::{InterfaceJob, NodeSelection, Origin};
 use supel::model::Site;
 use supel::partition::{DofOrigin, Partition};

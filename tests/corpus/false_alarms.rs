@@ -29,7 +29,7 @@ fn interface_rows(pairs: &Path, pair: &Pair) -> supel::error::Result<Vec<usize>>
         DofOrigin::Row(row) => row,
         DofOrigin::RigidNode(..) => unreachable!("there is no interface"),
     };
-    let stiffness = supel::model::diagonal(&partition.stiffness);
+    let stiffness = supel::sparse::diagonal(&partition.stiffness);
     if rigid.count() == 0 {
         let stiffest = (0..stiffness.len()).max_by(|a, b| stiffness[*a].total_cmp(&stiffness[*b]));
         return Ok(stiffest.into_iter().map(row_of).collect());

@@ -18,8 +18,9 @@ use supel::factor::{Analysis, count_below};
 use supel::input::{Input, MatrixInput, read};
 use supel::job::{Eigensolver, ModelJob};
 use supel::model::Model;
-use supel::modes::{Factored, ModalProblem, ModeError, ModeRequest, Modes, SEED, Wanted, elastic_modes, shifted};
+use supel::modes::{Factored, ModalProblem, ModeError, ModeRequest, Modes, Wanted, elastic_modes, shifted};
 use supel::partition::Partition;
+use supel::random::SEED;
 use supel::rigid::rigid_body_modes;
 use supel::sparse::SparseMatrix;
 

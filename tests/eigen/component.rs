@@ -1,15 +1,16 @@
 //! A generated model ready for an eigensolver, and the one check every answer has to pass.
 
 use supel::dense;
+use supel::dofs::{Direction, Dof, Nodes};
 use supel::factor::{Analysis, Cholesky};
-use supel::input::{Direction, Dof, Input, MatrixInput, Nodes};
+use supel::input::{Input, MatrixInput};
 use supel::job::{Eigensolver, InterfaceJob};
 use supel::model::Model;
 use supel::modes::{
-    Factored, MassOrthogonality, ModalProblem, ModeRequest, Modes, SEED, Wanted, elastic_modes, mass_orthogonality,
-    shifted,
+    Factored, MassOrthogonality, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes, mass_orthogonality, shifted,
 };
 use supel::partition::Partition;
+use supel::random::SEED;
 use supel::rigid::{RigidBodyModes, from_coordinates};
 use supel::sparse::{AssemblyNotes, Declared, SparseMatrix, Triplets};
 

@@ -4,7 +4,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use supel::error::{Error, ErrorClass};
 use supel::job::{Certify, Eigensolver};
-use supel::modes::{Boundary, Interval, Mending, ModeSource, Modes, SEED, Search, certified};
+use supel::modes::{Boundary, Interval, Mending, ModeSource, Modes, Search, certified};
+use supel::random::SEED;
 use supel_models::*;
 
 use crate::chain::certified::{Certified, count, free, held, judge, with_component};

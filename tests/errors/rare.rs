@@ -93,7 +93,8 @@ fn an_unsigned_number_beyond_the_signed() {
 fn arpack_with_solves_that_overflow() {
     use faer::MatMut;
     use supel::job::Eigensolver;
-    use supel::modes::{ModalProblem, ModeRequest, SEED, ShiftInvert, Wanted, elastic_modes};
+    use supel::modes::{ModalProblem, ModeRequest, ShiftInvert, Wanted, elastic_modes};
+    use supel::random::SEED;
     use supel_models::{Ends, spring};
 
     struct Overflowing;

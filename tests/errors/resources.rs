@@ -2,13 +2,14 @@
 
 use std::process::Command;
 
+use supel::dofs::{Direction, Dof};
 use supel::error::Error;
-use supel::factor::{Analysis, Cholesky, Pencil, Storage, slices_within_memory};
-use supel::input::{Direction, Dof};
+use supel::factor::{Analysis, Cholesky, Storage, slices_within_memory};
 use supel::job::{Job, Precision};
 use supel::model::Model;
 use supel::outcome::Resources;
 use supel::partition::Partition;
+use supel::sparse::Pencil;
 use supel::sparse::SparseMatrix;
 use supel_models::{Ends, Material, brick, spring};
 

@@ -8,7 +8,8 @@ use faer::linalg::solvers::Solve;
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, MatRef, Side};
 use supel::error::Error;
-use supel::factor::{Analysis, Cholesky, Pencil, SolveOperator, Storage, count_negative, whole_count};
+use supel::factor::{Analysis, Cholesky, SolveOperator, Storage, count_negative, whole_count};
+use supel::sparse::Pencil;
 use supel::sparse::{SparseMatrix, absolute_product, product};
 
 use matrices::{diagonal, families, grid, spd};

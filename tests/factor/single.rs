@@ -1,7 +1,8 @@
 //! Factors kept in single precision, whose solves conjugate gradients bring to double.
 
 use faer::{Mat, MatRef};
-use supel::factor::{Analysis, Cholesky, Pencil, SolveOperator, Storage};
+use supel::factor::{Analysis, Cholesky, SolveOperator, Storage};
+use supel::sparse::Pencil;
 use supel::sparse::{SparseMatrix, absolute_product, product};
 
 use super::matrices::{diagonal, families, symmetric};

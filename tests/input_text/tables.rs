@@ -1,7 +1,8 @@
 //! Dof maps and node tables.
 
+use supel::dofs::{Direction, Dof};
 use supel::error::{Error, Result};
-use supel::input::{Direction, Dof, Input, InputNote, read};
+use supel::input::{Input, InputNote, read};
 
 use crate::{Folder, gzip, job, mtx};
 

@@ -3,7 +3,8 @@
 use faer::Mat;
 use supel::input::{Input, MatrixInput};
 use supel::job::{Eigensolver, Method};
-use supel::modes::{ModalProblem, ModeRequest, SEED, ShiftInvert, Wanted, elastic_modes};
+use supel::modes::{ModalProblem, ModeRequest, ShiftInvert, Wanted, elastic_modes};
+use supel::random::SEED;
 use supel_models::transform::rounded;
 use supel_models::{Ends, Model, bar, bar_spectrum, known, ring, ring_spectrum, spring, spring_spectrum};
 

@@ -1,7 +1,7 @@
 //! Interfaces that a model cannot have.
 
+use supel::dofs::Direction;
 use supel::error::{Error, ErrorClass};
-use supel::input::Direction;
 use supel::job::{Coupling, InterfaceJob, NodeSelection, Origin, Region};
 use supel::partition::Partition;
 use supel_models as models;

@@ -85,7 +85,7 @@ fn scaling_is_exact_just_below_a_power_of_two() {
         let unit = models::spring(3, models::Ends::Fixed);
         let model = models::transform::scaled(&unit, just_below / 2.0, 1.0);
         let scaled = supel::model::Model::new(crate::chain::input(&model)).expect("a chain");
-        let largest = supel::model::diagonal(&scaled.stiffness).into_iter().fold(0.0, f64::max);
+        let largest = supel::sparse::diagonal(&scaled.stiffness).into_iter().fold(0.0, f64::max);
         assert!((1.0..2.0).contains(&largest), "2^{exponent}: {largest:e}");
     }
 }

@@ -5,8 +5,9 @@ use proptest::prelude::*;
 use supel::basis::{Basis, constraint_modes};
 use supel::factor::{Analysis, Cholesky};
 use supel::job::{Eigensolver, Method, ModeSelection, ReductionJob};
-use supel::modes::{Component, ModeSource, Retained, SEED, Search};
+use supel::modes::{Component, ModeSource, Retained, Search};
 use supel::partition::Partition;
+use supel::random::SEED;
 use supel::reduction::Reduction;
 use supel_models::{Material, brick};
 

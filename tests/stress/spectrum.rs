@@ -8,12 +8,14 @@
 
 use supel::dense;
 use supel::error::Error;
-use supel::factor::{Analysis, Cholesky, Pencil};
+use supel::factor::{Analysis, Cholesky};
 use supel::job::Eigensolver;
 use supel::modes::{
-    AtShift, Boundary, BoundaryProblem, Component, Factored, LARGEST_SEARCH, ModeRequest, ModeSource, Modes, SEED,
-    Search, Wanted, elastic_modes,
+    AtShift, Boundary, BoundaryProblem, Component, Factored, LARGEST_SEARCH, ModeRequest, ModeSource, Modes, Search,
+    Wanted, elastic_modes,
 };
+use supel::random::SEED;
+use supel::sparse::Pencil;
 use supel_models::transform::grounded;
 use supel_models::*;
 

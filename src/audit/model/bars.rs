@@ -5,7 +5,7 @@ use supel_runtime::{Coordinate, Superelement};
 use super::asked::AskedModes;
 use super::scaled::Scaled;
 use crate::dense;
-use crate::model::Precision;
+use crate::sparse::Precision;
 use crate::verification::check::{Check, Limits};
 
 /// The most that rounding may excuse.

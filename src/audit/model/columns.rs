@@ -14,8 +14,9 @@ use faer::{Mat, MatRef};
 use super::asked::AskedModes;
 use super::interior::{Answers, Interior, column_products};
 use crate::dense;
-use crate::modes::{Boundary, SplitMix64};
+use crate::modes::Boundary;
 use crate::partition::Partition;
+use crate::random::SplitMix64;
 use crate::rigid::{RigidBodyModes, RigidSource};
 use crate::sparse::{Leading, product};
 

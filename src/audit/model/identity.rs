@@ -9,7 +9,7 @@ use super::projection::Projected;
 use crate::audit::jobs::differences;
 use crate::audit::kept_job::{band, is_of_this_version, kept_job};
 use crate::audit::record::flaw;
-use crate::input::Direction;
+use crate::dofs::Direction;
 use crate::job::{Job, Method, RecoveryPrecision};
 use crate::modes::Boundary;
 use crate::output::InputFacts;
@@ -254,7 +254,7 @@ pub(super) fn statements(
     expect(recovery.is_some() == asked.is_some(), "recovery");
     if let (Some(recovery), Some(asked)) = (recovery, asked) {
         expect(recovery.precision() == asked, "recovery in another precision");
-        let is_row = |(found, row): (&supel_runtime::RecoveredDof, &(usize, crate::input::Dof))| {
+        let is_row = |(found, row): (&supel_runtime::RecoveredDof, &(usize, crate::dofs::Dof))| {
             found.node == row.1.node && found.direction as usize == row.1.direction as usize
         };
         let n_alike = recovery.dofs().iter().zip(&partition.recovered).filter(|pair| is_row(*pair)).count();

@@ -13,8 +13,9 @@ use faer::{Mat, MatRef};
 
 use crate::dense;
 use crate::error::Result;
-use crate::factor::{Analysis, Cholesky, Pencil, SolveOperator};
+use crate::factor::{Analysis, Cholesky, SolveOperator};
 use crate::partition::Partition;
+use crate::sparse::Pencil;
 use crate::sparse::{panels, product};
 
 /// −σ over the first elastic eigenvalue of the free component.

@@ -6,8 +6,8 @@ use faer::{Mat, MatRef};
 use super::full::Full;
 use super::scaled::Scaled;
 use crate::dense;
-use crate::model::diagonal;
 use crate::rigid::{RigidBodyModes, RigidSource, energies_of_terms};
+use crate::sparse::diagonal;
 use crate::sparse::product_and_terms;
 use crate::verification::check::{Check, Limits};
 

@@ -7,8 +7,8 @@ use faer::sparse::linalg::cholesky::simplicial::{
 };
 
 use crate::error::{Error, Result};
-use crate::factor::Pencil;
 use crate::heap::fallibly;
+use crate::sparse::Pencil;
 
 /// No parent.
 pub(super) const NONE: u32 = u32::MAX;

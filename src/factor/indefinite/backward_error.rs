@@ -69,9 +69,10 @@ mod tests {
     use faer::Mat;
 
     use super::*;
+    use crate::factor::Analysis;
     use crate::factor::multifrontal::Keep;
-    use crate::factor::{Analysis, Pencil};
-    use crate::modes::SplitMix64;
+    use crate::random::SplitMix64;
+    use crate::sparse::Pencil;
     use crate::sparse::SparseMatrix;
 
     /// Full blocks of eight coupled to the last one, without a diagonal in every third row: pivots of two rows are needed.

@@ -2,9 +2,10 @@
 
 use super::Indefinite;
 use crate::error::Result;
+use crate::factor::Analysis;
 use crate::factor::multifrontal::Keep;
 use crate::factor::rounding::forming_error;
-use crate::factor::{Analysis, Pencil};
+use crate::sparse::Pencil;
 
 /// The number of eigenvalues of a pencil below a shift, by one factorisation of all its dofs.
 #[derive(Clone, Debug, PartialEq)]

@@ -12,7 +12,7 @@ use super::dataset::Dataset;
 use crate::error::{Error, Result};
 use crate::heap;
 use crate::input::allowance::{Allowance, Claim};
-use crate::input::regular;
+use crate::regular_file;
 
 /// More links than any group of a real file has; the library itself would follow a damaged index for ever.
 const MAX_LINKS: usize = 1_000_000;
@@ -283,7 +283,7 @@ impl<'a> Group<'a> {
 /// Length of a file that carries the HDF5 signature at 0, 512, 1024, 2048 and so on (MATLAB writes 512 bytes before it).
 fn check_signature(path: &Path) -> Result<u64> {
     let read = |source| Error::Read { path: path.to_owned(), source };
-    let mut file = regular::open(path)?;
+    let mut file = regular_file::open(path)?;
     let length = file.metadata().map_err(read)?.len();
     let mut offset = 0;
     while offset < length {

@@ -7,9 +7,11 @@ use std::path::Path;
 use super::dataset::Dataset;
 use super::file::{H5, Member, with_memory};
 use super::{hmf, med, moab, xdmf};
+use crate::dofs::Nodes;
 use crate::error::{Error, Result};
+use crate::input::Allowance;
 use crate::input::foreign::{self, Wanted};
-use crate::input::{Allowance, Nodes, regular};
+use crate::regular_file;
 
 /// Bytes of a node: position, label, and the labels once more while they are compared.
 const NODE: u64 = 40;
@@ -106,7 +108,7 @@ pub(super) fn points(values: &[f64], n_axes: usize) -> Vec<[f64; 3]> {
 fn is_xml(path: &Path) -> Result<bool> {
     let read = |source| Error::Read { path: path.to_owned(), source };
     let mut head = Vec::new();
-    regular::open(path)?.take(256).read_to_end(&mut head).map_err(read)?;
+    regular_file::open(path)?.take(256).read_to_end(&mut head).map_err(read)?;
     let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&head);
     Ok(text.trim_ascii_start().starts_with(b"<"))
 }

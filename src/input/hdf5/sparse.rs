@@ -8,8 +8,8 @@ use super::file::{Group, H5, Member, with_memory};
 use super::search::{MatrixRole, find_matrix};
 use crate::error::{Error, Result};
 use crate::input::foreign::{self, Wanted};
-use crate::input::regular::digest;
 use crate::input::{Allowance, MatrixInput, significant_digits};
+use crate::regular_file::digest;
 use crate::sparse::Declared;
 
 /// Bytes of an entry before it is in its row: row, column, value.

@@ -11,7 +11,7 @@ use super::mesh::{Mesh, points};
 use super::xml_size::refuse_many_names;
 use crate::error::{Error, Result};
 use crate::input::Allowance;
-use crate::input::regular::{self, digest, unchanged};
+use crate::regular_file::{self, digest, unchanged};
 
 /// Bytes of the document and of what is made of it for each of its bytes: the text itself, its tree, its numbers.
 const OF_TEXT: u64 = 3;
@@ -47,7 +47,7 @@ pub(super) fn read(path: &Path, allowance: &Allowance) -> Result<(Mesh, Option<S
 /// The text of the document.
 fn text_of(path: &Path, allowance: &Allowance) -> Result<String> {
     let failed = |source| Error::Read { path: path.to_owned(), source };
-    let file = regular::open(path)?;
+    let file = regular_file::open(path)?;
     let size = file.metadata().map_err(failed)?.len();
     allowance.claim(path).set(size.saturating_mul(OF_TEXT))?;
     let mut bytes = Vec::new();

@@ -186,10 +186,12 @@ mod tests {
     use supel_models::{Ends, Model, spring, spring_spectrum};
 
     use super::*;
-    use crate::factor::{Analysis, Cholesky, Pencil};
+    use crate::factor::{Analysis, Cholesky};
+    use crate::modes::Factored;
     use crate::modes::arpack::{STATE, arpack};
     use crate::modes::eigenproblem::{Problem, Wanted};
-    use crate::modes::{Factored, SplitMix64};
+    use crate::random::SplitMix64;
+    use crate::sparse::Pencil;
     use crate::sparse::{SparseMatrix, product};
 
     /// K and M of copies of a model that do not touch, times a factor each.

@@ -2,12 +2,11 @@
 
 use super::markup::{Markup, class_of, escaped};
 use super::plot::power_of_ten;
+use crate::number;
+use crate::number::{counted, quantity, scientific};
 use crate::report::conclusion::reserved_as;
-use crate::report::table::{counted, quantity, scientific};
 use crate::report::words;
-use crate::report::{
-    Completeness, MatrixReport, ModelReport, Preservation, ReductionReport, ReportBody, RunFacts, table,
-};
+use crate::report::{Completeness, MatrixReport, ModelReport, Preservation, ReductionReport, ReportBody, RunFacts};
 use crate::verification::check::{Check, Verdict};
 
 /// What a signature under this page means.
@@ -162,7 +161,7 @@ fn modes(reduction: &ReductionReport) -> String {
     match (reduction.modes.first(), reduction.modes.last()) {
         (Some(first), Some(last)) => format!(
             "{} {}, {} Hz to {} Hz",
-            table::count(reduction.modes.len() as u64),
+            number::count(reduction.modes.len() as u64),
             format_args!(
                 "{} {}",
                 words::mode_kind(first.kind),

@@ -1,7 +1,7 @@
 //! One row for each retained mode.
 
 use super::markup::{Cell, Markup, Table};
-use crate::report::table::{decade, scientific};
+use crate::number::{decade, scientific};
 use crate::report::{ModeRow, PreservedMode};
 
 /// Significant digits of the highest frequency.

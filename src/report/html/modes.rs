@@ -3,7 +3,7 @@
 use super::front::{in_words, sentence};
 use super::markup::{Cell, Figure, Markup, Table};
 use super::{mode_table, plot, words};
-use crate::report::table::scientific;
+use crate::number::scientific;
 use crate::report::{ReportBody, TrustInterval};
 
 pub(super) fn modes(page: &mut Markup, body: &ReportBody) {
@@ -43,7 +43,7 @@ fn trust(page: &mut Markup, intervals: &[TrustInterval]) {
     let rows = intervals.iter().map(|interval| {
         vec![
             Cell::Number(words::lower_end(interval.from_hz, 8)),
-            Cell::Number(crate::report::table::quantity(interval.to_hz, 8)),
+            Cell::Number(crate::number::quantity(interval.to_hz, 8)),
             Cell::Text(words::mode_kind(interval.kind).to_owned()),
             Cell::Number(interval.n_counted.to_string()),
             Cell::Number(interval.n_found.to_string()),

@@ -3,7 +3,7 @@
 use super::front::in_words;
 use super::markup::{Cell, Figure, Markup, Table};
 use super::plot;
-use crate::report::table::{counted, quantity, scientific};
+use crate::number::{counted, quantity, scientific};
 use crate::report::{EffectiveMass, Grounding, MassProperties, MassRoute, ReportBody};
 
 /// Digits that show where two routes part.

@@ -3,7 +3,8 @@
 use super::front::in_words;
 use super::markup::{Figure, Markup};
 use super::plot;
-use crate::report::table::{self, counted, duration};
+use crate::number;
+use crate::number::{counted, duration};
 use crate::report::{RunFacts, StageTime};
 
 pub(super) fn run(page: &mut Markup, run: &RunFacts) {
@@ -33,14 +34,14 @@ pub(super) fn run(page: &mut Markup, run: &RunFacts) {
             "Largest factor",
             vec![format!(
                 "{} nonzeros, {} floating-point operations",
-                table::count(work.factor_nonzeros),
+                number::count(work.factor_nonzeros),
                 in_words(work.factor_flops, 2)
             )],
         ));
     }
-    facts.push(("Peak memory", run.peak_memory_bytes.map(table::bytes).into_iter().collect()));
+    facts.push(("Peak memory", run.peak_memory_bytes.map(number::bytes).into_iter().collect()));
     let path = |path: &Option<std::path::PathBuf>| path.as_ref().map(|path| path.display().to_string());
-    let size = run.file_bytes.map(table::bytes);
+    let size = run.file_bytes.map(number::bytes);
     facts.push(("Superelement", path(&run.superelement).into_iter().chain(size).collect()));
     facts.push(("JSON report", path(&run.report).into_iter().collect()));
     page.facts(&facts);

@@ -3,7 +3,7 @@
 use super::front::{in_words, percent};
 use super::markup::{Cell, Figure, Markup, Table};
 use super::plot;
-use crate::report::table::{quantity, scientific};
+use crate::number::{quantity, scientific};
 use crate::report::{Preservation, SizeError};
 
 pub(super) fn size(page: &mut Markup, preservation: &Preservation) {

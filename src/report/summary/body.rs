@@ -1,5 +1,6 @@
 //! What was read, computed and checked.
 
+use crate::number;
 use crate::report::mode_table::{Mode, mode_table};
 use crate::report::page::{Page, Tone, WIDTH, verdict_word};
 use crate::report::table::{self, Align};
@@ -17,7 +18,7 @@ const NAME: usize = 44;
 
 pub(super) fn write(page: &mut Page, body: &ReportBody) {
     let reduction = &body.reduction;
-    let sizes = format!("{} → {}", table::count(body.model.n_dofs as u64), table::count(reduction.n_reduced as u64));
+    let sizes = format!("{} → {}", number::count(body.model.n_dofs as u64), number::count(reduction.n_reduced as u64));
     let title = format!(
         "{} {} · {} · {sizes} degrees of freedom",
         body.generator.name,
@@ -50,9 +51,9 @@ pub(super) fn write(page: &mut Page, body: &ReportBody) {
 }
 
 fn model(page: &mut Page, model: &ModelReport) {
-    let mut parts = vec![table::counted(model.n_dofs, "dof", "dofs")];
-    parts.extend(model.n_nodes.map(|n_nodes| table::counted(n_nodes, "node", "nodes")));
-    parts.push(table::counted(model.n_bodies, "body", "bodies"));
+    let mut parts = vec![number::counted(model.n_dofs, "dof", "dofs")];
+    parts.extend(model.n_nodes.map(|n_nodes| number::counted(n_nodes, "node", "nodes")));
+    parts.push(number::counted(model.n_bodies, "body", "bodies"));
     parts.extend(model.units.clone().map(|units| format!("units {units}")));
     page.entry("model", &parts.join(" · "));
     page.entry("stiffness", &matrix(&model.stiffness));
@@ -67,14 +68,14 @@ fn model(page: &mut Page, model: &ModelReport) {
     };
     let rigid = match model.rigid_body_modes.count {
         0 => "no modes: the component is restrained".to_owned(),
-        count => format!("{} {source}", table::counted(count, "mode", "modes")),
+        count => format!("{} {source}", number::counted(count, "mode", "modes")),
     };
     page.entry("rigid body", &rigid);
     listing(page, "note", &model.notes);
 }
 
 fn matrix(matrix: &MatrixReport) -> String {
-    let nonzeros = table::counted(matrix.n_nonzeros, "nonzero", "nonzeros");
+    let nonzeros = number::counted(matrix.n_nonzeros, "nonzero", "nonzeros");
     format!("{nonzeros} · {} digits · blake3 {}…", matrix.digits, short(&matrix.digest))
 }
 
@@ -85,7 +86,7 @@ fn short(digest: &str) -> String {
 
 pub(crate) fn mass_properties(page: &mut Page, properties: &MassProperties) {
     if let Some(mass) = properties.mass {
-        page.entry("total mass", &table::quantity(mass, 7));
+        page.entry("total mass", &number::quantity(mass, 7));
     }
     if let Some(cg) = properties.cg {
         // A coordinate that is rounding beside the others would only draw the eye.
@@ -102,19 +103,19 @@ pub(crate) fn mass_properties(page: &mut Page, properties: &MassProperties) {
 }
 
 fn rounded(value: f64, size: f64) -> String {
-    if value.abs() <= 1e-12 * size { "0".to_owned() } else { table::quantity(value, 5) }
+    if value.abs() <= 1e-12 * size { "0".to_owned() } else { number::quantity(value, 5) }
 }
 
 fn reduced(page: &mut Page, reduction: &ReductionReport) {
     for interface in &reduction.interfaces {
         let coupling = words::coupling(interface.coupling);
-        let nodes = table::counted(interface.n_nodes, "node", "nodes");
-        let dofs = table::counted(interface.n_dofs, "dof", "dofs");
+        let nodes = number::counted(interface.n_nodes, "node", "nodes");
+        let dofs = number::counted(interface.n_dofs, "dof", "dofs");
         page.entry("interface", &format!("{} · {coupling} · {nodes} · {dofs}", interface.name));
         words::positions(interface).iter().for_each(|places| page.entry("", places));
     }
     let parts = words::coordinates(reduction);
-    page.entry("coordinates", &format!("{} = {}", table::count(reduction.n_reduced as u64), parts.join(" + ")));
+    page.entry("coordinates", &format!("{} = {}", number::count(reduction.n_reduced as u64), parts.join(" + ")));
     let dropped: Vec<String> =
         reduction.dropped.iter().map(|dropped| format!("{}: {}", dropped.coordinate, dropped.reason)).collect();
     listing(page, "left out", &dropped);
@@ -122,7 +123,7 @@ fn reduced(page: &mut Page, reduction: &ReductionReport) {
     let worst = reduction.modes.iter().map(|mode| mode.backward_error).fold(0.0, f64::max);
     if let Some(mode) = reduction.modes.first() {
         let kind = words::mode_kind(mode.kind);
-        let worst = table::scientific(worst, 2);
+        let worst = number::scientific(worst, 2);
         page.entry("modes", &format!("{kind} · {solver} · backward error at most {worst}"));
     }
 }
@@ -131,11 +132,11 @@ fn rigid_body(page: &mut Page, found: &RigidBodyEvidence) {
     let highest = found.frequencies_hz.iter().copied().fold(f64::NAN, f64::max);
     let mut parts = Vec::new();
     if !highest.is_nan() {
-        parts.push(format!("at most {} Hz", table::quantity(highest, 2)));
+        parts.push(format!("at most {} Hz", number::quantity(highest, 2)));
     }
     let worst = found.grounding.iter().max_by(|a, b| a.energy_ratio.total_cmp(&b.energy_ratio));
     if let Some(worst) = worst.filter(|_| !parts.is_empty()) {
-        let ratio = table::scientific(worst.energy_ratio, 2);
+        let ratio = number::scientific(worst.energy_ratio, 2);
         parts.push(format!("worst {}, {ratio} of the first elastic energy", worst.direction));
     }
     if !parts.is_empty() {
@@ -167,7 +168,7 @@ fn check_row(check: &Check) -> [String; 7] {
     [
         check.id.to_owned(),
         table::shorten(check.name, NAME),
-        table::scientific(check.value, 2),
+        number::scientific(check.value, 2),
         limit,
         active,
         margin,
@@ -193,10 +194,10 @@ fn trust_intervals(page: &mut Page, intervals: &[TrustInterval]) {
         format!(
             "{} to {} Hz · {} counted, {} found · pivot growth {}",
             words::lower_end(interval.from_hz, 4),
-            table::quantity(interval.to_hz, 6),
+            number::quantity(interval.to_hz, 6),
             interval.n_counted,
             interval.n_found,
-            table::quantity(interval.pivot_growth, 3)
+            number::quantity(interval.pivot_growth, 3)
         )
     };
     listing(page, "counts", &intervals.iter().map(line).collect::<Vec<_>>());

@@ -1,7 +1,7 @@
 //! What the reduction preserves, in a few lines.
 
+use crate::number;
 use crate::report::page::Page;
-use crate::report::table;
 use crate::report::{BoundaryComparison, Preservation};
 
 /// Longer lists are cut; the JSON document has them all.
@@ -21,30 +21,30 @@ pub(super) fn write(page: &mut Page, preservation: &Preservation) {
     }
     let statics = preservation.statics.iter().map(|statics| statics.relative_difference).fold(0.0, f64::max);
     if !preservation.statics.is_empty() {
-        let n = table::counted(preservation.statics.len(), "interface", "interfaces");
-        page.entry("statics", &format!("{n} · stiffness differs by at most {}", table::scientific(statics, 2)));
+        let n = number::counted(preservation.statics.len(), "interface", "interfaces");
+        page.entry("statics", &format!("{n} · stiffness differs by at most {}", number::scientific(statics, 2)));
     }
     if let Some(response) = &preservation.response {
         let [driven, observed] = &response.worst_pair;
         let worst = format!(
             "at most {} dB off at {} Hz, {driven} to {observed}",
-            table::quantity(response.worst_db, 2),
-            table::quantity(response.worst_at_hz, 5)
+            number::quantity(response.worst_db, 2),
+            number::quantity(response.worst_at_hz, 5)
         );
         page.entry("response", &worst);
-        let sampled = table::counted(response.samples.len(), "sample", "samples");
-        let damping = table::quantity(response.damping, 2);
+        let sampled = number::counted(response.samples.len(), "sample", "samples");
+        let damping = number::quantity(response.damping, 2);
         page.entry(
             "",
-            &format!("{sampled} · damping factor {damping} · residual {}", table::scientific(response.residual, 1)),
+            &format!("{sampled} · damping factor {damping} · residual {}", number::scientific(response.residual, 1)),
         );
     }
     if let Some(highest) = preservation.highest {
         let text = format!(
             "{} Hz · explicit steps below {} s, {} s to follow it",
-            table::quantity(highest.frequency_hz, 5),
-            table::scientific(highest.explicit_step_s, 2),
-            table::scientific(highest.resolving_step_s, 2)
+            number::quantity(highest.frequency_hz, 5),
+            number::scientific(highest.explicit_step_s, 2),
+            number::scientific(highest.resolving_step_s, 2)
         );
         page.entry("highest", &text);
     }
@@ -58,6 +58,6 @@ fn boundary(comparison: &BoundaryComparison) -> String {
     if n_in_band == 0 {
         return "no elastic frequency in the band".to_owned();
     }
-    let frequencies = table::counted(n_in_band, "frequency", "frequencies");
-    format!("{frequencies} in the band · off by at most {}", table::scientific(comparison.worst_in_band, 2))
+    let frequencies = number::counted(n_in_band, "frequency", "frequencies");
+    format!("{frequencies} in the band · off by at most {}", number::scientific(comparison.worst_in_band, 2))
 }

@@ -1,5 +1,6 @@
 //! What the run cost, where its files are, and the verdict as the last line.
 
+use crate::number;
 use crate::report::conclusion::conclusion;
 use crate::report::page::{LABEL, Page, Tone, WIDTH};
 use crate::report::table::{self, Align};
@@ -21,7 +22,7 @@ fn stages(page: &mut Page, stages: &[StageTime]) {
     let names = stages.iter().map(|stage| stage.name).chain(["total"]);
     let seconds = stages.iter().map(|stage| stage.seconds).chain([total]);
     let rows: Vec<[String; 2]> =
-        names.zip(seconds.clone()).map(|(name, seconds)| [name.to_owned(), table::duration(seconds)]).collect();
+        names.zip(seconds.clone()).map(|(name, seconds)| [name.to_owned(), number::duration(seconds)]).collect();
     for ([name, time], seconds) in table::columns(&rows, [Align::Left, Align::Right]).into_iter().zip(seconds) {
         let bar = if name.trim_end() == "total" { String::new() } else { bar(seconds / total) };
         let name = Page::toned(&table::pad(&name, LABEL, Align::Left), Tone::Faint);
@@ -40,21 +41,21 @@ fn bar(share: f64) -> String {
 fn facts(page: &mut Page, run: &RunFacts) {
     let WorkCounters { n_factorisations, n_solves, n_restarts, factor_flops, factor_nonzeros } = run.work;
     let work = [
-        table::counted(n_factorisations, "factorisation", "factorisations"),
-        table::counted(n_solves, "solve", "solves"),
-        table::counted(n_restarts, "restart", "restarts"),
-        table::counted(run.n_threads, "thread", "threads"),
+        number::counted(n_factorisations, "factorisation", "factorisations"),
+        number::counted(n_solves, "solve", "solves"),
+        number::counted(n_restarts, "restart", "restarts"),
+        number::counted(run.n_threads, "thread", "threads"),
     ];
     page.entry("work", &work.join(" · "));
     if factor_nonzeros > 0 {
-        let entries = table::counted(usize::try_from(factor_nonzeros).unwrap_or(usize::MAX), "nonzero", "nonzeros");
-        page.entry("largest factor", &format!("{entries} · {} flop", table::scientific(factor_flops, 2)));
+        let entries = number::counted(usize::try_from(factor_nonzeros).unwrap_or(usize::MAX), "nonzero", "nonzeros");
+        page.entry("largest factor", &format!("{entries} · {} flop", number::scientific(factor_flops, 2)));
     }
     if let Some(peak) = run.peak_memory_bytes {
-        page.entry("peak memory", &table::bytes(peak));
+        page.entry("peak memory", &number::bytes(peak));
     }
     if let Some(path) = &run.superelement {
-        let size = run.file_bytes.map(|size| format!(" · {}", table::bytes(size))).unwrap_or_default();
+        let size = run.file_bytes.map(|size| format!(" · {}", number::bytes(size))).unwrap_or_default();
         page.entry("superelement", &format!("{}{size}", path.display()));
     }
     if let Some(path) = &run.report {

@@ -2,8 +2,9 @@
 
 use crate::dense;
 use crate::error::{Error, Result};
-use crate::factor::{Analysis, Cholesky, Pencil, SolveOperator, forming_error};
-use crate::modes::SplitMix64;
+use crate::factor::{Analysis, Cholesky, SolveOperator, forming_error};
+use crate::random::SplitMix64;
+use crate::sparse::Pencil;
 use crate::sparse::{Leading, SparseMatrix};
 
 /// A definite K_s = K − σM with the proof that it is.

@@ -10,8 +10,9 @@ use super::reduced::{Quotient, quotients};
 use crate::dense;
 use crate::error::Result;
 use crate::job::Support;
-use crate::modes::{Boundary as ModeBoundary, ModeError, SEED};
-use crate::report::table::{quantity, scientific};
+use crate::modes::{Boundary as ModeBoundary, ModeError};
+use crate::number::{quantity, scientific};
+use crate::random::SEED;
 use crate::report::{BoundaryComparison, BoundaryCount, FrequencyPair};
 
 /// How far roundings of one sign may exceed their typical sum.

@@ -15,8 +15,8 @@ use super::boundaries::{Boundary, Reference};
 use crate::dense;
 use crate::error::Result;
 use crate::factor::{Analysis, CONDENSED_GAP, condensed};
-use crate::model::diagonal;
 use crate::report::BoundaryCount;
+use crate::sparse::diagonal;
 
 /// Where between the end of the band and the next eigenvalue is counted.
 const PLACES: [f64; 3] = [0.5, 0.25, 0.75];

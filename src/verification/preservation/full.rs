@@ -9,11 +9,12 @@ use super::super::Evidence;
 use super::boundaries::Boundary;
 use crate::dense;
 use crate::error::Result;
-use crate::factor::{Analysis, Pencil};
+use crate::factor::Analysis;
 use crate::job::Eigensolver;
-use crate::model::diagonal;
 use crate::modes::{Factored, FreeAtZero, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes, massive, shifted};
 use crate::rigid::{RigidBodyModes, RigidEnergy};
+use crate::sparse::Pencil;
+use crate::sparse::diagonal;
 use crate::sparse::{SparseMatrix, product};
 
 /// Backward error up to which a pair found with the factor of K_II is taken. Sound supports give 10⁻¹⁶ to 10⁻¹⁴; where the

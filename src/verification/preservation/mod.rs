@@ -32,7 +32,7 @@ use super::pencil::Spectral;
 use crate::error::{Error, Result};
 use crate::factor::Analysis;
 use crate::job::{Certify, Job};
-use crate::modes::SEED;
+use crate::random::SEED;
 use crate::report::Preservation;
 
 use boundaries::{Boundary, Reference};

@@ -11,7 +11,7 @@ use super::samples;
 use crate::dense;
 use crate::error::Result;
 use crate::factor::SolveOperator;
-use crate::report::table::quantity;
+use crate::number::quantity;
 use crate::report::{ResponseComparison, ResponseSample};
 use crate::verification::pencil::Spectral;
 

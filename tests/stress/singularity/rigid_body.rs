@@ -1,8 +1,8 @@
 //! Zero modes of free, joined, plane and partly held components: S-01, S-03, S-04, S-07 to S-12.
 
 use supel::dense;
+use supel::dofs::Direction;
 use supel::error::Error;
-use supel::input::Direction;
 use supel::job::InterfaceJob;
 use supel::rigid::{self, RigidSource};
 use supel_models::transform::{grounded, join, supported, translated};

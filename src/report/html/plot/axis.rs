@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 
-use crate::report::table;
+use crate::number;
 
 /// More labels than this crowd an axis.
 const LABELS: f64 = 7.0;
@@ -26,7 +26,7 @@ impl Axis {
     pub(super) fn linear(title: &str, low: f64, high: f64) -> Self {
         let high = if high > low { high } else { low + 1.0 };
         let step = nice_step((high - low) / LABELS);
-        let decimals = usize::try_from(-table::decade(step)).unwrap_or(0);
+        let decimals = usize::try_from(-number::decade(step)).unwrap_or(0);
         let first = (low / step).ceil() as i64;
         let last = (high / step * (1.0 + 1e-12)).floor() as i64;
         let ticks = (first..=last).map(|k| k as f64 * step).map(|at| (at, minus(&format!("{at:.decimals$}"))));
@@ -69,10 +69,10 @@ impl Axis {
         let ticks = decades.flat_map(|k| multiples.iter().map(move |multiple| multiple * 10.0_f64.powi(k)));
         let ticks = ticks.filter(|value| (low..=high).contains(value));
         let label = |value: f64| {
-            if table::decade(value) < 6 {
-                minus(&table::quantity(value, 3))
+            if number::decade(value) < 6 {
+                minus(&number::quantity(value, 3))
             } else {
-                power_of_ten(table::decade(value).into())
+                power_of_ten(number::decade(value).into())
             }
         };
         let ticks = ticks.map(|value| (value.log10(), label(value))).collect();
@@ -121,7 +121,7 @@ impl ValueFormatter<f64> for Axis {
 
 /// 1, 2 or 5 times a power of ten, not below `step`.
 fn nice_step(step: f64) -> f64 {
-    let power = 10.0_f64.powi(table::decade(step));
+    let power = 10.0_f64.powi(number::decade(step));
     let multiple = [1.0, 2.0, 5.0, 10.0].into_iter().find(|multiple| multiple * power >= step * (1.0 - 1e-12));
     multiple.unwrap_or(10.0) * power
 }

@@ -4,8 +4,8 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::chart::{Drawn, FAINT, INK, LETTER, PALE_BLUE, WIDTH, draw, text};
+use crate::number;
 use crate::report::StageTime;
-use crate::report::table;
 
 /// Height of a row.
 const ROW: u32 = 40;
@@ -27,7 +27,7 @@ pub(in crate::report::html) fn stage_times(stages: &[StageTime]) -> Option<Strin
             area.draw(&Text::new(stage.name, (LEFT - 16, middle), text(LETTER, INK, HPos::Right, VPos::Center)))?;
             let bar = [(LEFT, middle - 12), (LEFT + length.max(2), middle + 12)];
             area.draw(&Rectangle::new(bar, PALE_BLUE.filled()))?;
-            let time = table::duration(stage.seconds);
+            let time = number::duration(stage.seconds);
             let style = text(LETTER, FAINT, HPos::Left, VPos::Center);
             area.draw(&Text::new(time, (LEFT + length.max(2) + 12, middle), style))?;
         }

@@ -13,7 +13,7 @@ pub struct FileRows {
 
 impl FileRows {
     /// The rows that a filter keeps, one mark for each row of the files.
-    pub(super) fn kept(is_kept: &[bool]) -> Self {
+    pub(crate) fn kept(is_kept: &[bool]) -> Self {
         let rows = is_kept.iter().zip(0u32..).filter(|(kept, _)| **kept).map(|(_, row)| row);
         let kept: Vec<u32> = rows.collect();
         Self { n_dropped: is_kept.len() - kept.len(), kept: Some(kept) }
@@ -70,7 +70,7 @@ impl RowNames<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input::Direction;
+    use crate::dofs::Direction;
 
     #[test]
     fn rows_keep_their_numbers_of_the_files() {

@@ -2,6 +2,9 @@
 
 use faer::MatMut;
 
+/// Seed of the first attempt; a repeated one takes another.
+pub const SEED: u64 = 0x5eed_0001;
+
 /// SplitMix64 (Steele, Lea and Flood 2014).
 #[derive(Clone, Debug)]
 pub(crate) struct SplitMix64(u64);

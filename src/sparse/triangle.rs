@@ -23,7 +23,7 @@ impl Triangle {
     }
 
     /// The matrix that this triangle of `matrix` stands for, and how many positions of the other triangle differed.
-    pub(super) fn mirrored(self, matrix: &SparseMatrix) -> (SparseMatrix, usize) {
+    pub(crate) fn mirrored(self, matrix: &SparseMatrix) -> (SparseMatrix, usize) {
         let transposed = matrix.transpose_view().to_csr();
         let n = matrix.rows();
         let (mut pointers, mut indices, mut data) = (Vec::with_capacity(n + 1), Vec::new(), Vec::new());
