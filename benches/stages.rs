@@ -11,14 +11,16 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, criterion_group, criterion_main};
 use faer::Mat;
-use supel::basis::{Basis, ConstraintModes, constraint_modes};
+use supel::basis::Basis;
+use supel::constraint::{ConstraintModes, constraint_modes};
 use supel::factor::{Analysis, Cholesky, SolveOperator};
 use supel::job::Job;
 use supel::model::Model;
-use supel::modes::{Component, ModeSource, Retained, Search, shift_of_factor};
+use supel::modes::{Component, ModeSource, Retained, Search};
 use supel::partition::Partition;
 use supel::random::SEED;
 use supel::reduction::Reduction;
+use supel::rigid::shift_of_factor;
 use supel::rigid::{RigidBodyModes, rigid_body_modes};
 use supel_models::{Family, Part};
 
@@ -97,8 +99,8 @@ fn measure(criterion: &mut Criterion, family: Family, folder: &Path) {
         let order = |model| Partition::new(model, &job.interfaces).expect("two faces");
         b.iter_batched(|| Model::new(read()).expect("a sound model"), order, criterion::BatchSize::PerIteration);
     });
-    group.bench_function(id("analyse"), |b| b.iter(|| Analysis::of(&prepared.partition).expect("memory")));
-    let analysis = Analysis::of(&prepared.partition).expect("memory");
+    group.bench_function(id("analyse"), |b| b.iter(|| prepared.partition.analysis().expect("memory")));
+    let analysis = prepared.partition.analysis().expect("memory");
     group.bench_function(id("factor"), |b| b.iter(|| prepared.factor(&analysis)));
     let factor = prepared.factor(&analysis);
     let loads = Mat::from_fn(factor.n(), BLOCK, |i, j| f64::from(u8::from(i % BLOCK == j)));
@@ -113,7 +115,7 @@ fn measure(criterion: &mut Criterion, family: Family, folder: &Path) {
     let basis = Basis::new(&constraint, retained.columns(component), partition.internal().mass);
     group.bench_function(id("project"), |b| b.iter(|| Reduction::new(partition, &basis, rigid)));
 
-    let outcome = supel::reduce(job, supel::outcome::Resources::default(), &mut ()).expect("reduced");
+    let outcome = supel::reduce(job, supel::forecast::Resources::default(), &mut ()).expect("reduced");
     group.bench_function(id("write"), |b| b.iter(|| outcome.superelement.to_bytes().expect("bytes")));
     group.finish();
 }

@@ -4,6 +4,7 @@
 //! decides the exit code, so that a CI job can tell bad input from a bad model from a full disk.
 
 mod code;
+mod warning;
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -13,6 +14,7 @@ use supel_runtime::FileError;
 use crate::number::{bytes, quantity};
 
 pub use code::{ErrorClass, INTERNAL_CODE, USAGE_CODE};
+pub use warning::Warning;
 
 /// The result of every fallible call of this crate.
 pub type Result<T, E = Error> = std::result::Result<T, E>;

@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::dofs::Direction;
+pub use crate::eigen::Eigensolver;
 use crate::error::{Error, Result};
 use crate::sparse::Triangle;
 
@@ -224,17 +225,6 @@ impl TryFrom<ModeTable> for ModeSelection {
             _ => Err("expected exactly one of `count` and `up_to_hz`"),
         }
     }
-}
-
-/// Which eigensolver finds the modes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Eigensolver {
-    /// Block Lanczos with thick restart.
-    #[default]
-    Lanczos,
-    /// ARPACK-NG, an independent witness.
-    Arpack,
 }
 
 /// How completeness of the modes is certified.

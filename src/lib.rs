@@ -40,11 +40,14 @@
 pub mod audit;
 pub mod basis;
 pub mod cli;
+pub mod constraint;
 pub mod coordinates;
 pub mod dense;
 pub mod dofs;
+pub mod eigen;
 pub mod error;
 pub mod factor;
+pub mod forecast;
 pub mod heap;
 pub mod input;
 pub mod job;
@@ -67,12 +70,14 @@ use basis::Basis;
 use coordinates::Levers;
 use error::{Error, Result};
 use factor::{Analysis, Cholesky};
+use forecast::Resources;
 use input::Allowance;
+use input::InputFacts;
 use job::{Coupling, Job};
 use model::Model;
 use modes::{Component, ModeSource, Retained};
-use outcome::{Outcome, Resources};
-use output::{InputFacts, Results};
+use outcome::Outcome;
+use output::Results;
 use partition::Partition;
 use reduction::Reduction;
 use report::Observer;
@@ -91,27 +96,27 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
 
     observer.stage("rigid-body modes");
     // The analysis asks for the pattern of the matrices alone: it is made beside, and is the first of what a factor needs.
-    let (rigid, analysis) = rayon::join(|| rigid::rigid_body_modes(&partition), || Analysis::of(&partition));
+    let (rigid, analysis) = rayon::join(|| rigid::rigid_body_modes(&partition), || partition.analysis());
     let ((rigid, n_extra), analysis) = (rigid?, analysis?);
     let rank = rigid::interface_rank(&partition, &rigid)?;
 
     observer.stage("factor");
-    let storage = factor::storage_within_memory(&analysis, &partition, job, resources)?;
-    let sigma = modes::shift_of_factor(&partition, &rigid);
+    let storage = forecast::storage_within_memory(&analysis, &partition, job, resources)?;
+    let sigma = rigid::shift_of_factor(&partition, &rigid);
     let factor = Cholesky::kept(&analysis, (partition.pencil(), sigma), storage, &|dof| partition.name_of(dof));
     let factor = factor.map_err(|error| refused(error, &analysis, &partition, &rigid))?;
     let rank = rigid::confirmed_rank(&partition, &rigid, rank, &factor)?;
 
     observer.stage("constraint modes");
-    let constraint = basis::constraint_modes(&partition, &factor, &rigid);
+    let constraint = constraint::constraint_modes(&partition, &factor, &rigid);
     factor.refinement()?;
-    let (rigid, loose) = rigid::with_mechanisms(&partition, &constraint, rigid)?;
+    let (rigid, loose) = constraint::with_mechanisms(&partition, &constraint, rigid)?;
 
     observer.stage("modes");
     let component = Component::new(&partition, &analysis, &factor, &rigid, &constraint);
     let search = modes::Search::new(component, &job.reduction)?;
     let size = (storage, search.n_expected());
-    let at_once = factor::slices_within_memory(&analysis, &partition, job, resources, size)?;
+    let at_once = forecast::slices_within_memory(&analysis, &partition, job, resources, size)?;
     let found = factor.vouched(search.with_slices_at_once(at_once).lowest(random::SEED))?;
 
     observer.stage("certificate");
@@ -122,7 +127,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let enclosures = verification::enclosures_where_asked(component, &retained, job.run.certify)?;
 
     observer.stage("basis");
-    let basis = Basis::new(&constraint, retained.columns(component), partition.internal().mass);
+    let basis = Basis::new(&constraint, basis::retained_columns(component, &retained), partition.internal().mass);
 
     observer.stage("projection");
     let reduction = Reduction::new(&partition, &basis, &rigid);
@@ -211,7 +216,7 @@ pub fn verify(
     let (facts, partition) = prepared(job, resources, observer)?;
 
     observer.stage("reference");
-    factor::comparison_within_memory(&partition, job, resources, superelement.tensors().frequencies.len())?;
+    forecast::comparison_within_memory(&partition, job, resources, superelement.tensors().frequencies.len())?;
     let reference = Reference::new(job, &facts, &partition)?;
 
     observer.stage("comparison");

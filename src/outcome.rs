@@ -1,24 +1,8 @@
-//! What a reduction is given beside the job, and what it hands back.
+//! What a reduction hands back.
 
 use supel_runtime::Superelement;
 
-use crate::job::Job;
 use crate::report::Report;
-
-/// What the machine has to offer; it decides whether a run starts and changes no result.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Resources {
-    /// Memory the run may use, in bytes; unlimited where nobody knows. `run.memory_gib` of the job goes first.
-    pub memory_bytes: Option<u64>,
-}
-
-impl Resources {
-    /// Memory that a job may use, in bytes: as it says itself, or what there is.
-    pub fn allowed(self, job: &Job) -> Option<u64> {
-        let stated = job.run.memory_gib.map(|gib| (gib * f64::from(1 << 30)) as u64);
-        stated.or(self.memory_bytes)
-    }
-}
 
 /// The superelement and the report on it; files, times and memory are filled in by whoever writes them.
 #[derive(Clone, Debug)]

@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 
 use supel::cli::{ExitCode, Pipeline, Terminal, run};
 use supel::error::{Error, Result};
+use supel::forecast::Resources;
 use supel::job::{Coupling, Job, Method, ModeSelection, NodeSelection, Precision};
-use supel::outcome::{Outcome, Resources};
+use supel::outcome::Outcome;
 use supel::report::Observer;
 use supel_runtime::Superelement;
 

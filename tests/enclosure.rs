@@ -8,7 +8,8 @@ mod chain;
 
 use serde_json::Value;
 use supel::cli::ExitCode;
-use supel::modes::{Boundary, Modes};
+use supel::eigen::Modes;
+use supel::modes::Boundary;
 use supel::verification::{Enclosures, enclosures};
 use supel_models::{
     Ends, Material, Model, bar, bar_spectrum, brick, known, ring, ring_spectrum, spring, spring_spectrum,

@@ -7,9 +7,9 @@ use super::content::Content;
 use super::record::flaw;
 use crate::dense;
 use crate::dofs::Direction;
+use crate::eigen::{Equilibrated, zero};
 use crate::error::Result;
 use crate::model::Site;
-use crate::modes::{Equilibrated, zero};
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::Judged;
 

@@ -5,10 +5,11 @@ use faer::{Mat, MatRef};
 use rayon::prelude::*;
 
 use super::orthonormal::orthonormalised;
-use super::{ConstraintModes, DroppedColumn, DynamicCoordinate};
+use super::{DroppedColumn, DynamicCoordinate};
+use crate::constraint::ConstraintModes;
 use crate::dense;
+use crate::eigen::{Modes, mass_qr};
 use crate::factor::SolveOperator;
-use crate::modes::{Modes, mass_qr};
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
 use crate::sparse::Leading;

@@ -6,19 +6,20 @@
 //! ```
 //! The reduction method has been decided when the modes were chosen; from here on every method is this one form.
 
-mod constraint;
 mod dynamic;
 mod orthonormal;
+mod retained;
 
 use faer::prelude::ReborrowMut;
 use faer::{Mat, MatRef};
 
+use crate::constraint::ConstraintModes;
 use crate::dense;
-use crate::modes::Modes;
+use crate::eigen::Modes;
 use crate::sparse::Leading;
 
-pub use constraint::{Carried, ConstraintModes, constraint_modes};
 pub use dynamic::{DynamicColumns, fixed_interface_columns, modal_columns, mode_acceleration_columns};
+pub use retained::retained_columns;
 
 /// The modal reduction matrix in its blocks.
 #[derive(Clone, Debug)]

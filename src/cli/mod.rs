@@ -33,9 +33,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use clap::Parser;
 
 use crate::error::Result;
+use crate::forecast::Resources;
 use crate::heap;
 use crate::job::Job;
-use crate::outcome::{Outcome, Resources};
+use crate::outcome::Outcome;
 use crate::report::Observer;
 
 use command::Command;

@@ -13,7 +13,8 @@ use super::rehearsal::{self, Rehearsed};
 use super::unmet::unmet;
 use super::{Pipeline, memory, overwriting, process};
 use crate::error::{Error, Result};
-use crate::outcome::{Outcome, Resources};
+use crate::forecast::Resources;
+use crate::outcome::Outcome;
 use crate::report::{JunitWarnings, Observer, Report, StageClock, html, junit, summary};
 use crate::verification::check::{Check, Limits, Verdict};
 

@@ -6,7 +6,7 @@ use super::doubt::Doubt;
 use super::motions::Motions;
 use crate::dense;
 use crate::error::{Error, Result};
-use crate::factor::{Analysis, count_below};
+use crate::factor::count_below;
 use crate::partition::{DofOrigin, Partition};
 use crate::rigid::{moving_directions, zero_modes};
 
@@ -39,8 +39,8 @@ pub(super) fn whole(motions: &Motions<'_>) -> Result<Partition> {
 /// Eigenvalues of the pencil that are zero as far as a Sturm count tells, or `None` where the shift meets one; `noise` is
 /// what rounding of the data can make of a zero one.
 pub(super) fn counted(whole: &Partition, noise: f64) -> Result<Option<usize>> {
-    let analysis = Analysis::of(whole)?;
-    match count_below(whole, &analysis, ROUNDINGS * noise) {
+    let analysis = whole.analysis()?;
+    match count_below(&analysis, whole.pencil(), ROUNDINGS * noise) {
         Ok(count) if count.is_off_clamped() => Ok(Some(count.free)),
         Ok(_) | Err(Error::SturmPivot { .. }) => Ok(None),
         Err(error) => Err(error),

@@ -16,7 +16,6 @@ use super::Storage;
 use super::panels::Shape;
 use crate::error::{Error, Result};
 use crate::heap::fallibly;
-use crate::partition::Partition;
 use crate::sparse::Pencil;
 use order::{EliminationTree, NONE};
 use supernodes::Supernodes;
@@ -78,14 +77,6 @@ impl Analysis {
     /// The factor has more entries than can be counted, or there is no memory for its structure.
     pub fn new(pencil: Pencil<'_>) -> Result<Self> {
         Self::with_border(pencil, 0)
-    }
-
-    /// Analyses the whole matrices of a partition; the interface is the border.
-    ///
-    /// # Errors
-    /// As [`Analysis::new`].
-    pub fn of(partition: &Partition) -> Result<Self> {
-        Self::with_border(partition.pencil(), partition.n_interface())
     }
 
     /// Analyses the pattern of K ∪ M of which the last `n_border` dofs stay.

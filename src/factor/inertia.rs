@@ -11,7 +11,6 @@ use super::indefinite::Indefinite;
 use super::multifrontal::Keep;
 use crate::dense;
 use crate::error::{Error, Result};
-use crate::partition::Partition;
 use crate::sparse::Pencil;
 use crate::sparse::{Leading, SparseMatrix};
 
@@ -54,12 +53,12 @@ impl InertiaCount {
     }
 }
 
-/// Counts the eigenvalues of the partition's pencil below σ; `analysis` is that of the partition.
+/// Counts the eigenvalues of a pencil below σ, with its border held and free; `analysis` is that of the pencil with its border.
 ///
 /// # Errors
 /// No memory for the second factor; pivots that are not numbers, which means that σ hits an eigenvalue exactly.
-pub fn count_below(partition: &Partition, analysis: &Analysis, sigma: f64) -> Result<InertiaCount> {
-    let (_, _, count) = counted(partition, analysis, sigma, Keep::Pivots)?;
+pub fn count_below(analysis: &Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<InertiaCount> {
+    let (_, _, count) = counted(analysis, pencil, sigma, Keep::Pivots)?;
     Ok(count)
 }
 
@@ -67,25 +66,24 @@ pub fn count_below(partition: &Partition, analysis: &Analysis, sigma: f64) -> Re
 ///
 /// # Errors
 /// As [`count_below`].
-pub fn condensed(partition: &Partition, analysis: &Analysis, sigma: f64) -> Result<(InertiaCount, Mat<f64>)> {
-    let (factor, _, count) = counted(partition, analysis, sigma, Keep::Pivots)?;
+pub fn condensed(analysis: &Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<(InertiaCount, Mat<f64>)> {
+    let (factor, _, count) = counted(analysis, pencil, sigma, Keep::Pivots)?;
     Ok((count, factor.schur()))
 }
 
 /// K − σM factored, S(σ) decomposed, and the counts.
 fn counted<'a>(
-    partition: &Partition,
     analysis: &'a Analysis,
+    pencil: Pencil<'_>,
     sigma: f64,
     keep: Keep,
 ) -> Result<(Indefinite<'a>, Schur, InertiaCount)> {
-    let factor = Indefinite::new(analysis, partition.pencil(), sigma, keep)?;
+    let factor = Indefinite::new(analysis, pencil, sigma, keep)?;
     let signs = factor.signs()?;
-    let n_i = partition.n_internal;
-    let term = |matrix: &SparseMatrix, i: usize| matrix.get(n_i + i, n_i + i).map_or(0.0, |value| value.abs());
-    let uncondensed: Vec<f64> = (0..partition.n_interface())
-        .map(|i| term(&partition.stiffness, i) + sigma.abs() * term(&partition.mass, i))
-        .collect();
+    let n_i = analysis.n();
+    let (stiffness, mass) = (pencil.stiffness.diagonal(), pencil.mass.diagonal());
+    let uncondensed: Vec<f64> =
+        (n_i..stiffness.len()).map(|i| stiffness[i].abs() + sigma.abs() * mass[i].abs()).collect();
     let schur = Schur::new(factor.schur(), &uncondensed)?;
     let count = InertiaCount {
         sigma,
@@ -204,12 +202,12 @@ struct Schur {
 }
 
 impl<'a> ShiftedFactor<'a> {
-    /// Factors K − σM; `analysis` is that of the partition.
+    /// Factors K − σM; `analysis` is that of the pencil with its border.
     ///
     /// # Errors
     /// As [`count_below`].
-    pub fn new(partition: &Partition, analysis: &'a Analysis, sigma: f64) -> Result<Self> {
-        let (factor, schur, count) = counted(partition, analysis, sigma, Keep::Factor)?;
+    pub fn new(analysis: &'a Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<Self> {
+        let (factor, schur, count) = counted(analysis, pencil, sigma, Keep::Factor)?;
         Ok(Self { factor, schur, count })
     }
 

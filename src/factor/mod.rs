@@ -19,7 +19,6 @@ mod entry;
 mod indefinite;
 mod inertia;
 mod matrix;
-mod memory;
 mod multifrontal;
 mod panels;
 mod prefetch;
@@ -35,7 +34,6 @@ pub use indefinite::{WholeCount, whole_count};
 pub use inertia::{
     CONDENSED_GAP, InertiaCount, ShiftedFactor, condensed, count_below, count_negative, few_digits, rank,
 };
-pub use memory::{comparison_within_memory, slices_within_memory, storage_within_memory};
 pub use refined::Refinement;
 pub use rounding::forming_error;
 pub use solve::SolveOperator;

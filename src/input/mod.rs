@@ -9,6 +9,7 @@ mod digits;
 mod dof_map;
 mod empty_rows;
 mod entries;
+mod facts;
 mod foreign;
 mod gathering;
 #[cfg(feature = "hdf5")]
@@ -23,6 +24,7 @@ mod table;
 
 pub use allowance::Allowance;
 pub use digits::significant_digits;
+pub use facts::{InputFacts, MatrixFacts};
 pub use kind::{files, hdf5_file};
 pub use model_files::{Input, read, read_hdf5_parts, read_within, start_hdf5};
 pub use note::InputNote;

@@ -1,19 +1,19 @@
 //! The eigenproblem of a component under one boundary condition: its matrices, its operators and its counts.
 
-use faer::{Mat, MatMut, MatRef};
+use faer::{MatMut, MatRef};
 
-use super::eigenproblem::Interval;
-use super::operator::{Factored, FreeAtZero, RefinedAtZero, ShiftInvert};
-use super::{Component, Equilibrated, ModalProblem, SETTLED, Shifted, shifted};
-use crate::dense;
+use super::Component;
+use crate::constraint::{FreeAtZero, RefinedAtZero};
+use crate::eigen::ElasticCount;
+use crate::eigen::Interval;
+use crate::eigen::relative_residual;
+use crate::eigen::{Factored, ShiftInvert};
+use crate::eigen::{ModalProblem, SETTLED, Shifted, shifted};
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, InertiaCount, ShiftedFactor, count_below};
 use crate::job::Method;
 use crate::partition::Partition;
-use crate::random::SEED;
-use crate::random::SplitMix64;
 use crate::sparse::diagonal;
-use crate::sparse::product;
 
 /// The boundary condition modes are computed under.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,15 +43,6 @@ pub struct BoundaryProblem<'a> {
     pub boundary: Boundary,
 }
 
-/// The elastic eigenvalues below a shift.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ElasticCount {
-    /// The count with both boundaries.
-    pub inertia: InertiaCount,
-    /// Eigenvalues below the shift under the boundary at hand, without the rigid-body modes.
-    pub n_elastic: usize,
-}
-
 /// Relative residual of K x = f up to which the factor of K_II serves the free component. Healthy interfaces give 10⁻¹⁶ to
 /// the precision of the data; at this limit half the digits of a mode would be lost.
 pub(super) const HOLDS_UP: f64 = 1e-8;
@@ -61,14 +52,14 @@ impl<'a> BoundaryProblem<'a> {
     pub fn modal(&self) -> ModalProblem<'a> {
         let Component { partition, rigid, .. } = self.component;
         match self.boundary {
-            Boundary::FixedInterface => ModalProblem::held(partition),
-            Boundary::FreeInterface => ModalProblem::free(partition, Some(rigid)),
+            Boundary::FixedInterface => partition.held_problem(),
+            Boundary::FreeInterface => partition.free_problem().deflating(rigid.deflated()),
         }
     }
 
     /// Rigid-body modes under this boundary.
     pub fn n_rigid(&self) -> usize {
-        self.modal().rigid.map_or(0, crate::rigid::RigidBodyModes::count)
+        self.modal().n_deflated()
     }
 
     /// Hands the operator at or below zero to `solve`: by the factor of K_II where that holds up, by a factor of K − σM where
@@ -121,7 +112,7 @@ impl<'a> BoundaryProblem<'a> {
     pub fn factor_at(&self, sigma: f64) -> Result<ShiftedFactor<'a>> {
         let Component { partition, analysis, .. } = self.component;
         self.refuse_massless()?;
-        let factor = ShiftedFactor::new(partition, analysis, sigma)?;
+        let factor = ShiftedFactor::new(analysis, partition.pencil(), sigma)?;
         self.refuse_on_eigenvalue(factor.count)?;
         Ok(factor)
     }
@@ -149,7 +140,7 @@ impl<'a> BoundaryProblem<'a> {
     /// As [`Self::factor_at`].
     pub fn count_below(&self, sigma: f64) -> Result<ElasticCount> {
         self.refuse_massless()?;
-        let count = count_below(self.component.partition, self.component.analysis, sigma)?;
+        let count = count_below(self.component.analysis, self.component.partition.pencil(), sigma)?;
         self.refuse_on_eigenvalue(count)?;
         self.elastic(count)
     }
@@ -248,57 +239,16 @@ pub(super) fn by_shift<T>(
     Ok((solve(&shifted)?, shifted.n_factorisations))
 }
 
-/// The median of K_ii / M_ii over the dofs that have both: the size of the largest eigenvalue where all dofs are alike, and
-/// not moved by a few rotations of tiny inertia. One where no dof has both.
-pub(super) fn median_ratio(problem: ModalProblem<'_>) -> f64 {
-    let ratios = ratios(problem);
-    ratios.get(ratios.len() / 2).copied().unwrap_or(1.0)
-}
-
-/// K_ii / M_ii over the dofs that have both, ascending.
-pub(super) fn ratios(problem: ModalProblem<'_>) -> Vec<f64> {
-    let (k, m) = (problem.stiffness.diagonal(), problem.mass.diagonal());
-    let mut ratios: Vec<f64> = k.iter().zip(&m).filter(|(k, m)| **k > 0.0 && **m > 0.0).map(|(k, m)| k / m).collect();
-    ratios.sort_unstable_by(f64::total_cmp);
-    ratios
-}
-
-/// How well an operator at shift zero solves K x = f for a self-equilibrated load: ‖Kx − f‖ / (‖K‖‖x‖ + ‖f‖), equilibrated.
-pub(super) fn relative_residual(problem: ModalProblem<'_>, operator: &dyn ShiftInvert) -> f64 {
-    let nothing = Mat::zeros(operator.n(), 0);
-    let (q, mass_q) = problem.rigid.map_or((nothing.as_ref(), nothing.as_ref()), |rigid| {
-        (rigid.orthonormal.as_ref(), rigid.mass_orthonormal.as_ref())
-    });
-    let mut probe = Mat::zeros(operator.n(), 1);
-    SplitMix64::new(SEED).fill(probe.as_mut());
-    let mut load = product(problem.mass, probe.as_ref());
-    let resultant = dense::gram(q, load.as_ref());
-    dense::add_product(load.as_mut(), -1.0, mass_q, resultant.as_ref());
-    let mut x = load.clone();
-    operator.solve_in_place(x.as_mut());
-    let motion = dense::gram(mass_q, x.as_ref());
-    dense::add_product(x.as_mut(), -1.0, q, motion.as_ref());
-    let force = product(problem.stiffness, x.as_ref());
-    let norms = Equilibrated::of(problem.pencil());
-    let load = dense::column(load.as_ref(), 0);
-    let residual: Vec<f64> = dense::column(force.as_ref(), 0).iter().zip(load).map(|(k, f)| k - f).collect();
-    let of = |column: &[f64]| {
-        let scaled: Vec<f64> = column.iter().zip(&norms.scale).map(|(a, d)| a * d).collect();
-        dense::norm(&scaled)
-    };
-    of(&residual) / (norms.stiffness_norm * norms.scaled_norm(dense::column(x.as_ref(), 0)) + of(load))
-}
-
 #[cfg(test)]
 mod tests {
     use faer::MatMut;
 
     use super::*;
+    use crate::eigen::{ModeRequest, Wanted, elastic_modes};
     use crate::factor::Cholesky;
     use crate::input::{Input, MatrixInput};
     use crate::job::{Coupling, Eigensolver, InterfaceJob, NodeSelection, Origin};
     use crate::model::Model;
-    use crate::modes::{ModeRequest, Wanted, elastic_modes};
     use crate::rigid;
     use crate::sparse::{AssemblyNotes, Declared, Triplets};
 
@@ -357,12 +307,12 @@ mod tests {
     fn operator_that_does_not_hold_up_is_noticed_and_the_shift_gives_the_same_modes() {
         let partition = chain(60);
         let rigid = rigid::rigid_body_modes(&partition).expect("free").0;
-        let analysis = Analysis::of(&partition).expect("memory");
+        let analysis = partition.analysis().expect("memory");
         let factor =
             Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof)).expect("definite");
-        let constraint = crate::basis::constraint_modes(&partition, &factor, &rigid);
+        let constraint = crate::constraint::constraint_modes(&partition, &factor, &rigid);
         let operator = FreeAtZero::new(&factor, &partition.stiffness, &constraint, &rigid).expect("no hinge");
-        let problem = ModalProblem::free(&partition, Some(&rigid));
+        let problem = partition.free_problem().deflating(rigid.deflated());
         // κ of the chain is 60² ≈ 4e3; the residual of a backward stable solve does not grow with it.
         assert!(relative_residual(problem, &operator) < 1e-14);
         // The share itself times ‖f‖ / (‖K‖‖x‖), which is above 1/κ.

@@ -20,11 +20,13 @@
 //! eigenvalues. Where they differ the count is taken above any spectrum of a mesh with these diagonals instead of just above
 //! the highest mode, and what it finds missing is looked for as any other mode.
 
-use super::boundary_problem::{BoundaryProblem, ElasticCount, median_ratio};
+use super::Boundary;
+use super::boundary_problem::BoundaryProblem;
 use super::finite::{above_all, most_finite};
 use super::slices::{Band, ModeSource, missing};
-use super::{Boundary, Equilibrated, ModeError, Modes};
 use crate::dense;
+use crate::eigen::{ElasticCount, median_ratio};
+use crate::eigen::{Equilibrated, ModeError, Modes};
 use crate::error::{Error, Result};
 use crate::factor::InertiaCount;
 use crate::job::Certify;

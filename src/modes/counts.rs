@@ -3,8 +3,9 @@
 //! N(λ), the number of eigenvalues below λ, grows about like a power of λ: 1/2 along a bar, 1 in a plate, 3/2 in a solid. Between
 //! two counts it is interpolated as such a power, beyond the last one continued; each further count corrects the next place.
 
-use super::boundary_problem::{BoundaryProblem, ElasticCount, ratios};
+use super::boundary_problem::BoundaryProblem;
 use super::finite::above_all;
+use crate::eigen::{ElasticCount, ratios};
 use crate::error::{Error, Result};
 
 /// How far a shift is moved that lies on an eigenvalue, relatively.

@@ -10,9 +10,9 @@ use faer::linalg::solvers::Llt;
 use faer::{Mat, Side};
 
 use super::boundary_problem::BoundaryProblem;
-use super::eigenproblem::{EigenWork, Eigenpairs, Problem};
-use super::{Modes, judged};
 use crate::dense;
+use crate::eigen::{EigenWork, Eigenpairs, Problem};
+use crate::eigen::{Modes, judged};
 use crate::error::Result;
 use crate::sparse::Leading;
 
@@ -46,10 +46,7 @@ pub(super) fn all_modes(problem: &BoundaryProblem<'_>, wanted: usize) -> Result<
     lower.transpose().solve_upper_triangular_in_place(&mut vectors);
     let n_rigid = problem.n_rigid();
     let mut shapes = Mat::from_fn(n, n - n_rigid, |i, j| vectors[(i, n_rigid + j)] * scale[i]);
-    let nothing = Mat::zeros(n, 0);
-    let deflated = modal.rigid.map_or([nothing.as_ref(), nothing.as_ref()], |rigid| {
-        [rigid.orthonormal.as_ref(), rigid.mass_orthonormal.as_ref()]
-    });
+    let deflated = modal.deflated;
     let along = dense::gram(deflated[1], shapes.as_ref());
     dense::add_product(shapes.as_mut(), -1.0, deflated[0], along.as_ref());
     let (mut modes, n_factorisations) = problem.with_lowest_operator(|operator| {

@@ -3,10 +3,11 @@
 //! A search that ends with fewer modes than were asked for has found all there are, or has lost some. A count far above the
 //! spectrum tells below its shift; the rank of M tells without a shift.
 
-use super::boundary_problem::{BoundaryProblem, ratios};
+use super::boundary_problem::BoundaryProblem;
+use crate::eigen::ratios;
+use crate::eigen::rows_with_mass;
 use crate::error::Result;
 use crate::factor::{Analysis, rank};
-use crate::sparse::Leading;
 
 /// λ of a mesh is at most this many times the largest K_ii/M_ii: M of an element is within 10² of its diagonal, and a row of
 /// K has at most 10² entries.
@@ -32,9 +33,4 @@ pub(super) fn most_finite(problem: &BoundaryProblem<'_>, n_found: usize) -> Resu
     }
     let analysis = Analysis::new(modal.pencil())?;
     Ok(rank(&analysis, modal.mass, modal.precision.mass).map_or(n_rows, |rank| rank.min(n_rows)))
-}
-
-/// Rows of M with an entry other than zero.
-pub(super) fn rows_with_mass(mass: Leading<'_>) -> usize {
-    (0..mass.rows()).filter(|row| mass.row(*row).1.iter().any(|value| *value != 0.0)).count()
 }

@@ -4,13 +4,13 @@
 //! one operator at shift zero; more come in slices, each from a shift of its own; most of the spectrum of a small model
 //! comes from a dense decomposition. The certificate judges all of them alike.
 
-use super::boundary_problem::{BoundaryProblem, ElasticCount};
+use super::boundary_problem::BoundaryProblem;
 use super::counts::Counts;
-use super::eigenproblem::{EigenWork, Interval, Wanted, are_clustered, is_above};
 use super::slices::{Band, ModeSource, SLICE, search_between};
-use super::{
-    Boundary, CLUSTER_GAP, Component, ModeRequest, Modes, ShiftInvert, dense_spectrum, elastic_modes, indefinite,
-};
+use super::{Boundary, Component, dense_spectrum, indefinite};
+use crate::eigen::ElasticCount;
+use crate::eigen::{CLUSTER_GAP, ModeRequest, Modes, ShiftInvert, elastic_modes};
+use crate::eigen::{EigenWork, Interval, Wanted, are_clustered, is_above};
 use crate::error::{Error, Result};
 use crate::job::{Eigensolver, ModeSelection, ReductionJob};
 use crate::partition::Partition;

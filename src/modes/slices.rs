@@ -16,14 +16,15 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use faer::Mat;
 use rayon::prelude::*;
 
-use super::boundary_problem::{BoundaryProblem, ElasticCount};
+use super::boundary_problem::BoundaryProblem;
 use super::counts::{Counts, middle};
-use super::eigenproblem::{EigenWork, Eigenpairs, Interval, Problem, are_clustered};
-use super::{CLUSTER_GAP, Modes, judged, pairs_between, settled_at};
 use crate::dense;
+use crate::eigen::ElasticCount;
+use crate::eigen::purified;
+use crate::eigen::{CLUSTER_GAP, Modes, judged, pairs_between, settled_at};
+use crate::eigen::{EigenWork, Eigenpairs, Interval, Problem, are_clustered};
 use crate::error::{Error, Result};
 use crate::job::Eigensolver;
 use crate::random::SEED;
@@ -271,19 +272,14 @@ pub(super) fn search_between(
     solver: (Eigensolver, u64),
 ) -> Result<Modes> {
     let modal = problem.modal();
-    let n = modal.mass.rows();
-    let nothing = Mat::zeros(n, 0);
-    let rigid = modal.rigid.map_or((nothing.as_ref(), nothing.as_ref()), |rigid| {
-        (rigid.orthonormal.as_ref(), rigid.mass_orthonormal.as_ref())
-    });
     // Modes beyond the ends are orthogonalised away at the end: deflating them takes longer than finding them again.
     let near = known.shapes_between(interval.from, interval.to);
-    let q = dense::beside(rigid.0, near.as_ref());
-    let mass_q = dense::beside(rigid.1, product(modal.mass, near.as_ref()).as_ref());
+    let q = dense::beside(modal.deflated[0], near.as_ref());
+    let mass_q = dense::beside(modal.deflated[1], product(modal.mass, near.as_ref()).as_ref());
     let (modes, n_factorisations) = problem.with_operator_inside(interval, |operator| {
         let deflated = [q.as_ref(), mass_q.as_ref()];
         let pairs = pairs_between(Problem { operator, mass: modal.mass, deflated }, interval, solver)?;
-        let whole = Problem { operator, mass: modal.mass, deflated: [rigid.0, rigid.1] };
+        let whole = Problem { operator, mass: modal.mass, deflated: modal.deflated };
         // Nothing nearer than the ends of the interval is known of the neighbours.
         let around = [Some(interval.from), Some(interval.to)];
         // What the neighbours' searches found already is taken out: their modes and these come of different starts.
@@ -301,23 +297,4 @@ pub(super) fn search_between(
     })?;
     let work = EigenWork { factorisations: n_factorisations, ..modes.work };
     Ok(Modes { work, next: None, ..modes })
-}
-
-/// X = (K − σM)⁻¹ M X (Λ − σI) for the modes whose backward error is not settled: a step of inverse iteration, which leaves nothing
-/// in them that M does not see. An iteration carries it along, unseen by its products with M, and where all eigenvalues lie on
-/// one side of the shift and far from it, it grows.
-pub(super) fn purified(problem: Problem<'_>, modes: &Modes, settled: f64) -> Eigenpairs {
-    let sigma = problem.operator.shift();
-    let mut order: Vec<usize> = (0..modes.count()).collect();
-    order.sort_by(|a, b| (modes.lambda[*a] - sigma).abs().total_cmp(&(modes.lambda[*b] - sigma).abs()));
-    let Modes { lambda: values, shapes: mut vectors, errors, next, mut work, .. } = modes.in_order(&order);
-    let doubtful: Vec<usize> = (0..values.len()).filter(|j| errors[*j].backward > settled).collect();
-    work.solves += doubtful.len();
-    let image = problem.step(dense::columns(vectors.as_ref(), &doubtful).as_ref());
-    for (x, j) in image.col_iter().zip(doubtful) {
-        let column = dense::column_mut(vectors.as_mut(), j);
-        column.iter_mut().zip(x.iter()).for_each(|(to, x)| *to = x * (values[j] - sigma));
-    }
-    problem.orthonormalise(&mut vectors);
-    Eigenpairs { values, vectors, next, work }.ascending()
 }

@@ -1,15 +1,18 @@
 //! The body of the report from the results of the stages.
 
-use super::{MatrixFacts, Results, omega, rigid_body, warnings};
+use super::{Results, omega, rigid_body, warnings};
 use crate::basis::DynamicCoordinate;
+use crate::eigen::CLUSTER_GAP;
+use crate::error::Warning;
+use crate::input::MatrixFacts;
 use crate::job::{Certify, Coupling, InterfaceJob, ModeSelection, Origin};
 use crate::model::RoundedCoordinates;
-use crate::modes::{Boundary, CLUSTER_GAP, CountedInterval};
+use crate::modes::{Boundary, CountedInterval};
 use crate::partition::InterfaceNode;
 use crate::report::{
     Completeness, DroppedCoordinate, Generator, InterfacePosition, InterfaceReport, MassProperties, MatrixReport,
     ModeKind, ModeRow, ModelReport, PositionOrigin, ReductionReport, ReportBody, RigidBodyModes, RigidBodySource,
-    TrustInterval, Warning,
+    TrustInterval,
 };
 use crate::rigid::{ILL_CONDITIONED, RigidSource};
 
@@ -140,7 +143,7 @@ fn modes(results: &Results<'_>) -> Vec<ModeRow> {
     let modes = &evidence.retained.modes;
     let unit = evidence.partition.scaling.eigenvalue_unit();
     let kind = kind(evidence.retained.boundary);
-    let row = |(index, (lambda, error)): (usize, (&f64, &crate::modes::ModeError))| {
+    let row = |(index, (lambda, error)): (usize, (&f64, &crate::eigen::ModeError))| {
         let frequency_hz = omega(*lambda, unit) / std::f64::consts::TAU;
         ModeRow {
             index: index + 1,

@@ -4,7 +4,8 @@ use faer::MatRef;
 use supel_runtime::Matrix;
 
 use super::{Results, omega};
-use crate::report::{EffectiveMass, Grounding, MassProperties, MassRoute, RigidBodyEvidence, Warning};
+use crate::error::Warning;
+use crate::report::{EffectiveMass, Grounding, MassProperties, MassRoute, RigidBodyEvidence};
 use crate::verification::{Evidence, Restraint};
 
 /// What verification found of it.

@@ -1,11 +1,12 @@
 //! Warnings: what the user should know although no check failed.
 
 use super::{Results, omega};
+use crate::constraint::Loose;
+use crate::error::Warning;
 use crate::factor::Refinement;
 use crate::job::Precision;
 use crate::modes::Boundary;
-use crate::report::Warning;
-use crate::rigid::{Loose, RigidSource};
+use crate::rigid::RigidSource;
 
 /// Relative error bar of a frequency above which the digits of the data are told about: what a modal test resolves, the
 /// limit of M-09.

@@ -15,6 +15,7 @@ mod interface;
 mod metis;
 mod minimum_degree;
 mod ordering;
+mod problem;
 mod region;
 mod roundings;
 mod transformation;
@@ -26,6 +27,7 @@ use faer::Mat;
 use crate::dofs::Dof;
 use crate::dofs::FileRows;
 use crate::error::{Error, Result};
+use crate::factor::Analysis;
 use crate::job::InterfaceJob;
 use crate::model::{CoordinateFit, Finding, Model, ModelFacts, Scaling, Site};
 use crate::sparse::Pencil;
@@ -35,6 +37,7 @@ use crate::sparse::{Leading, SparseMatrix};
 use roundings::{PatchEntries, Roundings};
 
 pub use interface::{InterfaceNode, recovered_rows};
+pub use problem::EntriesAt;
 pub use roundings::CHANCE_OF_MORE;
 pub use transformation::{DofOrigin, ReducedDof, Transformation, TransformationRow};
 
@@ -164,6 +167,14 @@ impl Partition {
     /// K and M.
     pub fn pencil(&self) -> Pencil<'_> {
         Pencil::new(&self.stiffness, &self.mass)
+    }
+
+    /// Analyses the pattern of the matrices for their factorisation; the interface is the border.
+    ///
+    /// # Errors
+    /// The factor has more entries than can be counted, or there is no memory for its structure.
+    pub fn analysis(&self) -> Result<Analysis> {
+        Analysis::with_border(self.pencil(), self.n_interface())
     }
 
     /// K_II and M_II.

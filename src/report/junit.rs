@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use super::html::escaped;
-use super::{Completeness, Report, RunFacts, Warning, words};
+use super::{Completeness, Report, RunFacts, words};
+use crate::error::Warning;
 use crate::number::scientific;
 use crate::verification::check::{Check, Verdict};
 

@@ -11,7 +11,6 @@ mod json;
 mod junit;
 pub(crate) mod mode_table;
 pub(crate) mod page;
-mod preservation;
 mod printable;
 mod rigid_body;
 mod stages;
@@ -26,9 +25,11 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use crate::error::Warning;
 use crate::job::{Coupling, Eigensolver, Method};
 use crate::number;
 use crate::verification::check::{Check, Verdict};
+use crate::verification::preservation::Preservation;
 
 pub use explanation::{EXPLANATIONS, Explanation, Proof, explanation};
 pub use html::html;
@@ -37,10 +38,6 @@ pub use junit::{JunitWarnings, junit};
 pub use page::Paint;
 pub(crate) use printable::{json_text, printable};
 
-pub use preservation::{
-    BoundaryComparison, BoundaryCount, FrequencyPair, HighestFrequency, InterfaceStatics, Preservation, PreservedMode,
-    ResponseComparison, ResponseSample, SizeError,
-};
 pub use rigid_body::{EffectiveMass, Grounding, MassRoute, RigidBodyEvidence};
 pub use stages::{Observer, StageClock, StageTime};
 pub use summary::summary;
@@ -264,15 +261,6 @@ pub enum ModeKind {
     FreeInterface,
     /// Interface held: fixed-interface normal modes.
     FixedInterface,
-}
-
-/// What the user should know although no check failed.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Warning {
-    /// Stable code, `W-FEWER-MODES`.
-    pub code: &'static str,
-    /// One sentence.
-    pub message: String,
 }
 
 /// Whether every mode of the band is known to have been found.

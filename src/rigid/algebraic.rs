@@ -2,12 +2,13 @@
 
 use faer::Mat;
 
-use super::{RigidBodyModes, RigidEnergy, RigidSource, energies_of_terms, residuals};
+use super::{RigidBodyModes, RigidEnergy, RigidSource, residuals};
 use crate::dense;
+use crate::eigen::{Shifted, mass_qr, shifted};
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, SolveOperator};
-use crate::modes::{ModalProblem, Shifted, mass_qr, shifted};
 use crate::partition::Partition;
+use crate::sparse::energies_of_terms;
 use crate::sparse::{product, product_and_terms};
 
 /// The zero modes of a pencil without coordinates, with the factorisations they took.
@@ -26,7 +27,7 @@ pub fn from_matrices(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
 /// As [`from_matrices`].
 pub(crate) fn zero_modes(partition: &Partition) -> Result<(RigidBodyModes, Option<f64>, usize)> {
     let analysis = Analysis::new(partition.pencil())?;
-    let problem = ModalProblem::free(partition, None);
+    let problem = partition.free_problem();
     let found = shifted(&analysis, problem, &|step| partition.name_of(step))?;
     refuse_uncounted(partition, &found)?;
     let orthonormal = without_elastic_rounding(partition, &found);
@@ -59,7 +60,7 @@ pub(crate) fn zero_modes(partition: &Partition) -> Result<(RigidBodyModes, Optio
 
 /// Relative error bar of the first elastic eigenvalue up to which mechanisms below it are counted: what is lost in rounding is then
 /// slower than a hundredth of the first elastic mode, as what M-05 takes for a support is.
-pub(super) const COUNTED_BELOW: f64 = 1e-4;
+pub(crate) const COUNTED_BELOW: f64 = 1e-4;
 
 /// A soft mode looks like a mechanism where rounding of few digits is larger than its energy: more zero modes than bodies can have are
 /// believed where that rounding is nothing compared with the first elastic mode.
@@ -78,7 +79,7 @@ fn refuse_uncounted(partition: &Partition, found: &Shifted<'_>) -> Result<()> {
 }
 
 /// Motions seem to cost no energy, and the next one is known to a share of its eigenvalue only.
-pub(super) fn uncounted(partition: &Partition, n_zero: usize, bar: f64) -> Error {
+pub(crate) fn uncounted(partition: &Partition, n_zero: usize, bar: f64) -> Error {
     let known = 0.5 * bar;
     let what = format!(
         "how many motions cost no energy: {n_zero} seem to, and with the frequency of the next known to {known:.0e} of itself \

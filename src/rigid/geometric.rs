@@ -2,12 +2,13 @@
 
 use faer::{Mat, MatRef};
 
-use super::{RigidBodyModes, RigidEnergy, RigidSource, algebraic, energies_of_terms, largest_residual, zero_energy};
+use super::{RigidBodyModes, RigidEnergy, RigidSource, algebraic, largest_residual, zero_energy};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, whole_count};
 use crate::model::{Bodies, Frame, Site};
 use crate::partition::Partition;
+use crate::sparse::energies_of_terms;
 use crate::sparse::{product, product_and_terms};
 
 /// Singular values of a body's six unit motions, relative to the largest, below which the motion moves no dof (rotation

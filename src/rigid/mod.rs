@@ -10,24 +10,25 @@
 
 mod algebraic;
 mod geometric;
-mod mechanism;
 mod rank;
+mod shift;
 
 use faer::{Mat, MatRef};
 
 use crate::dense;
+use crate::eigen::{Equilibrated, zero};
 use crate::error::Result;
 use crate::job::Coupling;
-use crate::modes::{Equilibrated, zero};
 use crate::partition::{InterfaceNode, Partition};
-use crate::sparse::{Leading, SparseMatrix, absolute_product, product, product_and_terms};
+use crate::sparse::energies_of_terms;
+use crate::sparse::{SparseMatrix, product, product_and_terms};
 
 pub use algebraic::from_matrices;
-pub(crate) use algebraic::zero_modes;
+pub(crate) use algebraic::{COUNTED_BELOW, uncounted, zero_modes};
 pub(crate) use geometric::{NO_MASS, moving_directions};
-pub use mechanism::{Loose, LooseMotions, with_mechanisms};
 pub use rank::{ILL_CONDITIONED, InterfaceRank, confirmed_rank, interface_rank, or_lack_of_rank};
 pub(crate) use rank::{scales, unit_motions};
+pub use shift::shift_of_factor;
 
 /// Where rigid-body modes come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -125,6 +126,11 @@ impl RigidBodyModes {
         }
     }
 
+    /// Q and MQ, what eigensolvers deflate.
+    pub fn deflated(&self) -> [MatRef<'_, f64>; 2] {
+        [self.orthonormal.as_ref(), self.mass_orthonormal.as_ref()]
+    }
+
     /// M_F = UᵀMU, n_r × n_r.
     pub fn rigid_body_mass(&self, mass: &SparseMatrix) -> Mat<f64> {
         let mut m_f = dense::gram(self.modes.as_ref(), product(mass, self.modes.as_ref()).as_ref());
@@ -161,19 +167,8 @@ pub fn from_coordinates(partition: &Partition) -> Result<Option<RigidBodyModes>>
     partition.sites().map(|sites| geometric::rigid_body_modes(partition, &sites)).transpose()
 }
 
-/// |x|ᵀ|A||x| for each column.
-pub(crate) fn absolute_energy<'a>(matrix: impl Into<Leading<'a>>, x: MatRef<'_, f64>) -> Vec<f64> {
-    energies_of_terms(x, absolute_product(matrix, x).as_ref())
-}
-
-/// |x|ᵀ t for each column of x and of its terms |A||x|.
-pub(crate) fn energies_of_terms(x: MatRef<'_, f64>, terms: MatRef<'_, f64>) -> Vec<f64> {
-    let energy = |j: usize| dense::column(x, j).iter().zip(dense::column(terms, j)).map(|(x, t)| x.abs() * t).sum();
-    (0..x.ncols()).map(energy).collect()
-}
-
-/// Energy xᵀKx up to which one of some motions is zero, by the criterion of [`crate::modes::zero`]; `terms` are |K||x|.
-fn zero_energy(partition: &Partition, x: MatRef<'_, f64>, terms: MatRef<'_, f64>) -> f64 {
+/// Energy xᵀKx up to which one of some motions is zero, by the criterion of [`crate::eigen::zero`]; `terms` are |K||x|.
+pub(crate) fn zero_energy(partition: &Partition, x: MatRef<'_, f64>, terms: MatRef<'_, f64>) -> f64 {
     let norms = Equilibrated::of(partition.pencil());
     let (digits, sizes) = (partition.energy_noise(x), energies_of_terms(x, terms));
     let level = |j: usize| {
@@ -192,7 +187,7 @@ pub(crate) fn noise_of_digits(partition: &Partition, rigid: &RigidBodyModes) -> 
 }
 
 /// The largest ‖Kq‖ / ‖ |K||q| ‖ of the columns.
-fn largest_residual(stiffness: &SparseMatrix, q: MatRef<'_, f64>) -> f64 {
+pub(crate) fn largest_residual(stiffness: &SparseMatrix, q: MatRef<'_, f64>) -> f64 {
     let (forces, terms) = product_and_terms(stiffness, q);
     residuals(forces.as_ref(), terms.as_ref()).into_iter().fold(0.0, f64::max)
 }

@@ -7,11 +7,11 @@ use faer::Mat;
 
 use super::RigidBodyModes;
 use crate::dense;
+use crate::eigen::{Factored, ModeRequest, Wanted, elastic_modes};
 use crate::error::{Error, Result};
 use crate::factor::Cholesky;
 use crate::job::Eigensolver;
 use crate::model::Site;
-use crate::modes::{Factored, ModalProblem, ModeRequest, Wanted, elastic_modes};
 use crate::partition::Partition;
 use crate::random::SEED;
 
@@ -51,7 +51,7 @@ pub fn confirmed_rank(
         return Ok(rank);
     }
     let request = ModeRequest { wanted: Wanted::Count(1), eigensolver: Eigensolver::Lanczos, seed: SEED };
-    let lowest = elastic_modes(ModalProblem::held(partition), &Factored::new(factor, 0.0), request)?;
+    let lowest = elastic_modes(partition.held_problem(), &Factored::new(factor, 0.0), request)?;
     match lowest.errors.first() {
         Some(error) if error.data_bar >= 1.0 => rank_within(partition, rigid, rigid.energy.angle),
         _ => Ok(rank),

@@ -7,12 +7,14 @@
 
 mod assembly;
 mod by_rows;
+mod energy;
 mod leading;
 mod pencil;
 mod product;
 mod triangle;
 
 pub(crate) use by_rows::{RowStorage, balanced_ranges, filled};
+pub(crate) use energy::{absolute_energy, energies_of_terms};
 pub use leading::{Leading, diagonal};
 pub use pencil::{Pencil, Precision};
 pub use product::{absolute_product, multiply, panels, product, product_and_terms};

@@ -6,9 +6,9 @@ use super::check::{Check, Limits};
 use super::spectrum::scaled_by;
 use super::{Evidence, coordinate_name, coordinate_scales};
 use crate::dense;
+use crate::eigen::Equilibrated;
 use crate::error::Result;
 use crate::factor::SolveOperator;
-use crate::modes::Equilibrated;
 use crate::rigid::ILL_CONDITIONED;
 
 /// ‖DK_IID‖₁ ‖(DK_IID)⁻¹‖₁, the second norm estimated from below by a few solves (Hager 1984, Higham 1988).

@@ -12,7 +12,8 @@ use super::check::{Check, Limits};
 use super::limits::UNKNOWN;
 use super::residual::{AT_REST, Residuals, Rows, Worst};
 use crate::dense;
-use crate::modes::{Boundary, MassOrthogonality, ModeError, NOTICED_BAR, mass_orthogonality};
+use crate::eigen::{MassOrthogonality, ModeError, NOTICED_BAR, mass_orthogonality};
+use crate::modes::Boundary;
 use crate::sparse::Pencil;
 use crate::sparse::panels;
 

@@ -20,10 +20,11 @@ mod pair;
 use super::Evidence;
 use super::check::{Check, Limits};
 use crate::dense;
+use crate::eigen::{ModeError, Modes};
 use crate::error::Result;
 use crate::factor::{Analysis, whole_count};
 use crate::job::Certify;
-use crate::modes::{Boundary, Component, ModeError, Modes, Retained};
+use crate::modes::{Boundary, Component, Retained};
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
 

@@ -6,8 +6,8 @@ use super::Evidence;
 use super::directions::Directions;
 use super::spectrum::{Spectrum, lowest_eigenpairs};
 use crate::dense;
+use crate::eigen::Equilibrated;
 use crate::error::Result;
-use crate::modes::Equilibrated;
 use crate::sparse::{product, product_and_terms};
 
 /// One direction.

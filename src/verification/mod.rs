@@ -22,12 +22,14 @@ mod rigid_motion;
 mod solves;
 mod spectrum;
 
-use crate::basis::{Basis, ConstraintModes, DynamicCoordinate};
+use crate::basis::{Basis, DynamicCoordinate};
+use crate::constraint::ConstraintModes;
 use crate::dense;
+use crate::eigen::Equilibrated;
 use crate::error::Result;
 use crate::factor::Cholesky;
 use crate::job::Expectation;
-use crate::modes::{Certificate, Equilibrated, Retained};
+use crate::modes::{Certificate, Retained};
 use crate::partition::Partition;
 use crate::reduction::Reduction;
 use crate::rigid::{InterfaceRank, RigidBodyModes};

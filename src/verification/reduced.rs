@@ -9,8 +9,9 @@ use super::rigid_motion::energy_limits;
 use super::spectrum::{Spectrum, zero_level};
 use super::{Evidence, coordinate_name, data_noise, reduced_norms, share_of_data};
 use crate::dense;
-use crate::modes::{Boundary, Modes, REPEATED_WITHIN};
-use crate::rigid::absolute_energy;
+use crate::eigen::{Modes, REPEATED_WITHIN};
+use crate::modes::Boundary;
+use crate::sparse::absolute_energy;
 use crate::sparse::{Leading, panels};
 
 /// How large the terms are that the reduced stiffness is summed from: rounding of an entry is ε times these.

@@ -10,7 +10,7 @@ use faer::{Mat, MatRef};
 
 use super::Evidence;
 use crate::dense;
-use crate::modes::Equilibrated;
+use crate::eigen::Equilibrated;
 use crate::sparse::Pencil;
 use crate::sparse::product_and_terms;
 

@@ -7,8 +7,9 @@ use super::limits::GROUNDED;
 use super::pencil::Spectral;
 use super::{Evidence, coordinate_scales, data_noise};
 use crate::dense;
+use crate::eigen::{rayleigh_quotients, zero};
 use crate::error::Result;
-use crate::modes::{Boundary, ModalProblem, rayleigh_quotients, zero};
+use crate::modes::Boundary;
 
 /// Eigenvalues of the reduced pencil with its interface free, and under the boundary of the retained modes.
 pub(super) struct Spectrum {
@@ -127,7 +128,7 @@ pub(super) const NOT_FREE: f64 = 1e-8;
 
 /// λ up to which each of some motions of the reduced model costs no energy: by the full model, whose roundings these are.
 fn zero_levels(evidence: &Evidence<'_>, shapes: MatRef<'_, f64>) -> Vec<f64> {
-    let problem = ModalProblem::free(evidence.partition, None);
+    let problem = evidence.partition.free_problem();
     let (_, errors, _) = rayleigh_quotients(problem, evidence.basis.expanded(shapes).as_ref());
     errors.iter().map(|error| error.zero_level).collect()
 }

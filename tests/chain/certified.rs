@@ -1,10 +1,11 @@
 //! The search for modes and its certificate on generated models.
 
-use supel::basis::constraint_modes;
+use supel::constraint::constraint_modes;
+use supel::eigen::{Modes, mass_orthogonality};
 use supel::error::Error;
 use supel::factor::{Analysis, Cholesky};
 use supel::job::{Certify, Eigensolver, InterfaceJob, Method, ModeSelection, ReductionJob};
-use supel::modes::{Certificate, Component, ModeSource, Modes, Search, certified, mass_orthogonality};
+use supel::modes::{Certificate, Component, ModeSource, Search, certified};
 use supel::partition::DofOrigin;
 use supel::random::SEED;
 use supel::rigid;
@@ -58,7 +59,7 @@ pub(crate) fn with_component<T>(
 ) -> Result<T, Error> {
     let (partition, rigid) = super::rigid_of(model, interfaces)?;
     rigid::interface_rank(&partition, &rigid)?;
-    let analysis = Analysis::of(&partition)?;
+    let analysis = partition.analysis()?;
     let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof))?;
     let constraint = constraint_modes(&partition, &factor, &rigid);
     look(Component {

@@ -8,17 +8,17 @@
 pub(crate) mod certified;
 mod twin;
 
-use supel::basis::{
-    Basis, ConstraintModes, DynamicColumns, constraint_modes, fixed_interface_columns, mode_acceleration_columns,
-};
+use supel::basis::{Basis, DynamicColumns, fixed_interface_columns, mode_acceleration_columns};
+use supel::constraint::FreeAtZero;
+use supel::constraint::{ConstraintModes, constraint_modes};
 use supel::coordinates;
 use supel::dofs::{Direction, Dof, Nodes};
+use supel::eigen::{Factored, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes};
 use supel::error::Error;
 use supel::factor::{Analysis, Cholesky};
 use supel::input::{Input, MatrixInput};
 use supel::job::{Coupling, Eigensolver, InterfaceJob, NodeSelection, Origin};
 use supel::model::Model;
-use supel::modes::{Factored, FreeAtZero, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes};
 use supel::partition::Partition;
 use supel::random::SEED;
 use supel::reduction::Reduction;
@@ -119,21 +119,21 @@ pub(crate) fn reduce(
 ) -> Result<Chain, Error> {
     let (partition, rigid) = rigid_of(model, interfaces)?;
     rigid::interface_rank(&partition, &rigid)?;
-    let analysis = Analysis::of(&partition)?;
+    let analysis = partition.analysis()?;
     let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof))?;
     let constraint = constraint_modes(&partition, &factor, &rigid);
     let request = ModeRequest { wanted: Wanted::Count(count), eigensolver: Eigensolver::Lanczos, seed: SEED };
     let precision = partition.precision;
     let (modes, named) = match method {
         Method::CraigBampton => {
-            let problem = ModalProblem::of(partition.internal(), None, precision);
+            let problem = ModalProblem::of(partition.internal(), precision);
             let modes = elastic_modes(problem, &Factored::new(&factor, 0.0), request)?;
             let named = fixed_interface_columns(&modes);
             (modes, named)
         }
         Method::Herting => {
             let operator = FreeAtZero::new(&factor, &partition.stiffness, &constraint, &rigid)?;
-            let problem = ModalProblem::of(partition.pencil(), Some(&rigid), precision);
+            let problem = ModalProblem::of(partition.pencil(), precision).deflating(rigid.deflated());
             let modes = elastic_modes(problem, &operator, request)?;
             let named = mode_acceleration_columns(&partition, &factor, &constraint, &rigid, &modes);
             (modes, named)

@@ -13,12 +13,12 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use rayon::prelude::*;
+use supel::eigen::{Factored, ModalProblem, ModeError, ModeRequest, Modes, Wanted, elastic_modes, shifted};
 use supel::error::Result;
 use supel::factor::{Analysis, count_below};
 use supel::input::{Input, MatrixInput, read};
 use supel::job::{Eigensolver, ModelJob};
 use supel::model::Model;
-use supel::modes::{Factored, ModalProblem, ModeError, ModeRequest, Modes, Wanted, elastic_modes, shifted};
 use supel::partition::Partition;
 use supel::random::SEED;
 use supel::rigid::rigid_body_modes;
@@ -106,12 +106,12 @@ fn free_modes(pairs: &Path, pair: &Pair, n_modes: usize) -> Result<Found> {
     let model = Model::new(input)?;
     let partition = Partition::new(model, &[])?;
     let (rigid, _) = rigid_body_modes(&partition)?;
-    let analysis = Analysis::of(&partition)?;
-    let problem = ModalProblem::of(partition.pencil(), Some(&rigid), partition.precision);
+    let analysis = partition.analysis()?;
+    let problem = ModalProblem::of(partition.pencil(), partition.precision).deflating(rigid.deflated());
     let found = shifted(&analysis, problem, &|dof| partition.name_of(dof))?;
     let request = ModeRequest { wanted: Wanted::Count(n_modes), eigensolver: Eigensolver::Lanczos, seed: SEED };
     let modes = elastic_modes(problem, &Factored::new(&found.factor, found.sigma), request)?;
-    let count = count_below(&partition, &analysis, modes.shift_above(0.5))?;
+    let count = count_below(&analysis, partition.pencil(), modes.shift_above(0.5))?;
     let counted = [count.free, rigid.count() + modes.count()];
     let is_enclosed = pair.reference_error == 0.0 || enclosed(&partition, &analysis, rigid.count(), &modes)?;
     let (n_dofs, n_rigid, unit) = (partition.n_dofs(), rigid.count(), partition.scaling.eigenvalue_unit());
@@ -150,8 +150,8 @@ fn bar(error: &ModeError) -> f64 {
 fn enclosed(partition: &Partition, analysis: &Analysis, n_rigid: usize, modes: &Modes) -> Result<bool> {
     let ends = |j: usize, side: f64| modes.lambda[j] * (1.0 + side * bar(&modes.errors[j]));
     for j in 0..modes.count() {
-        let below = count_below(partition, analysis, ends(j, -1.0))?.free;
-        let above = count_below(partition, analysis, ends(j, 1.0))?.free;
+        let below = count_below(analysis, partition.pencil(), ends(j, -1.0))?.free;
+        let above = count_below(analysis, partition.pencil(), ends(j, 1.0))?.free;
         if below > n_rigid + j || above <= n_rigid + j {
             return Ok(false);
         }

@@ -2,13 +2,13 @@
 
 use supel::dense;
 use supel::dofs::{Direction, Dof, Nodes};
+use supel::eigen::{
+    Factored, MassOrthogonality, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes, mass_orthogonality, shifted,
+};
 use supel::factor::{Analysis, Cholesky};
 use supel::input::{Input, MatrixInput};
 use supel::job::{Eigensolver, InterfaceJob};
 use supel::model::Model;
-use supel::modes::{
-    Factored, MassOrthogonality, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes, mass_orthogonality, shifted,
-};
 use supel::partition::Partition;
 use supel::random::SEED;
 use supel::rigid::{RigidBodyModes, from_coordinates};
@@ -51,11 +51,11 @@ impl Component {
         let (pencil, precision) = (self.partition.pencil(), self.partition.precision);
         let name = |step| self.partition.name_of(step);
         let modes = if self.rigid.count() == 0 {
-            let problem = ModalProblem::of(pencil, None, precision);
+            let problem = ModalProblem::of(pencil, precision);
             let factor = Cholesky::new(&self.analysis, pencil, 0.0, &name).expect("a factor");
             elastic_modes(problem, &Factored::new(&factor, 0.0), request)
         } else {
-            let problem = ModalProblem::of(pencil, Some(&self.rigid), precision);
+            let problem = ModalProblem::of(pencil, precision).deflating(self.rigid.deflated());
             let found = shifted(&self.analysis, problem, &name).expect("a shift");
             elastic_modes(problem, &Factored::new(&found.factor, found.sigma), request)
         };

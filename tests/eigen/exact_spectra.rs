@@ -1,6 +1,6 @@
 //! Families whose eigenvalues are known in closed form or chosen.
 
-use supel::modes::Wanted;
+use supel::eigen::Wanted;
 use supel_models::*;
 
 use crate::component::{Component, eigensolvers};

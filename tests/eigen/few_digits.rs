@@ -1,13 +1,14 @@
 //! Free components whose K and M were printed with few digits: K U ≠ 0, and Lanczos converges as if it were zero.
 
 use faer::Mat;
-use supel::basis::constraint_modes;
+use supel::constraint::FreeAtZero;
+use supel::constraint::constraint_modes;
 use supel::dense;
-use supel::factor::{Analysis, Cholesky};
+use supel::eigen::{EigenWork, ModeRequest, ShiftInvert, Wanted, elastic_modes};
+use supel::factor::Cholesky;
 use supel::input::{Input, MatrixInput};
 use supel::job::{Eigensolver, InterfaceJob};
 use supel::model::Model;
-use supel::modes::{EigenWork, FreeAtZero, ModalProblem, ModeRequest, ShiftInvert, Wanted, elastic_modes};
 use supel::partition::Partition;
 use supel::random::SEED;
 use supel::rigid::{self, RigidBodyModes};
@@ -31,12 +32,12 @@ fn look(model: &supel_models::Model, interfaces: &[InterfaceJob], digits: u32) -
     let partition = Partition::new(Model::new(input).expect("sound"), interfaces).expect("interfaces");
     let rigid = rigid::rigid_body_modes(&partition).expect("free").0;
     assert_eq!(rigid.count(), 6, "{digits} digits");
-    let analysis = Analysis::of(&partition).expect("memory");
+    let analysis = partition.analysis().expect("memory");
     let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof)).expect("definite");
     let constraint = constraint_modes(&partition, &factor, &rigid);
     let operator = FreeAtZero::new(&factor, &partition.stiffness, &constraint, &rigid).expect("no hinge");
     let request = ModeRequest { wanted: Wanted::Count(8), eigensolver: Eigensolver::Lanczos, seed: SEED };
-    let modes = elastic_modes(ModalProblem::free(&partition, Some(&rigid)), &operator, request);
+    let modes = elastic_modes(partition.free_problem().deflating(rigid.deflated()), &operator, request);
     let work = modes.unwrap_or_else(|error| panic!("{digits} digits: {error}")).work;
     Found { asymmetry: asymmetry(&partition, &rigid, &operator), work }
 }

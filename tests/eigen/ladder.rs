@@ -2,9 +2,10 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use supel::eigen::{Interval, Modes};
 use supel::error::{Error, ErrorClass};
 use supel::job::{Certify, Eigensolver};
-use supel::modes::{Boundary, Interval, Mending, ModeSource, Modes, Search, certified};
+use supel::modes::{Boundary, Mending, ModeSource, Search, certified};
 use supel::random::SEED;
 use supel_models::*;
 

@@ -1,6 +1,6 @@
 //! What is asked for: counts, bands, nothing.
 
-use supel::modes::Wanted;
+use supel::eigen::Wanted;
 use supel_models::*;
 
 use crate::component::{Component, eigensolvers};

@@ -1,7 +1,7 @@
 //! Finite element structures: both eigensolvers agree with each other and, where small enough, with a dense spectrum.
 
+use supel::eigen::{Modes, Wanted};
 use supel::job::Eigensolver;
-use supel::modes::{Modes, Wanted};
 use supel_models::*;
 
 use crate::component::{Component, eigensolvers};

@@ -1,6 +1,6 @@
 //! The Sturm count against dense spectra, with the interface held and free, at shifts all over the spectrum.
 
-use supel::factor::{Analysis, count_below};
+use supel::factor::count_below;
 use supel::job::{Coupling, InterfaceJob, NodeSelection, Origin};
 use supel::partition::Partition;
 use supel_models::*;
@@ -31,9 +31,9 @@ fn counts_agree(model: &Model, held: NodeSelection, is_held: impl Fn((i64, u8)) 
 }
 
 fn check(partition: &Partition, shift: f64, [free, clamped]: [&[f64]; 2]) {
-    let analysis = Analysis::of(partition).expect("an analysis");
+    let analysis = partition.analysis().expect("an analysis");
     let sigma = shift / partition.scaling.eigenvalue_unit();
-    let found = count_below(partition, &analysis, sigma).expect("a count");
+    let found = count_below(&analysis, partition.pencil(), sigma).expect("a count");
     let below = |spectrum: &[f64]| spectrum.iter().filter(|lambda| **lambda < shift).count();
     assert_eq!((found.clamped, found.free), (below(clamped), below(free)), "below {shift}");
 }

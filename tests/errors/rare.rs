@@ -92,8 +92,8 @@ fn an_unsigned_number_beyond_the_signed() {
 #[test]
 fn arpack_with_solves_that_overflow() {
     use faer::MatMut;
+    use supel::eigen::{ModalProblem, ModeRequest, ShiftInvert, Wanted, elastic_modes};
     use supel::job::Eigensolver;
-    use supel::modes::{ModalProblem, ModeRequest, ShiftInvert, Wanted, elastic_modes};
     use supel::random::SEED;
     use supel_models::{Ends, spring};
 
@@ -116,7 +116,7 @@ fn arpack_with_solves_that_overflow() {
     }
 
     let partition = crate::chain::partition(&spring(40, Ends::Fixed), &[]).expect("a chain");
-    let problem = ModalProblem::of(partition.pencil(), None, partition.precision);
+    let problem = ModalProblem::of(partition.pencil(), partition.precision);
     let request = ModeRequest { wanted: Wanted::Count(3), eigensolver: Eigensolver::Arpack, seed: SEED };
     let error = elastic_modes(problem, &Overflowing, request).expect_err("no numbers");
     assert!(matches!(error, supel::error::Error::Arpack { .. }), "{error}");

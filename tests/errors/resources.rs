@@ -4,10 +4,11 @@ use std::process::Command;
 
 use supel::dofs::{Direction, Dof};
 use supel::error::Error;
-use supel::factor::{Analysis, Cholesky, Storage, slices_within_memory};
+use supel::factor::{Analysis, Cholesky, Storage};
+use supel::forecast::Resources;
+use supel::forecast::slices_within_memory;
 use supel::job::{Job, Precision};
 use supel::model::Model;
-use supel::outcome::Resources;
 use supel::partition::Partition;
 use supel::sparse::Pencil;
 use supel::sparse::SparseMatrix;
@@ -117,7 +118,7 @@ write     = { superelement = "x.supel" }
     let mut job = Job::read(&path).expect("a job");
     let model = Model::new(supel::input::read(&job.model).expect("files")).expect("a sound model");
     let partition = Partition::new(model, &job.interfaces).expect("a foot");
-    let analysis = Analysis::of(&partition).expect("an analysis");
+    let analysis = partition.analysis().expect("an analysis");
     let needed = |partition: &Partition, storage| {
         let resources = Resources { memory_bytes: Some(1) };
         match slices_within_memory(&analysis, partition, &job, resources, (storage, None)) {
@@ -145,7 +146,7 @@ fn slices_at_the_same_time_are_those_that_memory_holds() {
     let job = Job { run: Default::default(), ..limited_job(&place) };
     let model = Model::new(supel::input::read(&job.model).expect("files")).expect("a sound model");
     let partition = Partition::new(model, &job.interfaces).expect("a foot");
-    let analysis = Analysis::of(&partition).expect("an analysis");
+    let analysis = partition.analysis().expect("an analysis");
     let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build().expect("threads");
     let at_once = |memory_bytes| {
         let resources = Resources { memory_bytes };

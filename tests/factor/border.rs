@@ -2,7 +2,7 @@
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef, Side};
-use supel::factor::{Analysis, Cholesky, ShiftedFactor, Storage, condensed, count_below};
+use supel::factor::{Cholesky, ShiftedFactor, Storage, condensed, count_below};
 use supel::input::{Input, MatrixInput};
 use supel::job::{Coupling, InterfaceJob, NodeSelection, Origin};
 use supel::model::Model;
@@ -106,7 +106,7 @@ fn scale(partition: &Partition) -> Vec<f64> {
 fn constraint_modes_are_those_of_dense_algebra() {
     for (name, partition) in partitions() {
         let (n_i, n_b) = (partition.n_internal, partition.n_interface());
-        let analysis = Analysis::of(&partition).expect("memory");
+        let analysis = partition.analysis().expect("memory");
         let modes = [Storage::Double, Storage::Single].map(|storage| {
             let factor = Cholesky::kept(&analysis, (partition.pencil(), 0.0), storage, &|dof| dof.to_string());
             let factor = factor.expect("definite");
@@ -129,10 +129,10 @@ fn constraint_modes_are_those_of_dense_algebra() {
 fn counts_and_solves_inside_the_spectrum_are_those_of_dense_algebra() {
     for (name, partition) in partitions() {
         let (sigma, free, held) = shift(&partition);
-        let analysis = Analysis::of(&partition).expect("memory");
-        let count = count_below(&partition, &analysis, sigma).expect("off the eigenvalues");
+        let analysis = partition.analysis().expect("memory");
+        let count = count_below(&analysis, partition.pencil(), sigma).expect("off the eigenvalues");
         assert_eq!((count.free, count.clamped), (free, held), "{name}");
-        let factor = ShiftedFactor::new(&partition, &analysis, sigma).expect("off the eigenvalues");
+        let factor = ShiftedFactor::new(&analysis, partition.pencil(), sigma).expect("off the eigenvalues");
         assert_eq!(factor.count, count, "{name}: a factor that is kept has the same pivots");
         let (n, n_i, a, scale) =
             (partition.n_dofs(), partition.n_internal, shifted(&partition, sigma), scale(&partition));
@@ -160,8 +160,8 @@ fn columns_that_vanish_exactly_are_zero_in_the_factor() {
     let ones = symmetric(n, &all, |_, _| 1.0, |_| 1.25);
     let partition = partition(&ones, |dof| if dof == 0 { 0.5 } else { 1.0 }, &[n - 1]);
     let sigma = 0.5 / partition.scaling.eigenvalue_unit();
-    let analysis = Analysis::of(&partition).expect("memory");
-    let factor = ShiftedFactor::new(&partition, &analysis, sigma).expect("off the eigenvalues");
+    let analysis = partition.analysis().expect("memory");
+    let factor = ShiftedFactor::new(&analysis, partition.pencil(), sigma).expect("off the eigenvalues");
     assert_eq!((factor.count.clamped, factor.count.free), (n - 2, n - 1));
     let (a, scale, b) = (shifted(&partition, sigma), scale(&partition), loads(n, 3));
     let mut x = b.clone();
@@ -175,8 +175,8 @@ fn schur_complement_is_what_the_border_feels() {
     for (name, partition) in partitions() {
         let (sigma, ..) = shift(&partition);
         let (n_i, n_b) = (partition.n_internal, partition.n_interface());
-        let analysis = Analysis::of(&partition).expect("memory");
-        let (count, schur) = condensed(&partition, &analysis, sigma).expect("off the eigenvalues");
+        let analysis = partition.analysis().expect("memory");
+        let (count, schur) = condensed(&analysis, partition.pencil(), sigma).expect("off the eigenvalues");
         let a = shifted(&partition, sigma);
         let coupling = a.as_ref().submatrix(0, n_i, n_i, n_b);
         let inner = a.as_ref().submatrix(0, 0, n_i, n_i).lblt(Side::Lower).solve(coupling);
@@ -197,14 +197,14 @@ fn border_has_the_same_bits_for_any_number_of_threads() {
     faer::set_global_parallelism(faer::Par::Seq);
     for (name, partition) in partitions() {
         let (sigma, ..) = shift(&partition);
-        let analysis = Analysis::of(&partition).expect("memory");
+        let analysis = partition.analysis().expect("memory");
         let run = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             pool.install(|| {
-                let factor = ShiftedFactor::new(&partition, &analysis, sigma).expect("off the eigenvalues");
+                let factor = ShiftedFactor::new(&analysis, partition.pencil(), sigma).expect("off the eigenvalues");
                 let mut x = product(&partition.mass, loads(partition.n_dofs(), 17).as_ref());
                 factor.solve_free(x.as_mut());
-                (x, condensed(&partition, &analysis, sigma).expect("off the eigenvalues"))
+                (x, condensed(&analysis, partition.pencil(), sigma).expect("off the eigenvalues"))
             })
         };
         let reference = run(1);

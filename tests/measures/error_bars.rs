@@ -1,9 +1,9 @@
 //! Error bars contain the truth where it is known in closed form, and are no wider than they must be.
 
 use faer::Mat;
+use supel::eigen::{ModalProblem, ModeRequest, ShiftInvert, Wanted, elastic_modes};
 use supel::input::{Input, MatrixInput};
 use supel::job::{Eigensolver, Method};
-use supel::modes::{ModalProblem, ModeRequest, ShiftInvert, Wanted, elastic_modes};
 use supel::random::SEED;
 use supel_models::transform::rounded;
 use supel_models::{Ends, Model, bar, bar_spectrum, known, ring, ring_spectrum, spring, spring_spectrum};
@@ -86,7 +86,7 @@ fn bars_own_up_to_a_bad_residual() {
     let model = spring(n, Ends::Fixed);
     let exact = spring_spectrum(n, Ends::Fixed);
     with_evidence(input(&model), &[rows("one", &[0])], (Method::CraigBampton, 4), |evidence| {
-        let problem = ModalProblem::of(evidence.partition.pencil(), None, evidence.partition.precision);
+        let problem = ModalProblem::of(evidence.partition.pencil(), evidence.partition.precision);
         let dense = crate::chain::dense(&evidence.partition.stiffness);
         let sound = Dense(dense);
         let request = ModeRequest { wanted: Wanted::Count(4), eigensolver: Eigensolver::Lanczos, seed: SEED };

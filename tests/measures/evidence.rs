@@ -1,7 +1,8 @@
 //! The evidence of a generated model, as `supel::reduce` gathers it.
 
-use supel::basis::{Basis, constraint_modes};
-use supel::factor::{Analysis, Cholesky};
+use supel::basis::Basis;
+use supel::constraint::constraint_modes;
+use supel::factor::Cholesky;
 use supel::input::Input;
 use supel::job::{Eigensolver, InterfaceJob, Method, ModeSelection, ReductionJob};
 use supel::model::Model;
@@ -26,14 +27,15 @@ pub(crate) fn with_evidence<T>(
     let partition = Partition::new(model, interfaces).expect("interfaces of the model");
     let (rigid, _) = rigid::rigid_body_modes(&partition).expect("rigid-body modes");
     let rank = rigid::interface_rank(&partition, &rigid).expect("an interface that reacts them");
-    let analysis = Analysis::of(&partition).expect("memory");
+    let analysis = partition.analysis().expect("memory");
     let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof)).expect("definite");
     let constraint = constraint_modes(&partition, &factor, &rigid);
     let component = Component::new(&partition, &analysis, &factor, &rigid, &constraint);
     let job = ReductionJob { method, modes: ModeSelection::Count { count }, eigensolver: Eigensolver::Lanczos };
     let search = Search::new(component, &job).expect("a stable component");
     let retained = Retained { modes: search.lowest(SEED).expect("modes"), boundary: search.problem.boundary };
-    let basis = Basis::new(&constraint, retained.columns(component), partition.internal().mass);
+    let basis =
+        Basis::new(&constraint, supel::basis::retained_columns(component, &retained), partition.internal().mass);
     let reduction = Reduction::new(&partition, &basis, &rigid);
     look(Evidence {
         partition: &partition,

@@ -1,6 +1,7 @@
 //! The checker is checked: each fault is put into sound evidence and seen by the checks that must see it, and by no other.
 
-use supel::basis::{Basis, ConstraintModes};
+use supel::basis::Basis;
+use supel::constraint::ConstraintModes;
 use supel::job::{Expectation, Method};
 use supel::modes::{Boundary, Certificate, CountedInterval, Mending, Retained};
 use supel::reduction::Reduction;

@@ -1,10 +1,10 @@
 //! Factorisations, counts and eigensolutions that cannot be had.
 
 use faer::MatMut;
+use supel::eigen::{ModalProblem, ModeRequest, ShiftInvert, Wanted, elastic_modes};
 use supel::error::{Error, ErrorClass};
 use supel::factor::{Analysis, count_below};
 use supel::job::Eigensolver;
-use supel::modes::{ModalProblem, ModeRequest, ShiftInvert, Wanted, elastic_modes};
 use supel::random::SEED;
 use supel::rigid;
 use supel_models as models;
@@ -55,15 +55,16 @@ fn hinge_between_interfaces() {
 fn sturm_count_on_an_eigenvalue() {
     let model = spring(2, Ends::Fixed);
     let partition = partition(&model, &[rows("end", &[1])]).expect("two masses");
-    let analysis = Analysis::of(&partition).expect("one dof");
+    let analysis = partition.analysis().expect("one dof");
     // K_II = 2 and M_II = 1; counts are taken in scaled units.
     let sigma = 2.0 / partition.scaling.eigenvalue_unit();
-    let error = refusal(count_below(&partition, &analysis, sigma));
+    let error = refusal(count_below(&analysis, partition.pencil(), sigma));
     assert!(matches!(error, Error::SturmPivot { step: 0 }), "{error}");
     assert_says(&error, ErrorClass::NumericalLimit, &["step 0", "one mode more or less"]);
     // λ = 1 and 3 free, 2 held.
     for (lambda, clamped, free) in [(0.5, 0, 0), (1.5, 0, 1), (2.5, 1, 1), (3.5, 1, 2)] {
-        let count = count_below(&partition, &analysis, lambda / partition.scaling.eigenvalue_unit()).expect("a count");
+        let count =
+            count_below(&analysis, partition.pencil(), lambda / partition.scaling.eigenvalue_unit()).expect("a count");
         assert_eq!((count.clamped, count.free), (clamped, free), "below {lambda}");
     }
 }
@@ -96,7 +97,7 @@ impl ShiftInvert for Unreliable {
 #[test]
 fn eigensolver_that_does_not_converge() {
     let partition = partition(&spring(200, Ends::Fixed), &[]).expect("a chain");
-    let problem = ModalProblem::of(partition.pencil(), None, partition.precision);
+    let problem = ModalProblem::of(partition.pencil(), partition.precision);
     let request = ModeRequest { wanted: Wanted::Count(3), eigensolver: Eigensolver::Lanczos, seed: SEED };
     let operator = Unreliable { n: 200, random: SplitMix64::new(1).into() };
     let error = refusal(elastic_modes(problem, &operator, request));

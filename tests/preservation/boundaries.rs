@@ -1,7 +1,7 @@
 //! Frequencies under the boundaries of the scene against dense spectra.
 
 use faer::Mat;
-use supel::report::BoundaryComparison;
+use supel::verification::preservation::BoundaryComparison;
 
 use crate::chain::{EPS, Twin, direct, partition, rigid_group};
 use crate::oracle::{Dense, reduced};

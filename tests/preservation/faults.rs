@@ -39,7 +39,7 @@ fn with_block<T>(look: impl Fn(Evidence<'_>, Job) -> T) -> T {
 }
 
 fn compare(evidence: &Evidence<'_>, job: &Job) -> Compared {
-    let analysis = Analysis::of(evidence.partition).expect("memory");
+    let analysis = evidence.partition.analysis().expect("memory");
     preservation(evidence, &analysis, job).expect("compared")
 }
 

@@ -19,7 +19,7 @@ fn plan(factor_entries: f64, modes: &str, scene: &str) -> Plan {
     let job = Job::parse(&text, "job.toml".as_ref()).expect("a job");
     let interfaces = [rigid_group("XMIN"), direct("tip", &[45])];
     with_model(&block(), &interfaces, (Method::Herting, 6), |evidence| {
-        let mut analysis = Analysis::of(evidence.partition).expect("memory");
+        let mut analysis = evidence.partition.analysis().expect("memory");
         analysis.nnz_factor = factor_entries;
         let mut retained: Retained = evidence.retained.clone();
         if modes == "count = 0" {

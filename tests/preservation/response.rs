@@ -1,6 +1,6 @@
 //! Frequency response: the iteration against dense elimination, the errors against their definition.
 
-use supel::report::Preservation;
+use supel::verification::preservation::Preservation;
 
 use crate::chain::{Twin, direct, partition, rigid_group};
 use crate::oracle::{Dense, decibel, reduced};
@@ -31,7 +31,7 @@ fn rounding(dense: &Dense) -> f64 {
     1e3 * lambda.len() as f64 * f64::EPSILON * lambda[lambda.len() - 1] / lambda[6]
 }
 
-fn response(preservation: &Preservation) -> &supel::report::ResponseComparison {
+fn response(preservation: &Preservation) -> &supel::verification::preservation::ResponseComparison {
     preservation.response.as_ref().expect("a response")
 }
 

@@ -2,9 +2,10 @@
 
 use std::fs;
 
+use supel::forecast::Resources;
 use supel::job::{InterfaceJob, Job};
-use supel::outcome::{Outcome, Resources};
-use supel::report::Preservation;
+use supel::outcome::Outcome;
+use supel::verification::preservation::Preservation;
 use supel_models::{Material, Model, brick, write};
 
 /// A model written to files, with its interfaces.

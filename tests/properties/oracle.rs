@@ -73,8 +73,8 @@ proptest! {
         // Both solvers move an eigenvalue by ε λ_max times a modest power of n; nearer than that the count has no meaning.
         let near = 100.0 * model.n as f64 * EPS * top;
         prop_assume!(free.iter().chain(&clamped).all(|lambda| (lambda - sigma).abs() > near));
-        let analysis = Analysis::of(&partition).expect("memory");
-        let count = count_below(&partition, &analysis, sigma).expect("no eigenvalue is met");
+        let analysis = partition.analysis().expect("memory");
+        let count = count_below(&analysis, partition.pencil(), sigma).expect("no eigenvalue is met");
         let below = |spectrum: &[f64]| spectrum.iter().filter(|lambda| **lambda < sigma).count();
         prop_assert_eq!((count.clamped, count.free), (below(&clamped), below(&free)));
     }

@@ -2,7 +2,8 @@
 
 use faer::Mat;
 use proptest::prelude::*;
-use supel::basis::{Basis, constraint_modes};
+use supel::basis::Basis;
+use supel::constraint::constraint_modes;
 use supel::factor::{Analysis, Cholesky};
 use supel::job::{Eigensolver, Method, ModeSelection, ReductionJob};
 use supel::modes::{Component, ModeSource, Retained, Search};
@@ -27,7 +28,7 @@ struct Built {
 
 fn built(method: Method, count: usize, seed: u64) -> Built {
     let (partition, rigid) = rigid_of(&square_beam(), &[direct("ends", &[1, 15, 43, 63])]).expect("a beam");
-    let analysis = Analysis::of(&partition).expect("memory");
+    let analysis = partition.analysis().expect("memory");
     let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof)).expect("definite");
     let constraint = constraint_modes(&partition, &factor, &rigid);
     let component = Component {

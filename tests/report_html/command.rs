@@ -5,8 +5,9 @@ use std::path::Path;
 
 use supel::cli::{ExitCode, Pipeline, Terminal, run};
 use supel::error::Result;
+use supel::forecast::Resources;
 use supel::job::Job;
-use supel::outcome::{Outcome, Resources};
+use supel::outcome::Outcome;
 use supel::report::Observer;
 
 use super::{by_id, parse, sample, text};

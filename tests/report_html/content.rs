@@ -1,7 +1,9 @@
 //! What the page says.
 
-use supel::report::{Completeness, EXPLANATIONS, Preservation, Proof, RigidBodyEvidence, Warning, html};
+use supel::error::Warning;
+use supel::report::{Completeness, EXPLANATIONS, Proof, RigidBodyEvidence, html};
 use supel::verification::check::Verdict;
+use supel::verification::preservation::Preservation;
 
 use super::{by_id, parse, report_of_all_checks, sample, text};
 

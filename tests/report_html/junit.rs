@@ -1,7 +1,8 @@
 //! The checks as JUnit XML.
 
 use roxmltree::Document;
-use supel::report::{Completeness, JunitWarnings, Warning, junit};
+use supel::error::Warning;
+use supel::report::{Completeness, JunitWarnings, junit};
 
 use super::sample;
 

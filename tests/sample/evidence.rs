@@ -1,9 +1,9 @@
 //! Values for every part of the evidence, shaped like those of a real component: nothing here is compared with anything.
 
-use supel::report::{
-    BoundaryComparison, BoundaryCount, EffectiveMass, FrequencyPair, Grounding, HighestFrequency, InterfaceStatics,
-    MassProperties, MassRoute, ModeKind, Preservation, PreservedMode, ResponseComparison, ResponseSample,
-    RigidBodyEvidence, SizeError, TrustInterval,
+use supel::report::{EffectiveMass, Grounding, MassProperties, MassRoute, ModeKind, RigidBodyEvidence, TrustInterval};
+use supel::verification::preservation::{
+    BoundaryComparison, BoundaryCount, FrequencyPair, HighestFrequency, InterfaceStatics, Preservation, PreservedMode,
+    ResponseComparison, ResponseSample, SizeError,
 };
 
 const DIRECTIONS: [&str; 6] =

@@ -5,12 +5,14 @@ mod evidence;
 use std::collections::{BTreeMap, BTreeSet};
 
 use supel::error::Result;
+use supel::error::Warning;
+use supel::forecast::Resources;
 use supel::job::{Coupling, Eigensolver, Job, Method};
-use supel::outcome::{Outcome, Resources};
+use supel::outcome::Outcome;
 use supel::report::{
     Completeness, DroppedCoordinate, Generator, InterfacePosition, InterfaceReport, MassProperties, MatrixReport,
     ModeKind, ModeRow, ModelReport, Observer, PositionOrigin, ReductionReport, Report, ReportBody, RigidBodyModes,
-    RigidBodySource, RunFacts, StageTime, Warning, WorkCounters,
+    RigidBodySource, RunFacts, StageTime, WorkCounters,
 };
 use supel::verification::check::{Check, Limits};
 use supel_runtime::{

@@ -7,13 +7,11 @@
 //! (`src/modes/arpack/sweep.rs`).
 
 use supel::dense;
+use supel::eigen::{Factored, ModeRequest, Modes, Wanted, elastic_modes};
 use supel::error::Error;
 use supel::factor::{Analysis, Cholesky};
 use supel::job::Eigensolver;
-use supel::modes::{
-    AtShift, Boundary, BoundaryProblem, Component, Factored, LARGEST_SEARCH, ModeRequest, ModeSource, Modes, Search,
-    Wanted, elastic_modes,
-};
+use supel::modes::{AtShift, Boundary, BoundaryProblem, Component, LARGEST_SEARCH, ModeSource, Search};
 use supel::random::SEED;
 use supel::sparse::Pencil;
 use supel_models::transform::grounded;
@@ -353,7 +351,7 @@ fn e_11_start_orthogonal_to_a_mode() {
             Ok(if seed == SEED { modes.without(self.1) } else { modes })
         }
 
-        fn between(&self, interval: supel::modes::Interval, known: &Modes, seed: u64) -> Result<Modes, Error> {
+        fn between(&self, interval: supel::eigen::Interval, known: &Modes, seed: u64) -> Result<Modes, Error> {
             self.0.between(interval, known, seed)
         }
     }
@@ -501,7 +499,7 @@ fn c_10_modes_lost_at_the_end() {
             Ok(Modes { next: None, ..modes.truncated(self.1) })
         }
 
-        fn between(&self, interval: supel::modes::Interval, known: &Modes, seed: u64) -> Result<Modes, Error> {
+        fn between(&self, interval: supel::eigen::Interval, known: &Modes, seed: u64) -> Result<Modes, Error> {
             self.0.between(interval, known, seed)
         }
 

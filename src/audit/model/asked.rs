@@ -9,12 +9,11 @@ use faer::Mat;
 use super::full::Full;
 use super::interior::Interior;
 use crate::dense;
+use crate::eigen::{CLUSTER_GAP, Factored, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes};
 use crate::error::Result;
 use crate::factor::{Analysis, SolveOperator, WholeCount, whole_count};
 use crate::job::{Eigensolver, ReductionJob};
-use crate::modes::{
-    Boundary, CLUSTER_GAP, Factored, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes, mode_wish,
-};
+use crate::modes::{Boundary, mode_wish};
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
 use crate::sparse::{panels, product};
@@ -77,7 +76,7 @@ impl AskedModes {
     /// # Errors
     /// The eigensolver fails; the count falls on an eigenvalue.
     pub(super) fn free(full: &Full<'_>, rigid: &RigidBodyModes, job: &ReductionJob) -> Result<Self> {
-        let problem = ModalProblem::free(full.partition, Some(rigid));
+        let problem = full.partition.free_problem().deflating(rigid.deflated());
         let mut found = Self::of(problem, (&full.factor, full.sigma), job, full.partition)?;
         // Motions that K does not quite let pass are not those of the next operator: what they cost it is what tells both apart.
         let energy = rigid.energy.largest_quotient / full.first;
@@ -96,7 +95,7 @@ impl AskedModes {
         let Some(interior) = interior else {
             return Ok(Self::none(partition, mode_wish(job.modes, partition)));
         };
-        let problem = ModalProblem::held(partition);
+        let problem = partition.held_problem();
         Self::of(problem, (&interior.factor, interior.sigma), job, partition)
     }
 
@@ -261,10 +260,9 @@ fn lacking(problem: ModalProblem<'_>, (factor, sigma): (&dyn SolveOperator, f64)
             let momentum = dense::column(momenta.as_ref(), at);
             dense::add_scaled(dense::column_mut(r.as_mut(), at), -modes.lambda[j], momentum);
         }
-        if let Some(rigid) = problem.rigid {
-            let resultant = dense::gram(rigid.orthonormal.as_ref(), r.as_ref());
-            dense::add_product(r.as_mut(), -1.0, rigid.mass_orthonormal.as_ref(), resultant.as_ref());
-        }
+        let [q, mass_q] = problem.deflated;
+        let resultant = dense::gram(q, r.as_ref());
+        dense::add_product(r.as_mut(), -1.0, mass_q, resultant.as_ref());
         let mut y: Mat<f64> = r.clone();
         factor.solve_in_place(y.as_mut());
         for (j, energy) in columns.zip(dense::dots(r.as_ref(), y.as_ref())) {

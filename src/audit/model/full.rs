@@ -1,8 +1,8 @@
 //! The full model by a factor of K − σM on all its dofs: which motions are free, and the first elastic eigenvalue.
 
+use crate::eigen::{Shifted, shifted, zero};
 use crate::error::Result;
 use crate::factor::{Analysis, Cholesky};
-use crate::modes::{ModalProblem, Shifted, shifted, zero};
 use crate::partition::Partition;
 use crate::rigid::{RigidBodyModes, RigidSource};
 use crate::sparse::product;
@@ -28,7 +28,7 @@ impl<'a> Full<'a> {
     /// # Errors
     /// K − σM is not definite; the eigensolver fails.
     pub(super) fn new(partition: &'a Partition, analysis: &'a Analysis, given: &RigidBodyModes) -> Result<Self> {
-        let problem = ModalProblem::free(partition, None);
+        let problem = partition.free_problem();
         let found = shifted(analysis, problem, &|dof| partition.name_of(dof))?;
         let n_zero = confirmed(&found, given);
         let shapes = found.lowest.shapes.as_ref().subcols(0, n_zero).to_owned();

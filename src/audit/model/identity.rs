@@ -10,9 +10,9 @@ use crate::audit::jobs::differences;
 use crate::audit::kept_job::{band, is_of_this_version, kept_job};
 use crate::audit::record::flaw;
 use crate::dofs::Direction;
+use crate::input::InputFacts;
 use crate::job::{Job, Method, RecoveryPrecision};
 use crate::modes::Boundary;
-use crate::output::InputFacts;
 use crate::partition::{DofOrigin, InterfaceNode, Partition, ReducedDof};
 use crate::verification::check::{Check, Limits};
 

@@ -6,8 +6,9 @@ use faer::{Mat, MatRef};
 use super::full::Full;
 use super::scaled::Scaled;
 use crate::dense;
-use crate::rigid::{RigidBodyModes, RigidSource, energies_of_terms};
+use crate::rigid::{RigidBodyModes, RigidSource};
 use crate::sparse::diagonal;
+use crate::sparse::energies_of_terms;
 use crate::sparse::product_and_terms;
 use crate::verification::check::{Check, Limits};
 

@@ -13,7 +13,7 @@ use super::alignment::Combination;
 use super::columns::{Columns, Named};
 use crate::dense;
 use crate::partition::Partition;
-use crate::rigid::energies_of_terms;
+use crate::sparse::energies_of_terms;
 use crate::sparse::{SparseMatrix, panels, product, product_and_terms};
 
 /// A symmetric form on some columns w, whose own errors are e.

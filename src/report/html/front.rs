@@ -6,8 +6,9 @@ use crate::number;
 use crate::number::{counted, quantity, scientific};
 use crate::report::conclusion::reserved_as;
 use crate::report::words;
-use crate::report::{Completeness, MatrixReport, ModelReport, Preservation, ReductionReport, ReportBody, RunFacts};
+use crate::report::{Completeness, MatrixReport, ModelReport, ReductionReport, ReportBody, RunFacts};
 use crate::verification::check::{Check, Verdict};
+use crate::verification::preservation::Preservation;
 
 /// What a signature under this page means.
 const SCOPE: &str =

@@ -2,7 +2,8 @@
 
 use super::markup::{Cell, Markup, Table};
 use crate::number::{decade, scientific};
-use crate::report::{ModeRow, PreservedMode};
+use crate::report::ModeRow;
+use crate::verification::preservation::PreservedMode;
 
 /// Significant digits of the highest frequency.
 const DIGITS: i32 = 9;

@@ -4,7 +4,7 @@ use super::front::{in_words, percent};
 use super::markup::{Cell, Figure, Markup, Table};
 use super::{mode_table, plot, words};
 use crate::number::{counted, decade, scientific};
-use crate::report::{BoundaryComparison, FrequencyPair, InterfaceStatics, Preservation};
+use crate::verification::preservation::{BoundaryComparison, FrequencyPair, InterfaceStatics, Preservation};
 
 /// How many frequencies beyond the band are listed.
 const BEYOND: usize = 3;

@@ -4,7 +4,7 @@ use super::front::{in_words, percent};
 use super::markup::{Figure, Markup};
 use super::{plot, words};
 use crate::number::quantity;
-use crate::report::ResponseComparison;
+use crate::verification::preservation::ResponseComparison;
 
 pub(super) fn response(page: &mut Markup, response: Option<&ResponseComparison>) {
     let Some(response) = response else {

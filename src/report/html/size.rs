@@ -4,7 +4,7 @@ use super::front::{in_words, percent};
 use super::markup::{Cell, Figure, Markup, Table};
 use super::plot;
 use crate::number::{quantity, scientific};
-use crate::report::{Preservation, SizeError};
+use crate::verification::preservation::{Preservation, SizeError};
 
 pub(super) fn size(page: &mut Markup, preservation: &Preservation) {
     page.heading("How many modes would give which error");

@@ -2,7 +2,7 @@
 
 use crate::number;
 use crate::report::page::Page;
-use crate::report::{BoundaryComparison, Preservation};
+use crate::verification::preservation::{BoundaryComparison, Preservation};
 
 /// Longer lists are cut; the JSON document has them all.
 const LINES_SHOWN: usize = 8;

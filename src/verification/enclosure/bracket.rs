@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::pair::Pair;
-use crate::modes::CLUSTER_GAP;
+use crate::eigen::CLUSTER_GAP;
 
 /// Modes that cannot be told apart, and the interval that holds as many eigenvalues.
 #[derive(Clone, Debug, PartialEq)]

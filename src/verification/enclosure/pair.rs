@@ -6,8 +6,8 @@ use rayon::prelude::*;
 use super::exact::{self, Double, UNIT};
 use super::metric::Metric;
 use crate::dense;
+use crate::eigen::Modes;
 use crate::factor::SolveOperator;
-use crate::modes::Modes;
 use crate::rigid::RigidBodyModes;
 
 /// A computed mode, λ̃ and ρ.

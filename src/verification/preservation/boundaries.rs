@@ -7,13 +7,14 @@ use super::super::{Evidence, data_noise};
 use super::full::Supported;
 use super::interfaces::{Inertia, Interface};
 use super::reduced::{Quotient, quotients};
+use super::{BoundaryComparison, BoundaryCount, FrequencyPair};
 use crate::dense;
+use crate::eigen::ModeError;
 use crate::error::Result;
 use crate::job::Support;
-use crate::modes::{Boundary as ModeBoundary, ModeError};
+use crate::modes::Boundary as ModeBoundary;
 use crate::number::{quantity, scientific};
 use crate::random::SEED;
-use crate::report::{BoundaryComparison, BoundaryCount, FrequencyPair};
 
 /// How far roundings of one sign may exceed their typical sum.
 const ROUNDINGS: f64 = 10.0;

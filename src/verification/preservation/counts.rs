@@ -11,11 +11,11 @@ use faer::Mat;
 
 use super::super::Evidence;
 use super::super::check::{Check, Limits};
+use super::BoundaryCount;
 use super::boundaries::{Boundary, Reference};
 use crate::dense;
 use crate::error::Result;
 use crate::factor::{Analysis, CONDENSED_GAP, condensed};
-use crate::report::BoundaryCount;
 use crate::sparse::diagonal;
 
 /// Where between the end of the band and the next eigenvalue is counted.
@@ -52,7 +52,7 @@ impl Condensed {
     ) -> Result<Option<Self>> {
         let Some(sigma) = shift(references, limit) else { return Ok(None) };
         let partition = evidence.partition;
-        let (count, schur) = condensed(partition, analysis, sigma)?;
+        let (count, schur) = condensed(analysis, partition.pencil(), sigma)?;
         if !count.is_off_clamped() {
             return Ok(None);
         }

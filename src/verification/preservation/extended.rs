@@ -18,9 +18,9 @@ use faer::{Mat, c64};
 
 use super::super::Evidence;
 use crate::dense;
+use crate::eigen::{Equilibrated, mass_qr};
 use crate::error::Result;
 use crate::factor::SolveOperator;
-use crate::modes::{Equilibrated, mass_qr};
 use crate::reduction::panel_of;
 use crate::sparse::product;
 use crate::verification::pencil::{Spectral, complex_shift};

@@ -7,11 +7,14 @@ use faer::{Mat, MatRef};
 
 use super::super::Evidence;
 use super::boundaries::Boundary;
+use crate::constraint::FreeAtZero;
 use crate::dense;
+use crate::eigen::{Factored, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes, shifted};
 use crate::error::Result;
 use crate::factor::Analysis;
 use crate::job::Eigensolver;
-use crate::modes::{Factored, FreeAtZero, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes, massive, shifted};
+use crate::modes::massive;
+use crate::partition::EntriesAt;
 use crate::rigid::{RigidBodyModes, RigidEnergy};
 use crate::sparse::Pencil;
 use crate::sparse::diagonal;
@@ -65,8 +68,9 @@ impl Supported {
         let request = ModeRequest { wanted: Wanted::UpTo(limit), eigensolver: Eigensolver::Lanczos, seed };
         let pencil = Pencil::new(&self.stiffness, &self.mass);
         let partition = evidence.partition;
-        let problem = ModalProblem::of(pencil, Some(&self.rigid), partition.precision);
-        let problem = problem.with_entries_of(partition, &self.kept);
+        let problem = ModalProblem::of(pencil, partition.precision).deflating(self.rigid.deflated());
+        let entries = EntriesAt { partition, kept: &self.kept };
+        let problem = problem.with_noise(&entries);
         let modes = self.by_factor(evidence, problem, request)?;
         if modes.errors.iter().all(|error| error.backward <= HOLDS_UP) {
             return Ok(modes);

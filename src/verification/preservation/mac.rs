@@ -4,11 +4,12 @@ use faer::{Mat, MatRef};
 
 use super::super::check::{Check, Limits};
 use super::super::{Evidence, reduced_norms};
+use super::PreservedMode;
 use crate::dense;
+use crate::eigen::CLUSTER_GAP;
 use crate::error::Result;
-use crate::modes::{Boundary, CLUSTER_GAP};
+use crate::modes::Boundary;
 use crate::reduction::transpose_apply;
-use crate::report::PreservedMode;
 use crate::sparse::product;
 use crate::verification::pencil::Spectral;
 

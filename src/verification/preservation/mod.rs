@@ -17,6 +17,7 @@ mod extended;
 mod full;
 mod interfaces;
 mod mac;
+mod outcome;
 mod policy;
 mod reduced;
 mod response;
@@ -33,12 +34,15 @@ use crate::error::{Error, Result};
 use crate::factor::Analysis;
 use crate::job::{Certify, Job};
 use crate::random::SEED;
-use crate::report::Preservation;
 
 use boundaries::{Boundary, Reference};
 use counts::Condensed;
 use interfaces::Interface;
 
+pub use outcome::{
+    BoundaryComparison, BoundaryCount, FrequencyPair, HighestFrequency, InterfaceStatics, Preservation, PreservedMode,
+    ResponseComparison, ResponseSample, SizeError,
+};
 pub use policy::Plan;
 
 /// The comparison for the report, and the checks that follow from it.

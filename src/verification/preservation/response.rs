@@ -8,11 +8,11 @@ use super::super::check::{Check, Limits};
 use super::extended::{Extended, Response};
 use super::interfaces::rotation_length;
 use super::samples;
+use super::{ResponseComparison, ResponseSample};
 use crate::dense;
 use crate::error::Result;
 use crate::factor::SolveOperator;
 use crate::number::quantity;
-use crate::report::{ResponseComparison, ResponseSample};
 use crate::verification::pencil::Spectral;
 
 /// A pair that responds this much less than its two driving points do is judged by them: symmetry uncouples such pairs,

@@ -4,10 +4,10 @@ use super::super::Evidence;
 use super::boundaries::Reference;
 use super::reduced::quotients;
 use super::response::FullResponse;
+use super::{HighestFrequency, SizeError};
 use crate::basis::DynamicCoordinate;
 use crate::dense;
 use crate::error::Result;
-use crate::report::{HighestFrequency, SizeError};
 use crate::verification::pencil::Spectral;
 
 /// Points of the curve.

@@ -10,13 +10,13 @@ use faer::{Mat, MatRef, Side};
 
 use super::super::check::{Check, Limits};
 use super::super::{Evidence, spectrum};
+use super::InterfaceStatics;
 use super::interfaces::Interface;
 use crate::dense;
 use crate::dofs::Direction;
 use crate::factor::SolveOperator;
 use crate::model::Site;
-use crate::report::InterfaceStatics;
-use crate::rigid::absolute_energy;
+use crate::sparse::absolute_energy;
 use crate::sparse::product;
 
 /// Dofs up to which an interface without coordinates is shown dof by dof.

@@ -4,7 +4,8 @@ use plotters::prelude::*;
 
 use super::axis::Axis;
 use super::chart::{Drawn, FAINT, GRID, LETTER, Margins, SERIES, axes, draw, end_labels, text};
-use crate::report::{BoundaryComparison, words};
+use crate::report::words;
+use crate::verification::preservation::BoundaryComparison;
 use plotters::style::text_anchor::{HPos, VPos};
 
 /// One line for each boundary, named at its end; the shaded part lies beyond the band.

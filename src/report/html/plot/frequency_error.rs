@@ -5,7 +5,8 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::axis::Axis;
 use super::chart::{Drawn, FAINT, INK, LETTER, Margins, PALE_BLUE, axes, draw, text};
-use crate::report::{ModeRow, PreservedMode};
+use crate::report::ModeRow;
+use crate::verification::preservation::PreservedMode;
 
 /// Bars for what cannot be told from rounding and data, dots for the difference of reduced and full; both relative.
 pub(in crate::report::html) fn frequency_error(modes: &[ModeRow], preserved: &[PreservedMode]) -> Option<String> {

@@ -5,7 +5,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::axis::Axis;
 use super::chart::{BLUE, Drawn, FAINT, LETTER, Margins, ORANGE, PALE_BLUE, axes, draw, text};
-use crate::report::ResponseSample;
+use crate::verification::preservation::ResponseSample;
 
 const HEIGHT: u32 = 980;
 const UPPER: u32 = 560;

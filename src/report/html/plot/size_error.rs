@@ -4,7 +4,7 @@ use plotters::prelude::*;
 
 use super::axis::Axis;
 use super::chart::{BLUE, Chart, Drawn, Margins, ORANGE, axes, draw};
-use crate::report::SizeError;
+use crate::verification::preservation::SizeError;
 
 const PANEL: u32 = 400;
 

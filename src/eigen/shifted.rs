@@ -4,16 +4,14 @@
 //! badly. σ lies below the spectrum at the distance of the first elastic eigenvalue, far enough from zero for K − σM to
 //! be well conditioned and near enough to separate eigenvalues.
 
-use super::boundary_problem::median_ratio;
-use super::eigenproblem::Wanted;
+use super::median_ratio;
 use super::operator::Factored;
+use super::problem::Wanted;
 use super::{ModalProblem, ModeError, ModeRequest, Modes, elastic_modes, zero};
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, Cholesky, few_digits, whole_count};
 use crate::job::Eigensolver;
-use crate::partition::Partition;
 use crate::random::SEED;
-use crate::rigid::RigidBodyModes;
 
 /// A factor of K − σM and the lowest modes found on the way.
 #[derive(Debug)]
@@ -84,15 +82,8 @@ pub fn shifted<'a>(
     }
 }
 
-/// The shift at which K_II is factored: zero where it is definite, below zero where no interface holds a free component.
-pub fn shift_of_factor(partition: &Partition, rigid: &RigidBodyModes) -> f64 {
-    if partition.n_interface() > 0 || rigid.count() == 0 {
-        return 0.0;
-    }
-    first_shift(ModalProblem::free(partition, None))
-}
-
-fn first_shift(problem: ModalProblem<'_>) -> f64 {
+/// A shift below the spectrum before anything is known of it but the diagonals.
+pub(crate) fn first_shift(problem: ModalProblem<'_>) -> f64 {
     -FIRST_SHIFT.max(ROUNDINGS_OF_DATA * problem.precision.stiffness) * median_ratio(problem)
 }
 
@@ -162,7 +153,7 @@ mod tests {
     fn with_lowest<T>(stiffness: &SparseMatrix, mass: &SparseMatrix, look: impl Fn(Result<Shifted<'_>>) -> T) -> T {
         let pencil = Pencil::new(stiffness, mass);
         let analysis = Analysis::new(pencil).expect("an analysis");
-        look(shifted(&analysis, ModalProblem::of(pencil, None, BINARY), &|dof| dof.to_string()))
+        look(shifted(&analysis, ModalProblem::of(pencil, BINARY), &|dof| dof.to_string()))
     }
 
     #[test]

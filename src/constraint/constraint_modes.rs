@@ -6,7 +6,8 @@ use faer::{Mat, MatMut, MatRef};
 use crate::dense;
 use crate::factor::Cholesky;
 use crate::partition::Partition;
-use crate::rigid::{RigidBodyModes, absolute_energy, scales, unit_motions};
+use crate::rigid::{RigidBodyModes, scales, unit_motions};
+use crate::sparse::absolute_energy;
 use crate::sparse::product;
 
 /// Ψ_S with what it took to make it exact.

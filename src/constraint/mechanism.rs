@@ -9,13 +9,16 @@
 
 use faer::{Mat, MatRef};
 
-use super::{RigidBodyModes, absolute_energy, algebraic, largest_residual, zero_energy};
-use crate::basis::ConstraintModes;
+use super::ConstraintModes;
 use crate::dense;
+use crate::eigen::{rayleigh_quotients, zero};
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, few_digits, whole_count};
-use crate::modes::{ModalProblem, rayleigh_quotients, zero};
 use crate::partition::Partition;
+use crate::rigid::COUNTED_BELOW;
+use crate::rigid::uncounted;
+use crate::rigid::{RigidBodyModes, largest_residual, zero_energy};
+use crate::sparse::absolute_energy;
 use crate::sparse::{product, product_and_terms};
 
 /// Eigenvalues of S, in the scales of the interface dofs, below which a motion is looked at: far above any noise of binary data.
@@ -71,7 +74,7 @@ pub fn with_mechanisms(
     dense::symmetrise(&mut energy);
     let (_, directions) = dense::symmetric_eigen(energy.as_ref())?;
     let motions = dense::product(motions.as_ref(), directions.as_ref());
-    let (lambda, errors, _) = rayleigh_quotients(ModalProblem::free(partition, None), motions.as_ref());
+    let (lambda, errors, _) = rayleigh_quotients(partition.free_problem(), motions.as_ref());
     let terms = absolute_energy(&partition.stiffness, motions.as_ref());
     let mut found = LooseMotions::default();
     let mut free = Vec::new();
@@ -120,11 +123,11 @@ fn refuse_uncounted(
     }
     let others = found.grey.iter().chain(&found.uncertain).map(|motion| motion.bar / motion.lambda);
     let next = orthonormal(partition, rigid, stiffer_motion(partition, constraint, rigid)?)?;
-    let (lambda, errors, _) = rayleigh_quotients(ModalProblem::free(partition, None), next.as_ref());
+    let (lambda, errors, _) = rayleigh_quotients(partition.free_problem(), next.as_ref());
     let of_next = lambda.iter().zip(&errors).map(|(lambda, error)| error.zero_level / lambda);
     match others.chain(of_next).fold(0.0, f64::max) {
-        worst if worst <= algebraic::COUNTED_BELOW => Ok(()),
-        worst => Err(algebraic::uncounted(partition, rigid.count() + found.mechanisms.len(), worst)),
+        worst if worst <= COUNTED_BELOW => Ok(()),
+        worst => Err(uncounted(partition, rigid.count() + found.mechanisms.len(), worst)),
     }
 }
 

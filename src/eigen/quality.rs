@@ -2,10 +2,10 @@
 
 use faer::{Mat, MatRef};
 
-use super::eigenproblem::Problem;
+use super::problem::Problem;
 use super::{CLUSTER_GAP, Equilibrated, ModalProblem, zero};
 use crate::dense;
-use crate::rigid::energies_of_terms;
+use crate::sparse::energies_of_terms;
 use crate::sparse::{Leading, panels, product, product_and_terms};
 
 /// What is known of the error of one mode.
@@ -102,7 +102,7 @@ pub(crate) fn rayleigh_quotients(
 
 /// What the digits of K leave open of xᵀKx: its precision times the terms, or less, where few digits are known entry by entry.
 fn energy_noise(problem: ModalProblem<'_>, shapes: MatRef<'_, f64>, terms: &[f64]) -> Vec<f64> {
-    let of_entries = problem.data.and_then(|data| data.energy_noise(shapes));
+    let of_entries = problem.noise.and_then(|noise| noise.energy_noise(shapes));
     of_entries.unwrap_or_else(|| terms.iter().map(|terms| problem.precision.stiffness * terms).collect())
 }
 

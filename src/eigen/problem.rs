@@ -139,12 +139,12 @@ impl std::ops::AddAssign for EigenWork {
 pub const CLUSTER_GAP: f64 = 1e-6;
 
 /// Whether an eigenvalue lies above a band.
-pub(super) fn is_above(lambda: f64, limit: f64) -> bool {
+pub(crate) fn is_above(lambda: f64, limit: f64) -> bool {
     lambda > limit * (1.0 + CLUSTER_GAP)
 }
 
 /// Whether an eigenvalue and the next one above belong to one cluster.
-pub(super) fn are_clustered(lower: f64, upper: f64) -> bool {
+pub(crate) fn are_clustered(lower: f64, upper: f64) -> bool {
     (upper - lower).abs() <= CLUSTER_GAP * upper.abs()
 }
 

@@ -11,8 +11,8 @@ use std::ffi::{c_char, c_int};
 use faer::Mat;
 
 use crate::dense;
+use crate::eigen::ritz::TOLERANCE;
 use crate::error::{Error, Result};
-use crate::modes::ritz::TOLERANCE;
 
 /// Columns of V at least: a narrower basis needs many restarts to tell close eigenvalues apart.
 const MIN_BASIS: usize = 40;
@@ -186,10 +186,10 @@ mod tests {
     use supel_models::{Ends, Model, spring, spring_spectrum};
 
     use super::*;
+    use crate::eigen::Factored;
+    use crate::eigen::arpack::{STATE, arpack};
+    use crate::eigen::problem::{Problem, Wanted};
     use crate::factor::{Analysis, Cholesky};
-    use crate::modes::Factored;
-    use crate::modes::arpack::{STATE, arpack};
-    use crate::modes::eigenproblem::{Problem, Wanted};
     use crate::random::SplitMix64;
     use crate::sparse::Pencil;
     use crate::sparse::{SparseMatrix, product};

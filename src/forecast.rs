@@ -1,10 +1,9 @@
 //! The memory a run will need, known before any number is computed.
 
-use super::{Analysis, Storage};
 use crate::error::{Error, Result};
+use crate::factor::{Analysis, Storage};
 use crate::job::{Certify, Job, ModeSelection, Precision};
 use crate::modes::{LARGEST_SEARCH, SLICED_FROM};
-use crate::outcome::Resources;
 use crate::partition::Partition;
 
 /// Bytes of an entry of a sparse matrix: value and column.
@@ -29,6 +28,21 @@ const COLUMNS_OF_A_LOAD: u64 = 8;
 const COLUMNS_OF_A_MODE: u64 = 4;
 /// Columns of any search.
 const COLUMNS_OF_A_SEARCH: u64 = 64;
+
+/// What the machine has to offer; it decides whether a run starts and changes no result.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Resources {
+    /// Memory the run may use, in bytes; unlimited where nobody knows. `run.memory_gib` of the job goes first.
+    pub memory_bytes: Option<u64>,
+}
+
+impl Resources {
+    /// Memory that a job may use, in bytes: as it says itself, or what there is.
+    pub fn allowed(self, job: &Job) -> Option<u64> {
+        let stated = job.run.memory_gib.map(|gib| (gib * f64::from(1 << 30)) as u64);
+        stated.or(self.memory_bytes)
+    }
+}
 
 /// What a run needs, in bytes.
 #[derive(Clone, Copy, Debug)]

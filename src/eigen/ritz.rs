@@ -2,7 +2,7 @@
 
 use faer::Mat;
 
-use super::eigenproblem::{Interval, Wanted, are_clustered, is_above};
+use super::problem::{Interval, Wanted, are_clustered, is_above};
 
 /// Residual ‖OP x − θx‖ over θ at which a pair is taken: the Rayleigh quotient then errs by its square, and the backward
 /// error, which is this times λ over the largest one at most, stays below the limit of measure M-01.

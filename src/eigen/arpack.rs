@@ -18,9 +18,9 @@ use std::sync::{Mutex, PoisonError};
 
 use faer::{Mat, MatMut, MatRef};
 
-use super::eigenproblem::{EigenWork, Eigenpairs, Interval, Problem, Wanted, are_clustered, is_above, mass_norm};
-use super::finite::rows_with_mass;
+use super::problem::{EigenWork, Eigenpairs, Interval, Problem, Wanted, are_clustered, is_above, mass_norm};
 use super::ritz::{RESIDUAL_FLOOR, ROUNDING, TOLERANCE};
+use super::rows_with_mass;
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::random::SplitMix64;

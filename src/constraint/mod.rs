@@ -1,0 +1,15 @@
+//! Constraint modes, and what they show: mechanisms, and an operator of the free component at shift zero.
+//!
+//! ```text
+//! Ψ_S   n_I × n_B   −K_II⁻¹ K_IB, corrected so that they carry rigid-body motion exactly (24)
+//! S     n_B × n_B   K_BB + K_BI Ψ_S = K̂_BB, formed once; its null space is U_B and the motions of mechanisms
+//! K⁺    n' × n'     of self-equilibrated loads, from the factor of K_II and S
+//! ```
+
+mod constraint_modes;
+mod free_at_zero;
+mod mechanism;
+
+pub use constraint_modes::{Carried, ConstraintModes, constraint_modes};
+pub use free_at_zero::{FreeAtZero, RefinedAtZero};
+pub use mechanism::{Loose, LooseMotions, with_mechanisms};

@@ -1,0 +1,58 @@
+//! What is remembered of the input after its matrices have gone into the model.
+
+use std::collections::BTreeMap;
+
+use super::{Input, InputNote, MatrixInput};
+use crate::error::Warning;
+
+/// What is remembered of the input after its matrices have gone into the model.
+#[derive(Clone, Debug)]
+pub struct InputFacts {
+    /// Digits and digest of K and M.
+    pub matrices: [MatrixFacts; 2],
+    /// Digests of the other files by their role: `dofs`, `nodes`, and `nodes_data` for what those refer to.
+    pub files: BTreeMap<&'static str, String>,
+    /// Remarks of the readers that are no warnings.
+    pub notes: Vec<String>,
+    /// Remarks that are warnings.
+    pub warnings: Vec<Warning>,
+}
+
+/// What is remembered of one matrix.
+#[derive(Clone, Debug)]
+pub struct MatrixFacts {
+    /// Stored entries, both triangles.
+    pub n_nonzeros: usize,
+    /// Significant digits.
+    pub digits: u32,
+    /// BLAKE3 of the file.
+    pub digest: String,
+}
+
+impl InputFacts {
+    /// Records the facts of an input.
+    pub fn of(input: &Input) -> Self {
+        let facts = |matrix: &MatrixInput| MatrixFacts {
+            n_nonzeros: matrix.matrix.nnz(),
+            digits: matrix.digits,
+            digest: matrix.digest.clone(),
+        };
+        Self {
+            matrices: [facts(&input.stiffness), facts(&input.mass)],
+            files: input.digests.clone(),
+            notes: input.notes.iter().filter(|note| note.warning_code().is_none()).map(ToString::to_string).collect(),
+            warnings: input.notes.iter().filter_map(warning).collect(),
+        }
+    }
+
+    /// BLAKE3 of every file by its role, as the superelement keeps them.
+    pub fn digests(&self) -> BTreeMap<&'static str, &str> {
+        let [stiffness, mass] = &self.matrices;
+        let matrices = [("stiffness", stiffness.digest.as_str()), ("mass", mass.digest.as_str())];
+        matrices.into_iter().chain(self.files.iter().map(|(role, digest)| (*role, digest.as_str()))).collect()
+    }
+}
+
+fn warning(note: &InputNote) -> Option<Warning> {
+    note.warning_code().map(|code| Warning { code, message: note.to_string() })
+}

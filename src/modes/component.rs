@@ -1,0 +1,41 @@
+//! A component as the modes see it: what they are computed from.
+
+use crate::constraint::ConstraintModes;
+use crate::factor::{Analysis, Cholesky};
+use crate::partition::Partition;
+use crate::rigid::RigidBodyModes;
+
+/// What the modes are computed from.
+#[derive(Clone, Copy, Debug)]
+pub struct Component<'a> {
+    /// The matrices in their order.
+    pub partition: &'a Partition,
+    /// The symbolic factorisation of the partition.
+    pub analysis: &'a Analysis,
+    /// The factor of K_II.
+    pub factor: &'a Cholesky<'a>,
+    /// The rigid-body modes.
+    pub rigid: &'a RigidBodyModes,
+    /// The constraint modes.
+    pub constraint: &'a ConstraintModes,
+}
+
+impl<'a> Component<'a> {
+    /// All of it by reference.
+    pub fn new(
+        partition: &'a Partition,
+        analysis: &'a Analysis,
+        factor: &'a Cholesky<'a>,
+        rigid: &'a RigidBodyModes,
+        constraint: &'a ConstraintModes,
+    ) -> Self {
+        Self { partition, analysis, factor, rigid, constraint }
+    }
+}
+
+impl Component<'_> {
+    /// True where nothing holds the component and nothing is to be condensed: its own modes are the model.
+    pub fn is_modal(&self) -> bool {
+        self.partition.n_interface() == 0 && self.rigid.count() > 0
+    }
+}

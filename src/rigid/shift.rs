@@ -1,0 +1,13 @@
+//! The shift at which K_II is factored.
+
+use super::RigidBodyModes;
+use crate::eigen::first_shift;
+use crate::partition::Partition;
+
+/// The shift at which K_II is factored: zero where it is definite, below zero where no interface holds a free component.
+pub fn shift_of_factor(partition: &Partition, rigid: &RigidBodyModes) -> f64 {
+    if partition.n_interface() > 0 || rigid.count() == 0 {
+        return 0.0;
+    }
+    first_shift(partition.free_problem())
+}
