@@ -112,7 +112,8 @@ fn measure(criterion: &mut Criterion, family: Family, folder: &Path) {
     let component = prepared.component(&analysis, &factor, &constraint);
     group.bench_function(id("Lanczos"), |b| b.iter(|| prepared.lowest_modes(component)));
     let retained = prepared.lowest_modes(component);
-    let basis = Basis::new(&constraint, retained.columns(component), partition.internal().mass);
+    let basis =
+        Basis::new(&constraint, supel::basis::retained_columns(component, &retained), partition.internal().mass);
     group.bench_function(id("project"), |b| b.iter(|| Reduction::new(partition, &basis, rigid)));
 
     let outcome = supel::reduce(job, supel::forecast::Resources::default(), &mut ()).expect("reduced");

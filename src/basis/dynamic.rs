@@ -5,7 +5,6 @@ use faer::{Mat, MatRef};
 use rayon::prelude::*;
 
 use super::orthonormal::orthonormalised;
-use super::{DroppedColumn, DynamicCoordinate};
 use crate::constraint::ConstraintModes;
 use crate::dense;
 use crate::eigen::{Modes, mass_qr};
@@ -14,6 +13,28 @@ use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
 use crate::sparse::Leading;
 use crate::sparse::product;
+
+/// What a dynamic coordinate stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DynamicCoordinate {
+    /// Rigid-body mode k itself, in a model without interface.
+    RigidBody(usize),
+    /// Inertia-relief mode of rigid-body motion k.
+    InertiaRelief(usize),
+    /// Mode-accelerated free-free mode k.
+    FreeFree(usize),
+    /// Fixed-interface normal mode k.
+    FixedInterface(usize),
+}
+
+/// A column that was left out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DroppedColumn {
+    /// What it was.
+    pub coordinate: DynamicCoordinate,
+    /// What was left of its length after taking out the columns before it.
+    pub remaining: f64,
+}
 
 /// Columns for Ψ_D before dependent ones are taken out, in the order of the coordinates.
 #[derive(Clone, Debug)]

@@ -6,122 +6,13 @@
 //! ```
 //! The reduction method has been decided when the modes were chosen; from here on every method is this one form.
 
+#[expect(clippy::module_inception, reason = "the basis is what the folder makes")]
+mod basis;
 mod dynamic;
 mod orthonormal;
 mod retained;
 
-use faer::prelude::ReborrowMut;
-use faer::{Mat, MatRef};
-
-use crate::constraint::ConstraintModes;
-use crate::dense;
-use crate::eigen::Modes;
-use crate::sparse::Leading;
-
+pub use basis::Basis;
+pub use dynamic::{DroppedColumn, DynamicCoordinate};
 pub use dynamic::{DynamicColumns, fixed_interface_columns, modal_columns, mode_acceleration_columns};
 pub use retained::retained_columns;
-
-/// The modal reduction matrix in its blocks.
-#[derive(Clone, Debug)]
-pub struct Basis {
-    /// Ψ_S, n_I × n_B.
-    pub constraint_modes: Mat<f64>,
-    /// Ψ_D, n_I × n_η, M_II-orthonormal.
-    pub dynamic_modes: Mat<f64>,
-    /// What each column of Ψ_D is.
-    pub coordinates: Vec<DynamicCoordinate>,
-    /// Upper triangular R, n_η × (n_η + dropped): named column j = Σ_i Ψ_D[:, i] R_ij.
-    pub mixing: Mat<f64>,
-    /// Number, among the named columns, of each column that was kept.
-    pub kept: Vec<usize>,
-    /// Columns that depend on others and were left out.
-    pub dropped: Vec<DroppedColumn>,
-}
-
-/// What a dynamic coordinate stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DynamicCoordinate {
-    /// Rigid-body mode k itself, in a model without interface.
-    RigidBody(usize),
-    /// Inertia-relief mode of rigid-body motion k.
-    InertiaRelief(usize),
-    /// Mode-accelerated free-free mode k.
-    FreeFree(usize),
-    /// Fixed-interface normal mode k.
-    FixedInterface(usize),
-}
-
-/// A column that was left out.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DroppedColumn {
-    /// What it was.
-    pub coordinate: DynamicCoordinate,
-    /// What was left of its length after taking out the columns before it.
-    pub remaining: f64,
-}
-
-impl Basis {
-    /// Puts constraint modes and dynamic columns together; dependent columns are left out by name.
-    pub fn new(constraint: &ConstraintModes, columns: DynamicColumns, internal_mass: Leading<'_>) -> Self {
-        let independent = dynamic::independent(columns, internal_mass);
-        Self {
-            constraint_modes: constraint.modes.clone(),
-            dynamic_modes: independent.modes,
-            coordinates: independent.coordinates,
-            mixing: independent.mixing,
-            kept: independent.kept,
-            dropped: independent.dropped,
-        }
-    }
-
-    /// n_η.
-    pub fn n_dynamic(&self) -> usize {
-        self.dynamic_modes.ncols()
-    }
-
-    /// n_B + n_η.
-    pub fn n_reduced(&self) -> usize {
-        self.constraint_modes.ncols() + self.n_dynamic()
-    }
-
-    /// Ψ q: motions of the component from reduced coordinates, n' × k.
-    pub(crate) fn expanded(&self, coordinates: MatRef<'_, f64>) -> Mat<f64> {
-        let (n_i, n_b) = (self.constraint_modes.nrows(), self.constraint_modes.ncols());
-        let (q_b, eta) = coordinates.split_at_row(n_b);
-        let mut motions = Mat::zeros(n_i + n_b, coordinates.ncols());
-        motions.as_mut().subrows_mut(n_i, n_b).copy_from(q_b);
-        let mut internal = motions.as_mut().subrows_mut(0, n_i);
-        dense::add_product(internal.rb_mut(), 1.0, self.constraint_modes.as_ref(), q_b);
-        dense::add_product(internal, 1.0, self.dynamic_modes.as_ref(), eta);
-        motions
-    }
-
-    /// C with Ψ_D = (kept named columns) · C, n_η × n_η: the inverse of the triangle that made Ψ_D orthonormal.
-    pub fn mixing_of_kept(&self) -> Mat<f64> {
-        let n = self.n_dynamic();
-        let triangle = Mat::from_fn(n, n, |i, j| self.mixing[(i, self.kept[j])]);
-        let mut inverse = Mat::identity(n, n);
-        faer::linalg::triangular_solve::solve_upper_triangular_in_place(
-            triangle.as_ref(),
-            inverse.as_mut(),
-            faer::Par::Seq,
-        );
-        inverse
-    }
-
-    /// The retained modes in reduced coordinates, (n_B + n_η) × k: the V̄ of equations (34) and (35).
-    pub fn reduced_modes(&self, modes: &Modes, n_internal: usize) -> Mat<f64> {
-        let n_b = self.constraint_modes.ncols();
-        let has_interface = modes.shapes.nrows() > n_internal;
-        let first = self.mixing.ncols() - modes.count();
-        Mat::from_fn(self.n_reduced(), modes.count(), |i, j| {
-            if i >= n_b {
-                self.mixing[(i - n_b, first + j)]
-            } else if has_interface {
-                modes.shapes[(n_internal + i, j)]
-            } else {
-                0.0
-            }
-        })
-    }
-}

@@ -17,6 +17,7 @@ mod inspect;
 mod memory;
 mod outputs;
 mod overwriting;
+mod pipeline;
 mod process;
 mod progress;
 mod reduce;
@@ -33,20 +34,14 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use clap::Parser;
 
 use crate::error::Result;
-use crate::forecast::Resources;
 use crate::heap;
-use crate::job::Job;
-use crate::outcome::Outcome;
-use crate::report::Observer;
 
 use command::Command;
 use refusal::{Form, Refusal};
 
 pub use answer::{Stdout, Terminal};
 pub use exit_code::ExitCode;
-
-/// The function that turns a job into a superelement and its report.
-pub type Pipeline = fn(&Job, Resources, &mut dyn Observer) -> Result<Outcome>;
+pub use pipeline::Pipeline;
 
 /// Runs one command line, `args` with the program's name first, and says how it went.
 ///

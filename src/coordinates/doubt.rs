@@ -4,13 +4,10 @@ use std::collections::BTreeMap;
 
 use super::free::FREE_BELOW_NOISE;
 use super::motions::{Body, Motions};
-use super::nodes::Nodes;
+use super::nodes::{FIRST_ROTATION, NOTICEABLE, Nodes};
 use crate::dofs::Direction;
 use crate::model::Finding;
 
-/// A force is worth a look when it exceeds this many times the noise of the data, or that of a translation: what a producer
-/// rounds while it assembles K shows in both.
-pub(super) const NOTICEABLE: f64 = 100.0;
 /// Displacement, for a body of unit size, that six digits lose: nodes are not told apart below it.
 const SIX_DIGITS: f64 = 1e-6;
 /// Nodes out of place that a message names.
@@ -18,8 +15,6 @@ const SHOWN_NODES: usize = 3;
 /// Share of the rows of a held body that supports may touch before the others are too few to be a witness: rows in an order
 /// that the map does not say make forces at all of them.
 const NEARLY_ALL: f64 = 0.9;
-/// The first of the rotations among the six motions.
-pub(super) const FIRST_ROTATION: usize = 3;
 
 /// A body that supports touch, or whose rotations make forces where no support is.
 pub(super) struct Doubt {

@@ -4,10 +4,14 @@
 //! translation along it, and its node lacks a direction. Where a node lacks a displacement that a rotation makes, its
 //! neighbours in K make forces under that rotation however right the coordinates are.
 
-use super::doubt::{FIRST_ROTATION, NOTICEABLE};
 use super::motions::Motions;
 use crate::model::node_of_row;
 
+/// A force is worth a look when it exceeds this many times the noise of the data, or that of a translation: what a producer
+/// rounds while it assembles K shows in both.
+pub(super) const NOTICEABLE: f64 = 100.0;
+/// The first of the rotations among the six motions.
+pub(super) const FIRST_ROTATION: usize = 3;
 /// Force of a translation, relative to the terms of its row, above which a support touches the row: far above what a
 /// producer rounds, far below any support.
 const TOUCHED: f64 = 1e-9;

@@ -155,7 +155,7 @@ fn by_arpack(problem: Problem<'_>, request: ModeRequest) -> Result<Eigenpairs> {
 
 #[cfg(not(feature = "arpack"))]
 fn by_arpack(_: Problem<'_>, _: ModeRequest) -> Result<Eigenpairs> {
-    Err(Error::EigensolverMissing)
+    Err(crate::error::Error::EigensolverMissing)
 }
 
 /// Eigenpairs between two shifts, around the shift of the operator, ascending.
@@ -170,7 +170,7 @@ pub(crate) fn pairs_between(
         #[cfg(feature = "arpack")]
         Eigensolver::Arpack => arpack::arpack_between(problem, interval, seed),
         #[cfg(not(feature = "arpack"))]
-        Eigensolver::Arpack => Err(Error::EigensolverMissing),
+        Eigensolver::Arpack => Err(crate::error::Error::EigensolverMissing),
     };
     pairs.map(Eigenpairs::ascending)
 }

@@ -23,6 +23,7 @@ use super::entry::Entry;
 use super::matrix::Shifted;
 use super::panels::{self, Panels, Shape};
 use crate::heap::fallibly;
+pub(super) use assembly::Stop;
 use assembly::{Places, Rest, RestStack, rest_len};
 
 /// What is kept of L.
@@ -114,15 +115,6 @@ impl<T: Entry> Numbers<T> {
     pub(super) fn pivots(&self) -> impl Iterator<Item = (f64, f64)> {
         self.tasks.iter().flat_map(|task| task.diagonal.iter().copied().zip(task.subdiagonal.iter().copied()))
     }
-}
-
-/// Why there is no factor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Stop {
-    /// The first step, in order of elimination, whose pivot is not positive.
-    NotPositive(usize),
-    /// No memory.
-    NoMemory,
 }
 
 /// Where the next supernode of a factor goes.

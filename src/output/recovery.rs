@@ -8,8 +8,7 @@
 
 use supel_runtime::{Matrix, Precision, RecoveredDof, Recovery};
 
-use super::Results;
-use super::superelement::direction_of;
+use super::results::Results;
 use crate::error::{Error, Result};
 use crate::job::RecoveryPrecision;
 
@@ -57,4 +56,9 @@ fn refuse_beyond_single(values: &Matrix, n_b: usize) -> Result<()> {
         return Ok(());
     }
     Err(Error::RecoveryRange { largest, low, high })
+}
+
+/// A direction as the file names it.
+pub(super) fn direction_of(direction: crate::dofs::Direction) -> supel_runtime::Direction {
+    supel_runtime::Direction::ALL[direction as usize]
 }

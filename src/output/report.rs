@@ -1,6 +1,7 @@
 //! The body of the report from the results of the stages.
 
-use super::{Results, omega, rigid_body, warnings};
+use super::results::{Results, omega};
+use super::{rigid_body, warnings};
 use crate::basis::DynamicCoordinate;
 use crate::eigen::CLUSTER_GAP;
 use crate::error::Warning;

@@ -3,7 +3,7 @@
 use faer::MatRef;
 use supel_runtime::Matrix;
 
-use super::{Results, omega};
+use super::results::{Results, omega};
 use crate::error::Warning;
 use crate::report::{EffectiveMass, Grounding, MassProperties, MassRoute, RigidBodyEvidence};
 use crate::verification::{Evidence, Restraint};

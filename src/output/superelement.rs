@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use faer::{Mat, MatRef};
 use supel_runtime::{self as file, Coordinate, Matrix, Metadata, Superelement, Tensors};
 
-use super::recovery::recovery;
-use super::{Results, omega};
+use super::recovery::{direction_of, recovery};
+use super::results::{Results, omega};
 use crate::basis::DynamicCoordinate;
 use crate::error::{Error, Result};
 use crate::job::{Job, Method, ModeSelection};
@@ -109,10 +109,6 @@ fn named_nodes(results: &Results<'_>) -> Vec<file::InterfaceNode> {
         })
     });
     named.collect::<Option<Vec<_>>>().unwrap_or_default()
-}
-
-pub(super) fn direction_of(direction: crate::dofs::Direction) -> file::Direction {
-    file::Direction::ALL[direction as usize]
 }
 
 fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metadata {

@@ -1,6 +1,6 @@
 //! Warnings: what the user should know although no check failed.
 
-use super::{Results, omega};
+use super::results::{Results, omega};
 use crate::constraint::Loose;
 use crate::error::Warning;
 use crate::factor::Refinement;

@@ -2,7 +2,7 @@
 
 use faer::{Mat, MatRef};
 
-use super::Partition;
+use super::partition::Partition;
 use crate::eigen::{EnergyNoise, ModalProblem};
 
 impl Partition {

@@ -2,7 +2,8 @@
 
 use faer::Mat;
 
-use super::{RigidBodyModes, RigidEnergy, RigidSource, residuals};
+use super::energy::residuals;
+use super::rigid_body_modes::{RigidBodyModes, RigidEnergy, RigidSource};
 use crate::dense;
 use crate::eigen::{Shifted, mass_qr, shifted};
 use crate::error::{Error, Result};

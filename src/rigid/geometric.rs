@@ -2,7 +2,9 @@
 
 use faer::{Mat, MatRef};
 
-use super::{RigidBodyModes, RigidEnergy, RigidSource, algebraic, largest_residual, zero_energy};
+use super::algebraic;
+use super::energy::{largest_residual, zero_energy};
+use super::rigid_body_modes::{RigidBodyModes, RigidEnergy, RigidSource};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, whole_count};

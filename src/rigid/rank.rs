@@ -5,7 +5,7 @@
 
 use faer::Mat;
 
-use super::RigidBodyModes;
+use super::rigid_body_modes::RigidBodyModes;
 use crate::dense;
 use crate::eigen::{Factored, ModeRequest, Wanted, elastic_modes};
 use crate::error::{Error, Result};

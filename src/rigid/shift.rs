@@ -1,6 +1,6 @@
 //! The shift at which K_II is factored.
 
-use super::RigidBodyModes;
+use super::rigid_body_modes::RigidBodyModes;
 use crate::eigen::first_shift;
 use crate::partition::Partition;
 

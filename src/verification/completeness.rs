@@ -1,7 +1,7 @@
 //! No mode is missing: M-06.
 
-use super::Evidence;
 use super::check::{Check, Limits};
+use super::evidence::Evidence;
 use crate::modes::Mending;
 use crate::number;
 

@@ -3,8 +3,8 @@
 use faer::{Mat, MatRef};
 
 use super::check::{Check, Limits};
-use super::spectrum::scaled_by;
-use super::{Evidence, coordinate_name, coordinate_scales};
+use super::evidence::{Evidence, coordinate_name, coordinate_scales};
+use super::pencil::scaled_by;
 use crate::dense;
 use crate::eigen::Equilibrated;
 use crate::error::Result;

@@ -2,7 +2,7 @@
 
 use faer::Mat;
 
-use super::Evidence;
+use super::evidence::Evidence;
 use crate::dense;
 use crate::dofs::Direction;
 use crate::model::Site;

@@ -7,8 +7,8 @@
 
 use faer::Mat;
 
-use super::Evidence;
 use super::check::{Check, Limits};
+use super::evidence::Evidence;
 use super::limits::UNKNOWN;
 use super::residual::{AT_REST, Residuals, Rows, Worst};
 use crate::dense;

@@ -17,8 +17,8 @@ mod exact;
 mod metric;
 mod pair;
 
-use super::Evidence;
 use super::check::{Check, Limits};
+use super::evidence::Evidence;
 use crate::dense;
 use crate::eigen::{ModeError, Modes};
 use crate::error::Result;

@@ -2,8 +2,8 @@
 
 use faer::MatRef;
 
-use super::Evidence;
 use super::directions::Directions;
+use super::evidence::Evidence;
 use super::spectrum::{Spectrum, lowest_eigenpairs};
 use crate::dense;
 use crate::eigen::Equilibrated;

@@ -5,8 +5,9 @@ use faer::{Mat, MatRef, Side};
 
 use super::check::{Check, Limits};
 use super::directions::Directions;
-use super::spectrum::{lowest_eigenpairs, scaled_by};
-use super::{Evidence, data_noise};
+use super::evidence::{Evidence, data_noise};
+use super::pencil::scaled_by;
+use super::spectrum::lowest_eigenpairs;
 use crate::basis::DynamicCoordinate;
 use crate::dense;
 use crate::error::Result;

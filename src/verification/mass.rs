@@ -3,8 +3,8 @@
 use faer::MatRef;
 
 use super::check::{Check, Limits};
+use super::evidence::{Evidence, rigid_name};
 use super::rigid_body::mass_difference;
-use super::{Evidence, rigid_name};
 use crate::dense;
 use crate::number::quantity;
 

@@ -11,7 +11,6 @@
 use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
 use faer::{Mat, MatRef, Par, Side, c64};
 
-use super::spectrum::scaled_by;
 use crate::dense;
 use crate::error::{Error, Result};
 
@@ -110,6 +109,11 @@ impl Spectral {
 pub(super) fn complex_shift(frequency_hz: f64, eta: f64, eigenvalue_unit: f64) -> c64 {
     let omega = std::f64::consts::TAU * frequency_hz;
     c64::new(omega * omega / eigenvalue_unit, 0.0) / c64::new(1.0, eta)
+}
+
+/// D A D.
+pub(super) fn scaled_by(a: MatRef<'_, f64>, scales: &[f64]) -> Mat<f64> {
+    Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * scales[i] * scales[j])
 }
 
 #[cfg(test)]

@@ -4,10 +4,10 @@ use faer::MatRef;
 
 use super::check::{Check, Limits};
 use super::conditioning::independence;
+use super::evidence::{Evidence, coordinate_name, data_noise, reduced_norms, share_of_data};
 use super::limits::{self, Judged};
 use super::rigid_motion::energy_limits;
 use super::spectrum::{Spectrum, zero_level};
-use super::{Evidence, coordinate_name, data_noise, reduced_norms, share_of_data};
 use crate::dense;
 use crate::eigen::{Modes, REPEATED_WITHIN};
 use crate::modes::Boundary;

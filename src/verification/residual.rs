@@ -8,7 +8,7 @@
 
 use faer::{Mat, MatRef};
 
-use super::Evidence;
+use super::evidence::Evidence;
 use crate::dense;
 use crate::eigen::Equilibrated;
 use crate::sparse::Pencil;

@@ -10,8 +10,9 @@
 use faer::{Mat, MatRef};
 
 use super::check::{Check, Limits};
-use super::spectrum::{Spectrum, scaled_by, zero_level};
-use super::{Evidence, coordinate_scales, rigid_name};
+use super::evidence::{Evidence, coordinate_scales, rigid_name};
+use super::pencil::scaled_by;
+use super::spectrum::{Spectrum, zero_level};
 use crate::dense;
 use crate::error::Result;
 

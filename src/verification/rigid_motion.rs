@@ -3,11 +3,11 @@
 use faer::MatRef;
 
 use super::check::{Check, Limits};
+use super::evidence::{Evidence, coordinate_name, reduced_norms, rigid_name, share_of_data};
 use super::grounding::{Grounding, Restraint};
 use super::limits::{self, Judged, Known};
 use super::residual::Worst;
 use super::spectrum::{NOT_FREE, Spectrum, zero_level};
-use super::{Evidence, coordinate_name, reduced_norms, rigid_name, share_of_data};
 use crate::dense;
 use crate::rigid::{noise_of_digits, scales};
 

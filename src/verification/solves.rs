@@ -2,8 +2,8 @@
 
 use faer::{Mat, MatRef};
 
-use super::Evidence;
 use super::check::{Check, Limits};
+use super::evidence::Evidence;
 use super::residual::{Residuals, Rows, Worst};
 use crate::dense;
 use crate::error::Result;

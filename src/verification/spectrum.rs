@@ -3,9 +3,9 @@
 use faer::{Mat, MatRef};
 
 use super::check::Limits;
+use super::evidence::{Evidence, coordinate_scales, data_noise};
 use super::limits::GROUNDED;
-use super::pencil::Spectral;
-use super::{Evidence, coordinate_scales, data_noise};
+use super::pencil::{Spectral, scaled_by};
 use crate::dense;
 use crate::eigen::{rayleigh_quotients, zero};
 use crate::error::Result;
@@ -191,11 +191,6 @@ fn with_massless_lifted(evidence: &Evidence<'_>) -> Mat<f64> {
 fn largest_component(vectors: MatRef<'_, f64>) -> usize {
     let size = |i: usize| if vectors.ncols() > 0 { vectors[(i, 0)].abs() } else { 0.0 };
     (0..vectors.nrows()).max_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap_or(0)
-}
-
-/// D A D.
-pub(super) fn scaled_by(a: MatRef<'_, f64>, scales: &[f64]) -> Mat<f64> {
-    Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * scales[i] * scales[j])
 }
 
 /// D A D with powers of two D that bring the diagonal of `by` near one.

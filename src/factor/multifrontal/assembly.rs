@@ -2,10 +2,18 @@
 
 use faer::MatMut;
 
-use super::Stop;
 use crate::factor::Analysis;
 use crate::factor::analysis::Supernode;
 use crate::heap::fallibly;
+
+/// Why there is no factor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(in crate::factor) enum Stop {
+    /// The first step, in order of elimination, whose pivot is not positive.
+    NotPositive(usize),
+    /// No memory.
+    NoMemory,
+}
 
 /// Rows and entries that a child leaves to its parent: a lower triangle, by columns of full length, and after it what the rows
 /// have of the diagonal of |L||B||Lᵀ| so far.

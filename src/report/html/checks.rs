@@ -2,9 +2,9 @@
 
 use super::front::{in_words, sentence};
 use super::markup::{Cell, Markup, Table};
-use super::words;
 use crate::number::scientific;
 use crate::report::explanation::{Proof, explanation};
+use crate::report::words;
 use crate::verification::check::{Check, Verdict};
 
 pub(super) fn checks(page: &mut Markup, checks: &[Check]) {

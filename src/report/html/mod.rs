@@ -18,7 +18,7 @@ mod run;
 mod size;
 
 use super::Report;
-use super::words;
+use crate::report::words;
 use markup::Markup;
 
 pub(in crate::report) use markup::escaped;

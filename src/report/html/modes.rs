@@ -2,8 +2,9 @@
 
 use super::front::{in_words, sentence};
 use super::markup::{Cell, Figure, Markup, Table};
-use super::{mode_table, plot, words};
+use super::{mode_table, plot};
 use crate::number::scientific;
+use crate::report::words;
 use crate::report::{ReportBody, TrustInterval};
 
 pub(super) fn modes(page: &mut Markup, body: &ReportBody) {

@@ -2,8 +2,9 @@
 
 use super::front::{in_words, percent};
 use super::markup::{Cell, Figure, Markup, Table};
-use super::{mode_table, plot, words};
+use super::{mode_table, plot};
 use crate::number::{counted, decade, scientific};
+use crate::report::words;
 use crate::verification::preservation::{BoundaryComparison, FrequencyPair, InterfaceStatics, Preservation};
 
 /// How many frequencies beyond the band are listed.

@@ -2,8 +2,9 @@
 
 use super::front::{in_words, percent};
 use super::markup::{Figure, Markup};
-use super::{plot, words};
+use super::plot;
 use crate::number::quantity;
+use crate::report::words;
 use crate::verification::preservation::ResponseComparison;
 
 pub(super) fn response(page: &mut Markup, response: Option<&ResponseComparison>) {

@@ -9,10 +9,12 @@
 
 use faer::Mat;
 
-use super::super::Evidence;
 use super::super::check::{Check, Limits};
-use super::BoundaryCount;
-use super::boundaries::{Boundary, Reference};
+use super::super::evidence::Evidence;
+use super::boundary::Boundary;
+use super::outcome::BoundaryCount;
+use super::reference::Reference;
+use super::units::hertz;
 use crate::dense;
 use crate::error::Result;
 use crate::factor::{Analysis, CONDENSED_GAP, condensed};
@@ -71,7 +73,7 @@ impl Condensed {
             return Ok(None);
         }
         Ok(Some(BoundaryCount {
-            below_hz: super::hertz(evidence, self.sigma),
+            below_hz: hertz(evidence, self.sigma),
             n_counted: self.clamped + n_negative,
             n_found: reference.n_zero() + reference.lambda.partition_point(|lambda| *lambda < self.sigma),
         }))

@@ -16,7 +16,8 @@
 
 use faer::{Mat, c64};
 
-use super::super::Evidence;
+use super::super::evidence::Evidence;
+use super::units::shift;
 use crate::dense;
 use crate::eigen::{Equilibrated, mass_qr};
 use crate::error::Result;
@@ -85,7 +86,7 @@ impl<'a> Extended<'a> {
             projected
         };
         let (stiffness, mass) = (project(&forces), project(&momenta));
-        let spectral = Spectral::of(stiffness.as_ref(), mass.as_ref(), super::shift(evidence))?;
+        let spectral = Spectral::of(stiffness.as_ref(), mass.as_ref(), shift(evidence))?;
         let scale = Equilibrated::of(partition.pencil()).scale;
         Ok(Self { evidence, factor, eta, basis, forces, momenta, stiffness, mass, spectral, scale, steps: 0 })
     }
@@ -225,7 +226,7 @@ impl<'a> Extended<'a> {
             dense::symmetrise(projected);
             *images = dense::beside(images.as_ref(), image.as_ref());
         }
-        self.spectral = Spectral::of(self.stiffness.as_ref(), self.mass.as_ref(), super::shift(self.evidence))?;
+        self.spectral = Spectral::of(self.stiffness.as_ref(), self.mass.as_ref(), shift(self.evidence))?;
         Ok(true)
     }
 

@@ -5,8 +5,8 @@
 
 use faer::{Mat, MatRef};
 
-use super::super::Evidence;
-use super::boundaries::Boundary;
+use super::super::evidence::Evidence;
+use super::boundary::Boundary;
 use crate::constraint::FreeAtZero;
 use crate::dense;
 use crate::eigen::{Factored, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes, shifted};

@@ -1,6 +1,6 @@
 //! The interfaces of the job with their dofs, and the masses that load them.
 
-use super::super::Evidence;
+use super::super::evidence::Evidence;
 use crate::dense;
 use crate::partition::Partition;
 use crate::sparse::product;

@@ -1,6 +1,6 @@
 //! What is compared with the full model: the one place where its cost is weighed.
 
-use super::super::Evidence;
+use super::super::evidence::Evidence;
 use crate::dense;
 use crate::factor::Analysis;
 use crate::job::{Certify, Job, ModeSelection, SceneJob, Support};

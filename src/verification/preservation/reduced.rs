@@ -14,8 +14,8 @@
 
 use faer::{Mat, MatRef};
 
-use super::super::{Evidence, coordinate_scales};
-use super::boundaries::Reference;
+use super::super::evidence::{Evidence, coordinate_scales};
+use super::reference::Reference;
 use crate::dense;
 use crate::error::Result;
 use crate::verification::pencil::Spectral;

@@ -3,12 +3,13 @@
 use faer::c64;
 use rayon::prelude::*;
 
-use super::super::Evidence;
 use super::super::check::{Check, Limits};
+use super::super::evidence::Evidence;
 use super::extended::{Extended, Response};
 use super::interfaces::rotation_length;
+use super::outcome::{ResponseComparison, ResponseSample};
 use super::samples;
-use super::{ResponseComparison, ResponseSample};
+use super::units::shift;
 use crate::dense;
 use crate::error::Result;
 use crate::factor::SolveOperator;
@@ -54,7 +55,7 @@ pub(super) fn compared(
     eta: f64,
 ) -> Result<Compared> {
     let reduction = evidence.reduction;
-    let reduced = Spectral::of(reduction.stiffness.as_ref(), reduction.mass.as_ref(), super::shift(evidence))?;
+    let reduced = Spectral::of(reduction.stiffness.as_ref(), reduction.mass.as_ref(), shift(evidence))?;
     let mut extended = Extended::new(evidence, factor, eta)?;
     let mut samples_hz = samples::first(evidence, &reduced, band_hz);
     let mut residuals = extended.settle(&samples_hz)?;

@@ -2,7 +2,8 @@
 
 use faer::Mat;
 
-use super::super::Evidence;
+use super::super::evidence::Evidence;
+use super::units::{hertz, shift};
 use crate::error::Result;
 use crate::verification::pencil::Spectral;
 
@@ -46,9 +47,9 @@ pub(super) fn with_zeros(
         let (k, m) = (&evidence.reduction.stiffness, &evidence.reduction.mass);
         let past = |i: usize| if i < dof { i } else { i + 1 };
         let held = |a: &Mat<f64>| Mat::from_fn(a.nrows() - 1, a.nrows() - 1, |i, j| a[(past(i), past(j))]);
-        let spectral = Spectral::of(held(k).as_ref(), held(m).as_ref(), super::shift(evidence))?;
+        let spectral = Spectral::of(held(k).as_ref(), held(m).as_ref(), shift(evidence))?;
         let zeros = spectral.eigenvalues().into_iter().filter(|lambda| *lambda > 0.0);
-        all.extend(within(zeros.map(|lambda| super::hertz(evidence, lambda)).collect()));
+        all.extend(within(zeros.map(|lambda| hertz(evidence, lambda)).collect()));
     }
     Ok(merged(all))
 }
@@ -56,7 +57,7 @@ pub(super) fn with_zeros(
 /// Elastic frequencies with the interface free, ascending.
 pub(super) fn elastic_hz(evidence: &Evidence<'_>, spectral: &Spectral) -> Vec<f64> {
     let elastic = spectral.eigenvalues().into_iter().skip(evidence.rigid.count());
-    elastic.map(|lambda| super::hertz(evidence, lambda)).collect()
+    elastic.map(|lambda| hertz(evidence, lambda)).collect()
 }
 
 /// At most [`MOST`] of them, evenly spread, the last among them.

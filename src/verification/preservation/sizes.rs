@@ -1,10 +1,11 @@
 //! What a smaller basis would cost in accuracy, and what the size that was chosen asks of an integrator.
 
-use super::super::Evidence;
-use super::boundaries::Reference;
+use super::super::evidence::Evidence;
+use super::outcome::{HighestFrequency, SizeError};
 use super::reduced::quotients;
+use super::reference::Reference;
 use super::response::FullResponse;
-use super::{HighestFrequency, SizeError};
+use super::units::{hertz, shift};
 use crate::basis::DynamicCoordinate;
 use crate::dense;
 use crate::error::Result;
@@ -54,7 +55,7 @@ fn size_error(
         }
     }
     let response_error_db = match response {
-        Some(full) => Some(full.worst_decibel(evidence, &Spectral::of(k, m, super::shift(evidence))?)),
+        Some(full) => Some(full.worst_decibel(evidence, &Spectral::of(k, m, shift(evidence))?)),
         None => None,
     };
     Ok(SizeError { n_modes, n_reduced: n, frequency_error, response_error_db })
@@ -74,7 +75,7 @@ fn n_columns(evidence: &Evidence<'_>, n_modes: usize) -> usize {
 /// The highest frequency of the reduced model with its interface free.
 pub(super) fn highest(evidence: &Evidence<'_>, reduced: &Spectral) -> Option<HighestFrequency> {
     let lambda = reduced.eigenvalues().last().copied().filter(|lambda| *lambda > 0.0)?;
-    let frequency_hz = super::hertz(evidence, lambda);
+    let frequency_hz = hertz(evidence, lambda);
     Some(HighestFrequency {
         frequency_hz,
         explicit_step_s: 1.0 / (std::f64::consts::PI * frequency_hz),

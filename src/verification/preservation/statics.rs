@@ -9,9 +9,10 @@ use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef, Side};
 
 use super::super::check::{Check, Limits};
-use super::super::{Evidence, spectrum};
-use super::InterfaceStatics;
+use super::super::evidence::Evidence;
+use super::super::spectrum;
 use super::interfaces::Interface;
+use super::outcome::InterfaceStatics;
 use crate::dense;
 use crate::dofs::Direction;
 use crate::factor::SolveOperator;

@@ -1,0 +1,74 @@
+//! Everything the output is made from.
+
+use crate::constraint::LooseMotions;
+use crate::factor::Analysis;
+use crate::input::InputFacts;
+use crate::job::Job;
+use crate::report::WorkCounters;
+use crate::verification::check::Check;
+use crate::verification::{Compared, Evidence, Findings};
+
+/// Everything the output is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct Results<'a> {
+    /// The job.
+    pub job: &'a Job,
+    /// What was read.
+    pub input: &'a InputFacts,
+    /// Mechanisms and what comes near them.
+    pub loose: &'a LooseMotions,
+    /// The results of the stages.
+    pub evidence: Evidence<'a>,
+    /// What verification found.
+    pub findings: &'a Findings,
+    /// The reduced beside the full model.
+    pub preserved: &'a Compared,
+    /// The symbolic factorisation of K_II.
+    pub analysis: &'a Analysis,
+    /// Factorisations beside that of K_II, those of the modes, the certificate and the enclosures.
+    pub n_beside: usize,
+}
+
+impl Results<'_> {
+    /// All checks in the order of their identifiers.
+    pub(super) fn checks(&self) -> Vec<Check> {
+        let mut checks = [&self.findings.checks[..], &self.preserved.checks].concat();
+        checks.sort_by_key(|check| check.id);
+        checks
+    }
+
+    /// λ of the retained modes as they are printed. A Rayleigh quotient has a rounding of its own and may lie outside an interval
+    /// that is proved to hold the eigenvalue: the middle of the interval then is the better answer.
+    pub(super) fn eigenvalues(&self) -> Vec<f64> {
+        let Evidence { retained, enclosures, .. } = self.evidence;
+        let interval =
+            |mode: usize| enclosures.and_then(|enclosures| enclosures.intervals.get(mode).copied().flatten());
+        let printed = |(mode, lambda): (usize, &f64)| match interval(mode) {
+            Some([low, high]) if !(low..=high).contains(lambda) => 0.5 * (low + high),
+            _ => *lambda,
+        };
+        retained.modes.lambda.iter().enumerate().map(printed).collect()
+    }
+
+    /// What was done, counted.
+    pub(super) fn work(&self) -> WorkCounters {
+        let Evidence { partition, rigid, retained, certificate, enclosures, .. } = self.evidence;
+        let work = &retained.modes.work;
+        WorkCounters {
+            n_factorisations: 1
+                + self.n_beside
+                + work.factorisations
+                + certificate.map_or(0, |certificate| certificate.n_factorisations)
+                + enclosures.map_or(0, |enclosures| enclosures.n_factorisations),
+            n_solves: work.solves + partition.n_interface() + rigid.count(),
+            n_restarts: work.restarts,
+            factor_flops: self.analysis.flops,
+            factor_nonzeros: self.analysis.nnz_factor as u64,
+        }
+    }
+}
+
+/// The frequency of an eigenvalue in scaled units, in rad/s.
+pub(super) fn omega(lambda: f64, unit: f64) -> f64 {
+    (lambda * unit).max(0.0).sqrt()
+}

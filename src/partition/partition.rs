@@ -1,0 +1,176 @@
+//! The matrices in the order internal, interface.
+
+use std::sync::OnceLock;
+
+use faer::Mat;
+
+use crate::dofs::Dof;
+use crate::dofs::FileRows;
+use crate::error::{Error, Result};
+use crate::factor::Analysis;
+use crate::job::InterfaceJob;
+use crate::model::{CoordinateFit, Finding, Model, ModelFacts, Scaling, Site};
+use crate::sparse::Pencil;
+use crate::sparse::Precision;
+use crate::sparse::{Leading, SparseMatrix};
+
+use super::interface::InterfaceNode;
+use super::roundings::{PatchEntries, Roundings};
+use super::transformation::{DofOrigin, ReducedDof, Transformation};
+use super::{congruence, held, interface, ordering};
+
+/// Most interface dofs: the two reduced matrices alone take 6.4 GB then, and decomposing them days.
+pub const LARGEST_INTERFACE: usize = 20_000;
+
+/// The matrices in the order internal, interface, with what is known of each degree of freedom.
+#[derive(Debug)]
+pub struct Partition {
+    /// TᵀKT, n' × n'.
+    pub stiffness: SparseMatrix,
+    /// TᵀMT, n' × n'.
+    pub mass: SparseMatrix,
+    /// Number of internal dofs n_I; the rest are interface dofs.
+    pub n_internal: usize,
+    /// What each dof of the partition is.
+    pub dofs: Vec<ReducedDof>,
+    /// The interface nodes in the order of their dofs.
+    pub interface: Vec<InterfaceNode>,
+    /// Row of T for each row of the model.
+    pub transformation: Transformation,
+    /// Rows of the model whose displacements the superelement recovers; none unless the caller adds them.
+    pub recovered: Vec<(usize, Dof)>,
+    /// Powers of two taken out of K and M.
+    pub scaling: Scaling,
+    /// Relative precision of the data.
+    pub precision: Precision,
+    /// How coordinates and dof map fit K.
+    pub fit: CoordinateFit,
+    /// What the model was.
+    pub model: ModelFacts,
+    /// What was found of the interface that is no error.
+    pub findings: Vec<Finding>,
+    /// How much rigid patches enlarge rounding of the data of K; one without patches.
+    pub cancellation: f64,
+    /// Entries of the model's K that rigid patches have taken up.
+    pub(super) patches: PatchEntries,
+    /// The entries of K by their sizes, once somebody asks.
+    pub(super) roundings: OnceLock<Roundings>,
+}
+
+impl Partition {
+    /// Resolves the interfaces, applies the rigid patches by congruence and orders the internal dofs for elimination. The
+    /// matrices of the model go as those of the partition come.
+    ///
+    /// # Errors
+    /// Interface nodes that do not exist, repeat, or lack the dofs asked for; a patch that cannot carry a rotation.
+    ///
+    /// # Panics
+    /// Where the pattern of K or M is not symmetric, which that of a checked model is.
+    pub fn new(model: Model, interfaces: &[InterfaceJob]) -> Result<Self> {
+        let resolved = interface::resolve(&model, interfaces)?;
+        let transformation = Transformation::new(&model, &resolved)?;
+        let order = ordering::elimination_order(&model, &transformation)?;
+        let transformation = transformation.permuted(&order);
+        let n_internal = transformation.n_internal();
+        let n_interface = transformation.dofs.len() - n_internal;
+        if n_interface > LARGEST_INTERFACE {
+            return Err(Error::InterfaceTooLarge { n_interface, limit: LARGEST_INTERFACE });
+        }
+        let (facts, mut findings) = (model.facts(), held::constrained_nodes(&model, &resolved));
+        let stiffness = congruence::congruence(&model.stiffness, &transformation);
+        let cancellation = congruence::cancellation(&model.stiffness, &stiffness, &transformation);
+        let patches = PatchEntries::of(&model.stiffness, &transformation);
+        drop(model.stiffness);
+        let mass = congruence::congruence(&model.mass, &transformation);
+        drop(model.mass);
+        let interface = resolved.into_nodes();
+        findings.extend(hanging_dofs(&stiffness, &transformation, (&interface, &facts.rows)));
+        Ok(Self {
+            cancellation,
+            fit: model.fit,
+            model: facts,
+            findings,
+            stiffness,
+            mass,
+            n_internal,
+            dofs: transformation.dofs.clone(),
+            interface,
+            transformation,
+            recovered: Vec::new(),
+            scaling: model.scaling,
+            precision: model.precision,
+            patches,
+            roundings: OnceLock::new(),
+        })
+    }
+
+    /// n' = n_I + n_B.
+    pub fn n_dofs(&self) -> usize {
+        self.dofs.len()
+    }
+
+    /// n_B.
+    pub fn n_interface(&self) -> usize {
+        self.dofs.len() - self.n_internal
+    }
+
+    /// Position and direction of every dof, or nothing where coordinates are unknown.
+    pub fn sites(&self) -> Option<Vec<Site>> {
+        self.dofs.iter().map(|dof| dof.site).collect()
+    }
+
+    /// The six unit motions of dofs about a point, as rows of n' × 6 with zeros elsewhere: by the coordinates or, where those
+    /// are rounded, as K knows them.
+    ///
+    /// # Panics
+    /// Where a dof has no site.
+    pub fn rigid_motions(&self, dofs: &[usize], centre: [f64; 3]) -> Mat<f64> {
+        let mut motions = Mat::zeros(self.n_dofs(), 6);
+        for dof in dofs {
+            let ReducedDof { origin, site, .. } = self.dofs[*dof];
+            let motion = match (origin, self.fit.rounded()) {
+                (DofOrigin::Row(row), Some(rounded)) => rounded.motion(row, centre),
+                _ => site.expect("a dof with coordinates").rigid_motion_about(centre),
+            };
+            motion.into_iter().enumerate().for_each(|(j, value)| motions[(*dof, j)] = value);
+        }
+        motions
+    }
+
+    /// What a dof is called in messages.
+    pub fn name_of(&self, dof: usize) -> String {
+        self.dofs[dof].name(&self.interface, &self.model.rows)
+    }
+
+    /// K and M.
+    pub fn pencil(&self) -> Pencil<'_> {
+        Pencil::new(&self.stiffness, &self.mass)
+    }
+
+    /// Analyses the pattern of the matrices for their factorisation; the interface is the border.
+    ///
+    /// # Errors
+    /// The factor has more entries than can be counted, or there is no memory for its structure.
+    pub fn analysis(&self) -> Result<Analysis> {
+        Analysis::with_border(self.pencil(), self.n_interface())
+    }
+
+    /// K_II and M_II.
+    pub fn internal(&self) -> Pencil<'_> {
+        let block = |matrix| Leading::new(matrix, self.n_internal);
+        Pencil::new(block(&self.stiffness), block(&self.mass))
+    }
+}
+
+/// Interface dofs that no stiffness reaches; the model has seen to it that they have mass.
+fn hanging_dofs(
+    stiffness: &SparseMatrix,
+    partition: &Transformation,
+    (interface, rows): (&[InterfaceNode], &FileRows),
+) -> Option<Finding> {
+    let is_bare =
+        |dof: &usize| stiffness.outer_view(*dof).is_none_or(|row| row.data().iter().all(|value| *value == 0.0));
+    let hanging: Vec<usize> = (partition.n_internal()..partition.dofs.len()).filter(is_bare).collect();
+    let first = *hanging.first()?;
+    Some(Finding::HangingInterface { dof: partition.dofs[first].name(interface, rows), n_dofs: hanging.len() })
+}

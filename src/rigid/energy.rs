@@ -1,0 +1,43 @@
+//! What motions cost, and up to which cost a motion is rigid.
+
+use faer::MatRef;
+
+use super::rigid_body_modes::RigidBodyModes;
+use crate::dense;
+use crate::eigen::{Equilibrated, zero};
+use crate::partition::Partition;
+use crate::sparse::{SparseMatrix, energies_of_terms, product_and_terms};
+
+/// Energy xᵀKx up to which one of some motions is zero, by the criterion of [`crate::eigen::zero`]; `terms` are |K||x|.
+pub(crate) fn zero_energy(partition: &Partition, x: MatRef<'_, f64>, terms: MatRef<'_, f64>) -> f64 {
+    let norms = Equilibrated::of(partition.pencil());
+    let (digits, sizes) = (partition.energy_noise(x), energies_of_terms(x, terms));
+    let level = |j: usize| {
+        let floor = norms.stiffness_norm * norms.scaled_norm(dense::column(x, j)).powi(2);
+        zero::level(digits[j], f64::EPSILON * sizes[j], f64::EPSILON * floor)
+    };
+    (0..x.ncols()).map(level).fold(0.0, f64::max)
+}
+
+/// What few digits of K can make of the energy of a rigid-body motion of unit modal mass.
+pub(crate) fn noise_of_digits(partition: &Partition, rigid: &RigidBodyModes) -> f64 {
+    match partition.has_few_digits() {
+        true => partition.energy_noise(rigid.massive()).into_iter().fold(0.0, f64::max),
+        false => 0.0,
+    }
+}
+
+/// The largest ‖Kq‖ / ‖ |K||q| ‖ of the columns.
+pub(crate) fn largest_residual(stiffness: &SparseMatrix, q: MatRef<'_, f64>) -> f64 {
+    let (forces, terms) = product_and_terms(stiffness, q);
+    residuals(forces.as_ref(), terms.as_ref()).into_iter().fold(0.0, f64::max)
+}
+
+/// ‖Kq‖ / ‖ |K||q| ‖ of each column, from the two products.
+pub(super) fn residuals(forces: MatRef<'_, f64>, terms: MatRef<'_, f64>) -> Vec<f64> {
+    let ratio = |j: usize| {
+        let size = dense::norm(dense::column(terms, j));
+        if size > 0.0 { dense::norm(dense::column(forces, j)) / size } else { 0.0 }
+    };
+    (0..forces.ncols()).map(ratio).collect()
+}

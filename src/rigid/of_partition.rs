@@ -1,0 +1,35 @@
+//! The rigid-body modes of a partition: from its coordinates where they are known, else from its matrices.
+
+use super::algebraic::from_matrices;
+use super::geometric;
+use super::rigid_body_modes::RigidBodyModes;
+use crate::error::Result;
+use crate::partition::Partition;
+
+/// The rigid-body modes, and the factorisations they took: from coordinates none.
+///
+/// Without an interface there is no S in which mechanisms would show, so that a free component is counted by its matrices too.
+///
+/// # Errors
+/// Those of [`from_coordinates`] and [`from_matrices`].
+pub fn rigid_body_modes(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
+    let Some(sites) = partition.sites() else {
+        return from_matrices(partition);
+    };
+    let rigid = geometric::rigid_body_modes(partition, &sites)?;
+    if partition.n_interface() > 0 || rigid.count() == 0 {
+        return Ok((rigid, 0));
+    }
+    let (every, n_factorisations) = from_matrices(partition)?;
+    let n_mechanisms = every.count().saturating_sub(rigid.count());
+    let rigid = if n_mechanisms > 0 { RigidBodyModes { n_mechanisms, ..every } } else { rigid };
+    Ok((rigid, n_factorisations))
+}
+
+/// The rigid-body modes from the coordinates, or `None` where the model has none.
+///
+/// # Errors
+/// A rigid motion without mass or of negative energy.
+pub fn from_coordinates(partition: &Partition) -> Result<Option<RigidBodyModes>> {
+    partition.sites().map(|sites| geometric::rigid_body_modes(partition, &sites)).transpose()
+}

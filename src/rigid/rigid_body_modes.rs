@@ -1,0 +1,117 @@
+//! The rigid-body modes of a partition, and how well K lets them pass.
+
+use faer::{Mat, MatRef};
+
+use crate::dense;
+use crate::job::Coupling;
+use crate::partition::{InterfaceNode, Partition};
+use crate::sparse::{SparseMatrix, product};
+
+/// Where rigid-body modes come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RigidSource {
+    /// Coordinates, verified against K.
+    Geometric,
+    /// Inverse iteration on K − σM.
+    Algebraic,
+}
+
+/// The rigid-body modes of a partition.
+#[derive(Clone, Debug)]
+pub struct RigidBodyModes {
+    /// U, n' × n_r; the motions of mechanisms come last.
+    pub modes: Mat<f64>,
+    /// Q, n' × n_r, spanning the same space: motions with mass first, M-orthonormal, then those without.
+    pub orthonormal: Mat<f64>,
+    /// M Q, n' × n_r.
+    pub mass_orthonormal: Mat<f64>,
+    /// How many motions, the last of Q, have neither energy nor mass: M lets them pass too, so that deflation ignores them.
+    pub n_massless: usize,
+    /// How many motions, the last of U, are those of mechanisms and not of rigid bodies.
+    pub n_mechanisms: usize,
+    /// How many further motions are so soft that the data hardly tell them from motions without energy; they count as elastic.
+    pub n_grey: usize,
+    /// Where they come from.
+    pub source: RigidSource,
+    /// True where the first six columns of U are the unit motions of one free body, so that UᵀMU holds its mass properties.
+    pub is_classical: bool,
+    /// Energies of the modes against the noise of the data.
+    pub energy: RigidEnergy,
+}
+
+/// How well K lets the rigid-body modes pass.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RigidEnergy {
+    /// Largest Rayleigh quotient qᵀKq of an orthonormal mode, in scaled units.
+    pub largest_quotient: f64,
+    /// Largest relative residual ‖Kq‖ / ‖ |K||q| ‖.
+    pub largest_residual: f64,
+    /// Largest Rayleigh quotient that rounding of the data can make: ε_K · |q|ᵀ|K||q|.
+    pub noise: f64,
+    /// How far rounding of the data may turn the modes towards elastic motion: nothing where they are from the coordinates.
+    pub angle: f64,
+}
+
+impl RigidBodyModes {
+    /// n_r.
+    pub fn count(&self) -> usize {
+        self.modes.ncols()
+    }
+
+    /// Whether the rows of the interface are the six unit motions of its nodes to the bit: by the coordinates, or at rigid patches,
+    /// whose nodes K ties as it knows them.
+    pub fn are_unit_motions(&self, partition: &Partition) -> bool {
+        let is_of_patches = || {
+            let is_patch = |node: &InterfaceNode| node.coupling == Coupling::Rigid;
+            partition.fit.rounded().is_some()
+                && !partition.interface.is_empty()
+                && partition.interface.iter().all(is_patch)
+        };
+        self.is_classical && self.n_mechanisms == 0 && (self.source == RigidSource::Geometric || is_of_patches())
+    }
+
+    /// The motions of Q that have mass, n' × (n_r − n_massless), M-orthonormal.
+    pub fn massive(&self) -> MatRef<'_, f64> {
+        self.orthonormal.as_ref().subcols(0, self.count() - self.n_massless)
+    }
+
+    /// The motions of Q without mass, n' × n_massless.
+    pub fn massless(&self) -> MatRef<'_, f64> {
+        self.orthonormal.as_ref().subcols(self.count() - self.n_massless, self.n_massless)
+    }
+
+    /// The same modes without those of mechanisms: what was known before these were looked for.
+    pub(crate) fn without_mechanisms(&self) -> Self {
+        let n = self.count() - self.n_mechanisms;
+        let massive = self.massive().subcols(0, n - self.n_massless);
+        let orthonormal = dense::beside(massive, self.massless());
+        Self { modes: self.modes.as_ref().subcols(0, n).to_owned(), orthonormal, n_mechanisms: 0, ..self.clone() }
+    }
+
+    /// The modes of a component that is held: none.
+    pub fn none(n_dofs: usize) -> Self {
+        Self {
+            modes: Mat::zeros(n_dofs, 0),
+            orthonormal: Mat::zeros(n_dofs, 0),
+            mass_orthonormal: Mat::zeros(n_dofs, 0),
+            n_massless: 0,
+            n_mechanisms: 0,
+            n_grey: 0,
+            source: RigidSource::Geometric,
+            is_classical: false,
+            energy: RigidEnergy::default(),
+        }
+    }
+
+    /// Q and MQ, what eigensolvers deflate.
+    pub fn deflated(&self) -> [MatRef<'_, f64>; 2] {
+        [self.orthonormal.as_ref(), self.mass_orthonormal.as_ref()]
+    }
+
+    /// M_F = UᵀMU, n_r × n_r.
+    pub fn rigid_body_mass(&self, mass: &SparseMatrix) -> Mat<f64> {
+        let mut m_f = dense::gram(self.modes.as_ref(), product(mass, self.modes.as_ref()).as_ref());
+        dense::symmetrise(&mut m_f);
+        m_f
+    }
+}

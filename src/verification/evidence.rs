@@ -1,0 +1,97 @@
+//! What the checks look at, and how they name and scale it.
+
+use crate::basis::{Basis, DynamicCoordinate};
+use crate::constraint::ConstraintModes;
+use crate::dense;
+use crate::eigen::Equilibrated;
+use crate::factor::Cholesky;
+use crate::job::Expectation;
+use crate::modes::{Certificate, Retained};
+use crate::partition::Partition;
+use crate::reduction::Reduction;
+use crate::rigid::{InterfaceRank, RigidBodyModes};
+
+use super::directions;
+use super::enclosure::Enclosures;
+
+/// Everything the checks look at: the results of the stages, none of their workings.
+#[derive(Clone, Copy, Debug)]
+pub struct Evidence<'a> {
+    /// The partitioned matrices.
+    pub partition: &'a Partition,
+    /// The factor of K_II.
+    pub factor: &'a Cholesky<'a>,
+    /// The rigid-body modes.
+    pub rigid: &'a RigidBodyModes,
+    /// How well the interface reacts them.
+    pub rank: InterfaceRank,
+    /// The constraint modes.
+    pub constraint: &'a ConstraintModes,
+    /// The retained modes.
+    pub retained: &'a Retained,
+    /// The basis.
+    pub basis: &'a Basis,
+    /// The reduced matrices.
+    pub reduction: &'a Reduction,
+    /// The Sturm count, where one was asked for.
+    pub certificate: Option<&'a Certificate>,
+    /// The intervals that are proved to hold the modes, where they were asked for.
+    pub enclosures: Option<&'a Enclosures>,
+    /// What the user expects of the mass properties.
+    pub expect: Option<&'a Expectation>,
+}
+
+/// What a rigid-body mode is called: `rotation z` of one free body, else by its number.
+pub(super) fn rigid_name(evidence: &Evidence<'_>, mode: usize) -> String {
+    match directions::NAMES.get(mode).filter(|_| evidence.rigid.is_classical) {
+        Some(name) => (*name).to_owned(),
+        None => format!("rigid-body mode {}", mode + 1),
+    }
+}
+
+/// What a reduced coordinate is called: `node 12 uz`, `mode 3`, `inertia relief 2`.
+pub(super) fn coordinate_name(evidence: &Evidence<'_>, coordinate: usize) -> String {
+    let n_b = evidence.partition.n_interface();
+    match coordinate.checked_sub(n_b).map(|slot| evidence.basis.coordinates.get(slot).copied()) {
+        Some(None) => format!("coordinate {}", coordinate + 1),
+        None => evidence.partition.name_of(evidence.partition.n_internal + coordinate),
+        Some(Some(DynamicCoordinate::RigidBody(index))) => format!("rigid-body mode {}", index + 1),
+        Some(Some(DynamicCoordinate::InertiaRelief(index))) => format!("inertia relief {}", index + 1),
+        Some(Some(DynamicCoordinate::FreeFree(mode) | DynamicCoordinate::FixedInterface(mode))) => {
+            format!("mode {}", mode + 1)
+        }
+    }
+}
+
+/// The precision of the data of K where it is coarser than that of the arithmetic, else nothing.
+pub(super) fn data_noise(partition: &Partition) -> f64 {
+    let precision = partition.precision.stiffness;
+    if precision > f64::EPSILON { precision * partition.cancellation } else { 0.0 }
+}
+
+/// The share that the digits of K have in an error bar, the rest being that of the arithmetic.
+pub(super) fn share_of_data(partition: &Partition) -> f64 {
+    let precision = partition.precision.stiffness;
+    precision / (f64::EPSILON + precision)
+}
+
+/// Scales of the reduced coordinates, powers of two: near 1/√K_BB,ii for an interface dof and near 1/√K̂_ηη,ii for a mode.
+///
+/// The stiffness of an interface dof before condensation is what rounding of K̂_BB is relative to. What condensation
+/// leaves of it may be nothing: an interface that just holds the component has K̂_BB = 0.
+pub(super) fn coordinate_scales(evidence: &Evidence<'_>) -> Vec<f64> {
+    let (partition, k) = (evidence.partition, &evidence.reduction.stiffness);
+    let (n_i, n_b) = (partition.n_internal, partition.n_interface());
+    let uncondensed = |i: usize| partition.stiffness.get(n_i + i, n_i + i).copied().unwrap_or(0.0);
+    (0..k.nrows()).map(|i| dense::power_of_two_root(if i < n_b { uncondensed(i) } else { k[(i, i)] })).collect()
+}
+
+/// The norms of the reduced pencil that backward errors are relative to; that of K̂ is at least that of its terms before
+/// they cancel, which is one in these scales.
+pub(super) fn reduced_norms(evidence: &Evidence<'_>) -> Equilibrated {
+    let reduction = evidence.reduction;
+    let mut norms =
+        Equilibrated::of_dense(reduction.stiffness.as_ref(), reduction.mass.as_ref(), coordinate_scales(evidence));
+    norms.stiffness_norm = norms.stiffness_norm.max(1.0);
+    norms
+}

@@ -1,0 +1,79 @@
+//! All checks of a reduction, in the order of their identifiers.
+
+use super::check::Check;
+use super::evidence::Evidence;
+use super::grounding::{self, Grounding};
+use super::loads::{self, EffectiveMasses};
+use super::rigid_body::{self, MassRoutes};
+use super::{completeness, conditioning, eigenpairs, enclosure, mass, reduced, rigid_motion, solves, spectrum};
+use crate::error::Result;
+
+/// What verification found.
+#[derive(Clone, Debug)]
+pub struct Findings {
+    /// All checks, in the order of their identifiers.
+    pub checks: Vec<Check>,
+    /// The component as a rigid body, in scaled units.
+    pub rigid_body: RigidBody,
+}
+
+/// The component as a rigid body.
+#[derive(Clone, Debug)]
+pub struct RigidBody {
+    /// M_F by three routes, for one free body with coordinates.
+    pub routes: Option<MassRoutes>,
+    /// Eigenvalues of the zero modes of the reduced pencil.
+    pub eigenvalues: Vec<f64>,
+    /// How far motion in each direction is from straining the component.
+    pub grounding: Vec<Grounding>,
+    /// What the modes carry of the inertia in each direction.
+    pub effective_mass: Option<EffectiveMasses>,
+}
+
+/// All checks and what they rest on.
+///
+/// # Errors
+/// A dense eigenproblem that does not converge.
+pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
+    let spectrum = spectrum::Spectrum::of(evidence)?;
+    // Solves of one right-hand side and conjugate gradients leave a thread idle, which the products with the modes use.
+    let ((condition, effective_mass), (pairs, terms)) = rayon::join(
+        || (conditioning::internal_condition(evidence), loads::effective_masses(evidence)),
+        || (eigenpairs::Pairs::of(evidence), reduced::Terms::of(evidence)),
+    );
+    let rigid_body = RigidBody {
+        routes: rigid_body::mass_routes(evidence, &spectrum)?,
+        eigenvalues: spectrum.rigid().to_vec(),
+        grounding: grounding::groundings(evidence, &spectrum)?,
+        effective_mass: effective_mass?,
+    };
+    let mut checks = vec![
+        eigenpairs::backward_error(evidence, &pairs),
+        eigenpairs::componentwise_error(evidence, &pairs),
+        eigenpairs::orthogonality(evidence),
+        eigenpairs::stiffness_orthogonality(evidence, &pairs),
+        rigid_motion::energy(evidence, &spectrum, &rigid_body.grounding),
+        rigid_motion::residual(evidence, &rigid_body.grounding),
+    ];
+    checks.extend(completeness::count(evidence));
+    checks.extend(enclosure::checks(evidence));
+    checks.push(eigenpairs::data_precision(evidence));
+    checks.push(solves::static_solves(evidence)?);
+    if evidence.partition.n_interface() > 0 {
+        checks.push(rigid_motion::carried_by_interface(evidence));
+    }
+    checks.push(rigid_motion::null_space(evidence));
+    checks.push(rigid_motion::zero_modes(evidence, &spectrum));
+    checks.push(reduced::block_coupling(evidence, &terms));
+    checks.push(reduced::pair_residual(evidence));
+    checks.push(reduced::frequency_difference(evidence, &spectrum));
+    checks.push(mass::preserved(evidence));
+    checks.extend(rigid_body.routes.as_ref().map(|routes| rigid_body::routes_agree(evidence, &spectrum, routes)));
+    checks.extend(mass::expected(evidence));
+    checks.extend(loads::accelerations(evidence, condition));
+    checks.extend(rigid_body.effective_mass.as_ref().and_then(loads::effective_mass));
+    checks.extend(conditioning::conditioning(evidence, condition)?);
+    checks.push(reduced::symmetry(evidence, &terms));
+    checks.push(reduced::definiteness(evidence, &spectrum));
+    Ok(Findings { checks, rigid_body })
+}

@@ -1,0 +1,75 @@
+//! What a boundary of the scene does to the interface dofs.
+
+use super::interfaces::{Inertia, Interface};
+use crate::job::Support;
+use crate::modes::Boundary as ModeBoundary;
+use crate::number::quantity;
+use crate::verification::evidence::Evidence;
+
+/// What a support does to the interface dofs.
+#[derive(Clone, Debug)]
+pub(super) struct Boundary {
+    pub(super) name: String,
+    pub(super) description: String,
+    /// Held or not, for each interface dof.
+    pub(super) held: Vec<bool>,
+    /// Mass added to each interface dof, in scaled units.
+    pub(super) load: Vec<f64>,
+}
+
+impl Boundary {
+    pub(super) fn new(evidence: &Evidence<'_>, interfaces: &[Interface], support: &Support) -> Self {
+        let partition = evidence.partition;
+        let n_b = partition.n_interface();
+        let mut boundary = Self {
+            name: support.to_string(),
+            description: "no interface held or loaded".to_owned(),
+            held: vec![false; n_b],
+            load: vec![0.0; n_b],
+        };
+        let Some(interface) = interfaces.iter().find(|interface| Some(interface.name.as_str()) == support.interface())
+        else {
+            return boundary;
+        };
+        match support {
+            Support::Free => {}
+            Support::Fixed { .. } => {
+                interface.dofs.iter().for_each(|dof| boundary.held[*dof] = true);
+                boundary.description = format!("all dofs of {} held, the other interfaces free", interface.name);
+            }
+            Support::Loaded { mass, .. } => boundary.load(evidence, interface, *mass),
+        }
+        boundary
+    }
+
+    /// Spreads a mass and its moment of inertia evenly over the nodes of an interface.
+    fn load(&mut self, evidence: &Evidence<'_>, interface: &Interface, mass: Option<f64>) {
+        let partition = evidence.partition;
+        let unit = partition.scaling.mass_unit();
+        let own = Inertia::of(evidence);
+        let inertia = mass.map_or(own, |mass| own.with_mass(mass / unit));
+        let n_nodes = interface.n_nodes.max(1) as f64;
+        for dof in &interface.dofs {
+            let direction = partition.dofs[partition.n_internal + dof].site.map(|site| site.direction);
+            let is_rotation = direction.is_some_and(|direction| direction.is_rotation());
+            self.load[*dof] = if is_rotation { inertia.moment } else { inertia.mass } / n_nodes;
+        }
+        let whose = if mass.is_none() { ", those of the component itself" } else { "" };
+        self.description = format!(
+            "{} carries a mass of {} with moments of inertia of {}{whose}; nothing is held",
+            interface.name,
+            quantity(inertia.mass * unit, 4),
+            quantity(inertia.moment * unit, 4)
+        );
+    }
+
+    /// Whether the retained modes are those of this boundary.
+    pub(super) fn is_own(&self, evidence: &Evidence<'_>) -> bool {
+        match evidence.retained.boundary {
+            ModeBoundary::FreeInterface => {
+                self.load.iter().all(|load| *load == 0.0) && self.held.iter().all(|held| !held)
+            }
+            ModeBoundary::FixedInterface => self.held.iter().all(|held| *held),
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! The whole comparison of the reduced with the full model, as far as the plan asks for it.
+
+use rayon::prelude::*;
+
+use crate::error::{Error, Result};
+use crate::factor::Analysis;
+use crate::job::{Certify, Job};
+use crate::random::SEED;
+use crate::verification::check::Check;
+use crate::verification::evidence::Evidence;
+use crate::verification::pencil::Spectral;
+
+use super::boundaries;
+use super::boundary::Boundary;
+use super::counts::Condensed;
+use super::interfaces::Interface;
+use super::reference::Reference;
+
+use super::outcome::Preservation;
+use super::policy::Plan;
+use super::units::{eigenvalue, shift};
+use super::{counts, interfaces, mac, response, sizes, statics};
+
+/// The comparison for the report, and the checks that follow from it.
+#[derive(Clone, Debug, Default)]
+pub struct Compared {
+    /// Reduced beside full.
+    pub report: Preservation,
+    /// M-06, M-15, M-17, M-20, M-21 and M-24, as far as they were made.
+    pub checks: Vec<Check>,
+}
+
+/// Compares the reduced with the full model; `analysis` is the structure of K_II.
+///
+/// # Errors
+/// No memory. What the arithmetic cannot do is left out by name.
+pub fn preservation(evidence: &Evidence<'_>, analysis: &Analysis, job: &Job) -> Result<Compared> {
+    let plan = Plan::new(evidence, analysis, job);
+    let interfaces = interfaces::interfaces(evidence.partition);
+    let mut compared = Compared::default();
+    compared.report.not_compared = plan.not_compared.clone();
+    if evidence.reduction.n_reduced() == 0 {
+        return Ok(compared);
+    }
+    compared.modes(evidence)?;
+    let notes = &mut compared.report.not_compared;
+    compared.report.statics = statics::statics(evidence, evidence.factor, &interfaces, notes);
+    compared.checks.extend(statics::check(evidence, &compared.report.statics));
+    if let Some(band_hz) = plan.band_hz {
+        let references = compared.references(evidence, analysis, &interfaces, &plan)?;
+        compared.dynamics(evidence, (&plan, band_hz), &references)?;
+    }
+    Ok(compared)
+}
+
+/// Dofs up to which the boundaries are solved at the same time: one search then has too little work for several threads, and its
+/// vectors take less than 100 MB.
+const TOGETHER_UP_TO: usize = 50_000;
+
+impl Compared {
+    /// Keeps a result, or notes what could not be compared; only a lack of memory ends the run.
+    fn kept<T>(&mut self, what: &str, result: Result<T>) -> Result<Option<T>> {
+        match result {
+            Ok(value) => Ok(Some(value)),
+            Err(error @ Error::OutOfMemory { .. }) => Err(error),
+            Err(error) => {
+                self.report.not_compared.push(format!("{what}: {error}"));
+                Ok(None)
+            }
+        }
+    }
+
+    fn modes(&mut self, evidence: &Evidence<'_>) -> Result<()> {
+        if evidence.retained.modes.count() > 0
+            && let Some(preserved) = self.kept("shapes of the retained modes", mac::preserved(evidence))?
+        {
+            self.checks.push(mac::check(&preserved.modes));
+            (self.report.modes, self.report.mac) = (preserved.modes, preserved.mac);
+        }
+        let (k, m) = (&evidence.reduction.stiffness, &evidence.reduction.mass);
+        let spectral = Spectral::of(k.as_ref(), m.as_ref(), shift(evidence));
+        let spectral = self.kept("highest reduced frequency", spectral)?;
+        self.report.highest = spectral.and_then(|spectral| sizes::highest(evidence, &spectral));
+        Ok(())
+    }
+
+    /// The full model under each boundary of the plan, counted where counts are made.
+    fn references(
+        &mut self,
+        evidence: &Evidence<'_>,
+        analysis: &Analysis,
+        interfaces: &[Interface],
+        plan: &Plan,
+    ) -> Result<Vec<Reference>> {
+        let mut references = Vec::new();
+        let limit = plan.band_hz.map_or(0.0, |[_, high]| eigenvalue(evidence, high));
+        let solved = |support| Reference::new(evidence, Boundary::new(evidence, interfaces, support), limit, SEED);
+        let solved: Vec<Result<Reference>> = if evidence.partition.n_dofs() <= TOGETHER_UP_TO {
+            plan.supports.par_iter().map(solved).collect()
+        } else {
+            plan.supports.iter().map(solved).collect()
+        };
+        for (support, solved) in plan.supports.iter().zip(solved) {
+            let what = format!("frequencies with boundary {support}");
+            let Some(reference) = self.kept(&what, solved)? else { continue };
+            match reference.unsound(evidence) {
+                Some(why) => self.report.not_compared.push(format!("{what}: {why}")),
+                None => references.push(reference),
+            }
+        }
+        if plan.certify != Certify::None && !references.is_empty() {
+            self.count(evidence, analysis, &mut references, limit)?;
+        }
+        Ok(references)
+    }
+
+    /// Counts the modes of every reference; where one is missing it is looked for from another start.
+    fn count(
+        &mut self,
+        evidence: &Evidence<'_>,
+        analysis: &Analysis,
+        references: &mut [Reference],
+        limit: f64,
+    ) -> Result<()> {
+        const WHAT: &str = "number of modes under other boundaries";
+        let condensed = Condensed::new(evidence, analysis, references, limit);
+        let Some(condensed) = self.kept(WHAT, condensed)? else { return Ok(()) };
+        let Some(condensed) = condensed else {
+            self.report.not_compared.push(format!("{WHAT}: every shift above the band lies on an eigenvalue"));
+            return Ok(());
+        };
+        for reference in references {
+            reference.count = condensed.count(evidence, reference)?;
+            if reference.count.is_some_and(|count| count.n_counted != count.n_found) {
+                let again = Reference::new(evidence, reference.boundary.clone(), limit, SEED + 1);
+                if let Some(again) = self.kept(&format!("modes with boundary {}", reference.boundary.name), again)? {
+                    *reference = again;
+                    reference.count = condensed.count(evidence, reference)?;
+                }
+            }
+            if reference.count.is_none() {
+                let name = &reference.boundary.name;
+                self.report.not_compared.push(format!("number of modes with boundary {name}: rounding decides it"));
+            }
+        }
+        Ok(())
+    }
+
+    fn dynamics(
+        &mut self,
+        evidence: &Evidence<'_>,
+        (plan, band_hz): (&Plan, [f64; 2]),
+        references: &[Reference],
+    ) -> Result<()> {
+        for reference in references {
+            let what = format!("frequencies with boundary {}", reference.boundary.name);
+            let comparison = self.kept(&what, reference.comparison(evidence, band_hz))?;
+            self.report.boundaries.extend(comparison);
+        }
+        let response = if plan.response {
+            self.kept("frequency response", response::compared(evidence, evidence.factor, band_hz, plan.eta))?
+        } else {
+            None
+        };
+        if let Some(response) = &response {
+            self.checks.extend(response::checks(response));
+            self.report.response = Some(response.report.clone());
+        }
+        let monotonicity = boundaries::monotonicity(evidence, references);
+        let monotonicity = self.kept("monotonicity of the frequencies", monotonicity)?.flatten();
+        self.checks.extend(counts::check(references));
+        self.checks.extend(monotonicity);
+        let full = response.as_ref().map(|response| &response.full);
+        let sizes = sizes::size_errors(evidence, references, full, band_hz);
+        self.report.size_errors = self.kept("errors of smaller bases", sizes)?.unwrap_or_default();
+        Ok(())
+    }
+}

@@ -1,0 +1,91 @@
+//! The full model under one boundary of the scene.
+
+use faer::Mat;
+
+use super::boundary::Boundary;
+use super::full::Supported;
+use super::outcome::BoundaryCount;
+use crate::dense;
+use crate::eigen::ModeError;
+use crate::error::Result;
+use crate::number::scientific;
+use crate::random::SEED;
+use crate::verification::evidence::Evidence;
+
+/// How far roundings of one sign may exceed their typical sum.
+pub(super) const ROUNDINGS: f64 = 10.0;
+/// Backward error of a pair beyond which it is nobody's, unless the digits of the data explain it: half the digits are gone.
+const NOT_SOLVED: f64 = 1e-8;
+
+/// The full model's answer under one boundary.
+#[derive(Clone, Debug)]
+pub(super) struct Reference {
+    pub(super) boundary: Boundary,
+    /// Elastic eigenvalues up to the end of the band, ascending.
+    pub(super) lambda: Vec<f64>,
+    /// What is known of the error of each.
+    pub(super) errors: Vec<ModeError>,
+    /// The next eigenvalue above, where there is one.
+    pub(super) next: Option<f64>,
+    /// The rigid-body motions that the support lets pass, at the interface dofs that are not held; orthonormal in the mass of
+    /// the component with its load.
+    passing: Mat<f64>,
+    /// The Sturm count, where one was made.
+    pub(super) count: Option<BoundaryCount>,
+}
+
+impl Reference {
+    /// The full model up to `limit`; the retained modes where they are the answer already and `seed` is the first.
+    ///
+    /// # Errors
+    /// The eigensolver does not converge; no memory.
+    pub(super) fn new(evidence: &Evidence<'_>, boundary: Boundary, limit: f64, seed: u64) -> Result<Self> {
+        let modes = &evidence.retained.modes;
+        let is_covered = match (modes.next, modes.searched_to) {
+            (Some(next), _) => next > limit,
+            (None, Some(searched_to)) => searched_to >= limit,
+            (None, None) => true,
+        };
+        let supported = Supported::new(evidence, &boundary)?;
+        let found = if boundary.is_own(evidence) && is_covered && seed == SEED {
+            modes
+        } else {
+            &supported.modes_up_to(evidence, limit, seed)?
+        };
+        let n_found = found.lambda.iter().take_while(|lambda| **lambda <= limit).count();
+        Ok(Self {
+            boundary,
+            lambda: found.lambda[..n_found].to_vec(),
+            errors: found.errors[..n_found].to_vec(),
+            next: found.lambda.get(n_found).copied().or(found.next),
+            passing: supported.passing(),
+            count: None,
+        })
+    }
+
+    /// Rigid-body motions that the support lets pass.
+    pub(super) fn n_zero(&self) -> usize {
+        self.passing.ncols()
+    }
+
+    /// The same motions in the coordinates of a reduced model without the dofs that are held, n × n_zero.
+    pub(super) fn passing_coordinates(&self, n: usize) -> Mat<f64> {
+        let motions = &self.passing;
+        Mat::from_fn(n, motions.ncols(), |i, j| if i < motions.nrows() { motions[(i, j)] } else { 0.0 })
+    }
+
+    /// Why the full model was not solved under this boundary well enough to be compared with; the retained modes have M-01
+    /// to say so.
+    pub(super) fn unsound(&self, evidence: &Evidence<'_>) -> Option<String> {
+        let precision = evidence.partition.precision;
+        let most = NOT_SOLVED.max(ROUNDINGS * precision.stiffness.max(precision.mass));
+        let backward = dense::worst(self.errors.iter().map(|error| error.backward));
+        (!self.boundary.is_own(evidence) && dense::worse(backward, most))
+            .then(|| format!("the full model leaves a residual of {} there", scientific(backward, 2)))
+    }
+
+    /// What rounding moves an eigenvalue by, in scaled units: that of the mode it moves most.
+    pub(super) fn rounding_floor(&self) -> f64 {
+        dense::worst(self.errors.iter().map(|error| error.rounding_floor))
+    }
+}
