@@ -151,7 +151,7 @@ pub use file::SealedBytes;
 pub use mass_properties::mass_properties;
 pub use matrix::Matrix;
 pub use metadata::{
-    CheckSummary, Coordinate, Direction, DroppedColumn, Flag, Generator, InterfaceDof, InterfaceNode, MassProperties,
-    Metadata, Method, ModelSummary, RigidBodyModes, Validity, Verdict, Verification,
+    CheckSummary, Coordinate, Direction, DroppedColumn, Flag, Generator, InterfaceDof, InterfaceNode, MOTIONS,
+    MassProperties, Metadata, Method, ModelSummary, RigidBodyModes, Validity, Verdict, Verification,
 };
 pub use superelement::{Precision, RecoveredDof, Recovery, Superelement, Tensors};

@@ -87,6 +87,16 @@ pub enum Direction {
     Rz,
 }
 
+/// The six unit motions of a free body, the columns of U of equation (8): translations first, then rotations about the origin.
+pub const MOTIONS: [&str; 6] = [
+    "translation along x",
+    "translation along y",
+    "translation along z",
+    "rotation about x",
+    "rotation about y",
+    "rotation about z",
+];
+
 impl Direction {
     /// All six, in order; their places are the numbers in `recovery_dofs`.
     pub const ALL: [Self; 6] = [Self::Ux, Self::Uy, Self::Uz, Self::Rx, Self::Ry, Self::Rz];

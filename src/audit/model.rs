@@ -14,6 +14,7 @@ mod alignment;
 mod asked;
 mod bars;
 mod columns;
+mod combined;
 mod comparison;
 mod entries;
 mod full;

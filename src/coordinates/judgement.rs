@@ -8,6 +8,7 @@ use super::zeros::{Zeros, counted, n_loose_rows, whole};
 use crate::error::{Error, ErrorClass, Result};
 use crate::model::{CoordinateFit, Misfit};
 use crate::sparse::product;
+use supel_runtime::MOTIONS;
 
 /// Share of the Rayleigh quotient of the first elastic mode that rounded coordinates may cost. Five digits of a plate of
 /// thickness 1:1000 cost 3·10⁻³, one node of a block moved by a hundredth costs 2.5·10⁻² (catalogue I-18, I-19).
@@ -16,18 +17,9 @@ const ROUNDED: f64 = 1e-2;
 /// normal numbers is 7 times the median one, and digits may be lost unevenly by some 10. A node out of place by a hundredth
 /// stands out by 10³ to 10⁴.
 const EVEN: f64 = 100.0;
-/// Names of the six motions.
 /// Displacement out of place, in units of the size of a held body, that coordinates of five digits leave. Of a free body zero modes mend
 /// what patches are tied by; of a held one nothing does, and in a thin part little displacement is much stiffness.
 const FIVE_DIGITS: f64 = 2e-5;
-const MOTIONS: [&str; 6] = [
-    "translation along x",
-    "translation along y",
-    "translation along z",
-    "rotation about x",
-    "rotation about y",
-    "rotation about z",
-];
 
 /// What is known of all bodies once there is a doubt.
 struct Case<'a> {

@@ -2,7 +2,7 @@
 
 use faer::Mat;
 
-use super::evidence::Evidence;
+use super::evidence::{Evidence, NAMES};
 use crate::dense;
 use crate::dofs::Direction;
 use crate::model::Site;
@@ -21,9 +21,6 @@ pub(super) struct Directions {
 
 /// Share of the largest modal mass below which a motion moves nothing: a rotation about the line all mass lies on.
 const NOTHING: f64 = 1e-12;
-
-pub(super) const NAMES: [&str; 6] =
-    ["translation x", "translation y", "translation z", "rotation x", "rotation y", "rotation z"];
 
 impl Directions {
     /// The unit translations and the unit rotations about the middle of the mass, whether K lets them pass or not;

@@ -11,8 +11,11 @@ use crate::partition::Partition;
 use crate::reduction::Reduction;
 use crate::rigid::{InterfaceRank, RigidBodyModes};
 
-use super::directions;
 use super::enclosure::Enclosures;
+
+/// The six unit motions, the columns of U of one free body.
+pub(super) const NAMES: [&str; 6] =
+    ["translation x", "translation y", "translation z", "rotation x", "rotation y", "rotation z"];
 
 /// Everything the checks look at: the results of the stages, none of their workings.
 #[derive(Clone, Copy, Debug)]
@@ -43,7 +46,7 @@ pub struct Evidence<'a> {
 
 /// What a rigid-body mode is called: `rotation z` of one free body, else by its number.
 pub(super) fn rigid_name(evidence: &Evidence<'_>, mode: usize) -> String {
-    match directions::NAMES.get(mode).filter(|_| evidence.rigid.is_classical) {
+    match NAMES.get(mode).filter(|_| evidence.rigid.is_classical) {
         Some(name) => (*name).to_owned(),
         None => format!("rigid-body mode {}", mode + 1),
     }

@@ -5,7 +5,7 @@ use super::evidence::Evidence;
 use super::grounding::{self, Grounding};
 use super::loads::{self, EffectiveMasses};
 use super::rigid_body::{self, MassRoutes};
-use super::{completeness, conditioning, eigenpairs, enclosure, mass, reduced, rigid_motion, solves, spectrum};
+use super::{completeness, conditioning, eigenpairs, enclosed, mass, reduced, rigid_motion, solves, spectrum};
 use crate::error::Result;
 
 /// What verification found.
@@ -56,7 +56,7 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
         rigid_motion::residual(evidence, &rigid_body.grounding),
     ];
     checks.extend(completeness::count(evidence));
-    checks.extend(enclosure::checks(evidence));
+    checks.extend(enclosed::checks(evidence));
     checks.push(eigenpairs::data_precision(evidence));
     checks.push(solves::static_solves(evidence)?);
     if evidence.partition.n_interface() > 0 {

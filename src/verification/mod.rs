@@ -8,6 +8,7 @@ mod completeness;
 mod conditioning;
 mod directions;
 mod eigenpairs;
+mod enclosed;
 mod enclosure;
 mod evidence;
 mod findings;

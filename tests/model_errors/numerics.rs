@@ -3,7 +3,7 @@
 use faer::MatMut;
 use supel::eigen::{ModalProblem, ModeRequest, ShiftInvert, Wanted, elastic_modes};
 use supel::error::{Error, ErrorClass};
-use supel::factor::{Analysis, count_below};
+use supel::factor::count_below;
 use supel::job::Eigensolver;
 use supel::random::SEED;
 use supel::rigid;

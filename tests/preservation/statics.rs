@@ -36,8 +36,8 @@ fn interface_stiffness_is_that_of_dense_condensation() {
         let position = std::array::from_fn(|axis| site.position[axis] - centre[axis]);
         supel::model::Site { position, direction: site.direction }.rigid_motion()[j]
     });
-    let patch = condensed(n_i, dense.pencil(), &(0..6).collect::<Vec<_>>());
-    let tip = r.transpose() * condensed(n_i, dense.pencil(), &tip) * &r;
+    let patch = condensed(&dense, n_i, &(0..6).collect::<Vec<_>>());
+    let tip = r.transpose() * condensed(&dense, n_i, &tip) * &r;
     for (found, expected) in statics.iter().zip([patch, tip]) {
         assert_eq!(found.dofs.len(), 6);
         // Rounding of K_II⁻¹: n ε κ, κ below 1e5 for this block, relative to the stiffness before condensation, which

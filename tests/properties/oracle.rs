@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use supel::cli::ExitCode;
 use supel::error::Error;
-use supel::factor::{Analysis, count_below};
+use supel::factor::count_below;
 use supel_models::transform::rounded;
 use supel_models::{Material, brick};
 

@@ -4,7 +4,7 @@ use faer::Mat;
 use proptest::prelude::*;
 use supel::basis::Basis;
 use supel::constraint::constraint_modes;
-use supel::factor::{Analysis, Cholesky};
+use supel::factor::Cholesky;
 use supel::job::{Eigensolver, Method, ModeSelection, ReductionJob};
 use supel::modes::{Component, ModeSource, Retained, Search};
 use supel::partition::Partition;
@@ -42,7 +42,7 @@ fn built(method: Method, count: usize, seed: u64) -> Built {
     let search = Search::new(component, &job).expect("counts");
     let found = search.lowest(seed).expect("converges");
     let retained = Retained { modes: found, boundary: search.problem.boundary };
-    let basis = Basis::new(&constraint, retained.columns(component), partition.internal().mass);
+    let basis = Basis::new(&constraint, supel::basis::retained_columns(component, &retained), partition.internal().mass);
     let reduction = Reduction::new(&partition, &basis, &rigid);
     drop(factor);
     Built { reduction, retained, partition }

@@ -20,7 +20,7 @@ use super::recovery::RecoveryMap;
 use super::{ComponentError, FloatingFrame, Measures, ModalComponent};
 use crate::elementary::sqrt;
 use crate::matrix::Matrix;
-use crate::metadata::{Coordinate, Direction, RigidBodyModes};
+use crate::metadata::{Coordinate, Direction, MOTIONS, RigidBodyModes};
 use crate::motion::{
     IDENTITY_3, IDENTITY_6, Matrix6, Vector3, Vector6, blocks, dot, multiply_6, skew, transposed_times_6,
 };
@@ -43,16 +43,6 @@ const ABOVE_THE_STIFFNESS: f64 = 10.0;
 /// Smallest pivot of the rigid-body mass scaled to unit diagonal: of a body ten thousand times its size away from the
 /// origin.
 const SMALLEST_PIVOT: f64 = 1e-9;
-
-/// The columns of U.
-const MOTIONS: [&str; 6] = [
-    "translation along x",
-    "translation along y",
-    "translation along z",
-    "rotation about x",
-    "rotation about y",
-    "rotation about z",
-];
 
 /// Reduced matrices, r × r, row by row.
 #[derive(Clone, Debug)]

@@ -8,6 +8,7 @@
 
 mod attribute;
 mod compressed;
+mod convention;
 mod dataset;
 mod file;
 mod hmf;
