@@ -1475,12 +1475,9 @@ pub enum Error {
     },
     /// A pivot of a Sturm count is zero or not a number.
     #[error(
-        "the Sturm count met a pivot without a sign at step {step} – the shift lies on an eigenvalue – ask for one mode more or less"
+        "the Sturm count met a pivot without a sign – the shift lies on an eigenvalue – ask for one mode more or less"
     )]
-    SturmPivot {
-        /// The step of elimination.
-        step: usize,
-    },
+    SturmPivot,
     /// Lanczos did not converge.
     #[error(
         "the eigensolver stalled after {restarts} restarts – found {converged} converged modes – ask for fewer modes or a narrower band"

@@ -7,7 +7,7 @@
 //! # The straight line
 //!
 //! ```text
-//! input → model → coordinates → partition → rigid → factor → modes → basis → reduction → verification → output
+//! input → model → coordinates → partition → rigid → factor → constraint → modes → basis → reduction → verification → output
 //! ```
 //!
 //! One file or folder for each word, one type handed from each to the next. [`reduce`] is this line; nothing else
@@ -21,11 +21,26 @@
 //! | [`partition`] | the interfaces | K, M on internal and interface dofs, rigid patches applied, in order of elimination |
 //! | [`rigid`] | the partition | U, verified against K; the rank of U_B |
 //! | [`factor`] | K, the interface last | L Lᵀ of K_II, solves, counts of eigenvalues |
-//! | [`modes`] | the factor | elastic modes with error bars, certified complete |
+//! | [`constraint`] | the factor | constraint modes, mechanisms; K̂_BB |
+//! | [`modes`] | the factor and those | elastic modes with error bars, certified complete |
 //! | [`basis`] | the modes | Ψ = \[I 0; Ψ_S Ψ_D\] |
 //! | [`reduction`] | Ψ | K̂, M̂, Û, M_F |
 //! | [`verification`] | all of it | checks: value, limit, verdict |
 //! | [`output`] | all of it | the superelement and the report |
+//!
+//! # Layers
+//!
+//! Each word is a folder or a file of `src`; none imports one that comes later, and no two files import each other. `tests/architecture`
+//! reads this list and the imports. The line above is the order in which the stages run; [`coordinates`] runs early and stands late
+//! here, because it looks at the raw matrices with the tools of the stages after it.
+//!
+//! ```text
+//! number · dofs · error · heap · regular_file · random · dense · sparse
+//! factor · eigen
+//! job · input · model · partition · rigid · coordinates · constraint · modes · basis · reduction
+//! forecast · verification · audit
+//! report · output · outcome · cli
+//! ```
 //!
 //! # Invariants
 //!
@@ -67,21 +82,21 @@ pub mod verification;
 
 use audit::{Audit, Reference};
 use basis::Basis;
+use constraint::Constrained;
 use coordinates::Levers;
-use error::{Error, Result};
-use factor::{Analysis, Cholesky};
+use error::Result;
 use forecast::Resources;
 use input::Allowance;
 use input::InputFacts;
 use job::{Coupling, Job};
 use model::Model;
-use modes::{Component, ModeSource, Retained};
+use modes::{Component, ModeSource, Retained, Search};
 use outcome::Outcome;
 use output::Results;
 use partition::Partition;
+use random::SEED;
 use reduction::Reduction;
 use report::Observer;
-use rigid::RigidBodyModes;
 use supel_runtime::Superelement;
 use verification::Evidence;
 
@@ -95,42 +110,39 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let (facts, partition) = prepared(job, resources, observer)?;
 
     observer.stage("rigid-body modes");
-    // The analysis asks for the pattern of the matrices alone: it is made beside, and is the first of what a factor needs.
+    // The analysis reads the pattern of the matrices alone, so that it runs at the same time.
     let (rigid, analysis) = rayon::join(|| rigid::rigid_body_modes(&partition), || partition.analysis());
     let ((rigid, n_extra), analysis) = (rigid?, analysis?);
     let rank = rigid::interface_rank(&partition, &rigid)?;
 
     observer.stage("factor");
     let storage = forecast::storage_within_memory(&analysis, &partition, job, resources)?;
-    let sigma = rigid::shift_of_factor(&partition, &rigid);
-    let factor = Cholesky::kept(&analysis, (partition.pencil(), sigma), storage, &|dof| partition.name_of(dof));
-    let factor = factor.map_err(|error| refused(error, &analysis, &partition, &rigid))?;
-    let rank = rigid::confirmed_rank(&partition, &rigid, rank, &factor)?;
+    let factor = constraint::interior_factor(&partition, &analysis, &rigid, storage)?;
 
     observer.stage("constraint modes");
-    let constraint = constraint::constraint_modes(&partition, &factor, &rigid);
-    factor.refinement()?;
-    let (rigid, loose) = constraint::with_mechanisms(&partition, &constraint, rigid)?;
+    let Constrained { modes: constraint, rigid, rank, loose } =
+        constraint::constrained(&partition, &factor, rigid, rank)?;
 
     observer.stage("modes");
     let component = Component::new(&partition, &analysis, &factor, &rigid, &constraint);
-    let search = modes::Search::new(component, &job.reduction)?;
+    let search = Search::new(component, &job.reduction)?;
     let size = (storage, search.n_expected());
     let at_once = forecast::slices_within_memory(&analysis, &partition, job, resources, size)?;
-    let found = factor.vouched(search.with_slices_at_once(at_once).lowest(random::SEED))?;
+    let found = factor.vouched(search.with_slices_at_once(at_once).lowest(SEED))?;
 
     observer.stage("certificate");
     let (found, certificate) = modes::certified(&search, &search.problem, found, search.edge(), job.run.certify)?;
     let retained = Retained { modes: found, boundary: search.problem.boundary };
 
-    observer.stage("enclosures");
-    let enclosures = verification::enclosures_where_asked(component, &retained, job.run.certify)?;
-
     observer.stage("basis");
-    let basis = Basis::new(&constraint, basis::retained_columns(component, &retained), partition.internal().mass);
+    let columns = basis::retained_columns(component, &retained);
+    let basis = Basis::new(&constraint, columns, partition.internal().mass);
 
     observer.stage("projection");
     let reduction = Reduction::new(&partition, &basis, &rigid);
+
+    observer.stage("enclosures");
+    let enclosures = verification::enclosures_where_asked(component, &retained, job.run.certify)?;
 
     observer.stage("verification");
     let evidence = Evidence {
@@ -163,12 +175,6 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         n_beside,
     })?;
     Ok(Outcome { superelement, report })
-}
-
-/// Why K_II could not be factored, the true reason first.
-fn refused(error: Error, analysis: &Analysis, partition: &Partition, rigid: &RigidBodyModes) -> Error {
-    let error = factor::few_digits(error, analysis, (&partition.stiffness).into(), partition.precision.stiffness);
-    rigid::or_lack_of_rank(error, partition, rigid)
 }
 
 /// The first four stages, which every look at the full model begins with.

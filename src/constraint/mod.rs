@@ -6,10 +6,14 @@
 //! K⁺    n' × n'     of self-equilibrated loads, from the factor of K_II and S
 //! ```
 
+mod constrained;
 mod constraint_modes;
 mod free_at_zero;
+mod interior;
 mod mechanism;
 
+pub use constrained::{Constrained, constrained};
 pub use constraint_modes::{Carried, ConstraintModes, constraint_modes};
 pub use free_at_zero::{FreeAtZero, RefinedAtZero};
+pub use interior::interior_factor;
 pub use mechanism::{Loose, LooseMotions, with_mechanisms};

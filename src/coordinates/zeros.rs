@@ -42,7 +42,7 @@ pub(super) fn counted(whole: &Partition, noise: f64) -> Result<Option<usize>> {
     let analysis = whole.analysis()?;
     match count_below(&analysis, whole.pencil(), ROUNDINGS * noise) {
         Ok(count) if count.is_off_clamped() => Ok(Some(count.free)),
-        Ok(_) | Err(Error::SturmPivot { .. }) => Ok(None),
+        Ok(_) | Err(Error::SturmPivot) => Ok(None),
         Err(error) => Err(error),
     }
 }

@@ -86,20 +86,20 @@ impl<'a> Indefinite<'a> {
             return Ok(Signs { negative: 0, growth: 1.0, smallest: 1.0 });
         }
         let (mut negative, mut smallest) = (0, f64::INFINITY);
-        let mut pivots = self.numbers.pivots().enumerate();
-        while let Some((step, (d, coupling))) = pivots.next() {
+        let mut pivots = self.numbers.pivots();
+        while let Some((d, coupling)) = pivots.next() {
             if !d.is_finite() || !coupling.is_finite() || (d == 0.0 && coupling == 0.0) {
-                return Err(Error::SturmPivot { step });
+                return Err(Error::SturmPivot);
             }
             if coupling == 0.0 {
                 negative += usize::from(d < 0.0);
                 smallest = smallest.min(d.abs());
                 continue;
             }
-            let Some((_, (next, _))) = pivots.next() else { return Err(Error::SturmPivot { step }) };
+            let Some((next, _)) = pivots.next() else { return Err(Error::SturmPivot) };
             let determinant = d * next - coupling * coupling;
             if !determinant.is_finite() || determinant == 0.0 {
-                return Err(Error::SturmPivot { step });
+                return Err(Error::SturmPivot);
             }
             smallest = smallest.min(determinant.abs() / d.abs().max(next.abs()).max(coupling.abs()));
             // One of each sign unless the determinant is positive; then both have the sign of the trace.

@@ -95,7 +95,7 @@ fn counted<'a>(
         condensed_gap: schur.condensed_gap,
     };
     if !count.schur_gap.is_finite() {
-        return Err(Error::SturmPivot { step: n_i });
+        return Err(Error::SturmPivot);
     }
     Ok((factor, schur, count))
 }

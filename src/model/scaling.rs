@@ -65,6 +65,22 @@ impl Scaling {
         if self.mass.rem_euclid(2) == 0 { root } else { root * std::f64::consts::FRAC_1_SQRT_2 }
     }
 
+    /// The circular frequency of a scaled eigenvalue in rad/s; that of a negative one is negative.
+    pub fn omega(&self, lambda: f64) -> f64 {
+        (lambda * self.eigenvalue_unit()).abs().sqrt().copysign(lambda)
+    }
+
+    /// The frequency of a scaled eigenvalue in Hz; that of a negative one is negative.
+    pub fn hertz(&self, lambda: f64) -> f64 {
+        self.omega(lambda) / std::f64::consts::TAU
+    }
+
+    /// The scaled eigenvalue of a frequency in Hz.
+    pub fn eigenvalue(&self, frequency_hz: f64) -> f64 {
+        let omega = std::f64::consts::TAU * frequency_hz;
+        omega * omega / self.eigenvalue_unit()
+    }
+
     /// Factor from a scaled eigenvalue to the user's (rad/s)².
     pub fn eigenvalue_unit(&self) -> f64 {
         2f64.powi(self.stiffness - self.mass)

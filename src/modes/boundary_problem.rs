@@ -131,7 +131,7 @@ impl<'a> BoundaryProblem<'a> {
             Boundary::FixedInterface => count.is_off_clamped(),
             Boundary::FreeInterface => count.is_off_clamped() && count.is_off_free(),
         };
-        if is_off { Ok(()) } else { Err(Error::SturmPivot { step: self.modal().mass.rows() }) }
+        if is_off { Ok(()) } else { Err(Error::SturmPivot) }
     }
 
     /// Counts the elastic eigenvalues below a shift above zero.
@@ -154,8 +154,7 @@ impl<'a> BoundaryProblem<'a> {
         match counted.checked_sub(found) {
             Some(n_elastic) => Ok(ElasticCount { inertia, n_elastic }),
             None => {
-                let unit = self.component.partition.scaling.eigenvalue_unit();
-                let below_hz = (inertia.sigma * unit).max(0.0).sqrt() / std::f64::consts::TAU;
+                let below_hz = self.component.partition.scaling.hertz(inertia.sigma);
                 Err(Error::ModesMissing { below_hz, found, counted })
             }
         }
@@ -172,7 +171,7 @@ impl<'a> BoundaryProblem<'a> {
         solve: impl FnOnce(&dyn ShiftInvert) -> Result<T>,
     ) -> Result<(T, usize)> {
         const PLACES: [f64; 5] = [0.5, 0.46, 0.54, 0.42, 0.58];
-        let mut last = Err(Error::SturmPivot { step: 0 });
+        let mut last = Err(Error::SturmPivot);
         for (attempt, place) in PLACES.into_iter().enumerate() {
             let sigma = interval.from + place * (interval.to - interval.from);
             last = self.factor_at(sigma);
@@ -181,7 +180,7 @@ impl<'a> BoundaryProblem<'a> {
                 return Ok((solve(&operator)?, attempt + 1));
             }
         }
-        Err(last.err().unwrap_or(Error::SturmPivot { step: 0 }))
+        Err(last.err().unwrap_or(Error::SturmPivot))
     }
 }
 

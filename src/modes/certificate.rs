@@ -173,7 +173,7 @@ fn certify_modes(
         }
     }
     let mut best: Option<Certificate> = None;
-    let mut failure = Error::SturmPivot { step: 0 };
+    let mut failure = Error::SturmPivot;
     let places = far.into_iter().chain(PLACES.into_iter().map(|place| modes.shift_above(place)));
     for (attempt, sigma) in places.enumerate() {
         match problem.count_below(sigma) {

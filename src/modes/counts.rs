@@ -65,7 +65,7 @@ impl<'a> Counts<'a> {
         for step in 0..STEPS {
             match counts.take(sigma) {
                 Ok(_) => {}
-                Err(Error::SturmPivot { .. }) => {
+                Err(Error::SturmPivot) => {
                     sigma *= 1.0 + OFF;
                     continue;
                 }
@@ -158,7 +158,7 @@ impl<'a> Counts<'a> {
             }
             match self.take(sigma) {
                 Ok(count) => return Ok(Some(count)),
-                Err(Error::SturmPivot { .. } | Error::ModesMissing { .. }) => {}
+                Err(Error::SturmPivot | Error::ModesMissing { .. }) => {}
                 Err(error) => return Err(error),
             }
         }
@@ -173,7 +173,7 @@ impl<'a> Counts<'a> {
         let below = place.checked_sub(1).map_or(self.lower.1, |before| self.counts[before].n_elastic);
         let above = self.counts.get(place).map_or(usize::MAX, |after| after.n_elastic);
         if !(below..=above).contains(&count.n_elastic) {
-            return Err(Error::SturmPivot { step: 0 });
+            return Err(Error::SturmPivot);
         }
         self.counts.insert(place, count);
         Ok(count)

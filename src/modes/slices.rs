@@ -218,11 +218,11 @@ impl Filling<'_> {
                     self.fill(end.place(), above, CUTS_TO_FIND)?;
                     end = above;
                 }
-                Err(Error::SturmPivot { .. }) => {}
+                Err(Error::SturmPivot) => {}
                 Err(error) => return Err(error),
             }
         }
-        Err(Error::SturmPivot { step: 0 })
+        Err(Error::SturmPivot)
     }
 
     /// A count near the middle of an interval, off the eigenvalues known.
@@ -252,10 +252,9 @@ fn side_by_side<T: Send + Sync>(
 
 /// The error of an interval that is given up.
 pub(super) fn missing(problem: &BoundaryProblem<'_>, modes: &Modes, upper: ElasticCount) -> Error {
-    let unit = problem.component.partition.scaling.eigenvalue_unit();
     let (sigma, n_rigid) = (upper.inertia.sigma, problem.n_rigid());
     Error::ModesMissing {
-        below_hz: (sigma * unit).max(0.0).sqrt() / std::f64::consts::TAU,
+        below_hz: problem.component.partition.scaling.hertz(sigma),
         found: modes.n_between(f64::NEG_INFINITY, sigma) + n_rigid,
         counted: upper.n_elastic + n_rigid,
     }

@@ -1,6 +1,6 @@
 //! The body of the report from the results of the stages.
 
-use super::results::{Results, omega};
+use super::results::Results;
 use super::{rigid_body, warnings};
 use crate::basis::DynamicCoordinate;
 use crate::eigen::CLUSTER_GAP;
@@ -142,10 +142,9 @@ fn origin(node: &InterfaceNode, jobs: &[InterfaceJob]) -> PositionOrigin {
 fn modes(results: &Results<'_>) -> Vec<ModeRow> {
     let evidence = &results.evidence;
     let modes = &evidence.retained.modes;
-    let unit = evidence.partition.scaling.eigenvalue_unit();
     let kind = kind(evidence.retained.boundary);
     let row = |(index, (lambda, error)): (usize, (&f64, &crate::eigen::ModeError))| {
-        let frequency_hz = omega(*lambda, unit) / std::f64::consts::TAU;
+        let frequency_hz = evidence.partition.scaling.hertz(*lambda);
         ModeRow {
             index: index + 1,
             frequency_hz,
@@ -161,10 +160,9 @@ fn modes(results: &Results<'_>) -> Vec<ModeRow> {
 /// The proven interval of a mode as frequencies, rounded outwards.
 fn enclosure(results: &Results<'_>, index: usize) -> Option<[f64; 2]> {
     const OUTWARD: f64 = 4.0 * f64::EPSILON;
-    let unit = results.evidence.partition.scaling.eigenvalue_unit();
     let [low, high] = results.evidence.enclosures?.intervals.get(index).copied()??;
-    let hertz = |lambda: f64| omega(lambda, unit) / std::f64::consts::TAU;
-    Some([hertz(low) * (1.0 - OUTWARD), hertz(high) * (1.0 + OUTWARD)])
+    let scaling = results.evidence.partition.scaling;
+    Some([scaling.hertz(low) * (1.0 - OUTWARD), scaling.hertz(high) * (1.0 + OUTWARD)])
 }
 
 fn kind(boundary: Boundary) -> ModeKind {
@@ -233,11 +231,10 @@ fn reason(results: &Results<'_>) -> String {
             "there is no other, since the mass matrix leaves {n_finite} frequencies finite, those of rigid-body motion included"
         );
     }
-    let unit = results.evidence.partition.scaling.eigenvalue_unit();
     format!(
         "a Sturm count finds no other below {:.3e} Hz; that there is none above is not proved, since the mass matrix may leave \
          {n_finite} frequencies finite and {n_counted} are known",
-        omega(certificate.count.sigma, unit) / std::f64::consts::TAU
+        results.evidence.partition.scaling.hertz(certificate.count.sigma)
     )
 }
 
@@ -268,14 +265,13 @@ fn number_of_modes(results: &Results<'_>) -> Option<Warning> {
 
 /// The counts as frequencies.
 fn trust_intervals(results: &Results<'_>) -> Vec<TrustInterval> {
-    let unit = results.evidence.partition.scaling.eigenvalue_unit();
-    let hz = |sigma: f64| sigma.signum() * (sigma.abs() * unit).sqrt() / std::f64::consts::TAU;
+    let scaling = results.evidence.partition.scaling;
     let Some(certificate) = results.evidence.certificate else {
         return Vec::new();
     };
     let interval = |counted: &CountedInterval| TrustInterval {
-        from_hz: hz(counted.from),
-        to_hz: hz(counted.to),
+        from_hz: scaling.hertz(counted.from),
+        to_hz: scaling.hertz(counted.to),
         kind: kind(certificate.boundary),
         n_counted: counted.n_counted,
         n_found: counted.n_found,
@@ -285,10 +281,9 @@ fn trust_intervals(results: &Results<'_>) -> Vec<TrustInterval> {
 }
 
 fn completeness(results: &Results<'_>) -> Completeness {
-    let unit = results.evidence.partition.scaling.eigenvalue_unit();
     match (results.evidence.certificate, results.job.run.certify) {
         (Some(certificate), _) => Completeness::SturmCount {
-            below_hz: omega(certificate.count.sigma, unit) / std::f64::consts::TAU,
+            below_hz: results.evidence.partition.scaling.hertz(certificate.count.sigma),
             n_counted: certificate.n_counted,
             n_found: certificate.n_found,
             doubt: certificate.doubt(),

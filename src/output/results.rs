@@ -67,8 +67,3 @@ impl Results<'_> {
         }
     }
 }
-
-/// The frequency of an eigenvalue in scaled units, in rad/s.
-pub(super) fn omega(lambda: f64, unit: f64) -> f64 {
-    (lambda * unit).max(0.0).sqrt()
-}

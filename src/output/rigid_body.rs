@@ -3,7 +3,7 @@
 use faer::MatRef;
 use supel_runtime::Matrix;
 
-use super::results::{Results, omega};
+use super::results::Results;
 use crate::error::Warning;
 use crate::report::{EffectiveMass, Grounding, MassProperties, MassRoute, RigidBodyEvidence};
 use crate::verification::{Evidence, Restraint};
@@ -11,7 +11,7 @@ use crate::verification::{Evidence, Restraint};
 /// What verification found of it.
 pub(super) fn evidence(results: &Results<'_>) -> RigidBodyEvidence {
     let found = &results.findings.rigid_body;
-    let unit = results.evidence.partition.scaling.eigenvalue_unit();
+    let scaling = results.evidence.partition.scaling;
     let grounding = found.grounding.iter().map(|direction| Grounding {
         direction: direction.direction.clone(),
         energy_ratio: direction.energy_ratio,
@@ -21,7 +21,7 @@ pub(super) fn evidence(results: &Results<'_>) -> RigidBodyEvidence {
     RigidBodyEvidence {
         mass_routes: mass_routes(results),
         // Rounding may leave a zero eigenvalue on either side of zero.
-        frequencies_hz: found.eigenvalues.iter().map(|l| omega(l.abs(), unit) / std::f64::consts::TAU).collect(),
+        frequencies_hz: found.eigenvalues.iter().map(|l| scaling.hertz(l.abs())).collect(),
         grounding: grounding.collect(),
         effective_mass: effective_mass(results),
     }

@@ -7,7 +7,7 @@ use faer::{Mat, MatRef};
 use supel_runtime::{self as file, Coordinate, Matrix, Metadata, Superelement, Tensors};
 
 use super::recovery::{direction_of, recovery};
-use super::results::{Results, omega};
+use super::results::Results;
 use crate::basis::DynamicCoordinate;
 use crate::error::{Error, Result};
 use crate::job::{Job, Method, ModeSelection};
@@ -71,8 +71,9 @@ fn matrix(a: MatRef<'_, f64>) -> Matrix {
 }
 
 fn frequencies(results: &Results<'_>) -> Vec<f64> {
-    let unit = results.evidence.partition.scaling.eigenvalue_unit();
-    let mut frequencies: Vec<f64> = results.eigenvalues().into_iter().map(|lambda| omega(lambda, unit)).collect();
+    let scaling = results.evidence.partition.scaling;
+    let mut frequencies: Vec<f64> =
+        results.eigenvalues().into_iter().map(|lambda| scaling.omega(lambda.max(0.0))).collect();
     // Rayleigh quotients of a repeated eigenvalue may come out a rounding apart in the wrong order.
     frequencies.sort_by(f64::total_cmp);
     frequencies

@@ -1,6 +1,6 @@
 //! Warnings: what the user should know although no check failed.
 
-use super::results::{Results, omega};
+use super::results::Results;
 use crate::constraint::Loose;
 use crate::error::Warning;
 use crate::factor::Refinement;
@@ -54,12 +54,11 @@ pub(super) fn of_motions(results: &Results<'_>) -> Vec<Warning> {
 }
 
 fn grey(results: &Results<'_>, motions: &[Loose]) -> String {
-    let unit = results.evidence.partition.scaling.eigenvalue_unit();
-    let hertz = |lambda: f64| omega(lambda, unit) / std::f64::consts::TAU;
+    let scaling = results.evidence.partition.scaling;
     let each = motions.iter().map(|motion| {
         format!(
             "{:.3e} Hz known to {:.1e} of itself, largest at {}",
-            hertz(motion.lambda),
+            scaling.hertz(motion.lambda),
             0.5 * motion.bar / motion.lambda,
             motion.nodes.join(", ")
         )
@@ -96,9 +95,9 @@ pub(super) fn mixed_precision(results: &Results<'_>) -> Option<Warning> {
 pub(super) fn data_precision(results: &Results<'_>) -> Option<Warning> {
     let retained = results.evidence.retained;
     let modes = &retained.modes;
-    let unit = results.evidence.partition.scaling.eigenvalue_unit();
+    let scaling = results.evidence.partition.scaling;
     let shown = |what: String, lambda: f64, bar: f64| {
-        let hertz = omega(lambda, unit) / std::f64::consts::TAU;
+        let hertz = scaling.hertz(lambda);
         (0.5 * bar > WANTED).then(|| format!("{what} at {hertz:.4e} Hz to {:.1e} of itself", 0.5 * bar))
     };
     let soft: &[Loose] = match retained.boundary {

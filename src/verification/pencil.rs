@@ -105,10 +105,9 @@ impl Spectral {
     }
 }
 
-/// z = ω² / (1 + iη) at a frequency, in scaled units.
-pub(super) fn complex_shift(frequency_hz: f64, eta: f64, eigenvalue_unit: f64) -> c64 {
-    let omega = std::f64::consts::TAU * frequency_hz;
-    c64::new(omega * omega / eigenvalue_unit, 0.0) / c64::new(1.0, eta)
+/// z = ω² / (1 + iη) of a scaled eigenvalue ω².
+pub(super) fn complex_shift(lambda: f64, eta: f64) -> c64 {
+    c64::new(lambda, 0.0) / c64::new(1.0, eta)
 }
 
 /// D A D.

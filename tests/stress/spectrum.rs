@@ -153,7 +153,7 @@ fn e_04_eigenvalue_on_the_shift() {
             let problem = BoundaryProblem { component, boundary };
             for sigma in [on, on * (1.0 + 1e-15), on * (1.0 - 1e-15)] {
                 let refused = problem.factor_at(sigma / unit).err();
-                assert!(matches!(refused, Some(Error::SturmPivot { .. })), "{boundary:?} at {sigma}");
+                assert!(matches!(refused, Some(Error::SturmPivot)), "{boundary:?} at {sigma}");
             }
             let count = problem.count_below(off / unit).expect("off the eigenvalues");
             assert_eq!(count.inertia.free, exact.iter().filter(|lambda| **lambda < off).count());

@@ -3,7 +3,6 @@
 use super::outcome::{BoundaryComparison, FrequencyPair};
 use super::reduced::{Quotient, quotients};
 use super::reference::{ROUNDINGS, Reference};
-use super::units::hertz;
 use crate::dense;
 use crate::error::Result;
 use crate::verification::check::{Check, Limits};
@@ -24,8 +23,9 @@ impl Reference {
 
     fn pairs(&self, evidence: &Evidence<'_>, reduced: &[Quotient], band_hz: [f64; 2]) -> Vec<FrequencyPair> {
         let pair = |(j, full): (usize, &f64)| {
-            let full_hz = hertz(evidence, *full);
-            let reduced_hz = reduced.get(j).map_or(f64::INFINITY, |quotient| hertz(evidence, quotient.lambda));
+            let full_hz = evidence.partition.scaling.hertz(*full);
+            let reduced_hz =
+                reduced.get(j).map_or(f64::INFINITY, |quotient| evidence.partition.scaling.hertz(quotient.lambda));
             FrequencyPair {
                 full_hz,
                 reduced_hz,

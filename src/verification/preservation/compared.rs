@@ -18,7 +18,7 @@ use super::reference::Reference;
 
 use super::outcome::Preservation;
 use super::policy::Plan;
-use super::units::{eigenvalue, shift};
+use super::shift::shift;
 use super::{counts, interfaces, mac, response, sizes, statics};
 
 /// The comparison for the report, and the checks that follow from it.
@@ -93,7 +93,7 @@ impl Compared {
         plan: &Plan,
     ) -> Result<Vec<Reference>> {
         let mut references = Vec::new();
-        let limit = plan.band_hz.map_or(0.0, |[_, high]| eigenvalue(evidence, high));
+        let limit = plan.band_hz.map_or(0.0, |[_, high]| evidence.partition.scaling.eigenvalue(high));
         let solved = |support| Reference::new(evidence, Boundary::new(evidence, interfaces, support), limit, SEED);
         let solved: Vec<Result<Reference>> = if evidence.partition.n_dofs() <= TOGETHER_UP_TO {
             plan.supports.par_iter().map(solved).collect()

@@ -14,7 +14,6 @@ use super::super::evidence::Evidence;
 use super::boundary::Boundary;
 use super::outcome::BoundaryCount;
 use super::reference::Reference;
-use super::units::hertz;
 use crate::dense;
 use crate::error::Result;
 use crate::factor::{Analysis, CONDENSED_GAP, condensed};
@@ -73,7 +72,7 @@ impl Condensed {
             return Ok(None);
         }
         Ok(Some(BoundaryCount {
-            below_hz: hertz(evidence, self.sigma),
+            below_hz: evidence.partition.scaling.hertz(self.sigma),
             n_counted: self.clamped + n_negative,
             n_found: reference.n_zero() + reference.lambda.partition_point(|lambda| *lambda < self.sigma),
         }))

@@ -17,7 +17,7 @@
 use faer::{Mat, c64};
 
 use super::super::evidence::Evidence;
-use super::units::shift;
+use super::shift::shift;
 use crate::dense;
 use crate::eigen::{Equilibrated, mass_qr};
 use crate::error::Result;
@@ -158,7 +158,7 @@ impl<'a> Extended<'a> {
     fn coefficients(&self, frequency_hz: f64) -> [Mat<f64>; 2] {
         let n_b = self.evidence.partition.n_interface();
         let r = self.basis.ncols();
-        let z = complex_shift(frequency_hz, self.eta, self.evidence.partition.scaling.eigenvalue_unit());
+        let z = complex_shift(self.evidence.partition.scaling.eigenvalue(frequency_hz), self.eta);
         let [re, im] = self.spectral.columns(z, n_b);
         // M Ψ (z C), part by part.
         let part = |own: &Mat<f64>, unit: f64, (a, b): (f64, f64)| {
@@ -305,7 +305,7 @@ pub(super) struct Response {
 impl Response {
     /// The response of a pencil whose leading coordinates are the interface dofs, in scaled units.
     pub(super) fn of(spectral: &Spectral, evidence: &Evidence<'_>, frequency_hz: f64, eta: f64) -> Self {
-        let z = complex_shift(frequency_hz, eta, evidence.partition.scaling.eigenvalue_unit());
+        let z = complex_shift(evidence.partition.scaling.eigenvalue(frequency_hz), eta);
         let parts = spectral.block(z, evidence.partition.n_interface());
         Self { parts, factor: c64::new(1.0, 0.0) / c64::new(1.0, eta) }
     }

@@ -5,7 +5,6 @@ use faer::{Mat, MatRef};
 use super::super::check::{Check, Limits};
 use super::super::evidence::{Evidence, reduced_norms};
 use super::outcome::PreservedMode;
-use super::units::hertz;
 use crate::dense;
 use crate::eigen::CLUSTER_GAP;
 use crate::error::Result;
@@ -49,7 +48,7 @@ pub(super) fn preserved(evidence: &Evidence<'_>) -> Result<Preserved> {
     let cross = dense::gram(projected.as_ref().subrows(n_held, n), phi.as_ref());
     let by_mode = cluster_mac(evidence, cross.as_ref());
     let errors = backward_errors(evidence, n_held);
-    let hz = |lambda: f64| hertz(evidence, lambda);
+    let hz = |lambda: f64| evidence.partition.scaling.hertz(lambda);
     let row = |j: usize| {
         let (full_hz, reduced_hz) = (hz(modes.lambda[j]), reduced.get(j).map_or(f64::INFINITY, |lambda| hz(*lambda)));
         PreservedMode {

@@ -25,9 +25,9 @@ mod reduced;
 mod reference;
 mod response;
 mod samples;
+mod shift;
 mod sizes;
 mod statics;
-mod units;
 
 pub use compared::{Compared, preservation};
 pub use outcome::{

@@ -107,11 +107,10 @@ impl Cost {
 
 /// From zero to where the modes that were kept serve.
 fn default_band(evidence: &Evidence<'_>, job: &Job) -> Option<[f64; 2]> {
-    let unit = evidence.partition.scaling.eigenvalue_unit();
     let highest = match job.reduction.modes {
         ModeSelection::UpTo { up_to_hz } => Some(up_to_hz),
         ModeSelection::Count { .. } => {
-            evidence.retained.modes.lambda.last().map(|lambda| (lambda * unit).max(0.0).sqrt() / std::f64::consts::TAU)
+            evidence.retained.modes.lambda.last().map(|lambda| evidence.partition.scaling.hertz(*lambda))
         }
     };
     highest.filter(|highest| *highest > 0.0).map(|highest| [0.0, highest / CUT_OFF])

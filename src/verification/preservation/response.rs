@@ -9,7 +9,7 @@ use super::extended::{Extended, Response};
 use super::interfaces::rotation_length;
 use super::outcome::{ResponseComparison, ResponseSample};
 use super::samples;
-use super::units::shift;
+use super::shift::shift;
 use crate::dense;
 use crate::error::Result;
 use crate::factor::SolveOperator;

@@ -3,7 +3,7 @@
 use faer::Mat;
 
 use super::super::evidence::Evidence;
-use super::units::{hertz, shift};
+use super::shift::shift;
 use crate::error::Result;
 use crate::verification::pencil::Spectral;
 
@@ -49,7 +49,7 @@ pub(super) fn with_zeros(
         let held = |a: &Mat<f64>| Mat::from_fn(a.nrows() - 1, a.nrows() - 1, |i, j| a[(past(i), past(j))]);
         let spectral = Spectral::of(held(k).as_ref(), held(m).as_ref(), shift(evidence))?;
         let zeros = spectral.eigenvalues().into_iter().filter(|lambda| *lambda > 0.0);
-        all.extend(within(zeros.map(|lambda| hertz(evidence, lambda)).collect()));
+        all.extend(within(zeros.map(|lambda| evidence.partition.scaling.hertz(lambda)).collect()));
     }
     Ok(merged(all))
 }
@@ -57,7 +57,7 @@ pub(super) fn with_zeros(
 /// Elastic frequencies with the interface free, ascending.
 pub(super) fn elastic_hz(evidence: &Evidence<'_>, spectral: &Spectral) -> Vec<f64> {
     let elastic = spectral.eigenvalues().into_iter().skip(evidence.rigid.count());
-    elastic.map(|lambda| hertz(evidence, lambda)).collect()
+    elastic.map(|lambda| evidence.partition.scaling.hertz(lambda)).collect()
 }
 
 /// At most [`MOST`] of them, evenly spread, the last among them.

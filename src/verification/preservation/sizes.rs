@@ -5,7 +5,7 @@ use super::outcome::{HighestFrequency, SizeError};
 use super::reduced::quotients;
 use super::reference::Reference;
 use super::response::FullResponse;
-use super::units::{hertz, shift};
+use super::shift::shift;
 use crate::basis::DynamicCoordinate;
 use crate::dense;
 use crate::error::Result;
@@ -75,7 +75,7 @@ fn n_columns(evidence: &Evidence<'_>, n_modes: usize) -> usize {
 /// The highest frequency of the reduced model with its interface free.
 pub(super) fn highest(evidence: &Evidence<'_>, reduced: &Spectral) -> Option<HighestFrequency> {
     let lambda = reduced.eigenvalues().last().copied().filter(|lambda| *lambda > 0.0)?;
-    let frequency_hz = hertz(evidence, lambda);
+    let frequency_hz = evidence.partition.scaling.hertz(lambda);
     Some(HighestFrequency {
         frequency_hz,
         explicit_step_s: 1.0 / (std::f64::consts::PI * frequency_hz),

@@ -1,0 +1,27 @@
+//! K_II factored, or the reason why it cannot be.
+
+use crate::error::{Error, Result};
+use crate::factor::{Analysis, Cholesky, Storage, few_digits};
+use crate::partition::Partition;
+use crate::rigid::{RigidBodyModes, or_lack_of_rank, shift_of_factor};
+
+/// L Lᵀ of K_II, or of K − σM below the spectrum where no interface holds a free component.
+///
+/// # Errors
+/// K_II is not definite; the message names the true reason first: the digits of the data, then an interface that leaves a
+/// motion free. No memory.
+pub fn interior_factor<'a>(
+    partition: &'a Partition,
+    analysis: &'a Analysis,
+    rigid: &RigidBodyModes,
+    storage: Storage,
+) -> Result<Cholesky<'a>> {
+    let sigma = shift_of_factor(partition, rigid);
+    let factor = Cholesky::kept(analysis, (partition.pencil(), sigma), storage, &|dof| partition.name_of(dof));
+    factor.map_err(|error| refused(error, analysis, partition, rigid))
+}
+
+fn refused(error: Error, analysis: &Analysis, partition: &Partition, rigid: &RigidBodyModes) -> Error {
+    let error = few_digits(error, analysis, (&partition.stiffness).into(), partition.precision.stiffness);
+    or_lack_of_rank(error, partition, rigid)
+}
