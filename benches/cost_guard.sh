@@ -17,7 +17,7 @@ cargo test --quiet --workspace --locked --features supel-models/med --no-run --t
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# Name, family, method and what the job has beside. The first compares all it can with the full model; the second is a solid
+# Name, family, method and what else the job has. The first compares all it can with the full model; the second is a solid
 # whose factor weighs, without comparisons.
 job() {
     local name=$1 family=$2 method=$3 extra=$4 folder=$work/$1

@@ -1106,7 +1106,7 @@ pub enum Error {
     Swapped {
         /// Share of the rows of K whose entries of one direction add up to nothing.
         in_stiffness: f64,
-        /// The same of M.
+        /// Share of the rows of M whose entries of one direction add up to nothing.
         in_mass: f64,
     },
     /// M is zero.
@@ -1200,7 +1200,7 @@ pub enum Error {
     CoordinatesDoNotFit {
         /// Zero modes of K.
         n_zero: usize,
-        /// Those of them that are motions by the coordinates.
+        /// Zero modes of K that are motions by the coordinates.
         n_explained: usize,
         /// Motions by the coordinates that cost energy they should not.
         motions: String,
@@ -1491,7 +1491,7 @@ pub enum Error {
     },
     /// More zero-energy motions than rigid-body modes.
     #[error(
-        "the component is a mechanism – found {n_more} motions without energy beside the {n_rigid} rigid-body modes – expected none – close hinges and sliding joints or give them stiffness"
+        "the component is a mechanism – found {n_more} motions without energy in addition to the {n_rigid} rigid-body modes – expected none – close hinges and sliding joints or give them stiffness"
     )]
     Mechanism {
         /// Rigid-body modes.

@@ -81,12 +81,12 @@ use verification::Evidence;
 /// What `resources` cannot hold is refused before the first factorisation; nothing of it reaches the outcome.
 ///
 /// # Errors
-/// Those of the stages; each says what, where, what was found, what was expected and what to do.
+/// The errors of the stages; each says what is wrong, where, what was found, what was expected and what to do.
 pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Result<Outcome> {
     let (facts, partition) = prepared(job, resources, observer)?;
 
     observer.stage("rigid-body modes");
-    // The analysis asks for the pattern of the matrices alone: it is made beside, and is the first of what a factor needs.
+    // The analysis asks for the pattern of the matrices alone: it is made meanwhile, and is the first of what a factor needs.
     let (rigid, analysis) = rayon::join(|| rigid::rigid_body_modes(&partition), || Analysis::of(&partition));
     let ((rigid, n_extra), analysis) = (rigid?, analysis?);
     let rank = rigid::interface_rank(&partition, &rigid)?;
@@ -191,7 +191,7 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
 /// Checks a superelement that was made earlier: by its own content, and with a job against the full matrices.
 ///
 /// # Errors
-/// Those of reading the model of the job; a dense eigenproblem or an iteration that does not converge.
+/// The errors of reading the model of the job; a dense eigenproblem or an iteration that does not converge.
 pub fn verify(
     superelement: &Superelement,
     job: Option<&Job>,

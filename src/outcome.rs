@@ -1,4 +1,4 @@
-//! What a reduction is given beside the job, and what it hands back.
+//! What a reduction is given in addition to the job, and what it hands back.
 
 use supel_runtime::Superelement;
 

@@ -24,7 +24,7 @@ pub struct StagedFile {
 }
 
 impl StagedFile {
-    /// Writes `bytes` beside `target`, under a name of its own, and syncs them to the disk.
+    /// Writes `bytes` next to `target`, under a name of its own, and syncs them to the disk.
     ///
     /// # Errors
     ///
@@ -199,7 +199,7 @@ impl Drop for StagedFile {
     }
 }
 
-/// Temporary files beside `target` that an interrupted run left (or a running one is writing), sorted by name.
+/// Temporary files next to `target` that an interrupted run left (or a running one is writing), sorted by name.
 ///
 /// Readers ignore them; a writer reports them.
 pub fn abandoned_parts(target: &Path) -> Vec<PathBuf> {

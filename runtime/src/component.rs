@@ -224,7 +224,7 @@ impl ModalComponent {
     ///
     /// # Errors
     ///
-    /// Those of [`evaluate`](Self::evaluate).
+    /// The errors of [`evaluate`](Self::evaluate).
     ///
     /// Source: paper, eqs. (82), (84), (87).
     pub fn tangents(&self, state: &State<'_>, workspace: &mut Workspace) -> Result<(), EvaluationError> {
@@ -258,7 +258,7 @@ impl ModalComponent {
     ///
     /// # Errors
     ///
-    /// Those of [`evaluate`](Self::evaluate).
+    /// The errors of [`evaluate`](Self::evaluate).
     pub fn exact_tangents(&self, state: &State<'_>, workspace: &mut Workspace) -> Result<(), EvaluationError> {
         self.evaluate(state, workspace)?;
         workspace.has_state = false;

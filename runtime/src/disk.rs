@@ -31,7 +31,7 @@ impl Superelement {
     ///
     /// # Errors
     ///
-    /// Those of [`file_bytes`] and of [`Superelement::from_bytes`].
+    /// The errors of [`file_bytes`] and of [`Superelement::from_bytes`].
     pub fn open(path: &Path) -> Result<Self> {
         Self::from_bytes(&file_bytes(path)?)
     }

@@ -124,8 +124,8 @@ pub enum FileError {
     /// A safetensors file that no superelement was put into.
     #[error("file has no text `supel` under `__metadata__`: it is a safetensors file, but not a superelement")]
     MetadataMissing,
-    /// A foreign key beside `supel`.
-    #[error("`__metadata__` holds `{key}` beside `supel`, which must be alone")]
+    /// A foreign key in addition to `supel`.
+    #[error("`__metadata__` holds `{key}` in addition to `supel`, which must be alone")]
     MetadataForeignKey {
         /// The key.
         key: String,

@@ -1,6 +1,6 @@
 //! A superelement against the one that its job makes now: M-26.
 //!
-//! The same job on the same files gives the same bytes, in the same version of the program. Paths of the job kept in the file
+//! In one version of the program a job on unchanged files always gives the same bytes. Paths of the job kept in the file
 //! depend on where the file was written, and are taken from it.
 
 use serde_json::Value;

@@ -104,7 +104,7 @@ pub(super) struct OutputFlags {
     /// Superelement file, NAME.supel
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
-    /// Report file, NAME.json [default: beside the superelement, NAME.report.json]
+    /// Report file, NAME.json [default: next to the superelement, NAME.report.json]
     #[arg(long, value_name = "FILE")]
     pub(super) report: Option<PathBuf>,
     /// Write the report as a page for people too, NAME.html

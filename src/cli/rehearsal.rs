@@ -165,7 +165,7 @@ pub(super) fn read_from_stdin() -> Result<ExitCode> {
     }
 }
 
-/// The other end of stdin is closed when the parent is gone, however it went.
+/// Ends this process when the other end of stdin is closed, which happens when the parent is gone for whatever reason.
 fn end_with_parent() {
     let mut byte = [0];
     while std::io::stdin().lock().read(&mut byte).is_ok_and(|n_read| n_read > 0) {}

@@ -24,7 +24,7 @@ pub(super) struct Nodes {
     pub(super) is_touched: Vec<bool>,
     /// Rotations of which a node lacks a part: a displacement that they make, or the rotation itself where most nodes have it.
     lacks: Vec<u8>,
-    /// The same of a node and its neighbours in K.
+    /// Rotations of which a node or a neighbour in K lacks a part.
     near: Vec<u8>,
 }
 

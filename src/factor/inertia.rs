@@ -29,7 +29,7 @@ pub struct InertiaCount {
     pub pivot_gap: f64,
     /// Smallest |eigenvalue| of S(σ) over its largest: near rounding, σ lies on a free eigenvalue.
     pub schur_gap: f64,
-    /// The same relative to the stiffness of the interface dofs before condensation, which rounding of S(σ) is relative to.
+    /// Smallest |eigenvalue| of S(σ) relative to the interface stiffness before condensation, as rounding of S(σ) is.
     pub condensed_gap: f64,
 }
 

@@ -13,7 +13,7 @@ const ENTRY: u64 = 12;
 const DOUBLE: u64 = 8;
 /// Modes assumed for a band whose number of modes is not known yet.
 const MODES_IN_A_BAND: u64 = 50;
-/// Vectors beside the right-hand sides of a solve by a factor in single precision.
+/// Vectors in addition to the right-hand sides of a solve by a factor in single precision.
 const REFINEMENT: u64 = 72;
 /// Blocks of all modes that basis, projection, verification and comparison hold together: 5.9 with 800 fixed-interface modes of a
 /// slender solid of 30,000 dofs, 5.0 with Herting's.
@@ -130,7 +130,7 @@ impl Forecast {
         let n = partition.n_dofs() as u64;
         // The partitioned matrices and the triangle with wide indices that the analysis makes; a proof lowers K in a copy.
         let entries = (partition.stiffness.nnz() + partition.mass.nnz()) as u64;
-        // A slice keeps the factor of its shift and a basis of its own, beside all modes and the copy that puts them in order.
+        // A slice keeps the factor of its shift and a basis of its own, in addition to all modes and the copy that puts them in order.
         let (in_slices, of_solver) = match n_modes > SLICED_FROM as u64 {
             true => (at_once, 2 * n_modes + at_once * (5 * LARGEST_SEARCH as u64 + 64)),
             false => (0, 5 * n_modes + 64),

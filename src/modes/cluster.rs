@@ -53,7 +53,7 @@ pub(super) fn canonicalise(mass: Leading<'_>, runs: &[Range<usize>], shapes: &mu
 /// Gives every mode of a repeated eigenvalue the mean of the quotients, and the largest bar of them, which holds for the mean
 /// whatever the basis.
 ///
-/// Bars are relative to a quotient: one that stayed relative to its own would be another beside the mean.
+/// Bars are relative to a quotient: one that stayed relative to its own quotient would be wrong for the mean.
 pub(super) fn average(runs: &[Range<usize>], lambda: &mut [f64], errors: &mut [ModeError]) {
     for run in runs {
         let (of_run, errors) = (&mut lambda[run.clone()], &mut errors[run.clone()]);

@@ -173,7 +173,7 @@ impl Modes {
         self.in_order(&order)
     }
 
-    /// The same modes in ascending order.
+    /// These modes in ascending order.
     fn ascending(self) -> Self {
         if self.lambda.is_sorted() {
             return self;
@@ -240,7 +240,7 @@ pub const SEED: u64 = 0x5eed_0001;
 /// Finds elastic modes with a shift-invert operator.
 ///
 /// Where few soft motions spread the spectrum over many powers of ten, a search leaves the modes far above them with few
-/// digits. Those are then found beside the others, as all elastic modes are beside rigid-body motion.
+/// digits. Those are then found with the others deflated, as all elastic modes are found with rigid-body motion deflated.
 ///
 /// # Errors
 /// The eigensolver does not converge.

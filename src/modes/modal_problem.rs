@@ -24,25 +24,25 @@ pub struct ModalProblem<'a> {
 }
 
 impl<'a> ModalProblem<'a> {
-    /// That of a pencil, with its rigid-body modes where it is free.
+    /// The modal problem of a pencil, with its rigid-body modes where it is free.
     pub fn of(pencil: Pencil<'a>, rigid: Option<&'a RigidBodyModes>, precision: Precision) -> Self {
         let Pencil { stiffness, mass } = pencil;
         Self { stiffness, mass, rigid, precision, data: None }
     }
 
-    /// That of a partition with its interface free.
+    /// The modal problem of a partition with its interface free.
     pub fn free(partition: &'a Partition, rigid: Option<&'a RigidBodyModes>) -> Self {
         let data = Some(DataSource { partition, kept: None });
         Self { data, ..Self::of(partition.pencil(), rigid, partition.precision) }
     }
 
-    /// That of a partition with its interface held.
+    /// The modal problem of a partition with its interface held.
     pub fn held(partition: &'a Partition) -> Self {
         let data = Some(DataSource { partition, kept: None });
         Self { data, ..Self::of(partition.internal(), None, partition.precision) }
     }
 
-    /// The same with entries of K that are those of a partition at these dofs, ascending.
+    /// This problem with entries of K that are those of a partition at these dofs, ascending.
     pub fn with_entries_of(self, partition: &'a Partition, kept: &'a [usize]) -> Self {
         Self { data: Some(DataSource { partition, kept: Some(kept) }), ..self }
     }

@@ -17,8 +17,8 @@ const SHRINKS: f64 = 0.1;
 const MAX_PASSES: usize = 3;
 /// Share of a unit column that is no rounding, where the first pass was not over all of V: half its digits.
 const LEFT: f64 = 1e-8;
-/// Share of a unit column whose orthogonality is that of rounding: twice is enough.
-const CLEAN: f64 = 0.5;
+/// Share of a unit column that has to be left for its orthogonality to be that of rounding: twice is enough.
+const MIN_SHARE_LEFT: f64 = 0.5;
 
 /// What a block has of the columns of V, before anything is taken out of it.
 pub(super) struct Coupled {
@@ -47,7 +47,7 @@ impl Basis<'_> {
             let (from, least) = match pass {
                 0 => (start.from, start.floor),
                 1 if start.from > 0 => (0, LEFT),
-                _ => (0, CLEAN),
+                _ => (0, MIN_SHARE_LEFT),
             };
             let basis = self.v().subcols(from, self.size - from);
             let c = known.take().unwrap_or_else(|| dense::gram(basis, mass_block.as_ref()));
@@ -58,7 +58,7 @@ impl Basis<'_> {
             mass_block = product(self.problem.mass, block.as_ref());
             let r = mass_qr(&mut block, &mut mass_block, least, &mut dependent);
             coupling = dense::product(r.as_ref(), coupling.as_ref());
-            if pass > 0 && (0..width).all(|j| dependent[j] || r[(j, j)] > CLEAN) {
+            if pass > 0 && (0..width).all(|j| dependent[j] || r[(j, j)] > MIN_SHARE_LEFT) {
                 break;
             }
             if shrinks(&r) {
@@ -148,7 +148,7 @@ impl Basis<'_> {
     }
 }
 
-/// Whether a column kept less beside those before it than is good for what was carried along with it; `r` is their triangle.
+/// Whether a column lost so much to those before it that M times it, which was carried along, lost digits; `r` is their triangle.
 fn shrinks(r: &Mat<f64>) -> bool {
     (0..r.ncols()).any(|j| r[(j, j)] < SHRINKS * dense::norm(dense::column(r.as_ref(), j)))
 }

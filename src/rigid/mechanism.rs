@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! S = K_BB + K_BI Ψ_S     n_B × n_B    null space U_B and what else moves without energy
-//! V = [Ψ_S Z; Z]          n' × k       its softest motions beside those, with their internal dofs
+//! V = [Ψ_S Z; Z]          n' × k       its softest motions besides those, with their internal dofs
 //! ```
 //! With K_II definite, every motion without energy is some V: a ball joint or a hinge between interfaces shows as a small
 //! eigenvalue of S, at the price of one dense eigenproblem. Motions without energy are handed on like rigid-body modes.
@@ -20,7 +20,7 @@ use crate::sparse::{product, product_and_terms};
 
 /// Eigenvalues of S, in the scales of the interface dofs, below which a motion is looked at: far above any noise of binary data.
 const SOFT: f64 = 1e-6;
-/// The same in units of what the digits of K leave of S, which adds all roundings with one sign.
+/// Eigenvalues of S below which a motion is looked at, in units of what the digits of K leave of S, which adds all roundings with one sign.
 const SOFT_BY_DIGITS: f64 = 10.0;
 /// Rayleigh quotients up to this many bars are known to four digits at best.
 const KNOWN_BEYOND_BARS: f64 = 1e4;
@@ -42,7 +42,7 @@ pub struct Loose {
     pub nodes: Vec<String>,
 }
 
-/// The motions beside the rigid-body modes that are without energy, or nearly.
+/// The motions other than the rigid-body modes that are without energy, or nearly.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LooseMotions {
     /// Without energy as far as the data tell.
@@ -179,7 +179,7 @@ fn stiffness_of(partition: &Partition, dof: usize) -> f64 {
     partition.stiffness.get(dof, dof).copied().unwrap_or(0.0)
 }
 
-/// The same motions M-orthogonal to the rigid-body modes and M-orthonormal; those without mass are left out if they have
+/// `motions` made M-orthogonal to the rigid-body modes and M-orthonormal; those without mass are left out if they have
 /// energy, and are an error if they have none.
 fn orthonormal(partition: &Partition, rigid: &RigidBodyModes, motions: Mat<f64>) -> Result<Mat<f64>> {
     let mut q = motions;

@@ -102,7 +102,7 @@ impl RigidBodyModes {
         self.orthonormal.as_ref().subcols(self.count() - self.n_massless, self.n_massless)
     }
 
-    /// The same modes without those of mechanisms: what was known before these were looked for.
+    /// These modes without those of mechanisms: what was known before these were looked for.
     pub(crate) fn without_mechanisms(&self) -> Self {
         let n = self.count() - self.n_mechanisms;
         let massive = self.massive().subcols(0, n - self.n_massless);
@@ -138,7 +138,7 @@ impl RigidBodyModes {
 /// Without an interface there is no S in which mechanisms would show, so that a free component is counted by its matrices too.
 ///
 /// # Errors
-/// Those of [`from_coordinates`] and [`from_matrices`].
+/// The errors of [`from_coordinates`] and [`from_matrices`].
 pub fn rigid_body_modes(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
     let Some(sites) = partition.sites() else {
         return from_matrices(partition);

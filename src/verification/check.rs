@@ -34,11 +34,11 @@ impl Limits {
     /// No limit: the value is shown, not judged.
     pub const NONE: Self = Self { engineering: f64::INFINITY, arithmetic: 0.0, data: 0.0 };
 
-    /// The same limits with what arithmetic and data may excuse capped.
+    /// These limits with what arithmetic and data may excuse capped.
     ///
     /// An excuse is computed from the results it excuses. Without a cap a bad result would loosen its own judge.
     pub fn capped(self, arithmetic: f64, data: f64) -> Self {
-        // A value that is not a number excuses nothing.
+        // NaN never counts as an excuse.
         let cap = |value: f64, most: f64| if value.is_nan() { 0.0 } else { value.min(most) };
         Self { arithmetic: cap(self.arithmetic, arithmetic), data: cap(self.data, data), ..self }
     }

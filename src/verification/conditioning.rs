@@ -102,7 +102,7 @@ fn condition(
     Ok((ratio, softest.map(|i| coordinate_name(evidence, i))))
 }
 
-/// The smallest share of its length that a column of Ψ_D keeps beside the columns before it.
+/// The smallest share of its length that a column of Ψ_D keeps when the columns before it are taken out.
 pub(super) fn independence(evidence: &Evidence<'_>) -> (f64, Option<String>) {
     let basis = evidence.basis;
     let mut least = (1.0, None);

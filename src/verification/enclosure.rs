@@ -65,7 +65,7 @@ impl CountProof {
 /// Encloses the retained modes where the job asks for it.
 ///
 /// # Errors
-/// Those of [`enclosures`].
+/// The errors of [`enclosures`].
 pub fn enclosures_where_asked(
     component: Component<'_>,
     retained: &Retained,

@@ -121,6 +121,6 @@ fn ritz_values(
     dense::symmetrise(&mut energies);
     dense::symmetrise(&mut masses);
     let values = lowest_eigenpairs(energies.as_ref(), masses.as_ref(), first, 0)?.0;
-    // Without a definite pencil nothing is known of the motions: zero is never too large beside an eigenvalue.
+    // Without a definite pencil nothing is known of the motions: zero is never too large compared with an eigenvalue.
     Ok(if values.is_empty() { vec![0.0] } else { values })
 }

@@ -52,7 +52,8 @@ pub(crate) fn of_energy(noise: f64, share_of_data: f64) -> Judged {
     of_nothing(noise, share_of_data, GROUNDED)
 }
 
-/// Those of a file alone, which does not say how many digits its matrices had: a warning where digits could explain the energy.
+/// Limits of such an energy in a file alone. The file does not say how many digits its matrices had: a warning where
+/// digits could explain the energy.
 pub(crate) fn of_unexplained_energy(noise: f64) -> Judged {
     let Judged { limits, fail_above } = of_energy(noise, 1.0);
     Judged { limits, fail_above: fail_above.max(LARGEST_EXPLAINED_ENERGY) }

@@ -133,7 +133,7 @@ pub(super) fn effective_masses(evidence: &Evidence<'_>) -> Result<Option<Effecti
 /// None where it is not.
 fn interior_masses(evidence: &Evidence<'_>, gamma: MatRef<'_, f64>, start: MatRef<'_, f64>) -> Option<Vec<f64>> {
     // Shares are read to three digits; the square of this is what the total is off by.
-    const ENOUGH: f64 = 1e-4;
+    const MAX_RESIDUAL: f64 = 1e-4;
     const MAX_STEPS: usize = 500;
     let mass = evidence.partition.internal().mass;
     let inverse: Vec<f64> = mass.diagonal().into_iter().map(|m| if m > 0.0 { 1.0 / m } else { 0.0 }).collect();
@@ -146,7 +146,7 @@ fn interior_masses(evidence: &Evidence<'_>, gamma: MatRef<'_, f64>, start: MatRe
     let mut z = precondition(&r);
     let (mut p, mut rz) = (z.clone(), dots(&r, &z));
     for _ in 0..MAX_STEPS {
-        if rz.iter().zip(&sizes).all(|(rz, size)| *rz <= ENOUGH * ENOUGH * size) {
+        if rz.iter().zip(&sizes).all(|(rz, size)| *rz <= MAX_RESIDUAL * MAX_RESIDUAL * size) {
             // The total that the residual still owes is of second order.
             return Some(dots(&gamma, &x).iter().zip(dots(&r, &x)).map(|(found, owed)| found + owed).collect());
         }

@@ -29,7 +29,7 @@ pub(super) fn preserved(evidence: &Evidence<'_>) -> Check {
     }
 }
 
-/// Rounding of ÛᵀM̂Û: an interface that is small beside the component holds large masses on long levers, which cancel.
+/// Rounding of ÛᵀM̂Û: an interface that is small compared with the component holds large masses on long levers, which cancel.
 fn rounding(evidence: &Evidence<'_>) -> f64 {
     const NOISE_FACTOR: f64 = 10.0;
     let (m, u) = (&evidence.reduction.mass, &evidence.reduction.rigid_body_modes);

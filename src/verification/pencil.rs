@@ -41,7 +41,7 @@ impl Spectral {
         }
     }
 
-    /// The same whatever M is; none where K + αM is not definite.
+    /// The decomposition of a pencil whatever M is; none where K + αM is not definite.
     pub(super) fn if_definite(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Result<Option<Self>> {
         let n = k.nrows();
         let shifted = Mat::from_fn(n, n, |i, j| k[(i, j)] + alpha * m[(i, j)]);

@@ -95,7 +95,7 @@ pub(super) fn routes_agree(evidence: &Evidence<'_>, spectrum: &Spectrum, routes:
     // A null space is known to the size of what is zero over what is not.
     let (zero, elastic) = (zero_level(evidence), spectrum.lowest_elastic);
     let limits = Limits { engineering: 1e-10, arithmetic: zero.arithmetic / elastic, data: zero.data / elastic };
-    // Beside a motion that is nearly without energy no decomposition tells the null space: W-GREY has said so.
+    // Where a motion is nearly without energy no decomposition tells the null space: W-GREY has said so.
     let fail_above = if zero.value() > FAIL * elastic { 1.0 } else { FAIL };
     let limits = limits.capped(FAIL, FAIL);
     Check {

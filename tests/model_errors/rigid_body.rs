@@ -83,7 +83,7 @@ fn coordinates_with_axes_exchanged() {
     assert_says(&error, ErrorClass::InputData, &["coordinates", "node ", "check units, axes"]);
 }
 
-/// One node of sixty, moved by a hundredth of an edge, is found and named: the force is largest there or beside it.
+/// One node of sixty, moved by a hundredth of an edge, is found and named: the force is largest there or at a neighbour.
 #[test]
 fn one_node_out_of_place() {
     let mut model = brick([4, 3, 2], [4.0, 3.0, 2.0], &Material::UNIT);

@@ -24,7 +24,7 @@ const NOT_BUILT: [(&str, &str); 4] = [
     ("MS-08", "added masses"),
 ];
 
-/// What the catalogue asks for beside the outcome that a line has, by the word for it that the program does not know, and why.
+/// What the catalogue asks for in addition to the outcome that a line has, by the word for it that the program does not know, and why.
 const LEFT_OUT: [(&str, &str, &str); 2] = [
     (
         "E-03",

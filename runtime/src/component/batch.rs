@@ -44,7 +44,7 @@ pub fn evaluate_all(evaluations: &mut [Evaluation<'_>], threads: NonZero<usize>)
 ///
 /// # Errors
 ///
-/// Those of [`evaluate_all`].
+/// The errors of [`evaluate_all`].
 pub fn tangents_all(evaluations: &mut [Evaluation<'_>], threads: NonZero<usize>) -> Result<(), BatchError> {
     shared(evaluations, threads, ModalComponent::tangents)
 }
@@ -53,7 +53,7 @@ pub fn tangents_all(evaluations: &mut [Evaluation<'_>], threads: NonZero<usize>)
 ///
 /// # Errors
 ///
-/// Those of [`evaluate_all`].
+/// The errors of [`evaluate_all`].
 pub fn exact_tangents_all(evaluations: &mut [Evaluation<'_>], threads: NonZero<usize>) -> Result<(), BatchError> {
     shared(evaluations, threads, ModalComponent::exact_tangents)
 }

@@ -67,7 +67,7 @@ impl ModalComponent {
     ///
     /// # Errors
     ///
-    /// Those of [`with_measures`](Self::with_measures).
+    /// The errors of [`with_measures`](Self::with_measures).
     pub fn new(superelement: &Superelement, frame: FloatingFrame) -> Result<Self, ComponentError> {
         Self::with_measures(superelement, frame, Measures::MotionBased)
     }

@@ -43,7 +43,7 @@ pub(super) fn groups(pairs: &[Pair]) -> Vec<Group> {
     groups
 }
 
-/// The same with groups nearer than modes of one cluster put together: within it directions are nobody's own, and the
+/// Groups with those nearer than modes of one cluster put together: within a cluster no mode has a direction of its own, and the
 /// angle is that to the space of all.
 pub(super) fn clusters(pairs: &[Pair], groups: &[Group]) -> Vec<Group> {
     let mut clusters: Vec<Group> = Vec::new();
@@ -125,7 +125,7 @@ fn least_singular(group: &[Pair]) -> f64 {
     (1.0 - 1e-12 - largest).max(0.0).sqrt()
 }
 
-/// What is known of the eigenvalues beside a group, where all below `ceiling` are in groups.
+/// What is known of the eigenvalues on both sides of a group, where all below `ceiling` are in groups.
 pub(super) fn neighbours(groups: &[Group], index: usize, ceiling: f64, sigma: f64) -> Neighbours {
     let below = index.checked_sub(1).map(|before| OUTWARD * (groups[before].interval[1] - sigma));
     let above = groups.get(index + 1).map_or(ceiling, |after| after.interval[0].min(ceiling)) - sigma;

@@ -140,7 +140,7 @@ impl Reference {
         self.passing.ncols()
     }
 
-    /// The same motions in the coordinates of a reduced model without the dofs that are held, n × n_zero.
+    /// Rigid-body motions that the support lets pass, in the coordinates of a reduced model without the dofs that are held, n × n_zero.
     pub(super) fn passing_coordinates(&self, n: usize) -> Mat<f64> {
         let motions = &self.passing;
         Mat::from_fn(n, motions.ncols(), |i, j| if i < motions.nrows() { motions[(i, j)] } else { 0.0 })

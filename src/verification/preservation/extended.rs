@@ -37,7 +37,7 @@ const MAX_IDLE: usize = 4;
 const PROGRESS: f64 = 0.7;
 /// Residual columns, relative to the largest, that are worth a solve of their own.
 const WORTH_A_SOLVE: f64 = 1e-6;
-/// Length a new direction must keep beside those before it.
+/// Length a new direction must keep after those before it are taken out.
 const INDEPENDENT: f64 = 1e-8;
 /// Samples looked at in every step; the others wait until these are answered.
 const PROBES: usize = 3;

@@ -18,7 +18,7 @@ use crate::sparse::{SparseMatrix, product};
 
 /// Backward error up to which a pair found with the factor of K_II is taken. Sound supports give 10⁻¹⁶ to 10⁻¹⁴; where the
 /// lowest λ is 10⁻⁹ of ‖K‖, as in slender models, its Rayleigh quotient then errs by (10⁻¹²/10⁻⁹)² = 10⁻⁶ at most.
-const HOLDS_UP: f64 = 1e-12;
+const MAX_BACKWARD_ERROR: f64 = 1e-12;
 /// Singular values of the rigid-body motions at the held dofs, relative to the largest, below which a motion passes. The
 /// interface rank uses the same figure.
 const PASSES: f64 = 1e-10;
@@ -67,7 +67,7 @@ impl Supported {
         let problem = ModalProblem::of(pencil, Some(&self.rigid), partition.precision);
         let problem = problem.with_entries_of(partition, &self.kept);
         let modes = self.by_factor(evidence, problem, request)?;
-        if modes.errors.iter().all(|error| error.backward <= HOLDS_UP) {
+        if modes.errors.iter().all(|error| error.backward <= MAX_BACKWARD_ERROR) {
             return Ok(modes);
         }
         let analysis = Analysis::new(pencil)?;

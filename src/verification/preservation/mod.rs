@@ -1,4 +1,4 @@
-//! What the reduction preserves: the reduced model beside the full one.
+//! What the reduction preserves: the reduced model compared with the full one.
 //!
 //! ```text
 //! mac          retained modes as eigenpairs of both models             (34) (35), M-15
@@ -44,7 +44,7 @@ pub use policy::Plan;
 /// The comparison for the report, and the checks that follow from it.
 #[derive(Clone, Debug, Default)]
 pub struct Compared {
-    /// Reduced beside full.
+    /// The reduced model compared with the full one.
     pub report: Preservation,
     /// M-06, M-15, M-17, M-20, M-21 and M-24, as far as they were made.
     pub checks: Vec<Check>,

@@ -10,7 +10,7 @@ use crate::job::{Certify, Job, ModeSelection, SceneJob, Support};
 const CUT_OFF: f64 = 1.5;
 /// Floating-point operations that a comparison nobody asked for may cost: a few seconds of one core.
 const UNASKED_FLOPS: f64 = 1e10;
-/// Right-hand sides an eigensolution takes beside three for each mode found.
+/// Right-hand sides an eigensolution takes in addition to three for each mode found.
 const SOLVES_BESIDE: f64 = 64.0;
 /// Blocks of n_B right-hand sides that the response converges in.
 const RESPONSE_BLOCKS: f64 = 6.0;

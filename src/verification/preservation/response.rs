@@ -115,7 +115,7 @@ impl FullResponse {
         samples.map(|(hz, full)| worst_pair(full, &Response::of(reduced, evidence, *hz, self.eta))).collect()
     }
 
-    /// Magnitudes of one pair beside the largest error of all pairs; rotations count as displacements at the length.
+    /// Magnitudes of one pair, and the largest error of all pairs; rotations count as displacements at the length.
     fn shown(&self, evidence: &Evidence<'_>, reduced: &Spectral, pair: (usize, usize)) -> Vec<ResponseSample> {
         let partition = evidence.partition;
         let length = rotation_length(partition);
