@@ -29,13 +29,16 @@
 //!
 //! # Invariants
 //!
-//! 1. Only `input`, `output`, `report`, `job`, `cli` and `main` touch files, the clock or the terminal.
-//! 2. The reduction method is matched once, where the modes are chosen. After the basis is built no stage knows it.
+//! 1. Of the stages only [`input`] and [`output`] touch files. Around them [`job`] reads its document, [`report`] reads the
+//!    clock, [`cli`] and the program have the terminal, and [`heap`] writes the last line of a run that finds no memory.
+//! 2. [`modes::Boundary::of`] alone decides what a reduction method means: the boundary under which its modes are sought.
+//!    Basis, reduction and verification know that boundary and never the method; [`output`], [`report`] and [`audit`] know
+//!    the method's name.
 //! 3. A matrix is factored once per shift and solved many times; no inverse is ever formed.
 //! 4. The superelement format has one owner, the crate `supel-runtime`, used by the writer and by every reader.
 //! 5. `supel-runtime` depends on nothing of this crate.
 //! 6. Verification never changes a result. It measures, names the equation and compares with a limit.
-//! 7. The same input gives the same bytes, whatever the number of threads.
+//! 7. The same input gives the same bytes, whatever the number of threads (held by `tests/end_to_end/same_bytes.rs`).
 
 pub mod audit;
 pub mod basis;

@@ -132,7 +132,7 @@ fn rows_are_the_basis(case: &Case) {
 /// Rows in single precision recover the deformation to 10⁻⁶, whatever rigid-body motion it rides on; applied to the whole
 /// motion they would lose it in the rounding, a hundred times more for a motion a hundred times larger.
 #[test]
-fn single_precision_serves_the_deformation_alone() {
+fn c_12_single_precision_serves_the_deformation_alone() {
     let case = Case::new();
     let (double, single) = (case.all("double"), case.all("single"));
     assert_eq!(single.tensors().recovery.as_ref().expect("rows").precision(), Precision::Single);
