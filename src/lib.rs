@@ -27,6 +27,46 @@
 //! | [`verification`] | all of it | checks: value, limit, verdict |
 //! | [`output`] | all of it | the superelement and the report |
 //!
+//! # Example
+//!
+//! Read a job, reduce, look at the checks, write the superelement and read it back as a simulation does:
+//!
+//! ```
+//! use supel::job::Job;
+//! use supel::outcome::Resources;
+//! use supel::verification::check::Verdict;
+//! use supel_runtime::Superelement;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let folder = tempfile::tempdir()?;
+//! # let (job_path, output) = (folder.path().join("job.toml"), folder.path().join("chain.supel"));
+//! # let banner = "%%MatrixMarket matrix coordinate real symmetric\n";
+//! # let springs: String = (1..5).map(|i| format!("{i} {i} {}\n{} {i} -1\n", if i == 1 { 1 } else { 2 }, i + 1)).collect();
+//! # let masses: String = (1..=5).map(|i| format!("{i} {i} 1\n")).collect();
+//! # std::fs::write(folder.path().join("K.mtx"), format!("{banner}5 5 9\n{springs}5 5 1\n"))?;
+//! # std::fs::write(folder.path().join("M.mtx"), format!("{banner}5 5 5\n{masses}"))?;
+//! # std::fs::write(&job_path, r#"
+//! #     model = { stiffness = "K.mtx", mass = "M.mtx" }
+//! #     interface = [{ name = "ends", nodes = { rows = [0, 4] } }]
+//! #     reduction = { method = "craig-bampton", modes = { count = 2 } }
+//! #     write = { superelement = "chain.supel" }
+//! # "#)?;
+//! let job = Job::read(&job_path)?;
+//! let outcome = supel::reduce(&job, Resources::default(), &mut ())?;
+//! for check in &outcome.report.body.checks {
+//!     println!("{} {}: {:.1e}, limit {:.1e}", check.id, check.name, check.value, check.limits.value());
+//!     assert_ne!(check.verdict(), Verdict::Fail);
+//! }
+//! outcome.superelement.write(&output)?;
+//! let chain = Superelement::open(&output)?;
+//! assert_eq!(chain.n_coordinates(), 2 + 2);
+//! // Three equal masses between the held ends, on unit springs: the lowest λ is 2 − √2.
+//! let lambda = chain.tensors().frequencies[0].powi(2);
+//! assert!((lambda - (2.0 - 2f64.sqrt())).abs() < 1e-12);
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! # Invariants
 //!
 //! 1. Of the stages only [`input`] and [`output`] touch files. Around them [`job`] reads its document, [`report`] reads the
