@@ -6,7 +6,7 @@
 #   benches/cost_guard.sh --refresh   writes the values of this commit there
 #
 # The development profile is measured, which the tests have built already. Instructions depend on the compiler: with another
-# one than that of the values only the other costs are compared. Without valgrind likewise. Both are said loudly.
+# one than that of the values only the other costs are compared. Without valgrind likewise. The guard prints what it skipped.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 readonly values=benches/cost_guard.json

@@ -125,7 +125,7 @@ impl Model {
         self.stiffness.rows()
     }
 
-    /// Takes down the facts of the model.
+    /// Records the facts of the model.
     pub fn facts(&self) -> ModelFacts {
         let n_nodes = |dofs: &DofMap| dofs.iter().map(|dof| dof.node).collect::<HashSet<_>>().len();
         ModelFacts {

@@ -253,7 +253,7 @@ fn growth_limit(problem: &BoundaryProblem<'_>, modes: &Modes, mass_floors: &[f64
     let of_found = modes.lambda.iter().zip(floors).map(|(lambda, floor)| (sigma - lambda).abs() / floor);
     let of_next = modes.next.map(|next| (next - sigma).abs() / floor);
     let ratios: Vec<f64> = of_found.chain(of_next).collect();
-    // What is not a number bounds nothing.
+    // NaN never counts as a bound.
     if ratios.iter().any(|ratio| ratio.is_nan()) {
         return 0.0;
     }

@@ -36,7 +36,7 @@ impl Limits {
 
     /// These limits with what arithmetic and data may excuse capped.
     ///
-    /// An excuse is computed from the results it excuses. Without a cap a bad result would loosen its own judge.
+    /// An excuse is computed from the results it excuses. Without a cap a bad result would loosen its own limit.
     pub fn capped(self, arithmetic: f64, data: f64) -> Self {
         // NaN never counts as an excuse.
         let cap = |value: f64, most: f64| if value.is_nan() { 0.0 } else { value.min(most) };

@@ -23,7 +23,7 @@ pub(super) fn count(evidence: &Evidence<'_>) -> Option<Check> {
         limits: Limits::default(),
         fail_above: 0.0,
         worst: Some(format!(
-            "counted {}, found {}{mended}; {} with the interface held, {} free; pivot growth {:.1}; {} of what would make the count doubtful",
+            "counted {}, found {}{mended}; {} with the interface held, {} free; pivot growth {:.1}; doubt {} (limit 1)",
             certificate.n_counted,
             certificate.n_found,
             certificate.count.clamped,

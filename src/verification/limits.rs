@@ -12,7 +12,7 @@ const NOISE_FACTOR: f64 = 10.0;
 const RIGID_ENERGY: f64 = 1e-8;
 /// Energy at which the component is held: a rigid-body frequency of a hundredth of the first elastic one.
 pub(crate) const GROUNDED: f64 = 1e-4;
-/// What rounding may excuse of an energy without a word: at a tenth of the first elastic frequency nothing tells a rigid-body motion
+/// What rounding may excuse of an energy without a warning: at a tenth of the first elastic frequency nothing tells a rigid-body motion
 /// from an elastic one.
 const LARGEST_ENERGY: f64 = 1e-2;
 /// What rounding that the digits of K explain may excuse at all: a quarter of the first elastic frequency.

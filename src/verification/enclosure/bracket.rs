@@ -109,7 +109,7 @@ impl Group {
 fn reach(pair: &Pair, t_low: f64, t_high: f64) -> [f64; 2] {
     let high = if t_high < 1.0 { pair.mu * t_high / (1.0 - t_high) } else { f64::INFINITY };
     let low = pair.mu * t_low / (1.0 + t_low);
-    // A bound that is not a number bounds nothing.
+    // NaN never counts as a bound.
     let low = if low.is_nan() { f64::INFINITY } else { low };
     let high = if high.is_nan() { f64::INFINITY } else { high };
     [pair.lambda - OUTWARD * low - pair.rounding, pair.lambda + OUTWARD * high + pair.rounding]

@@ -18,7 +18,7 @@ use crate::report::{BoundaryComparison, BoundaryCount, FrequencyPair};
 const ROUNDINGS: f64 = 10.0;
 /// Backward error of a pair beyond which it is nobody's, unless the digits of the data explain it: half the digits are gone.
 const NOT_SOLVED: f64 = 1e-8;
-/// What arithmetic and data may excuse without a word, and at all: past two digits the comparison says little, past one nothing.
+/// What arithmetic and data may excuse without a warning, and what they may excuse at most: past two digits the comparison says little, past one nothing.
 const MOST_EXCUSED: [f64; 2] = [1e-2, 1e-1];
 
 /// What a support does to the interface dofs.

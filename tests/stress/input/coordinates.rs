@@ -156,7 +156,7 @@ fn i_20_a_frame_that_was_not_declared() {
 }
 
 /// Frames at some nodes only: no translation of the coordinates is free, and still motions without energy are. Coordinates
-/// cannot tell them from supports with a mechanism; what they never are is a component without a word.
+/// cannot tell them from supports with a mechanism; they are never accepted without a warning or an error.
 #[test]
 fn i_20_frames_at_some_nodes() {
     let mut block = steel_brick();

@@ -63,7 +63,7 @@ fn c_03_penalty_contrast_shows_in_the_bars() {
             let largest = bars(&outcome).into_iter().fold(0.0, f64::max);
             let is_told = warnings(&outcome).contains(&"W-DATA-PRECISION");
             assert_eq!(is_told, 0.5 * largest > 1e-4, "10^{exponent}: {largest:e}");
-            // Up to 10⁹ nothing fails; beyond, measures may, and the file is refused: never is it wrong without a word.
+            // Up to 10⁹ nothing fails; beyond, measures may, and the file is refused: it is never wrong silently.
             let failed = lines(&outcome, Verdict::Fail);
             assert!(failed.is_empty() || exponent > 9, "10^{exponent}: {failed:?}");
             told.push((exponent, is_told));
