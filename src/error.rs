@@ -1,4 +1,4 @@
-//! Every way a run can fail, one variant each, with the values that explain it.
+//! Every way in which a run can fail. Each has one variant, with the values that explain it.
 //!
 //! A message reads *what – where – found – expected – what to do*, in lower case and without a full stop. The variant
 //! decides the exit code, so that a CI job can tell bad input from a bad model from a full disk.
@@ -1036,7 +1036,7 @@ pub enum Error {
         /// The key of the earlier one.
         other: &'static str,
     },
-    /// The name of an output is taken by something that is no file.
+    /// The name of an output is taken by something that is not a file.
     #[error("{}: not a regular file – expected a name that is free or that of a file – give the output another name", path.display())]
     OutputKind {
         /// The path.

@@ -1,6 +1,6 @@
 //! The job: one document that says what to read, how to reduce and what to write.
 //!
-//! What one-off use needs can also be given by flags. Paths are relative to the folder of the document; [`Job::resolve`]
+//! Flags can give what a single run needs. Paths are relative to the folder of the document; [`Job::resolve`]
 //! makes them absolute before any stage sees them. Unknown keys are errors.
 
 mod document;

@@ -5,10 +5,10 @@ use supel_runtime::Superelement;
 use crate::job::Job;
 use crate::report::Report;
 
-/// What the machine has to offer; it decides whether a run starts and changes no result.
+/// What the machine has. It decides whether a run starts and changes no result.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Resources {
-    /// Memory the run may use, in bytes; unlimited where nobody knows. `run.memory_gib` of the job goes first.
+    /// Memory the run may use, in bytes; `None` sets no limit. `run.memory_gib` of the job takes precedence.
     pub memory_bytes: Option<u64>,
 }
 
@@ -20,7 +20,7 @@ impl Resources {
     }
 }
 
-/// The superelement and the report on it; files, times and memory are filled in by whoever writes them.
+/// The superelement and the report on it; the caller that writes the files fills in files, times and memory.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// The superelement.

@@ -193,7 +193,7 @@ impl Drop for StagedFile {
     fn drop(&mut self) {
         // After a commit the name is free and may already be another writer's.
         if !self.committed {
-            // If the removal fails too, nobody is left to be told; the next writer reports the file.
+            // If the removal fails too there is no one to report it to; the next writer reports the file.
             let _ = fs::remove_file(&self.temporary);
         }
     }

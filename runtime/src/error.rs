@@ -1,4 +1,4 @@
-//! Every way a superelement can be refused, one variant each, with the values that explain it.
+//! Every way in which a superelement can be refused. Each has one variant, with the values that explain it.
 
 use alloc::{string::String, vec::Vec};
 

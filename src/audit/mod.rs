@@ -5,7 +5,7 @@
 //! Û       r × n_r
 //! ω       n_modes    rad/s
 //! ```
-//! What the file holds more than once has to agree: K̂ and M̂ give the frequencies again, M̂ and Û the mass and the loads of gravity, the positions of
+//! A file holds some facts more than once, and they have to agree: K̂ and M̂ give the frequencies, M̂ and Û the mass and the loads of gravity, the positions of
 //! the interface nodes the rigid-body modes. The identifiers are those of the report.
 
 mod content;
@@ -43,7 +43,7 @@ pub struct Audit {
     pub checks: Vec<Check>,
     /// What could not be judged, one sentence each.
     pub notes: Vec<String>,
-    /// Fields whose content nothing here vouches for.
+    /// Fields whose content this comparison cannot confirm.
     pub unvouched: Vec<Unvouched>,
 }
 

@@ -81,7 +81,7 @@ pub(super) fn consistent(content: &Content<'_>) -> Result<Check> {
     Ok(flaw("the checks on record agree with the file", "number of records missing or contradicted", &flaws))
 }
 
-/// A value within its limit passes, one past it does not, and what is no number fails.
+/// A value within its limit passes, one past it does not, and what is not a number fails.
 fn follows(check: &CheckSummary) -> bool {
     match (check.value, check.verdict) {
         (Some(value), Verdict::Pass) => value <= check.limit,
@@ -127,7 +127,7 @@ fn bars(content: &Content<'_>, checks: &[CheckSummary]) -> Option<String> {
         _ => None,
     });
     let largest = relative.fold(0.0, f64::max);
-    // A bar that is no number has no place in the file, nor has the value.
+    // A bar that is not a number has no place in the file, nor has the value.
     let stated = record.value.unwrap_or(f64::INFINITY);
     let agrees = stated <= largest * (1.0 + 1e-9) && largest <= stated * RESIDUAL[0] + RESIDUAL[1];
     (!agrees || record.limit != LIMIT).then(|| "M-09 is not that of the error bars".to_owned())

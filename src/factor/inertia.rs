@@ -154,7 +154,7 @@ fn count_negative_beyond(analysis: &Analysis, stiffness: Leading<'_>, share: f64
     Ok(Indefinite::new(analysis, pencil, -1.0, Keep::Pivots)?.signs()?.negative)
 }
 
-/// Why K is no definite matrix, where its digits are few and rounding of them may be all that is wrong with it.
+/// Why K is not a definite matrix, where its digits are few and rounding of them may be all that is wrong with it.
 pub fn few_digits(error: Error, analysis: &Analysis, stiffness: Leading<'_>, precision: f64) -> Error {
     let is_of_definiteness = matches!(
         error,

@@ -64,7 +64,7 @@ fn consume_all(receiver: Receiver<Vec<u8>>, consume: &mut impl FnMut(&[Vec<u8>])
     Ok(())
 }
 
-/// Reads blocks and sends them, to the end of the file or until nobody receives any more.
+/// Reads blocks and sends them, to the end of the file or until the receiver is gone.
 fn produce(path: &Path, mut source: Source, block_bytes: usize, sender: &SyncSender<Vec<u8>>) -> Result<Ending> {
     let mut block = Vec::with_capacity(block_bytes + READ_BYTES);
     let mut is_first = true;

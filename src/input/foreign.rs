@@ -1,4 +1,4 @@
-//! Files of known formats that are not read, told by how they begin, and the way round each.
+//! Files of known formats that are not read: how they are recognised, and how each can be converted.
 
 use std::io::Read;
 use std::path::Path;

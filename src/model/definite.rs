@@ -18,7 +18,7 @@ use crate::sparse::{SparseMatrix, product};
 
 /// Steps of Lanczos: an eigenvalue a tenth of the spectrum's width outside of it converges by e⁻¹⁵ in them.
 const STEPS: usize = 30;
-/// Relative energies above minus this are rounding of whoever made the matrix, in binary data.
+/// Relative energies above minus this are rounding of the program that wrote the matrix, in binary data.
 const ROUNDING: f64 = 1e-9;
 /// Units of the last digit of the data that the energy of a motion may be off by: the entries of a row, with one sign.
 const DIGITS: f64 = 100.0;

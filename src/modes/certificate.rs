@@ -205,7 +205,7 @@ fn judge(problem: &BoundaryProblem<'_>, modes: &Modes, upper: ElasticCount) -> C
         intervals.push(CountedInterval {
             from,
             to,
-            // A count that falls with the shift is no count; the sum over the intervals is then more than the whole.
+            // A count that falls with the shift is not a count; the sum over the intervals is then more than the whole.
             n_counted: (end.n_elastic + rigid).saturating_sub(below),
             n_found: modes.n_between(from, to) + rigid,
             growth: end.inertia.growth.max(lower.0),

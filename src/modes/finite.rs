@@ -20,7 +20,7 @@ pub(super) fn above_all(problem: &BoundaryProblem<'_>) -> f64 {
 /// Finite eigenvalues there are at most, those of zero modes included, where `n_found` are known.
 ///
 /// Rows with mass bound the rank of M in exact arithmetic. Where there are more of them than eigenvalues known, M itself is
-/// counted: of what lies within its rounding nobody can tell whether it is mass.
+/// counted: whether what lies within its rounding is mass cannot be known.
 ///
 /// # Errors
 /// No memory for a factor.

@@ -15,7 +15,7 @@ const SHRINKS: f64 = 0.1;
 
 /// Passes over V, the last one only where the one before left little of a column.
 const MAX_PASSES: usize = 3;
-/// Share of a unit column that is no rounding, where the first pass was not over all of V: half its digits.
+/// Share of a unit column that is not rounding, where the first pass was not over all of V: half its digits.
 const LEFT: f64 = 1e-8;
 /// Share of a unit column that has to be left for its orthogonality to be that of rounding: twice is enough.
 const MIN_SHARE_LEFT: f64 = 0.5;

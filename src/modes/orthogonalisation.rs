@@ -149,7 +149,7 @@ mod tests {
         }
     }
 
-    /// A column that is told to be, one that is a multiple of another, one of no length and one that is no number.
+    /// A column that is told to be, one that is a multiple of another, one of no length and one that is not a number.
     #[test]
     fn dependent_columns_become_zero_and_are_told() {
         let told = |change: &dyn Fn(&mut Mat<f64>, &mut [bool; 8]), least: f64| {

@@ -1,4 +1,4 @@
-//! The modes a method retains: the one place where the reduction method is told apart.
+//! The modes that a reduction retains, and the columns that they add to the basis under either boundary.
 
 use super::{Boundary, Modes};
 use crate::basis::{

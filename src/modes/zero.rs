@@ -19,10 +19,10 @@
 
 /// Share of N_d up to which a motion is zero.
 const SHARE_OF_BOUND: f64 = 0.75;
-/// Roundings in an entry of K by whoever made it: element integration and assembly.
+/// Roundings in an entry of K by the program that wrote it: element integration and assembly.
 const ROUNDINGS_OF_THE_PRODUCER: f64 = 10.0;
 /// Share of the first elastic eigenvalue that a negative one may have: by practice a component is free whose rigid-body frequencies
-/// stay below a ten-thousandth of the first elastic one, and what is below zero by no more is rounding of whoever made K.
+/// stay below a ten-thousandth of the first elastic one, and what is below zero by no more is rounding of the program that wrote K.
 const NEGLIGIBLE: f64 = 1e-8;
 
 /// λ up to which a motion is zero, from N_d, N_a and N_f over its modal mass.
@@ -35,7 +35,7 @@ pub(crate) fn is_zero(lambda: f64, level: f64) -> bool {
     lambda.is_nan() || level.is_nan() || lambda.abs() <= level
 }
 
-/// Whether a negative Rayleigh quotient is no instability, being negligible compared with the first elastic one.
+/// Whether a negative Rayleigh quotient is not an instability, being negligible compared with the first elastic one.
 pub(crate) fn is_negligible(lambda: f64, first_elastic: Option<f64>) -> bool {
     -lambda <= NEGLIGIBLE * first_elastic.unwrap_or(0.0)
 }

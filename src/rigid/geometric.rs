@@ -143,7 +143,7 @@ fn is_free_to_k(partition: &Partition, energies: &[f64], noise: f64) -> Result<b
     }
 }
 
-/// The spectrum tells whether K is indefinite, or rounded by whoever made it.
+/// The spectrum tells whether K is indefinite, or rounded by the program that wrote it.
 fn refuse_negative(partition: &Partition, energy: f64, noise: f64) -> Result<()> {
     match algebraic::zero_modes(partition) {
         // Too far below zero for a shift that suits rigid-body motions.
@@ -156,7 +156,7 @@ fn refuse_negative(partition: &Partition, energy: f64, noise: f64) -> Result<()>
     }
 }
 
-/// The motions without mass that cost no energy either; one that is held is no rigid-body mode.
+/// The motions without mass that cost no energy either; one that is held is not a rigid-body mode.
 fn without_energy(partition: &Partition, massless: Mat<f64>) -> Result<Mat<f64>> {
     if massless.ncols() == 0 {
         return Ok(massless);

@@ -1,4 +1,4 @@
-//! Mechanisms: motions without energy that are no rigid-body motions, and motions so soft that nobody can tell.
+//! Mechanisms: motions without energy that are not rigid-body motions, and motions too soft to be told from them.
 //!
 //! ```text
 //! S = K_BB + K_BI Ψ_S     n_B × n_B    null space U_B and what else moves without energy
@@ -24,7 +24,7 @@ const SOFT: f64 = 1e-6;
 const SOFT_BY_DIGITS: f64 = 10.0;
 /// Rayleigh quotients up to this many bars are known to four digits at best.
 const KNOWN_BEYOND_BARS: f64 = 1e4;
-/// Rayleigh quotients up to this many ε times their terms may be zeros of whoever made K in double precision: a projection leaves
+/// Rayleigh quotients up to this many ε times their terms may be zeros of the program that wrote K in double precision: a projection leaves
 /// thousands of roundings that its own terms do not show. Rounding to fewer digits afterwards adds its bar to that and no more.
 const ROUNDINGS_OF_THE_PRODUCER: f64 = 1e4;
 /// Modal mass of a motion of unit length, in the scales of the dofs, relative to the largest mass of a dof in them, below
@@ -94,7 +94,7 @@ pub fn with_mechanisms(
     Ok((rigid, found))
 }
 
-/// Whether a quotient below zero is rounding of whoever made K: where a count finds no eigenvalue below half of it.
+/// Whether a quotient below zero is rounding of the program that wrote K: where a count finds no eigenvalue below half of it.
 fn is_rounding(partition: &Partition, (lambda, noise): (f64, f64)) -> Result<bool> {
     if lambda > 0.0 {
         return Ok(false);

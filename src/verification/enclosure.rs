@@ -9,7 +9,7 @@
 //! T = K_s⁻¹M is self-adjoint in the inner product of K_s with eigenvalues 1/μ, also where M is singular, and
 //! ‖Tx − x/μ̃‖_{K_s} = ρ‖x‖_{K_s}/μ̃: some eigenvalue has |μ̃/μ − 1| ≤ ρ. Groups of modes whose intervals overlap hold as
 //! many eigenvalues as they have modes (Kahan 1967; Cao, Xie and Li 1996). Where a count proves that there are no others, each
-//! group holds exactly its own, the distances to the neighbours are known, and the interval of a single mode shrinks
+//! group holds exactly the eigenvalues of its modes, the distances to the neighbours are known, and the interval of a single mode shrinks
 //! to μ̃ρ²/gap (Kato 1949, Temple 1928). Everything is an upper bound that includes the rounding of its own computation.
 
 mod bracket;

@@ -19,7 +19,7 @@ const LARGEST_ENERGY: f64 = 1e-2;
 const LARGEST_EXPLAINED_ENERGY: f64 = 1.0 / 16.0;
 /// Relative force of a rigid-body motion at which the component is held.
 const HELD: f64 = 1e-6;
-/// Relative error bar of a frequency that is unknown: with half of it open it is no frequency any more.
+/// Relative error bar of a frequency that is unknown: with half of it open it is not a frequency any more.
 pub(crate) const UNKNOWN: f64 = 0.5;
 /// Relative difference of a frequency that reduced models are accepted with; one that is off by more is not preserved, whatever the
 /// reason.
@@ -78,7 +78,7 @@ pub(crate) fn of_frequency(relative_bar: f64, share_of_data: f64) -> Judged {
     let noise = NOISE_FACTOR * relative_bar;
     let limits = Limits { engineering: 1e-9, arithmetic: noise * (1.0 - share_of_data), data: noise * share_of_data };
     let limits = limits.capped(NOT_PRESERVED, NOT_PRESERVED);
-    // What the digits leave open is no failure of the reduction: up to the error bar itself it is a warning, with M-09.
+    // What the digits leave open is not a failure of the reduction: up to the error bar itself it is a warning, with M-09.
     let within_bar = (0.5 * relative_bar * share_of_data).min(OPEN);
     Judged { limits, fail_above: limits.value().max(1e-6).max(within_bar) }
 }

@@ -51,7 +51,7 @@ pub(super) fn accelerations(evidence: &Evidence<'_>, condition: f64) -> Option<C
     }
     let limits = if is_exact(evidence, &directions) {
         let arithmetic = f64::EPSILON * condition;
-        // The condition is that of the matrix, not of this solve; a thousandth of a deflection is read by nobody.
+        // The condition is that of the matrix, not of this solve; a thousandth of a deflection makes no difference.
         Limits { engineering: 1e-9, arithmetic, data: data_noise(partition) * condition }.capped(1e-3, 1e-2)
     } else {
         Limits::NONE
@@ -170,7 +170,7 @@ fn interior_masses(evidence: &Evidence<'_>, gamma: MatRef<'_, f64>, start: MatRe
 /// M-19: the direction that is carried least.
 ///
 /// It is shown, not judged. M̂ holds the whole rigid-body mass whatever the modes (M-16), so what the modes leave out
-/// still moves with the interface; what it misses is its own vibration above the highest mode, which nobody asked for, and
+/// still moves with the interface; what it misses is its own vibration above the highest mode, which the job does not ask for, and
 /// the deflection under its own inertia, which M-18 measures.
 pub(super) fn effective_mass(masses: &EffectiveMasses) -> Option<Check> {
     let carried = |j: usize| masses.shares.iter().map(|shares| shares[j]).sum::<f64>();

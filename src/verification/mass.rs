@@ -127,7 +127,7 @@ impl Place {
         let centre = [m_f[(1, 5)] / mass, m_f[(2, 3)] / mass, m_f[(0, 4)] / mass];
         let about_origin = (m_f[(3, 3)] + m_f[(4, 4)] + m_f[(5, 5)]) / (2.0 * mass);
         let square = about_origin - centre.iter().map(|x| x * x).sum::<f64>();
-        // A point has none; what rounding leaves of one is no length to compare with.
+        // A point has none; what rounding leaves of one is not a length to compare with.
         let gyration = if square > f64::EPSILON * about_origin { square.sqrt() } else { about_origin.sqrt() };
         Self { centre, gyration }
     }

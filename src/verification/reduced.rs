@@ -197,7 +197,7 @@ pub(super) fn symmetry(evidence: &Evidence<'_>, terms: &Terms) -> Check {
 
 /// M-25, definiteness.
 ///
-/// A mass that is singular is no failure: rotations without inertia leave one. M-23 warns of it.
+/// A mass that is singular is not a failure: rotations without inertia leave one. M-23 warns of it.
 pub(super) fn definiteness(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check {
     let stiffness = spectrum.negative_share();
     let first = spectrum.first_elastic();

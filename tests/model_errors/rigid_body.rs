@@ -45,7 +45,7 @@ fn counts_are_found_not_assumed() {
     }
 }
 
-/// A hinge adds a zero mode that is no rigid-body motion: coordinates give six, the matrices seven.
+/// A hinge adds a zero mode that is not a rigid-body motion: coordinates give six, the matrices seven.
 #[test]
 fn hinged_pair_has_a_seventh_zero_mode() {
     let model = hinged_pair();

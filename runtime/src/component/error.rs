@@ -14,7 +14,7 @@ pub enum ComponentError {
         "the superelement has no interface node; its motion is that of its interface nodes: reduce it with at least one"
     )]
     NoInterfaceNodes,
-    /// Part of the interface are bare rows, of which nobody knows what they displace.
+    /// Part of the interface are bare rows. It is not known what they displace.
     #[error(
         "{count} interface coordinates are rows without a node; large motion needs positions and six dofs: give the nodes' coordinates and reduce again"
     )]
@@ -120,7 +120,7 @@ pub enum EvaluationError {
         /// Number of the node.
         node: usize,
     },
-    /// The floating frame given to start from is no rigid-body motion.
+    /// The floating frame given to start from is not a rigid-body motion.
     #[error(
         "the floating frame to start from is not a finite translation and a rotation matrix; orthonormalise it, or give none"
     )]

@@ -119,7 +119,7 @@ pub(super) fn check_finite<const N: usize>(each: [(&'static str, &[f64]); N]) ->
     }
 }
 
-/// Zero times an infinity is no number, nor is any sum with one: eight sums side by side take the processor's vectors.
+/// Zero times an infinity is not a number, nor is any sum with one: eight sums side by side take the processor's vectors.
 pub(super) fn all_finite(values: &[f64]) -> bool {
     let (eights, rest) = values.as_chunks::<8>();
     let mut zeros = [0.0; 8];

@@ -16,7 +16,7 @@ use crate::report::{BoundaryComparison, BoundaryCount, FrequencyPair};
 
 /// How far roundings of one sign may exceed their typical sum.
 const ROUNDINGS: f64 = 10.0;
-/// Backward error of a pair beyond which it is nobody's, unless the digits of the data explain it: half the digits are gone.
+/// Backward error of a pair beyond which it is not accepted, unless the digits of the data explain it: half the digits are gone.
 const NOT_SOLVED: f64 = 1e-8;
 /// What arithmetic and data may excuse without a warning, and what they may excuse at most: past two digits the comparison says little, past one nothing.
 const MOST_EXCUSED: [f64; 2] = [1e-2, 1e-1];

@@ -12,7 +12,7 @@ use crate::report::PreservedMode;
 use crate::sparse::product;
 use crate::verification::pencil::Spectral;
 
-/// Modes shown in the matrix of the report; more make a page nobody reads.
+/// Modes shown in the matrix of the report; more do not fit on a readable page.
 const SHOWN: usize = 48;
 /// Eigenvalues within this many error bars of one another are one cluster: which vectors span it is rounding.
 const WITHIN_BARS: f64 = 10.0;

@@ -200,7 +200,7 @@ pub(super) fn checks(compared: &Compared) -> [Check; 2] {
             name: "frequency response of the interfaces",
             equation: "max |20 log₁₀ |Ĥ/H||, 20 log₁₀(1 + |Ĥ − H|/|H|) in dB over pairs of dofs and the band",
             value: report.worst_db,
-            // How much is tolerable is for the scene to say; nobody has said.
+            // How much is tolerable is for the scene to say, and it says nothing.
             limits: Limits::NONE,
             fail_above: f64::INFINITY,
             worst: Some(format!("{driven} to {observed} at {} Hz", quantity(report.worst_at_hz, 6))),

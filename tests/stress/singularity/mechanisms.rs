@@ -1,4 +1,4 @@
-//! Motions without energy that are no rigid-body motions: S-05, S-06, S-22.
+//! Motions without energy that are not rigid-body motions: S-05, S-06, S-22.
 
 use supel_models::model::Assembler;
 use supel_models::transform::{join, supported, translated};

@@ -147,7 +147,7 @@ impl Example {
     /// is given.
     ///
     /// # Errors
-    /// A superelement that the component refuses. A run that stops is no error.
+    /// A superelement that the component refuses. A run that stops is not an error.
     pub fn run(self, parts: &[Superelement], variant: &Variant, scheme: Option<Scheme>) -> Result<Run> {
         let or = |own: Scheme| scheme.unwrap_or(own);
         match self {
