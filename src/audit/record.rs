@@ -1,4 +1,4 @@
-//! What the file records of its making: that it is whole, and the verification of that day: M-26.
+//! What the file records of its making: that it is whole, and its verification when it was made (M-26).
 
 use std::collections::BTreeMap;
 
@@ -31,7 +31,7 @@ pub fn rewritten(superelement: &Superelement, bytes: &[u8]) -> Check {
     flaw("file is whole", "1 where its content written again is not the file, else 0", &flaws)
 }
 
-/// M-26: a superelement that was written although a check failed stays one.
+/// M-26: a superelement that was written although a check failed still says so.
 pub(super) fn verdicts(content: &Content<'_>) -> Check {
     let verification = &content.superelement.metadata().verification;
     let failed = verification.checks.iter().filter(|check| check.verdict == Verdict::Fail);

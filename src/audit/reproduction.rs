@@ -18,7 +18,7 @@ pub fn reproduced(superelement: &Superelement, again: &Superelement, job: &Job) 
     flaw("the same job makes it again", equation, &different_parts(superelement, again, job))
 }
 
-/// What differs, by name; nothing where the bytes are the same.
+/// The names of the parts that differ; none where the bytes are the same.
 fn different_parts(superelement: &Superelement, again: &Superelement, job: &Job) -> Vec<String> {
     let mut metadata = again.metadata().clone();
     if kept_job(superelement).is_some_and(|kept| differences(&kept, job) == Default::default()) {

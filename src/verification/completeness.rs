@@ -5,8 +5,8 @@ use super::check::{Check, Limits};
 use crate::modes::Mending;
 use crate::report::table;
 
-/// M-06, where a count was made: judged interval by interval, so that a mode too many in one does not hide one missing in
-/// another.
+/// M-06, where a count was made. Each interval is judged by itself, so that a mode too many in one does not hide a mode
+/// missing in another.
 pub(super) fn count(evidence: &Evidence<'_>) -> Option<Check> {
     let certificate = evidence.certificate?;
     let differences = certificate.intervals.iter().map(|interval| interval.n_counted.abs_diff(interval.n_found));

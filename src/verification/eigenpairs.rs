@@ -1,8 +1,8 @@
 //! The retained modes as eigenpairs of the full model: M-01, M-02, M-03, M-04, M-09.
 //!
 //! ```text
-//! r = K x − λ M x    residual of a pair, measured here from the shapes, whatever the eigensolver said of it
-//! D                  powers of two near 1/√K_ii: no unit of length or angle weighs in
+//! r = K x − λ M x    residual of a pair, measured here from the shapes, not taken from the eigensolver
+//! D                  powers of two near 1/√K_ii, so that units of length and angle do not matter
 //! ```
 
 use faer::Mat;
@@ -88,7 +88,7 @@ fn spread(evidence: &Evidence<'_>) -> f64 {
     lambda.last().copied().unwrap_or(1.0) / lambda.first().copied().unwrap_or(1.0)
 }
 
-/// What the eigensolver and the data leave of a residual, relative to the terms it is summed from.
+/// Limits of a residual, relative to the terms it is summed from: what the eigensolver and the data leave of it.
 fn residual_limits(evidence: &Evidence<'_>) -> Limits {
     let precision = evidence.partition.precision;
     let digits = precision.stiffness.max(precision.mass);
@@ -182,7 +182,7 @@ pub(super) fn stiffness_orthogonality(evidence: &Evidence<'_>, pairs: &Pairs) ->
     const FAIL: f64 = 1e-7;
     let (value, (a, b)) = pairs.coupling;
     let cancellation = evidence.retained.modes.errors.iter().map(|error| error.cancellation).fold(0.0, f64::max);
-    // Rounding of x_iᵀKx_j is that of its terms, √(c_i c_j) times the energies; to it comes what is left of
+    // Rounding of x_iᵀKx_j is that of its terms, √(c_i c_j) times the energies; added to it is the rest of
     // x_iᵀMx_j, a few ε, times √(λ_j / λ_i).
     let arithmetic = NOISE_FACTOR * f64::EPSILON * cancellation.max(spread(evidence).sqrt());
     // Rigid-body motion that K does not quite let pass is strain energy of the modes, and relative to it that much larger.

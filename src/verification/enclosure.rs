@@ -37,13 +37,13 @@ pub struct Enclosures {
     pub intervals: Vec<Option<[f64; 2]>>,
     /// For each mode a bound of the sine of its angle to the eigenvectors of its cluster; none without a proved count.
     pub angles: Vec<Option<f64>>,
-    /// What the count is worth.
+    /// How far the count is proved.
     pub count: CountProof,
     /// Factorisations it took.
     pub n_factorisations: usize,
 }
 
-/// What a count of eigenvalues is worth.
+/// How far a count of eigenvalues is proved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CountProof {
     /// How far the factors may be from the matrix, relative to the distance of the shift to the highest mode: below one
@@ -122,7 +122,7 @@ pub fn enclosures(
     Ok(Enclosures { intervals, angles, count, n_factorisations: n_metric + 1 })
 }
 
-/// The count above the highest mode, what it is worth, and the eigenvalue up to which there are no others.
+/// The count above the highest mode, how far it is proved, and the eigenvalue up to which there are no others.
 ///
 /// In the metric of K_s the eigenvalues of K − σ'M are ν = (λ − σ')/(λ − σ), and a factorisation that is off by E moves
 /// them by at most ω = ‖E‖/floor. Every λ with ν < −ω is counted, and no λ with ν > ω.
@@ -132,13 +132,13 @@ fn proof(analysis: &Analysis, metric: &Metric<'_>, groups: &[Group], shift: f64)
     let top = groups.last().map_or(metric.sigma, |group| group.interval[1]);
     let distance = (shift - top) / (top - metric.sigma);
     let enclosed = groups.iter().map(|group| group.members.len()).sum();
-    // A number that is none proves nothing.
+    // NaN proves nothing.
     let uncertainty = if omega.is_nan() || omega >= 1.0 || distance <= 0.0 { f64::INFINITY } else { omega / distance };
     let ceiling = (shift + omega * metric.sigma) / (1.0 + omega);
     Ok((CountProof { uncertainty, counted: count.below, enclosed }, ceiling))
 }
 
-/// M-07 and M-08, and what the count is worth: M-06.
+/// M-07 and M-08, and how far the count is proved: M-06.
 pub(super) fn checks(evidence: &Evidence<'_>) -> Vec<Check> {
     let Some(enclosures) = evidence.enclosures else { return Vec::new() };
     let mut checks = vec![counted(enclosures)];

@@ -39,7 +39,7 @@ pub(super) fn accelerations(evidence: &Evidence<'_>, condition: f64) -> Option<C
     for j in 0..directions.count() {
         let energy = |a: &Mat<f64>, b: MatRef<'_, f64>| {
             let energy = dense::dot(dense::column(a.as_ref(), j), dense::column(b, j));
-            // Below zero it is rounding; what is not a number stays so.
+            // Below zero it is rounding; NaN stays NaN.
             if energy < 0.0 { 0.0 } else { energy.sqrt() }
         };
         let (missed, whole) = (energy(&error, forces.as_ref()), energy(&full, loads));
@@ -84,10 +84,10 @@ fn reduced_deflections(evidence: &Evidence<'_>, loads: MatRef<'_, f64>) -> Optio
     Some(dense::product(psi_d, eta.as_ref()))
 }
 
-/// Whether the answers to these accelerations are among the columns of Ψ_D: inertia relief is there for every rigid-body
+/// Whether the answers to these accelerations are among the columns of Ψ_D: Ψ_D has inertia relief for every rigid-body
 /// mode, and the accelerations are rigid-body motions that K lets pass.
 fn is_exact(evidence: &Evidence<'_>, directions: &Directions) -> bool {
-    // What is left of a translation that is a rigid-body motion is rounding; of one that is held, all of it.
+    // A translation that is a rigid-body motion leaves only rounding; one that is held stays whole.
     const SAME: f64 = 1e-6;
     let basis = evidence.basis;
     let is_relief = |c: &DynamicCoordinate| matches!(c, DynamicCoordinate::InertiaRelief(_));
@@ -153,7 +153,7 @@ fn interior_masses(evidence: &Evidence<'_>, gamma: MatRef<'_, f64>, start: MatRe
         let image = product(mass, p.as_ref());
         let curvature = dots(&p, &image);
         for j in 0..x.ncols() {
-            // A column that is done has no direction left.
+            // A column that has converged has no direction left.
             let alpha = if curvature[j] > 0.0 { rz[j] / curvature[j] } else { 0.0 };
             dense::add_scaled(dense::column_mut(x.as_mut(), j), alpha, dense::column(p.as_ref(), j));
             dense::add_scaled(dense::column_mut(r.as_mut(), j), -alpha, dense::column(image.as_ref(), j));

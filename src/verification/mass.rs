@@ -59,7 +59,7 @@ pub(super) fn expected(evidence: &Evidence<'_>) -> Option<Check> {
     }
     let may_lack_rows = !known.is_free && expect.mass.is_none_or(|expected| mass < expected);
     let centre = known.place.map_or_else(String::new, |Place { centre, gyration }| {
-        // What is rounding compared with the component's size would only draw the eye.
+        // Rounding compared with the component's size is shown as zero.
         let shown = |value: f64| quantity(if value.abs() < 1e-12 * gyration { 0.0 } else { value }, 6);
         format!(", centre ({})", centre.map(shown).join(", "))
     });
@@ -88,7 +88,7 @@ fn found_mass(mass: f64, expected: Option<f64>) -> String {
     format!("{found}, expected {}{ratio}", quantity(expected, 6))
 }
 
-/// Share of the mass that supports may take out of a held model: one that lacks more has lost more than its supports.
+/// Share of the mass that supports may take out of a held model. A model that lacks more has another fault.
 const TAKEN_OUT: f64 = 0.5;
 
 /// Mass and centre in scaled units.

@@ -40,7 +40,7 @@ pub use loads::EffectiveMasses;
 pub use preservation::{Compared, preservation};
 pub use rigid_body::MassRoutes;
 
-/// Everything the checks look at: the results of the stages, none of their workings.
+/// Everything that the checks examine: the results of the stages.
 #[derive(Clone, Copy, Debug)]
 pub struct Evidence<'a> {
     /// The partitioned matrices.
@@ -49,7 +49,7 @@ pub struct Evidence<'a> {
     pub factor: &'a Cholesky<'a>,
     /// The rigid-body modes.
     pub rigid: &'a RigidBodyModes,
-    /// How well the interface reacts them.
+    /// How well the interface reacts the rigid-body modes.
     pub rank: InterfaceRank,
     /// The constraint modes.
     pub constraint: &'a ConstraintModes,
@@ -83,13 +83,13 @@ pub struct RigidBody {
     pub routes: Option<MassRoutes>,
     /// Eigenvalues of the zero modes of the reduced pencil.
     pub eigenvalues: Vec<f64>,
-    /// How far motion in each direction is from straining the component.
+    /// How much energy and force motion in each direction costs.
     pub grounding: Vec<Grounding>,
-    /// What the modes carry of the inertia in each direction.
+    /// The share of the inertia in each direction that the modes carry.
     pub effective_mass: Option<EffectiveMasses>,
 }
 
-/// All checks and what they rest on.
+/// Makes all checks, and returns them with the values they rest on.
 ///
 /// # Errors
 /// A dense eigenproblem that does not converge.
@@ -137,7 +137,7 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     Ok(Findings { checks, rigid_body })
 }
 
-/// What a rigid-body mode is called: `rotation z` of one free body, else by its number.
+/// The name of a rigid-body mode: `rotation z` of one free body, otherwise its number.
 fn rigid_name(evidence: &Evidence<'_>, mode: usize) -> String {
     match directions::NAMES.get(mode).filter(|_| evidence.rigid.is_classical) {
         Some(name) => (*name).to_owned(),
@@ -145,7 +145,7 @@ fn rigid_name(evidence: &Evidence<'_>, mode: usize) -> String {
     }
 }
 
-/// What a reduced coordinate is called: `node 12 uz`, `mode 3`, `inertia relief 2`.
+/// The name of a reduced coordinate: `node 12 uz`, `mode 3`, `inertia relief 2`.
 fn coordinate_name(evidence: &Evidence<'_>, coordinate: usize) -> String {
     let n_b = evidence.partition.n_interface();
     match coordinate.checked_sub(n_b).map(|slot| evidence.basis.coordinates.get(slot).copied()) {
@@ -159,7 +159,7 @@ fn coordinate_name(evidence: &Evidence<'_>, coordinate: usize) -> String {
     }
 }
 
-/// The precision of the data of K where it is coarser than that of the arithmetic, else nothing.
+/// The precision of the data of K where it is coarser than that of the arithmetic, otherwise zero.
 fn data_noise(partition: &Partition) -> f64 {
     let precision = partition.precision.stiffness;
     if precision > f64::EPSILON { precision * partition.cancellation } else { 0.0 }

@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::rigid::unit_motions;
 use crate::sparse::{panels, product};
 
-/// Constraint modes that are all looked at; of more, random combinations are.
+/// Up to this number every constraint mode is checked; of more, random combinations are.
 const MAX_SINGLE_COLUMNS: usize = 64;
 /// Random combinations: a column that is wrong shows in each of them but for a set of measure zero, and eight leave it a
 /// chance of 10⁻⁸ to be ten times smaller in all of them than it is.

@@ -36,8 +36,10 @@ fn rows(start: &str) -> Vec<(Option<u8>, Vec<String>)> {
 /// what to do. Sections follow each other by exit code.
 #[test]
 fn every_error_has_its_line() {
-    let found: Vec<(u8, String)> =
-        rows("E-").into_iter().map(|(exit, row)| (exit.expect("a section with an exit code"), row[0].clone())).collect();
+    let found: Vec<(u8, String)> = rows("E-")
+        .into_iter()
+        .map(|(exit, row)| (exit.expect("a section with an exit code"), row[0].clone()))
+        .collect();
     let of_enum = Error::CODES.iter().map(|(_, code, class)| (*class as u8, code.to_string()));
     let others = [(2, USAGE_CODE), (70, INTERNAL_CODE)].map(|(exit, code)| (exit, code.to_owned()));
     let mut expected: Vec<(u8, String)> = of_enum.chain(others).collect();

@@ -150,7 +150,8 @@ fn every_check_is_explained_and_advice_follows_what_is_past_its_limit() {
 #[test]
 fn explanations_cover_every_number_in_use_in_order() {
     let ids: Vec<String> = EXPLANATIONS.iter().map(|explanation| explanation.id.to_owned()).collect();
-    let expected: Vec<String> = (1..=26).filter(|number| *number != 22).map(|number| format!("M-{number:02}")).collect();
+    let expected: Vec<String> =
+        (1..=26).filter(|number| *number != 22).map(|number| format!("M-{number:02}")).collect();
     assert_eq!(ids, expected);
 }
 

@@ -196,7 +196,8 @@ fn ms_08_a_mass_added_at_the_interface() {
         }
     }
     for eigensolver in eigensolvers() {
-        let found = |model: &Model, method| eigenvalues(&Case::new(model, &pins).method(method).by(eigensolver).accepted());
+        let found =
+            |model: &Model, method| eigenvalues(&Case::new(model, &pins).method(method).by(eigensolver).accepted());
         let [alone, with_rotor] = [&block, &loaded].map(|model| found(model, "craig-bampton"));
         assert!(worst_ratio(&with_rotor, &alone) <= 1e-13, "{eigensolver}: {with_rotor:?} for {alone:?}");
         let [alone, with_rotor] = [&block, &loaded].map(|model| found(model, "herting"));

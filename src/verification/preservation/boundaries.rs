@@ -21,7 +21,7 @@ const NOT_SOLVED: f64 = 1e-8;
 /// What arithmetic and data may excuse without a warning, and what they may excuse at most: past two digits the comparison says little, past one nothing.
 const MOST_EXCUSED: [f64; 2] = [1e-2, 1e-1];
 
-/// What a support does to the interface dofs.
+/// A support: which interface dofs it holds and which it loads.
 #[derive(Clone, Debug)]
 pub(super) struct Boundary {
     pub(super) name: String,

@@ -1,7 +1,7 @@
-//! The full model under a boundary of the scene: its eigenvalues from the factor that is already there.
+//! The full model under a boundary of the scene: its eigenvalues from the factor of K_II.
 //!
 //! Holding interface dofs takes rows and columns away, loading them adds to the diagonal of M; K_II stays as it is, and
-//! with it its factor. Where that does not hold up, K − σM of the supported model is factored anew.
+//! so does its factor. Where that factor is not accurate enough, K − σM of the supported model is factored anew.
 
 use faer::{Mat, MatRef};
 

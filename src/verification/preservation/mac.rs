@@ -17,7 +17,7 @@ const SHOWN: usize = 48;
 /// Eigenvalues within this many error bars of one another are one cluster: which vectors span it is rounding.
 const WITHIN_BARS: f64 = 10.0;
 
-/// What became of the retained modes.
+/// The retained modes as the reduced model has them.
 pub(super) struct Preserved {
     pub(super) modes: Vec<PreservedMode>,
     pub(super) mac: Vec<Vec<f64>>,

@@ -54,7 +54,7 @@ pub struct Compared {
 /// Compares the reduced with the full model; `analysis` is the structure of K_II.
 ///
 /// # Errors
-/// No memory. What the arithmetic cannot do is left out by name.
+/// No memory. A comparison that the arithmetic cannot make is left out, and the report names it.
 pub fn preservation(evidence: &Evidence<'_>, analysis: &Analysis, job: &Job) -> Result<Compared> {
     let plan = Plan::new(evidence, analysis, job);
     let interfaces = interfaces::interfaces(evidence.partition);

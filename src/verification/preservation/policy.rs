@@ -61,7 +61,7 @@ impl Plan {
         }
         let cost = Cost::of(evidence, analysis);
         let dear = "it would take long on a model of this size; state it in [scene] to have it";
-        // Whoever asks for more than a count asks for the whole comparison.
+        // A job that asks for more than a count asks for the whole comparison.
         let is_full = !matches!(job.run.certify, Certify::None | Certify::Count);
         let is_asked = is_full || scene.boundaries.is_some();
         let of_supports =

@@ -18,7 +18,7 @@ use crate::verification::pencil::Spectral;
 /// A pair that responds this much less than its two driving points do is judged by them: symmetry uncouples such pairs,
 /// and what is left of them is rounding. A thousandth is 60 dB, the dynamic range of a good measurement.
 const UNCOUPLED: f64 = 1e-3;
-/// The antiresonances of the worst pair may show another pair to be worse; its own are then sampled too, this often.
+/// How often another pair is sampled: the antiresonances of the worst pair may show that another one is worse.
 const PASSES: usize = 3;
 
 /// The answers of the full model, for further reduced models to be compared with.
@@ -28,7 +28,7 @@ pub(super) struct FullResponse {
     eta: f64,
 }
 
-/// The comparison and what it rests on.
+/// The comparison and the values it rests on.
 pub(super) struct Compared {
     pub(super) report: ResponseComparison,
     pub(super) full: FullResponse,
@@ -212,7 +212,7 @@ pub(super) fn checks(compared: &Compared) -> [Check; 2] {
             value: compared.uncertainty.0,
             // A hundredth is a tenth of a dB.
             limits: Limits { engineering: 1e-2, ..Limits::default() },
-            // Past it the comparison says nothing, which makes no reduction wrong.
+            // Past it the comparison says nothing. That does not make a reduction wrong.
             fail_above: Check::NEVER,
             worst: Some(format!("{} Hz", quantity(compared.uncertainty.1, 6))),
         },

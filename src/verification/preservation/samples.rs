@@ -1,4 +1,4 @@
-//! Where the frequency response is looked at: the ends of the band, found frequencies, antiresonances and a grid.
+//! The frequencies at which the response is compared: the ends of the band, found frequencies, antiresonances and a grid.
 
 use faer::Mat;
 
