@@ -63,9 +63,9 @@ impl StagedFile {
 
     /// Gives several files their final names, in their order, all of them or none.
     ///
-    /// What had a name before is kept under a temporary one until the last file has its own, and gets its name back where one
-    /// is refused. A process killed in between leaves the first files new and the last one old: what the others tell about goes
-    /// last.
+    /// A file that had one of the names before is kept under a temporary name until the last file has its own. It gets its name
+    /// back if the system refuses one of the new names. A process killed in between leaves the first files new and the last one
+    /// old. So the file that the others describe goes last.
     ///
     /// # Errors
     ///
@@ -80,7 +80,7 @@ impl StagedFile {
                 Err(error) => return Err(undone(renamings, error)),
             }
         }
-        // From the first name to the last nothing needs memory, of which there may be none.
+        // Nothing between the first name and the last needs memory: there may be none left.
         if let Err(error) = rename_all(&mut renamings) {
             return Err(undone(renamings, error));
         }

@@ -121,7 +121,7 @@ pub enum FileError {
         /// Header or metadata.
         place: &'static str,
     },
-    /// A safetensors file that no superelement was put into.
+    /// A safetensors file without the key `supel`.
     #[error("file has no text `supel` under `__metadata__`: it is a safetensors file, but not a superelement")]
     MetadataMissing,
     /// A foreign key in addition to `supel`.
@@ -373,7 +373,7 @@ pub enum FileError {
         /// Angular frequency.
         omega: f64,
     },
-    /// A dof that is declared unloaded is none of the interface.
+    /// A dof that is declared unloaded does not belong to the interface.
     #[error("`validity.unloaded` names {direction:?} of interface node {node} (from 0), which has no such dof")]
     UnloadedDof {
         /// Number of the interface node.

@@ -2,7 +2,7 @@
 //!
 //! A held dof leaves no row in the matrices. Its absence shows in two ways: rows that were coupled to it make a force under the
 //! translation along it, and its node lacks a direction. Where a node lacks a displacement that a rotation makes, its
-//! neighbours in K make forces under that rotation however right the coordinates are.
+//! neighbours in K make forces under that rotation even if the coordinates are right.
 
 use super::doubt::{FIRST_ROTATION, NOTICEABLE};
 use super::motions::Motions;

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::regular;
 use crate::error::{Error, Result};
 
-/// Bytes looked at.
+/// Bytes from which a format is recognised.
 const HEAD: u64 = 1 << 12;
 /// What a file is read for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -90,7 +90,7 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
     Ok(Input { stiffness, mass, dofs, nodes, rows, digests, notes })
 }
 
-/// Starts the HDF5 library, so that what happens afterwards is a matter of the files.
+/// Starts the HDF5 library. A failure after that is the fault of a file.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`].
@@ -100,7 +100,7 @@ pub fn start_hdf5() -> Result<()> {
     Ok(())
 }
 
-/// Reads those files of a model that the HDF5 library reads, and forgets them.
+/// Reads the files of a model that need the HDF5 library, and discards what was read.
 ///
 /// # Errors
 /// A file that cannot be read or whose content is wrong.

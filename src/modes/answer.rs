@@ -1,4 +1,4 @@
-//! What a block Lanczos iteration gives back: the pairs it was asked for, all there are, or those that have converged.
+//! The result of a block Lanczos iteration: the pairs it was asked for, all there are, or those that have converged.
 
 use faer::Mat;
 

@@ -16,7 +16,7 @@
 //! c = [`ROUNDINGS`]. Growth beyond the limit makes a count likely, not certain, and the report says so.
 //!
 //! # Where there are no more modes
-//! A search that ends with fewer modes than were asked for is held against the rank of M, which is the number of finite
+//! A search that ends with fewer modes than were asked for is compared with the rank of M, which is the number of finite
 //! eigenvalues. Where they differ the count is taken above any spectrum of a mesh with these diagonals instead of just above
 //! the highest mode, and what it finds missing is looked for as any other mode.
 
@@ -156,7 +156,7 @@ fn certify_modes(
 ) -> Result<Certificate> {
     let may_be_more = n_finite.is_some_and(|n_finite| modes.count() + problem.n_rigid() < n_finite);
     let far = may_be_more.then(|| above_all(problem));
-    // Where nothing is known above the modes there is no gap for a better place, and the doubt below decides alone.
+    // Where nothing is known above the modes there is no gap for a better place, and only the doubt below decides.
     let serves = |end: &ElasticCount| {
         let sigma = end.inertia.sigma;
         let is_above = modes.lambda.last().is_none_or(|last| *last < sigma) && far.is_none_or(|far| far <= sigma);

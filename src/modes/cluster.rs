@@ -1,6 +1,6 @@
-//! One basis for a repeated eigenvalue, whatever the eigensolver happened to find.
+//! One basis for a repeated eigenvalue, independent of the one that the eigensolver found.
 //!
-//! Any rotation of the modes of a repeated eigenvalue is as good: a last bit of K, another start vector or another machine
+//! Any rotation of the modes of a repeated eigenvalue is a basis too: a last bit of K, another start vector or another machine
 //! turns them by arbitrary angles. Of all rotations X Q one is taken that depends on the subspace alone: at the dof with
 //! the largest share of the modal mass only the first mode moves, at the next such dof only the first two, and so on.
 

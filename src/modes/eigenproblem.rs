@@ -1,4 +1,4 @@
-//! The eigenproblem as the solvers see it, and what they give back.
+//! The eigenproblem that the solvers take, and the result that they return.
 
 use faer::{Mat, MatMut, MatRef};
 

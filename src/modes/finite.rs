@@ -1,7 +1,7 @@
-//! How many eigenvalues there are at all: the finite ones, as many as M has rank.
+//! The number of finite eigenvalues, which is the rank of M.
 //!
 //! A search that ends with fewer modes than were asked for has found all there are, or has lost some. A count far above the
-//! spectrum tells below its shift; the rank of M tells without a shift.
+//! spectrum decides for eigenvalues below its shift; the rank of M decides without a shift.
 
 use super::boundary_problem::{BoundaryProblem, ratios};
 use crate::error::Result;

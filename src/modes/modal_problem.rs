@@ -1,4 +1,4 @@
-//! What the eigenproblem of one boundary is made of, and where its entries come from.
+//! The matrices and rigid-body modes of the eigenproblem under one boundary, and where its entries come from.
 
 use faer::{Mat, MatRef};
 

@@ -4,18 +4,18 @@
 //! λ = xᵀKx / xᵀMx          Rayleigh quotient of the motion
 //! N_d                      what rounding of the digits of K can make of it
 //! N_a = ε |x|ᵀ|K||x|       what rounding of one ulp in every entry can make of it, all with one sign
-//! N_f = ε ‖DKD‖ ‖D⁻¹x‖²    the same of the norm of K instead of its entries, D = diag(1/√K_ii)
+//! N_f = ε ‖DKD‖ ‖D⁻¹x‖²    that rounding from the norm of K instead of its entries, D = diag(1/√K_ii)
 //! zero:  |λ| ≤ ¾ N_d + 10 (N_a + N_f)         all over xᵀMx
 //! ```
-//! A motion is zero where its energy cannot be told from none, and only there: its own error bar decides, never a share of the
+//! A motion is zero where its energy cannot be told from none, and only there. Its own error bar decides, never a share of the
 //! largest eigenvalue, which a thin plate has 10⁹ times above its softest mode.
 //!
 //! N_d is the bound of M-09, which refuses a mode that is known to half of its frequency: λ ≤ N_d. So nothing that has a known
-//! frequency is zero, and what lies between ¾ N_d and N_d, where neither is sure, is kept as a mode and refused for its digits. A
+//! frequency is zero, and what lies between ¾ N_d and N_d, where neither is certain, is kept as a mode and refused for its digits. A
 //! motion without energy comes to ¾ N_d with a chance below 3·10⁻⁷, by the tail that N_d is taken from.
 //!
-//! Whoever made K in double precision left some roundings in each entry; where the entries are differences of larger numbers, as
-//! in a matrix that was itself projected, they are rounding of the norm of K and not of their own size: that is N_f.
+//! The program that made K in double precision left some roundings in each entry. Where entries are differences of larger numbers, as
+//! in a matrix that was itself projected, the roundings are relative to the norm of K and not to the entries: that is N_f.
 
 /// Share of N_d up to which a motion is zero.
 const SHARE_OF_BOUND: f64 = 0.75;

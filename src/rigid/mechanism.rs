@@ -5,7 +5,7 @@
 //! V = [Ψ_S Z; Z]          n' × k       its softest motions besides those, with their internal dofs
 //! ```
 //! With K_II definite, every motion without energy is some V: a ball joint or a hinge between interfaces shows as a small
-//! eigenvalue of S, at the price of one dense eigenproblem. Motions without energy are handed on like rigid-body modes.
+//! eigenvalue of S, and costs one dense eigenproblem. Later stages treat motions without energy like rigid-body modes.
 
 use faer::{Mat, MatRef};
 

@@ -9,7 +9,7 @@ use crate::metadata::Direction;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ComponentError {
-    /// The superelement is joined to nothing.
+    /// The superelement has no interface node.
     #[error(
         "the superelement has no interface node; its motion is that of its interface nodes: reduce it with at least one"
     )]
@@ -67,7 +67,7 @@ pub enum ComponentError {
         /// What is allowed.
         limit: f64,
     },
-    /// The mass sees no difference between some rigid-body motions.
+    /// The mass does not determine the floating frame: some rigid-body motions have no inertia of their own.
     #[error(
         "the mass of the component does not resist each rigid-body motion, or too far from the origin for rounding to tell, so that a mass-weighted floating frame is undefined; place the model near the origin, or choose the rigid floating frame"
     )]
@@ -106,10 +106,10 @@ pub enum EvaluationError {
         "the workspace was made by another component; evaluate each component in workspaces that it has made itself"
     )]
     ForeignWorkspace,
-    /// There is no state to which the question belongs.
+    /// No state has been evaluated, or the last evaluation failed.
     #[error("the last evaluation in the workspace failed, so that it holds no state; evaluate one first")]
     NoState,
-    /// The loads of gravity in the file are the weight of no body.
+    /// The loads of gravity in the file are not the weight of a body.
     #[error(
         "the loads of gravity in the file are not the weight of a body, the same mass along each axis at one centre, so that they have no potential; use their forces, or write the file without them"
     )]
