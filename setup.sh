@@ -2,7 +2,7 @@
 # Prepares a machine, builds supel and shows that it works.
 #
 #   ./setup.sh        install what is missing, build the release program
-#   ./setup.sh run    the same, then reduce the bundled example
+#   ./setup.sh run    install and build, then reduce the bundled example
 #   ./setup.sh test   install what is missing, build and run all tests; the bundled example is among them
 #   ./setup.sh browser   install Chromium, in which the tests open the report page; without it they skip that
 set -euo pipefail
@@ -13,7 +13,9 @@ readonly packages=(build-essential pkg-config libhdf5-dev libarpack2-dev)
 readonly python_packages=(python3 python3-venv)
 readonly browser_packages=(chromium)
 readonly python_modules=(numpy safetensors blake3)
-readonly rust_minor=88
+# The manifest says which Rust is needed.
+rust_minor=$(sed -n 's/^rust-version = "1\.\([0-9]*\)"$/\1/p' Cargo.toml)
+readonly rust_minor
 
 say() { printf '\n== %s\n' "$*"; }
 fail() { printf 'setup.sh: %s\n' "$*" >&2; exit 1; }

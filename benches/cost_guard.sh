@@ -6,7 +6,7 @@
 #   benches/cost_guard.sh --refresh   writes the values of this commit there
 #
 # The development profile is measured, which the tests have built already. Instructions depend on the compiler: with another
-# one than that of the values only the other costs are compared. Without valgrind likewise. Both are said loudly.
+# one than that of the values only the other costs are compared. Without valgrind likewise. The guard prints what it skipped.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 readonly values=benches/cost_guard.json
@@ -17,7 +17,7 @@ cargo test --quiet --workspace --locked --features supel-models/med --no-run --t
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# Name, family, method and what the job has beside. The first compares all it can with the full model; the second is a solid
+# Name, family, method and what else the job has. The first compares all it can with the full model; the second is a solid
 # whose factor weighs, without comparisons.
 job() {
     local name=$1 family=$2 method=$3 extra=$4 folder=$work/$1

@@ -122,7 +122,7 @@ pub fn rank_of_rows(rows: &[[f64; 6]], tolerance: f64) -> usize {
             *sum += value * value;
         }
     }
-    // The square of a short column disappears beside that of a long one; a QR factorisation of the rows keeps it.
+    // The square of a short column disappears next to that of a long one; a QR factorisation of the rows keeps it.
     let n_rows = rows.len().max(6);
     let scaled = Mat::from_fn(n_rows, 6, |i, j| match rows.get(i) {
         Some(row) if scale[j] > 0.0 => row[j] / scale[j].sqrt(),

@@ -1,4 +1,4 @@
-//! Every way a run can fail, one variant each, with the values that explain it.
+//! Every way in which a run can fail. Each has one variant, with the values that explain it.
 //!
 //! A message reads *what – where – found – expected – what to do*, in lower case and without a full stop. The variant
 //! decides the exit code, so that a CI job can tell bad input from a bad model from a full disk.
@@ -1038,7 +1038,7 @@ pub enum Error {
         /// The key of the earlier one.
         other: &'static str,
     },
-    /// The name of an output is taken by something that is no file.
+    /// The name of an output is taken by something that is not a file.
     #[error("{}: not a regular file – expected a name that is free or that of a file – give the output another name", path.display())]
     OutputKind {
         /// The path.
@@ -1108,7 +1108,7 @@ pub enum Error {
     Swapped {
         /// Share of the rows of K whose entries of one direction add up to nothing.
         in_stiffness: f64,
-        /// The same of M.
+        /// Share of the rows of M whose entries of one direction add up to nothing.
         in_mass: f64,
     },
     /// M is zero.
@@ -1202,7 +1202,7 @@ pub enum Error {
     CoordinatesDoNotFit {
         /// Zero modes of K.
         n_zero: usize,
-        /// Those of them that are motions by the coordinates.
+        /// Zero modes of K that are motions by the coordinates.
         n_explained: usize,
         /// Motions by the coordinates that cost energy they should not.
         motions: String,
@@ -1490,7 +1490,7 @@ pub enum Error {
     },
     /// More zero-energy motions than rigid-body modes.
     #[error(
-        "the component is a mechanism – found {n_more} motions without energy beside the {n_rigid} rigid-body modes – expected none – close hinges and sliding joints or give them stiffness"
+        "the component is a mechanism – found {n_more} motions without energy in addition to the {n_rigid} rigid-body modes – expected none – close hinges and sliding joints or give them stiffness"
     )]
     Mechanism {
         /// Rigid-body modes.

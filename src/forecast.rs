@@ -12,7 +12,7 @@ const ENTRY: u64 = 12;
 const DOUBLE: u64 = 8;
 /// Modes assumed for a band whose number of modes is not known yet.
 const MODES_IN_A_BAND: u64 = 50;
-/// Vectors beside the right-hand sides of a solve by a factor in single precision.
+/// Vectors in addition to the right-hand sides of a solve by a factor in single precision.
 const REFINEMENT: u64 = 72;
 /// Blocks of all modes that basis, projection, verification and comparison hold together: 5.9 with 800 fixed-interface modes of a
 /// slender solid of 30,000 dofs, 5.0 with Herting's.
@@ -29,10 +29,10 @@ const COLUMNS_OF_A_MODE: u64 = 4;
 /// Columns of any search.
 const COLUMNS_OF_A_SEARCH: u64 = 64;
 
-/// What the machine has to offer; it decides whether a run starts and changes no result.
+/// What the machine has. It decides whether a run starts and changes no result.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Resources {
-    /// Memory the run may use, in bytes; unlimited where nobody knows. `run.memory_gib` of the job goes first.
+    /// Memory the run may use, in bytes; `None` sets no limit. `run.memory_gib` of the job takes precedence.
     pub memory_bytes: Option<u64>,
 }
 
@@ -144,7 +144,7 @@ impl Forecast {
         let n = partition.n_dofs() as u64;
         // The partitioned matrices and the triangle with wide indices that the analysis makes; a proof lowers K in a copy.
         let entries = (partition.stiffness.nnz() + partition.mass.nnz()) as u64;
-        // A slice keeps the factor of its shift and a basis of its own, beside all modes and the copy that puts them in order.
+        // A slice keeps the factor of its shift and a basis of its own, in addition to all modes and the copy that puts them in order.
         let (in_slices, of_solver) = match n_modes > SLICED_FROM as u64 {
             true => (at_once, 2 * n_modes + at_once * (5 * LARGEST_SEARCH as u64 + 64)),
             false => (0, 5 * n_modes + 64),

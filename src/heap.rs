@@ -2,14 +2,14 @@
 //!
 //! **Large blocks.** A reduction allocates and frees blocks of vectors, fronts and panels of many megabytes all the time. By default the
 //! GNU allocator maps such a block when it is asked for and gives it back when it is freed, so that the kernel clears the same pages again
-//! and again: a sixth of the time of a reduction of 91,000 dofs. Kept in one heap they are used again at once, and the peak of memory stays
-//! what it was. Other allocators are left alone.
+//! and again. That took a sixth of the time of a reduction of 91,000 dofs. Kept in one heap the pages are used again at once, and the peak
+//! of memory stays what it was. Other allocators are left alone.
 //!
 //! **No memory.** Most allocations of this crate and of those it builds on cannot fail for their callers: the standard library prints a
-//! line and aborts, with `RUST_BACKTRACE=1` after a backtrace for which there is no memory either, and the linear algebra crate panics. No
-//! stable hook lets a program decide. So [`Heap`], the allocator of the program, decides itself: where the system has no memory it writes
+//! line and aborts, and the linear algebra crate panics. With `RUST_BACKTRACE=1` a backtrace comes first, for which there is no memory
+//! either. No stable hook lets a program decide. So [`Heap`], the allocator of the program, decides: where the system has no memory it writes
 //! the line of [`Error::OutOfMemory`] with the running stage, removes what was being written, and ends
-//! the process. An allocation whose failure is handled is made within [`fallibly`] and gets its failure back.
+//! the process. Code that handles a failed allocation itself allocates within [`fallibly`].
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;

@@ -1,6 +1,6 @@
 //! The job: one document that says what to read, how to reduce and what to write.
 //!
-//! What one-off use needs can also be given by flags. Paths are relative to the folder of the document; [`Job::resolve`]
+//! Flags can give what a single run needs. Paths are relative to the folder of the document; [`Job::resolve`]
 //! makes them absolute before any stage sees them. Unknown keys are errors.
 
 mod document;
@@ -74,7 +74,7 @@ impl Job {
         validation::validate(self)
     }
 
-    /// The same job with paths relative to `folder` made absolute.
+    /// This job with paths relative to `folder` made absolute.
     ///
     /// # Errors
     ///
@@ -280,7 +280,7 @@ pub struct RunJob {
 pub struct WriteJob {
     /// The superelement file.
     pub superelement: PathBuf,
-    /// The report; beside the superelement as `name.report.json` where absent.
+    /// The report; next to the superelement as `name.report.json` where absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub report: Option<PathBuf>,
     /// The report as a page for people, where it is wanted.
@@ -295,7 +295,7 @@ pub struct WriteJob {
 }
 
 impl WriteJob {
-    /// Where the report goes: as asked, or beside the superelement as `name.report.json`.
+    /// Where the report goes: as asked, or next to the superelement as `name.report.json`.
     pub fn report_path(&self) -> PathBuf {
         self.report.clone().unwrap_or_else(|| self.superelement.with_extension("report.json"))
     }

@@ -28,6 +28,46 @@
 //! | [`verification`] | all of it | checks: value, limit, verdict |
 //! | [`output`] | all of it | the superelement and the report |
 //!
+//! # Example
+//!
+//! Read a job, reduce, look at the checks, write the superelement and read it back as a simulation does:
+//!
+//! ```
+//! use supel::job::Job;
+//! use supel::forecast::Resources;
+//! use supel::verification::check::Verdict;
+//! use supel_runtime::Superelement;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let folder = tempfile::tempdir()?;
+//! # let (job_path, output) = (folder.path().join("job.toml"), folder.path().join("chain.supel"));
+//! # let banner = "%%MatrixMarket matrix coordinate real symmetric\n";
+//! # let springs: String = (1..5).map(|i| format!("{i} {i} {}\n{} {i} -1\n", if i == 1 { 1 } else { 2 }, i + 1)).collect();
+//! # let masses: String = (1..=5).map(|i| format!("{i} {i} 1\n")).collect();
+//! # std::fs::write(folder.path().join("K.mtx"), format!("{banner}5 5 9\n{springs}5 5 1\n"))?;
+//! # std::fs::write(folder.path().join("M.mtx"), format!("{banner}5 5 5\n{masses}"))?;
+//! # std::fs::write(&job_path, r#"
+//! #     model = { stiffness = "K.mtx", mass = "M.mtx" }
+//! #     interface = [{ name = "ends", nodes = { rows = [0, 4] } }]
+//! #     reduction = { method = "craig-bampton", modes = { count = 2 } }
+//! #     write = { superelement = "chain.supel" }
+//! # "#)?;
+//! let job = Job::read(&job_path)?;
+//! let outcome = supel::reduce(&job, Resources::default(), &mut ())?;
+//! for check in &outcome.report.body.checks {
+//!     println!("{} {}: {:.1e}, limit {:.1e}", check.id, check.name, check.value, check.limits.value());
+//!     assert_ne!(check.verdict(), Verdict::Fail);
+//! }
+//! outcome.superelement.write(&output)?;
+//! let chain = Superelement::open(&output)?;
+//! assert_eq!(chain.n_coordinates(), 2 + 2);
+//! // Three equal masses between the held ends, on unit springs: the lowest λ is 2 − √2.
+//! let lambda = chain.tensors().frequencies[0].powi(2);
+//! assert!((lambda - (2.0 - 2f64.sqrt())).abs() < 1e-12);
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! # Layers
 //!
 //! Each word is a folder or a file of `src`; none imports one that comes later, and no two files import each other. `tests/architecture`
@@ -44,13 +84,16 @@
 //!
 //! # Invariants
 //!
-//! 1. Only `input`, `output`, `report`, `job`, `cli` and `main` touch files, the clock or the terminal.
-//! 2. The reduction method is matched once, where the modes are chosen. After the basis is built no stage knows it.
+//! 1. Of the stages only [`input`] and [`output`] touch files. Around them [`job`] reads its document, [`report`] reads the
+//!    clock, [`cli`] and the program have the terminal, and [`heap`] writes the last line of a run that finds no memory.
+//! 2. [`modes::Boundary::of`] alone decides what a reduction method means: the boundary under which its modes are sought.
+//!    Basis, reduction and verification know that boundary and never the method; [`output`], [`report`] and [`audit`] know
+//!    the method's name.
 //! 3. A matrix is factored once per shift and solved many times; no inverse is ever formed.
 //! 4. The superelement format has one owner, the crate `supel-runtime`, used by the writer and by every reader.
 //! 5. `supel-runtime` depends on nothing of this crate.
 //! 6. Verification never changes a result. It measures, names the equation and compares with a limit.
-//! 7. The same input gives the same bytes, whatever the number of threads.
+//! 7. The same input gives the same bytes, whatever the number of threads (held by `tests/end_to_end/same_bytes.rs`).
 
 pub mod audit;
 pub mod basis;
@@ -105,7 +148,7 @@ use verification::Evidence;
 /// What `resources` cannot hold is refused before the first factorisation; nothing of it reaches the outcome.
 ///
 /// # Errors
-/// Those of the stages; each says what, where, what was found, what was expected and what to do.
+/// The errors of the stages; each says what is wrong, where, what was found, what was expected and what to do.
 pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Result<Outcome> {
     let (facts, partition) = prepared(job, resources, observer)?;
 
@@ -206,7 +249,7 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
 /// Checks a superelement that was made earlier: by its own content, and with a job against the full matrices.
 ///
 /// # Errors
-/// Those of reading the model of the job; a dense eigenproblem or an iteration that does not converge.
+/// The errors of reading the model of the job; a dense eigenproblem or an iteration that does not converge.
 pub fn verify(
     superelement: &Superelement,
     job: Option<&Job>,

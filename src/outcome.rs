@@ -4,7 +4,7 @@ use supel_runtime::Superelement;
 
 use crate::report::Report;
 
-/// The superelement and the report on it; files, times and memory are filled in by whoever writes them.
+/// The superelement and the report on it; the caller that writes the files fills in files, times and memory.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// The superelement.

@@ -1,4 +1,4 @@
-//! Files that are opened by whatever reader: regular ones alone, and the same from the first byte read to the last.
+//! Opens files for every reader. Only regular files are opened, and a file that changes while it is read is refused.
 
 use std::fs::{File, Metadata};
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! Whether the process was given an stdout.
 //!
-//! The standard library opens the null device in the place of a standard stream that is closed, before `main` runs: what is written
-//! there is lost, and nobody is told. So the descriptor is asked for before that, by a function that the system runs at the start.
+//! Before `main` runs, the standard library opens the null device in the place of a standard stream that is closed. What is written
+//! there is lost without an error. So a function that the system runs at the start asks for the descriptor before that.
 
 use supel::cli::Stdout;
 

@@ -13,7 +13,7 @@ fn main() {
         minor_faults() - before
     });
     // The pages of the block are the kernel's work the first time, of whatever size it makes them. The second time they are there;
-    // a tenth is for what the process needs beside them, where pages are large and few. An allocator that gives the block back
+    // a tenth is for what else the process needs, where pages are large and few. An allocator that gives the block back
     // makes the two equal.
     assert!(first > 0, "the kernel counts no page");
     assert!(second * 10 <= first, "{second} pages asked for again, of {first}");

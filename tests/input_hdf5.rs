@@ -595,7 +595,7 @@ fn sets_that_cannot_be_right_are_refused() {
     assert!(matches!(endless, Error::Hdf5Depth { .. }), "{endless}");
 }
 
-/// Writes `mesh.xdmf` beside the data fixture and reads it.
+/// Writes `mesh.xdmf` next to the data fixture and reads it.
 fn xdmf(text: &str) -> Result<Nodes, Error> {
     let folder = tempfile::tempdir().unwrap();
     fs::copy(fixture("mesh.h5"), folder.path().join("mesh.h5")).unwrap();

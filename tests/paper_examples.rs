@@ -1,4 +1,4 @@
-//! The same curves of an example of the paper, to the last bit, from a superelement in memory, from its file, and from the
+//! An example of the paper has the same curves, to the last bit, from a superelement in memory, from its file, and from the
 //! program.
 
 use std::path::Path;

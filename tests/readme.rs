@@ -1,4 +1,5 @@
-//! Every command in the README runs, in the order of the page, in a folder of its own.
+//! Every command in the README runs, in the order of the page, in a folder of its own; every job of README and `docs/job.md`
+//! is a job.
 
 #![cfg(feature = "hdf5")]
 
@@ -8,11 +9,12 @@ use std::process::Command;
 use supel::job::Job;
 
 const README: &str = include_str!("../README.md");
+const JOB: &str = include_str!("../docs/job.md");
 
-/// The fenced blocks of the page: language with its marks, and content.
-fn blocks() -> Vec<(&'static str, &'static str)> {
+/// The fenced blocks of a page: language with its marks, and content.
+fn blocks(page: &'static str) -> Vec<(&'static str, &'static str)> {
     let mut blocks = Vec::new();
-    let mut rest = README;
+    let mut rest = page;
     while let Some((_, block)) = rest.split_once("\n```") {
         let (mark, block) = block.split_once('\n').expect("a fence ends its line");
         let (content, after) = block.split_once("\n```").expect("a block ends");
@@ -58,6 +60,11 @@ fn search_path() -> std::ffi::OsString {
     std::env::join_paths(folders.chain(std::env::split_paths(&others))).expect("a search path")
 }
 
+fn assert_is_job(text: &str) {
+    let job = Job::parse(text, Path::new("job.toml")).expect("a job");
+    job.validate().expect("valid");
+}
+
 fn run(folder: &Path, program: &str, args: &[&str]) {
     let ended = Command::new(program).args(args).current_dir(folder).env("PATH", search_path()).output();
     let ended = ended.unwrap_or_else(|error| panic!("{program}: {error}"));
@@ -75,7 +82,7 @@ fn every_command_of_the_readme_runs() {
         .output()
         .is_ok_and(|ended| ended.status.success());
     let mut n_run = 0;
-    for (mark, content) in blocks() {
+    for (mark, content) in blocks(README) {
         match mark {
             "sh peers" => match lacking(folder.path(), content) {
                 None => run(folder.path(), "bash", &["-euo", "pipefail", "-c", content]),
@@ -86,10 +93,7 @@ fn every_command_of_the_readme_runs() {
             "python run" => println!("skipped: {python} has no numpy and safetensors; set SUPEL_PYTHON"),
             // The continuous integration script runs these.
             "sh" => assert!(content.starts_with("./setup.sh "), "not marked `run`: {content}"),
-            "toml" => {
-                let job = Job::parse(content, Path::new("job.toml")).expect("a job");
-                job.validate().expect("valid");
-            }
+            "toml" => assert_is_job(content),
             _ => panic!("a block of an unknown kind: {mark}"),
         }
         n_run += usize::from(mark.ends_with(" run") || mark.ends_with(" peers"));
@@ -110,6 +114,42 @@ fn every_command_of_the_readme_runs() {
 }
 
 #[test]
+fn the_page_of_the_job_has_every_key() {
+    let jobs = blocks(JOB);
+    assert_eq!(jobs.len(), 1);
+    jobs.iter().for_each(|(_, content)| assert_is_job(content));
+    let schema: serde_json::Value =
+        serde_json::from_str(include_str!("../schemas/job.schema.json")).expect("the schema is JSON");
+    let mut keys = Vec::new();
+    collect_keys(&schema, &mut keys);
+    assert!(keys.len() > 40, "{keys:?}");
+    let words: Vec<&str> = JOB.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+    let missing: Vec<_> = keys.iter().filter(|key| !words.contains(&key.as_str())).collect();
+    assert!(missing.is_empty(), "docs/job.md lacks {missing:?}");
+}
+
+/// The names of all properties in a JSON schema.
+fn collect_keys(schema: &serde_json::Value, keys: &mut Vec<String>) {
+    let inside: Vec<&serde_json::Value> = match schema {
+        serde_json::Value::Object(map) => map.values().collect(),
+        serde_json::Value::Array(list) => list.iter().collect(),
+        _ => Vec::new(),
+    };
+    if let Some(properties) = schema.get("properties").and_then(serde_json::Value::as_object) {
+        keys.extend(properties.keys().cloned());
+    }
+    inside.into_iter().for_each(|value| collect_keys(value, keys));
+}
+
+/// Terminals and side-by-side views show 120 columns.
+#[test]
+fn lines_of_the_readme_are_short() {
+    for (number, line) in README.lines().chain(JOB.lines()).enumerate() {
+        assert!(line.chars().count() <= 120, "line {}: {line}", number + 1);
+    }
+}
+
+#[test]
 fn files_that_the_readme_names_exist() {
     for name in [
         "schemas/job.schema.json",
@@ -117,6 +157,15 @@ fn files_that_the_readme_names_exist() {
         "schemas/superelement.schema.json",
         "docs/what-the-report-proves.md",
         "docs/images/report.png",
+        "docs/job.md",
+        "docs/errors.md",
+        "docs/what-verify-sees.md",
+        "benches/README.md",
+        "benches/results/C-slender-90987.svg",
+        "benches/results/E-slender-herting.svg",
+        "runtime/capi/supel.h",
+        "runtime/capi/example.c",
+        "CONTRIBUTING.md",
         "validation/README.md",
         "schemas/verification.schema.json",
         "LICENSE-MIT",

@@ -39,7 +39,7 @@ def factorise(a):
 
 
 class Reference:
-    """The condensed matrices of a part and what was computed from them, kept in reference.json beside its files."""
+    """The condensed matrices of a part and what was computed from them, kept in reference.json next to its files."""
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Two silent failures of other programs beside supel's answer to the same matrices, as one table.
+"""Two silent failures of other programs and supel's answer to the same matrices, as one table.
 
     python3 benches/peers/failures.py [--supel PATH] [--calls N] [--keep FOLDER] [--check]
 

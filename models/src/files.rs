@@ -67,7 +67,7 @@ fn job(part: &Part, modes: usize) -> String {
     )
 }
 
-/// What scripts need beside the matrices.
+/// What scripts need in addition to the matrices.
 fn facts(part: &Part, modes: usize) -> String {
     let Part { family, model, faces, .. } = part;
     let directions = model.n / model.nodes.len();

@@ -21,7 +21,7 @@ const GROUP_NAME: usize = 80;
 /// Writes a mesh with its node groups.
 ///
 /// # Errors
-/// Those of the HDF5 library.
+/// The errors of the HDF5 library.
 pub fn write(path: &Path, mesh: &HexMesh, description: &str) -> Result<()> {
     let file = File::create(path)?;
     let info = file.create_group("INFOS_GENERALES")?;

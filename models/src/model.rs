@@ -52,7 +52,7 @@ impl Model {
         Self::of_entries(nodes, directions, stiffness.finish(), mass.finish())
     }
 
-    /// The same of matrices that are assembled.
+    /// A model of nodes labelled 1, 2, … that all have the same directions, from assembled matrices.
     pub fn of_entries(nodes: Vec<[f64; 3]>, directions: &[u8], stiffness: Vec<Entry>, mass: Vec<Entry>) -> Self {
         let labels: Vec<i64> = (1..).take(nodes.len()).collect();
         let dofs: Vec<(i64, u8)> =

@@ -65,7 +65,7 @@ impl TetMesh {
     /// K and M with three displacements a node; nodes are labelled from one.
     ///
     /// Element blocks are added to a pattern found beforehand, in the order of the elements: no sorting of
-    /// contributions, and 72 bytes for each pair of neighbours beside the result.
+    /// contributions, and 72 bytes for each pair of neighbours in addition to the result.
     ///
     /// # Panics
     /// If an element is turned inside out.

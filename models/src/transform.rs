@@ -50,7 +50,7 @@ fn direct_sum(a: &[Entry], b: &[Entry], rows_of_b: &[u32]) -> Vec<Entry> {
     sum.finish()
 }
 
-/// The same model at another place.
+/// `model` at another place.
 pub fn translated(model: &Model, by: [f64; 3]) -> Model {
     let nodes = model.nodes.iter().map(|x| std::array::from_fn(|d| x[d] + by[d])).collect();
     Model { nodes, ..model.clone() }

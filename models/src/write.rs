@@ -9,7 +9,7 @@ use crate::tetrahedra::TetMesh;
 /// decimals that read back as the same bits.
 ///
 /// # Errors
-/// Those of the writer.
+/// The errors of the writer.
 pub fn matrix_market(out: &mut impl Write, n: usize, entries: &[Entry], comment: &str) -> io::Result<()> {
     // By symmetry the upper triangle by rows is the lower one by columns.
     let lower = || entries.iter().filter(|(row, column, _)| row <= column);
@@ -19,10 +19,10 @@ pub fn matrix_market(out: &mut impl Write, n: usize, entries: &[Entry], comment:
     lower().try_for_each(|(row, column, value)| writeln!(out, "{} {} {value:e}", column + 1, row + 1))
 }
 
-/// The same, gzipped without name and time, so that equal input gives equal bytes.
+/// Writes a matrix as [`matrix_market`] does, gzipped without name and time, so that equal input gives equal bytes.
 ///
 /// # Errors
-/// Those of the writer.
+/// The errors of the writer.
 pub fn matrix_market_gz(out: impl Write, n: usize, entries: &[Entry], comment: &str) -> io::Result<()> {
     let mut packed = flate2::write::GzEncoder::new(out, flate2::Compression::best());
     matrix_market(&mut io::BufWriter::new(&mut packed), n, entries, comment)?;
@@ -32,7 +32,7 @@ pub fn matrix_market_gz(out: impl Write, n: usize, entries: &[Entry], comment: &
 /// Writes the node table: `node,x,y,z`.
 ///
 /// # Errors
-/// Those of the writer.
+/// The errors of the writer.
 pub fn nodes_csv(out: &mut impl Write, model: &Model) -> io::Result<()> {
     writeln!(out, "node,x,y,z")?;
     let mut rows = model.labels.iter().zip(&model.nodes);
@@ -42,7 +42,7 @@ pub fn nodes_csv(out: &mut impl Write, model: &Model) -> io::Result<()> {
 /// Writes the dof map, `node.direction` with directions from one to six, a line for each row.
 ///
 /// # Errors
-/// Those of the writer.
+/// The errors of the writer.
 pub fn dof_map(out: &mut impl Write, model: &Model) -> io::Result<()> {
     model.dofs.iter().try_for_each(|(label, direction)| writeln!(out, "{label}.{}", direction + 1))
 }
@@ -50,7 +50,7 @@ pub fn dof_map(out: &mut impl Write, model: &Model) -> io::Result<()> {
 /// Writes nodes, quadratic tetrahedra, material and node sets of a solid as a CalculiX or Abaqus deck without steps.
 ///
 /// # Errors
-/// Those of the writer.
+/// The errors of the writer.
 pub fn calculix(out: &mut impl Write, mesh: &TetMesh, material: &Material, model: &Model) -> io::Result<()> {
     writeln!(out, "*NODE, NSET=ALL")?;
     let mut nodes = model.labels.iter().zip(&model.nodes);

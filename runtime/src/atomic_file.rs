@@ -24,7 +24,7 @@ pub struct StagedFile {
 }
 
 impl StagedFile {
-    /// Writes `bytes` beside `target`, under a name of its own, and syncs them to the disk.
+    /// Writes `bytes` next to `target`, under a name of its own, and syncs them to the disk.
     ///
     /// # Errors
     ///
@@ -63,9 +63,9 @@ impl StagedFile {
 
     /// Gives several files their final names, in their order, all of them or none.
     ///
-    /// What had a name before is kept under a temporary one until the last file has its own, and gets its name back where one
-    /// is refused. A process killed in between leaves the first files new and the last one old: what the others tell about goes
-    /// last.
+    /// A file that had one of the names before is kept under a temporary name until the last file has its own. It gets its name
+    /// back if the system refuses one of the new names. A process killed in between leaves the first files new and the last one
+    /// old. So the file that the others describe goes last.
     ///
     /// # Errors
     ///
@@ -80,7 +80,7 @@ impl StagedFile {
                 Err(error) => return Err(undone(renamings, error)),
             }
         }
-        // From the first name to the last nothing needs memory, of which there may be none.
+        // Nothing between the first name and the last needs memory: there may be none left.
         if let Err(error) = rename_all(&mut renamings) {
             return Err(undone(renamings, error));
         }
@@ -193,13 +193,13 @@ impl Drop for StagedFile {
     fn drop(&mut self) {
         // After a commit the name is free and may already be another writer's.
         if !self.committed {
-            // If the removal fails too, nobody is left to be told; the next writer reports the file.
+            // If the removal fails too there is no one to report it to; the next writer reports the file.
             let _ = fs::remove_file(&self.temporary);
         }
     }
 }
 
-/// Temporary files beside `target` that an interrupted run left (or a running one is writing), sorted by name.
+/// Temporary files next to `target` that an interrupted run left (or a running one is writing), sorted by name.
 ///
 /// Readers ignore them; a writer reports them.
 pub fn abandoned_parts(target: &Path) -> Vec<PathBuf> {

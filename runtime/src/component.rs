@@ -24,18 +24,18 @@
 //!
 //! # What a component leaves out
 //!
-//! Deformation is linear in the floating frame. Two things follow, and no tangent brings them back:
+//! Deformation is linear in the floating frame. Two effects are therefore absent, from forces and from every tangent:
 //!
 //! - the stiffness does not depend on the stress: no stress stiffening inside a component, neither that of a blade by its
 //!   centrifugal force nor the buckling of a column by its load;
 //! - the inertia is that of the undeformed component: centrifugal forces do not grow with the deformation, and are
 //!   distributed over it as those of a rigid acceleration.
 //!
-//! Between components both are there, because large motion is exact: a slender part that turns fast or carries a large load is
-//! divided into several components, and what is left out falls with the square of their size.
+//! Between components both effects are present, because large motion is exact. Divide a slender part that turns fast or
+//! carries a large load into several components: the error falls with the square of their size.
 //!
-//! Source: paper, section 4. Its inertial forces (85) lack J⁻¹ and those of its table 1 Qᵀ M_F Q; here both are complete, so
-//! that forces are those of a Lagrangian for any choice of Y.
+//! Source: paper, section 4. Its inertial forces (85) lack J⁻¹, and those of its table 1 lack Qᵀ M_F Q. Both are complete
+//! here, so that forces are those of a Lagrangian for any choice of Y.
 
 mod at_nodes;
 #[cfg(feature = "std")]
@@ -132,7 +132,7 @@ pub struct ModalComponent {
     frame_rounding: FrameRounding,
     /// Loads of unit gravity, one row of three for each coordinate.
     gravity: Vec<Vector3>,
-    /// What they are the weight of.
+    /// Mass and moment of mass that these loads are the weight of.
     weight: Option<Weight>,
     damping_is_symmetric: bool,
     damping_acts_on: ActsOn,
@@ -224,7 +224,7 @@ impl ModalComponent {
     ///
     /// # Errors
     ///
-    /// Those of [`evaluate`](Self::evaluate).
+    /// The errors of [`evaluate`](Self::evaluate).
     ///
     /// Source: paper, eqs. (82), (84), (87).
     pub fn tangents(&self, state: &State<'_>, workspace: &mut Workspace) -> Result<(), EvaluationError> {
@@ -250,15 +250,15 @@ impl ModalComponent {
     /// because v changes by δ̇ + v̂ δ. Loads add their own stiffness ([`add_load_stiffness`](Self::add_load_stiffness),
     /// [`add_gravity_stiffness`](Self::add_gravity_stiffness)).
     ///
-    /// Newton's method with it converges quadratically once it is close; from afar K_T, which has no negative directions, is the
-    /// safer one.
+    /// Newton's method with it converges quadratically once it is close. Far from the solution K_T is safer, because it has no
+    /// negative directions.
     ///
     /// Exact is the derivative of the component's forces, which are linear in the deformation: a component has no stress
     /// stiffening inside; see the [module page](self#what-a-component-leaves-out).
     ///
     /// # Errors
     ///
-    /// Those of [`evaluate`](Self::evaluate).
+    /// The errors of [`evaluate`](Self::evaluate).
     pub fn exact_tangents(&self, state: &State<'_>, workspace: &mut Workspace) -> Result<(), EvaluationError> {
         self.evaluate(state, workspace)?;
         workspace.has_state = false;

@@ -1,8 +1,8 @@
 //! The safetensors container: a length, a JSON header, the numbers.
 //!
-//! Every length is checked before it is used and nothing is allocated that the bytes at hand do not pay for. The rules
-//! are those of the reference implementation (tensors end to end, the last one at the end of the file, shape times size
-//! equal to the bytes given) and stricter ones: no key twice, no unknown tensor, no foreign metadata.
+//! Every length is checked before it is used, and no allocation exceeds the bytes of the file. The rules are those of the
+//! reference implementation: tensors follow each other without a gap, the last one ends with the file, and shape times size
+//! equals the bytes given. Three rules are stricter: no key twice, no unknown tensor, no foreign metadata.
 
 use alloc::borrow::ToOwned;
 use alloc::collections::BTreeMap;
@@ -81,7 +81,7 @@ pub(crate) fn header_length(bytes: &[u8]) -> Result<u64> {
     let prefix = bytes.first_chunk::<PREFIX>().ok_or(FileError::TooShort { found: bytes.len() })?;
     let length = u64::from_le_bytes(*prefix);
     if length > HEADER_LIMIT {
-        // Eight letters are the length of no header.
+        // Eight letters of text are never the length of a header.
         let is_text = prefix.iter().all(|byte| byte.is_ascii_graphic() || byte.is_ascii_whitespace());
         let begins = || String::from_utf8_lossy(prefix).trim().to_owned();
         let too_large = FileError::HeaderTooLarge { found: length, limit: HEADER_LIMIT };

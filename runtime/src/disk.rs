@@ -31,7 +31,7 @@ impl Superelement {
     ///
     /// # Errors
     ///
-    /// Those of [`file_bytes`] and of [`Superelement::from_bytes`].
+    /// The errors of [`file_bytes`] and of [`Superelement::from_bytes`].
     pub fn open(path: &Path) -> Result<Self> {
         Self::from_bytes(&file_bytes(path)?)
     }
@@ -45,13 +45,13 @@ impl Superelement {
 /// [`FileError::Read`], [`FileError::NotAFile`], [`FileError::OutOfMemory`], and what the header already shows to be no superelement.
 pub fn file_bytes(path: &Path) -> Result<Vec<u8>> {
     let failed = |source| FileError::Read { path: path.to_owned(), source };
-    // Asked before opening: to open a pipe would wait for its writer.
+    // Checked before opening: opening a pipe would wait for its writer.
     if !std::fs::metadata(path).map_err(failed)?.is_file() {
         return Err(FileError::NotAFile { path: path.to_owned() });
     }
     let file = File::open(path).map_err(failed)?;
     let size = file.metadata().map_err(failed)?.len();
-    // Never more than the size says: what the kernel makes up has none and may be waited for.
+    // Never read more than the size says: files that the kernel makes up have size zero, and reading them may block.
     let mut file = file.take(size);
     let mut bytes = Vec::new();
     file.by_ref().take(PREFIX as u64).read_to_end(&mut bytes).map_err(failed)?;

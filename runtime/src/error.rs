@@ -1,4 +1,4 @@
-//! Every way a superelement can be refused, one variant each, with the values that explain it.
+//! Every way in which a superelement can be refused. Each has one variant, with the values that explain it.
 
 use alloc::{string::String, vec::Vec};
 
@@ -121,11 +121,11 @@ pub enum FileError {
         /// Header or metadata.
         place: &'static str,
     },
-    /// A safetensors file that no superelement was put into.
+    /// A safetensors file without the key `supel`.
     #[error("file has no text `supel` under `__metadata__`: it is a safetensors file, but not a superelement")]
     MetadataMissing,
-    /// A foreign key beside `supel`.
-    #[error("`__metadata__` holds `{key}` beside `supel`, which must be alone")]
+    /// A foreign key in addition to `supel`.
+    #[error("`__metadata__` holds `{key}` in addition to `supel`, which must be alone")]
     MetadataForeignKey {
         /// The key.
         key: String,
@@ -373,7 +373,7 @@ pub enum FileError {
         /// Angular frequency.
         omega: f64,
     },
-    /// A dof that is declared unloaded is none of the interface.
+    /// A dof that is declared unloaded does not belong to the interface.
     #[error("`validity.unloaded` names {direction:?} of interface node {node} (from 0), which has no such dof")]
     UnloadedDof {
         /// Number of the interface node.

@@ -41,8 +41,8 @@
 //! BLAKE3 digest of the whole file in which the digest's own 64 characters are taken as the character zero. There are
 //! no times and no unordered keys in the file: the same superelement gives the same bytes.
 //!
-//! A reader of this crate refuses every file that breaks one of these rules, with one variant of [`FileError`] for each,
-//! and never allocates more than the bytes at hand pay for.
+//! A reader of this crate refuses every file that breaks one of these rules, with one variant of [`FileError`] for each.
+//! It never allocates more than the size of the file calls for.
 //!
 //! # In Python
 //!
@@ -97,14 +97,14 @@
 //! ```
 //!
 //! Where the deformation is large or the rotation fast, [`exact_tangents`](component::ModalComponent::exact_tangents) gives the whole
-//! derivative of the forces, for Newton's method and for vibration about a steady motion. What no tangent gives is stress
+//! derivative of the forces, for Newton's method and for vibration about a steady motion. No tangent contains stress
 //! stiffening inside a component: [what a component leaves out](component#what-a-component-leaves-out).
-//! `examples/own_integrator.rs` is one component under an integrator of the client's own.
+//! `examples/own_integrator.rs` moves one component with an integrator written by the client.
 //!
 //! A component cannot be changed and an evaluation allocates nothing: threads share components and have one workspace for
 //! each component, and the results have the same bits for any number of threads.
 //!
-//! Programs in C use the same through `capi/supel.h` (feature `capi`).
+//! Programs in C use the component through `capi/supel.h` (feature `capi`).
 //!
 //! # Without the standard library
 //!

@@ -6,7 +6,7 @@ use crate::error::{FileError, Result};
 
 /// A dense matrix in row-major order, the order of the file and of numpy.
 ///
-/// It stores and hands out; it computes nothing.
+/// It stores values and returns them. It does no arithmetic.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Matrix {
     rows: usize,

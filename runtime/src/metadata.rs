@@ -283,7 +283,7 @@ pub struct CheckSummary {
     pub verdict: Verdict,
 }
 
-/// What a check says; the later the worse.
+/// What a check says, from good to bad.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {

@@ -14,7 +14,7 @@ use crate::verification::limits::{self, Judged, Known};
 
 /// Roundings of one sign may exceed their typical sum by this.
 const NOISE_FACTOR: f64 = 10.0;
-/// What the recorded error bars may excuse at most: a file cannot declare itself beyond judgement.
+/// What the recorded error bars may excuse at most: a file cannot loosen the limits of its own checks without end.
 const LARGEST_EXCUSE: f64 = 1e-3;
 /// A superelement with its matrices unpacked.
 pub(super) struct Content<'a> {
@@ -37,7 +37,7 @@ pub(super) struct Content<'a> {
     pub(super) first: f64,
     /// Rounding of the arithmetic and of the data in an energy, relative to `first`, as error bars tell.
     noise: f64,
-    /// Whether a model tells that, and not the file itself.
+    /// Whether a model gives that, and not the file itself.
     noise_is_known: bool,
     /// Powers of two near 1/√(K̂ + λ₁M̂)_ii. Of K̂ alone nothing may be left: an interface that just holds the component
     /// has none.
@@ -117,13 +117,13 @@ impl<'a> Content<'a> {
         dense::norm(&v.iter().zip(&self.scale).map(|(v, d)| v / d).collect::<Vec<f64>>())
     }
 
-    /// What a coordinate is called.
+    /// The name of a coordinate.
     pub(super) fn name_of(&self, coordinate: usize) -> String {
         coordinate_name(self.superelement, coordinate)
     }
 }
 
-/// What a coordinate of a superelement is called.
+/// The name of a coordinate of a superelement.
 pub(super) fn coordinate_name(superelement: &Superelement, coordinate: usize) -> String {
     let metadata = superelement.metadata();
     match metadata.coordinates[coordinate] {

@@ -5,7 +5,7 @@
 //! Û       r × n_r
 //! ω       n_modes    rad/s
 //! ```
-//! What the file holds more than once has to agree: K̂ and M̂ give the frequencies again, M̂ and Û the mass and the loads of gravity, the positions of
+//! A file holds some facts more than once, and they have to agree: K̂ and M̂ give the frequencies, M̂ and Û the mass and the loads of gravity, the positions of
 //! the interface nodes the rigid-body modes. The identifiers are those of the report.
 
 mod content;
@@ -36,14 +36,14 @@ pub use notes::Unvouched;
 pub use record::rewritten;
 pub use reproduction::reproduced;
 
-/// What was found.
+/// The result of an audit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Audit {
     /// The measures, in the order of their identifiers.
     pub checks: Vec<Check>,
     /// What could not be judged, one sentence each.
     pub notes: Vec<String>,
-    /// Fields whose content nothing here vouches for.
+    /// Fields whose content this comparison cannot confirm.
     pub unvouched: Vec<Unvouched>,
 }
 
@@ -53,7 +53,7 @@ impl Audit {
         self.checks.iter().map(Check::verdict).fold(Verdict::Pass, Verdict::max)
     }
 
-    /// This and another one.
+    /// Joins this result with another one.
     pub(crate) fn joined(mut self, other: Self) -> Self {
         self.checks.extend(other.checks);
         self.notes.extend(other.notes);
@@ -67,7 +67,7 @@ impl Audit {
     }
 }
 
-/// Everything that a superelement says of itself, checked against the rest of it.
+/// Checks every part of a superelement against the rest of it.
 ///
 /// # Errors
 /// A dense eigenproblem that does not converge.
@@ -79,7 +79,7 @@ pub fn of_file(superelement: &Superelement) -> Result<Audit> {
     Ok(Audit { unvouched: notes::fields(superelement, Compared::Alone), ..audit })
 }
 
-/// A superelement checked against the rest of itself and against the reference, which also says what rounding may do.
+/// Checks a superelement against the rest of itself and against the reference, which also says how much rounding may change.
 ///
 /// # Errors
 /// A dense eigenproblem that does not converge.

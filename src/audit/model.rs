@@ -51,7 +51,7 @@ use scaled::Scaled;
 /// Condition of a reduced mass in which lengths of columns are rounding.
 const SINGULAR: f64 = 1e-2 / f64::EPSILON;
 
-/// What a superelement of a job has to be, found without one.
+/// What a superelement of a job has to be, computed without a superelement.
 pub struct Reference<'a> {
     job: &'a Job,
     facts: &'a InputFacts,
@@ -100,7 +100,7 @@ impl<'a> Reference<'a> {
         self.asked.noise(self.first).max(self.noise_of_digits / self.first)
     }
 
-    /// Compares a superelement with what it has to be.
+    /// Compares a superelement with this reference.
     ///
     /// # Errors
     /// A dense eigenproblem that does not converge.

@@ -1,11 +1,11 @@
-//! What could not be judged, and which fields nothing vouches for.
+//! What could not be judged, and which fields no comparison confirms.
 
 use serde::Serialize;
 use supel_runtime::{RigidBodyModes, Superelement};
 
 use super::content::Content;
 
-/// What was not judged of this file, besides the fields that no file can vouch for.
+/// What was not judged of this file, besides the fields that no file can confirm.
 pub(super) fn notes(content: &Content<'_>) -> Vec<String> {
     let metadata = content.superelement.metadata();
     let mut notes = Vec::new();
@@ -21,7 +21,7 @@ pub(super) fn notes(content: &Content<'_>) -> Vec<String> {
     notes
 }
 
-/// A field whose content nothing vouches for, as far as it was looked at.
+/// A field whose content no comparison of this run confirms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Unvouched {
     /// A tensor, or a field of the metadata with all below it; `[]` stands for each element of a list.
@@ -36,7 +36,7 @@ const fn unvouched(field: &'static str, reason: &'static str) -> Unvouched {
 
 const NOT_AT_HAND: &str = "names things of a model that is not at hand";
 
-/// What the file alone cannot vouch for.
+/// Fields that the file alone cannot confirm.
 const ALONE: [Unvouched; 24] = [
     unvouched("generator", "a file has no other sign of who made it"),
     unvouched("units", "the job kept in it is the only other place, and may be changed too"),
@@ -79,7 +79,7 @@ const ALONE: [Unvouched; 24] = [
     unvouched("recovery_dofs", NOT_AT_HAND),
 ];
 
-/// What a comparison with the job cannot vouch for either.
+/// Fields that a comparison with the job cannot confirm either.
 const WITH_JOB: [Unvouched; 5] = [
     unvouched("generator", "another version that makes the same leaves no other sign; a warning says so"),
     unvouched("dropped[].reason", "words for people"),
@@ -88,7 +88,7 @@ const WITH_JOB: [Unvouched; 5] = [
     unvouched("inputs", "other files may hold the same matrices; a warning says so"),
 ];
 
-/// The fields of a superelement that a comparison does not vouch for.
+/// The fields of a superelement that a comparison does not confirm.
 pub(super) fn fields(superelement: &Superelement, compared: Compared) -> Vec<Unvouched> {
     let (metadata, tensors) = (superelement.metadata(), superelement.tensors());
     let list: &[Unvouched] = match compared {

@@ -1,4 +1,4 @@
-//! What the file records of its making: that it is whole, and the verification of that day: M-26.
+//! What the file records of its making: that it is whole, and its verification when it was made (M-26).
 
 use std::collections::BTreeMap;
 
@@ -31,7 +31,7 @@ pub fn rewritten(superelement: &Superelement, bytes: &[u8]) -> Check {
     flaw("file is whole", "1 where its content written again is not the file, else 0", &flaws)
 }
 
-/// M-26: a superelement that was written although a check failed stays one.
+/// M-26: a superelement that was written although a check failed still says so.
 pub(super) fn verdicts(content: &Content<'_>) -> Check {
     let verification = &content.superelement.metadata().verification;
     let failed = verification.checks.iter().filter(|check| check.verdict == Verdict::Fail);
@@ -81,7 +81,7 @@ pub(super) fn consistent(content: &Content<'_>) -> Result<Check> {
     Ok(flaw("the checks on record agree with the file", "number of records missing or contradicted", &flaws))
 }
 
-/// A value within its limit passes, one past it does not, and what is no number fails.
+/// A value within its limit passes, one past it does not, and what is not a number fails.
 fn follows(check: &CheckSummary) -> bool {
     match (check.value, check.verdict) {
         (Some(value), Verdict::Pass) => value <= check.limit,
@@ -127,7 +127,7 @@ fn bars(content: &Content<'_>, checks: &[CheckSummary]) -> Option<String> {
         _ => None,
     });
     let largest = relative.fold(0.0, f64::max);
-    // A bar that is no number has no place in the file, nor has the value.
+    // A bar that is not a number has no place in the file, nor has the value.
     let stated = record.value.unwrap_or(f64::INFINITY);
     let agrees = stated <= largest * (1.0 + 1e-9) && largest <= stated * RESIDUAL[0] + RESIDUAL[1];
     (!agrees || record.limit != LIMIT).then(|| "M-09 is not that of the error bars".to_owned())

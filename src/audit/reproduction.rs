@@ -1,6 +1,6 @@
 //! A superelement against the one that its job makes now: M-26.
 //!
-//! The same job on the same files gives the same bytes, in the same version of the program. Paths of the job kept in the file
+//! In one version of the program a job on unchanged files always gives the same bytes. Paths of the job kept in the file
 //! depend on where the file was written, and are taken from it.
 
 use serde_json::Value;
@@ -18,7 +18,7 @@ pub fn reproduced(superelement: &Superelement, again: &Superelement, job: &Job) 
     flaw("the same job makes it again", equation, &different_parts(superelement, again, job))
 }
 
-/// What differs, by name; nothing where the bytes are the same.
+/// The names of the parts that differ; none where the bytes are the same.
 fn different_parts(superelement: &Superelement, again: &Superelement, job: &Job) -> Vec<String> {
     let mut metadata = again.metadata().clone();
     if kept_job(superelement).is_some_and(|kept| differences(&kept, job) == Default::default()) {

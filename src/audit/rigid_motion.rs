@@ -112,7 +112,7 @@ pub(super) fn energy(content: &Content<'_>) -> Check {
         let energy = dense::dot(u, dense::column(forces.as_ref(), j));
         let inertia = dense::dot(u, dense::column(momenta.as_ref(), j));
         let ratio = energy.abs() / (content.first * inertia);
-        // A motion without inertia is no motion of a body.
+        // A motion without inertia is not a motion of a body.
         let ratio = if inertia > 0.0 { ratio } else { f64::NAN };
         if dense::worse(ratio, worst.0) {
             worst = (ratio, Some(format!("rigid-body mode {}", j + 1)));

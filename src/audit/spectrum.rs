@@ -178,7 +178,7 @@ pub(super) fn symmetry(content: &Content<'_>) -> Check {
 /// Size of a negative eigenvalue of the scaled mass that is taken for zero: rotations without inertia leave some.
 const SINGULAR_MASS: f64 = 1e-10;
 
-/// M-25, definiteness. As in a reduction a mass that is singular is no failure; M-23 shows it.
+/// M-25, definiteness. As in a reduction a mass that is singular is not a failure; M-23 shows it.
 pub(super) fn definiteness(content: &Content<'_>, spectrum: &Spectrum) -> Check {
     let d: Vec<f64> = (0..content.n_reduced()).map(|i| dense::power_of_two_root(content.m[(i, i)])).collect();
     let scaled = Mat::from_fn(d.len(), d.len(), |i, j| content.m[(i, j)] * d[i] * d[j]);

@@ -125,7 +125,7 @@ pub(super) fn independent(named: DynamicColumns, mass: Leading<'_>) -> Independe
     }
 }
 
-/// The same where columns may depend on each other.
+/// The independent columns where columns may depend on each other.
 fn by_panels(named: DynamicColumns, mass: Leading<'_>) -> Independent {
     let (n, total) = (named.columns.nrows(), named.columns.ncols());
     let mut basis = Mat::zeros(n, total);

@@ -4,7 +4,7 @@
 //! Ψ_S   n_I × n_B   constraint modes −K_II⁻¹ K_IB, corrected so that they carry rigid-body motion exactly (24)
 //! Ψ_D   n_I × n_η   dynamic modes: fixed-interface modes (38), or inertia-relief (37) and mode-accelerated modes (23)
 //! ```
-//! The reduction method has been decided when the modes were chosen; from here on every method is this one form.
+//! The reduction method decided which modes were chosen. From here on every method has this one form.
 
 #[expect(clippy::module_inception, reason = "the basis is what the folder makes")]
 mod basis;

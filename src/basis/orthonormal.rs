@@ -4,7 +4,7 @@
 //! ```text
 //! G = XᵀMX = RᵀR    X ← X R⁻¹    n × k, k × k
 //! ```
-//! The first pass leaves ε κ(G) of orthogonality, the second ε. A column that keeps little of its length beside the columns before
+//! The first pass leaves ε κ(G) of orthogonality, the second ε. A column that keeps little of its length without the columns before
 //! it is for the panels of [`super::dynamic`], which tell dependent ones.
 
 use faer::{Mat, MatRef, Side};

@@ -1,6 +1,6 @@
 //! The report in the folder of a superelement: whether it is of that file.
 //!
-//! All outputs of a run get their names together, but a run that is killed while they do leaves a new report and the superelement of an
+//! All outputs of a run are renamed together. A run that is killed in between leaves a new report next to the superelement of an
 //! earlier run, and so does a run that failed a check.
 
 use std::io::Read;

@@ -24,7 +24,7 @@ pub struct Terminal<'a> {
 /// Whether the process was given an stdout.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stdout {
-    /// It was, or nobody knows.
+    /// It was, or the system does not say.
     Open,
     /// It was not: what is written there is lost.
     Closed,
@@ -69,7 +69,7 @@ impl<'a> Terminal<'a> {
         }
     }
 
-    /// Writes a line to stderr; nobody can be told if that fails.
+    /// Writes a line to stderr. A failure of that is ignored: there is no place left to report it.
     pub(super) fn complain(&mut self, line: &str) {
         let _ = writeln!(self.err, "{}", printable(line));
     }

@@ -19,12 +19,12 @@ pub(super) enum Typed {
     /// Reduce a model, verify the result and write superelement and report
     #[command(after_help = EXIT_CODES)]
     Reduce(Box<ReduceFlags>),
-    /// Check a superelement file again: by itself, with --job against the full matrices, or made again
+    /// Check a superelement file: by itself, against the full matrices (--job) or by running its job again (--reproduce)
     #[command(after_help = EXIT_CODES)]
     Verify(VerifyFlags),
     /// Show what is in a superelement file
     Inspect(InspectFlags),
-    /// Read a model described on stdin and forget it
+    /// Read a model described on stdin and discard it
     #[command(hide = true, name = super::rehearsal::SUBCOMMAND)]
     RehearseReading,
 }
@@ -62,7 +62,7 @@ pub(super) struct ModelFlags {
     /// Table of nodes or mesh
     #[arg(long, value_name = "FILE")]
     pub(super) nodes: Option<PathBuf>,
-    /// Triangle of K and M that holds, where the other is incomplete
+    /// Which triangle of K and M is right, where the other is incomplete
     #[arg(long, value_enum)]
     pub(super) symmetric: Option<Triangle>,
     /// Drop rows that have neither stiffness nor mass; the report names them
@@ -71,7 +71,7 @@ pub(super) struct ModelFlags {
     /// Interface whose nodes keep their own dofs: hub=12,17,19 or hub=group:HUB or hub=rows:0,1,2 (repeatable)
     #[arg(long, value_name = "NAME=NODES")]
     pub(super) interface: Vec<String>,
-    /// Interface of one six-dof node that moves its nodes as a rigid body: hub=group:HUB (repeatable)
+    /// Interface whose nodes move as a rigid body with one node of six dofs: hub=group:HUB (repeatable)
     #[arg(long, value_name = "NAME=NODES")]
     pub(super) rigid_interface: Vec<String>,
 }
@@ -104,19 +104,19 @@ pub(super) struct OutputFlags {
     /// Superelement file, NAME.supel
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
-    /// Report file, NAME.json [default: beside the superelement, NAME.report.json]
+    /// Report file, NAME.json [default: next to the superelement, NAME.report.json]
     #[arg(long, value_name = "FILE")]
     pub(super) report: Option<PathBuf>,
-    /// Write the report as a page for people too, NAME.html
+    /// Also write the report as a page to read, print and sign, NAME.html
     #[arg(long, value_name = "FILE")]
     pub(super) html: Option<PathBuf>,
-    /// Write the checks as JUnit XML too, NAME.xml
+    /// Also write the checks as JUnit XML, NAME.xml
     #[arg(long, value_name = "FILE")]
     pub(super) junit: Option<PathBuf>,
     /// Print the report as JSON instead of the summary
     #[arg(long)]
     pub(super) json: bool,
-    /// Print nothing but errors and, in a line each, failed checks; with --json the document too
+    /// Print only errors and failed checks, one line each; --json still prints the document
     #[arg(short, long)]
     pub(super) quiet: bool,
     /// Write the superelement even if a check failed; the exit code stays 1
@@ -130,13 +130,13 @@ pub(super) struct OutputFlags {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Run")]
 pub(super) struct RunFlags {
-    /// Working threads; changes no result [default: all]
+    /// Number of threads; results do not depend on it [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(super) threads: Option<u16>,
     /// Memory for matrices, factors and vectors of the run, in GiB [default: what is free]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub(super) memory_gib: Option<f64>,
-    /// How the factor is kept: mixed takes half the memory and more time [default: double]
+    /// Precision of the stored factor: mixed takes half the memory and more time [default: double]
     #[arg(long, value_name = "HOW")]
     pub(super) precision: Option<Precision>,
 }
@@ -147,7 +147,7 @@ pub(super) struct RunFlags {
 pub(super) struct InspectFlags {
     /// Superelement file
     pub(super) file: PathBuf,
-    /// Print everything but the matrices as JSON
+    /// Print all content except the matrices as JSON
     #[arg(long, conflicts_with = "job")]
     pub(super) json: bool,
     /// Print the job that made the file, as JSON that `supel reduce` accepts
@@ -164,19 +164,19 @@ pub(super) struct VerifyFlags {
     /// Job document of the model: compare with its full matrices
     #[arg(long, value_name = "JOB")]
     pub(super) job: Option<PathBuf>,
-    /// Run the job again, that of --job or the one kept in the file, and compare bytes
+    /// Run the job again, from --job or from the file itself, and compare bytes
     #[arg(long)]
     pub(super) reproduce: bool,
     /// Print the checks as JSON
     #[arg(long)]
     pub(super) json: bool,
-    /// Print nothing but errors and, in a line each, failed checks; with --json the document too
+    /// Print only errors and failed checks, one line each; --json still prints the document
     #[arg(short, long)]
     pub(super) quiet: bool,
     /// Treat warnings as failed checks
     #[arg(long)]
     pub(super) strict: bool,
-    /// Working threads; changes no result [default: all]
+    /// Number of threads; results do not depend on it [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(super) threads: Option<u16>,
 }

@@ -1,4 +1,4 @@
-//! How much memory the machine has left for a run.
+//! How much memory is free for a run.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,12 +1,13 @@
 //! The command line: what was typed becomes a checked command, the command runs, and one place reports errors.
 //!
-//! stdout carries the answer, text or one JSON document (with `--json` an error is one too); stderr carries errors and,
-//! on a terminal, progress. The exit code is a contract, see [`ExitCode`].
+//! Answers go to stdout, as text or as one JSON document; with `--json` an error is a JSON document too. Errors go to
+//! stderr, and so does progress on a terminal. The exit code is a contract, see [`ExitCode`].
 //!
-//! An interrupt (Ctrl-C) ends the process by the signal itself, which shells and make report as 130: outputs get
-//! their names only when they are whole, so that no handler has anything to undo. While they get them it waits.
+//! An interrupt (Ctrl-C) ends the process by the signal itself, which shells and make report as 130. Outputs get
+//! their names only when they are complete, so that no handler has anything to undo. While outputs are being renamed, the
+//! signal waits.
 //!
-//! An answer that cannot be written to stdout is an error; a reader that has gone away is none.
+//! An answer that cannot be written to stdout is an error. A reader that has closed its end of the pipe is not.
 
 mod accompanying;
 mod answer;

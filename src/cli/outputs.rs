@@ -1,4 +1,4 @@
-//! The files of a run: written under temporary names, given their own all together, the superelement last.
+//! The files of a run: written under temporary names, then renamed together, the superelement last.
 
 use std::path::Path;
 
@@ -46,7 +46,7 @@ pub(super) fn staged(path: &Path, bytes: &[u8]) -> Result<StagedFile> {
 /// Refuses an output that has no place before the model is read, with the error that its writing would end in: an empty
 /// file is written in the folder of each and dropped.
 pub(super) fn refuse_unwritable(write: &WriteJob) -> Result<()> {
-    // The superelement gives others their names: its folder is told first.
+    // The names of other outputs follow from the superelement: its folder is checked first.
     outputs(write)
         .iter()
         .rev()

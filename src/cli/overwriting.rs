@@ -1,4 +1,4 @@
-//! Outputs that would be written over an input or over each other, told by file and not by name.
+//! Outputs that would be written over an input or over each other. Files are compared, not their names.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};

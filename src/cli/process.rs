@@ -1,4 +1,4 @@
-//! What the system says of this process.
+//! What the system reports of this process.
 
 use std::num::NonZeroUsize;
 

@@ -47,7 +47,7 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     report.run.peak_memory_bytes = process::peak_memory_bytes();
     report.run.report = Some(command.job.write.report_path());
     let outputs = stage_all(command, &report, superelement)?;
-    // All that is to be said is there before the files are: afterwards a lack of memory would be told of a run that is done.
+    // The answer is composed before the files are written: a lack of memory afterwards would be reported of a run that is done.
     let answer = match command.answer {
         Answer::Text => Some(summary(&report, terminal.paint)),
         Answer::Json => Some(report.to_json()),

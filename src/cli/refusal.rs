@@ -1,4 +1,4 @@
-//! What is said where a command ends in an error: one line on stderr, and with `--json` a document on stdout.
+//! The message of a command that ends in an error: one line on stderr, and with `--json` a document on stdout.
 
 use std::error::Error as _;
 

@@ -1,8 +1,8 @@
 //! A child process reads HDF5 input before this one does.
 //!
-//! The HDF5 library parses damaged metadata in C and can crash on it or never come back, which no check of ours can prevent. The child
-//! runs the same readers on the same files: where it dies of a signal of its own, or does not end in time, the user gets an error that
-//! names the file, and this process never opens it. Text is read by code of ours alone and needs no rehearsal.
+//! The HDF5 library parses metadata in C. On damaged metadata it can crash or run for ever, and supel cannot prevent that. So a child
+//! process runs the readers on the files first. If the child crashes or does not end in time, the user gets an error that names the
+//! file, and this process never opens it. Text is read by supel's own code and needs no rehearsal.
 
 use std::io::{BufRead, Read, Write};
 use std::path::Path;
@@ -27,7 +27,7 @@ const BYTES_PER_SECOND: u64 = 1 << 20;
 /// How often it is asked whether the child has ended, at most.
 const LONGEST_PAUSE: Duration = Duration::from_millis(20);
 
-/// What the child is told: one line on its stdin, which stays open as long as its parent lives.
+/// What the parent writes for the child: one line on its stdin, which stays open as long as its parent lives.
 #[derive(Serialize, Deserialize)]
 struct Task {
     model: ModelJob,
@@ -49,7 +49,7 @@ pub(super) enum Rehearsed {
 }
 
 impl Rehearsed {
-    /// The error of this process: what the library makes of a file that it has read before is no fault of the file.
+    /// The error of this process: what the library makes of a file that it has read before is not a fault of the file.
     pub(super) fn judge(self, error: Error) -> Error {
         if self == Self::Sound && error.code().starts_with("E-HDF5") { NO_MEMORY } else { error }
     }
@@ -165,7 +165,7 @@ pub(super) fn read_from_stdin() -> Result<ExitCode> {
     }
 }
 
-/// The other end of stdin is closed when the parent is gone, however it went.
+/// Ends this process when the other end of stdin is closed, which happens when the parent is gone for whatever reason.
 fn end_with_parent() {
     let mut byte = [0];
     while std::io::stdin().lock().read(&mut byte).is_ok_and(|n_read| n_read > 0) {}

@@ -24,7 +24,7 @@ pub struct ConstraintModes {
     pub cancellation: f64,
     /// Error of equation (24) as solved: max |Ψ_S U_B − U_I| / max |U_I|.
     pub raw_rigid_error: f64,
-    /// The same after the correction, and the dof it is worst at.
+    /// Error of equation (24) after the correction, and the dof it is worst at.
     pub rigid_error: (f64, usize),
 }
 

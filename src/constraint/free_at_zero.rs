@@ -98,7 +98,7 @@ impl<'a> FreeAtZero<'a> {
         Ok(Self { carried: Some(&constraint.carried), ..operator })
     }
 
-    /// The same of any loads, with Ψ_S = −K_II⁻¹ K_IB (n_I × n_B) as a solve leaves it and S = K_BB + K_BI Ψ_S.
+    /// The operator for any loads, with Ψ_S = −K_II⁻¹ K_IB (n_I × n_B) as a solve leaves it and S = K_BB + K_BI Ψ_S.
     ///
     /// # Errors
     /// As [`Self::new`].

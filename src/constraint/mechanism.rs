@@ -1,11 +1,11 @@
-//! Mechanisms: motions without energy that are no rigid-body motions, and motions so soft that nobody can tell.
+//! Mechanisms: motions without energy that are not rigid-body motions, and motions too soft to be told from them.
 //!
 //! ```text
 //! S = K_BB + K_BI Ψ_S     n_B × n_B    null space U_B and what else moves without energy
-//! V = [Ψ_S Z; Z]          n' × k       its softest motions beside those, with their internal dofs
+//! V = [Ψ_S Z; Z]          n' × k       its softest motions besides those, with their internal dofs
 //! ```
 //! With K_II definite, every motion without energy is some V: a ball joint or a hinge between interfaces shows as a small
-//! eigenvalue of S, at the price of one dense eigenproblem. Motions without energy are handed on like rigid-body modes.
+//! eigenvalue of S, and costs one dense eigenproblem. Later stages treat motions without energy like rigid-body modes.
 
 use faer::{Mat, MatRef};
 
@@ -23,11 +23,11 @@ use crate::sparse::{product, product_and_terms};
 
 /// Eigenvalues of S, in the scales of the interface dofs, below which a motion is looked at: far above any noise of binary data.
 const SOFT: f64 = 1e-6;
-/// The same in units of what the digits of K leave of S, which adds all roundings with one sign.
+/// Eigenvalues of S below which a motion is looked at, in units of what the digits of K leave of S, which adds all roundings with one sign.
 const SOFT_BY_DIGITS: f64 = 10.0;
 /// Rayleigh quotients up to this many bars are known to four digits at best.
 const KNOWN_BEYOND_BARS: f64 = 1e4;
-/// Rayleigh quotients up to this many ε times their terms may be zeros of whoever made K in double precision: a projection leaves
+/// Rayleigh quotients up to this many ε times their terms may be zeros of the program that wrote K in double precision: a projection leaves
 /// thousands of roundings that its own terms do not show. Rounding to fewer digits afterwards adds its bar to that and no more.
 const ROUNDINGS_OF_THE_PRODUCER: f64 = 1e4;
 /// Modal mass of a motion of unit length, in the scales of the dofs, relative to the largest mass of a dof in them, below
@@ -45,7 +45,7 @@ pub struct Loose {
     pub nodes: Vec<String>,
 }
 
-/// The motions beside the rigid-body modes that are without energy, or nearly.
+/// The motions other than the rigid-body modes that are without energy, or nearly.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LooseMotions {
     /// Without energy as far as the data tell.
@@ -97,7 +97,7 @@ pub fn with_mechanisms(
     Ok((rigid, found))
 }
 
-/// Whether a quotient below zero is rounding of whoever made K: where a count finds no eigenvalue below half of it.
+/// Whether a quotient below zero is rounding of the program that wrote K: where a count finds no eigenvalue below half of it.
 fn is_rounding(partition: &Partition, (lambda, noise): (f64, f64)) -> Result<bool> {
     if lambda > 0.0 {
         return Ok(false);
@@ -182,7 +182,7 @@ fn stiffness_of(partition: &Partition, dof: usize) -> f64 {
     partition.stiffness.get(dof, dof).copied().unwrap_or(0.0)
 }
 
-/// The same motions M-orthogonal to the rigid-body modes and M-orthonormal; those without mass are left out if they have
+/// `motions` made M-orthogonal to the rigid-body modes and M-orthonormal; those without mass are left out if they have
 /// energy, and are an error if they have none.
 fn orthonormal(partition: &Partition, rigid: &RigidBodyModes, motions: Mat<f64>) -> Result<Mat<f64>> {
     let mut q = motions;

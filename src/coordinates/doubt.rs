@@ -1,4 +1,4 @@
-//! Bodies whose coordinates K does not confirm at once, and where.
+//! Bodies whose coordinates the forces of rigid-body motion do not confirm, and the nodes where they do not.
 
 use std::collections::BTreeMap;
 

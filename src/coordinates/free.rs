@@ -15,7 +15,7 @@ pub(super) const FREE_BELOW_NOISE: f64 = 10.0;
 pub(super) struct Free {
     /// Independent motions that move a dof.
     pub(super) n_moving: usize,
-    /// Those of them that cost no energy.
+    /// Independent motions that cost no energy.
     pub(super) n_free: usize,
     /// The largest Rayleigh quotient of a motion with mass.
     pub(super) largest_quotient: f64,

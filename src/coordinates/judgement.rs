@@ -1,4 +1,4 @@
-//! What a doubt comes to: supports, rounded coordinates, or coordinates that belong to another model.
+//! The decision about a doubt: supports, rounded coordinates, or coordinates that belong to another model.
 
 use super::doubt::{Costly, Doubt, Place};
 use super::free::Free;
@@ -80,7 +80,7 @@ impl Case<'_> {
         };
         let cost = self.of_first_elastic(cost(&worst), zeros);
         let n_touched: usize = doubts.iter().map(|doubt| doubt.n_touched).sum();
-        // Where supports touch most rows, the others are no witness; where they touch none, there is none.
+        // Where supports touch most rows, the others prove too little; where they touch none, there are no supports.
         let is_unexplained = zeros.count() > self.n_explained
             && cost.energy > ROUNDED
             && (self.are_mostly_touched() || n_touched == 0 || zeros.n_rigid(motions, doubts)? > self.n_explained);

@@ -2,8 +2,8 @@
 //!
 //! A unit translation of all nodes gives every node a momentum along it, the same for every direction: the blocks of M that
 //! couple translations are multiples of the identity. In another frame at some nodes the blocks are turned, and K alone could
-//! not tell the frames from supports. A lumped mass, whose blocks couple no two nodes, is the same in every frame; that of
-//! nodes with rotations is not looked at, because a beam's is another along it than across.
+//! not tell the frames from supports. A lumped mass, whose blocks couple no two nodes, is the same in every frame. The mass
+//! of nodes with rotations is left out, because a beam's mass differs along it and across it.
 
 use super::doubt::Doubt;
 use super::motions::Motions;

@@ -10,14 +10,17 @@
 //! the six motions. Translations need the dof map alone and tell which rows supports touch; rotations need the coordinates
 //! too and must vanish on all other rows.
 //!
-//! K is looked at as it was read, before rigid patches are applied. A patch ties its nodes by their coordinates, right or
-//! wrong: tied by wrong ones the component is stiffer, and a motion that the coordinates do not explain no longer shows as
-//! one without energy.
+//! K is examined as it was read, before rigid patches are applied. A patch ties its nodes by their coordinates, even when
+//! these are wrong. Wrong coordinates make the component stiffer, and then a motion that they do not explain no longer shows
+//! as one without energy.
 //!
-//! Three things can be wrong, and the zero modes of K as it is tell which: more motions without energy than the coordinates
-//! explain mean that coordinates or dof map belong to another model; as many, with free translations and held rotations,
-//! mean supports that no solid has; motions that cost hardly anything mean rounded coordinates, which are mended with the
-//! motions that K knows. Frames at a few nodes of a held body look like supports to K; a mass that couples nodes tells.
+//! Three things can be wrong, and the zero modes of K tell which:
+//!
+//! - There are more motions without energy than the coordinates explain. Coordinates or dof map belong to another model.
+//! - There are as many, with free translations and held rotations. No solid has such supports.
+//! - Motions cost hardly anything. The coordinates are rounded; they are corrected with the motions that K knows.
+//!
+//! Local frames at a few nodes of a held body look like supports to K. A mass that couples nodes shows them.
 
 mod doubt;
 mod free;

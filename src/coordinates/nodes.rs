@@ -2,7 +2,7 @@
 //!
 //! A held dof leaves no row in the matrices. Its absence shows in two ways: rows that were coupled to it make a force under the
 //! translation along it, and its node lacks a direction. Where a node lacks a displacement that a rotation makes, its
-//! neighbours in K make forces under that rotation however right the coordinates are.
+//! neighbours in K make forces under that rotation even if the coordinates are right.
 
 use super::motions::Motions;
 use crate::model::node_of_row;
@@ -28,7 +28,7 @@ pub(super) struct Nodes {
     pub(super) is_touched: Vec<bool>,
     /// Rotations of which a node lacks a part: a displacement that they make, or the rotation itself where most nodes have it.
     lacks: Vec<u8>,
-    /// The same of a node and its neighbours in K.
+    /// Rotations of which a node or a neighbour in K lacks a part.
     near: Vec<u8>,
 }
 

@@ -1,4 +1,4 @@
-//! Rows by their numbers in the files, which stay what they are when rows are dropped.
+//! Numbers of rows in the files. They stay what they are when rows are dropped.
 
 use super::Dof;
 
@@ -36,7 +36,7 @@ impl FileRows {
     }
 }
 
-/// What rows are called in messages: by number in the files, and by node and direction where a dof map tells them.
+/// Names of rows in messages: the number in the files, and node and direction where there is a dof map.
 #[derive(Clone, Copy, Debug)]
 pub struct RowNames<'a> {
     /// Which rows of the files they are.

@@ -5,7 +5,7 @@
 //! P  = I − [Q X] [Q X]ᵀM               takes out the rigid-body modes Q and the modes X found so far
 //! V                          n × ncv   the basis of one sweep, OP V ≈ V T; θ = s/(λ − σ)
 //! ```
-//! A single start vector sees one copy of a multiple eigenvalue and owes the others to rounding. Modes are therefore
+//! A single start vector contains one copy of a multiple eigenvalue; other copies appear only by rounding. Modes are therefore
 //! found in sweeps: each deflates what the ones before have found, and the search ends when the largest θ of a sweep
 //! lies beyond the wanted ones. Infinite eigenvalues have θ = 0 and are never returned.
 //!

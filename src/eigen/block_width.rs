@@ -1,7 +1,7 @@
 //! How many right-hand sides an eigensolver hands to the factor at once.
 //!
-//! A wide block reads the factor seldom and wastes vectors: the space that m modes need holds the more vectors the fewer steps
-//! build it. The width with the least predicted time is taken.
+//! A wide block reads the factor seldom but needs more vectors: the fewer steps build the space for m modes, the more vectors it
+//! takes. The width with the least predicted time is used.
 
 use crate::dense;
 

@@ -1,6 +1,6 @@
-//! One basis for a repeated eigenvalue, whatever the eigensolver happened to find.
+//! One basis for a repeated eigenvalue, independent of the one that the eigensolver found.
 //!
-//! Any rotation of the modes of a repeated eigenvalue is as good: a last bit of K, another start vector or another machine
+//! Any rotation of the modes of a repeated eigenvalue is a basis too: a last bit of K, another start vector or another machine
 //! turns them by arbitrary angles. Of all rotations X Q one is taken that depends on the subspace alone: at the dof with
 //! the largest share of the modal mass only the first mode moves, at the next such dof only the first two, and so on.
 
@@ -53,7 +53,7 @@ pub(super) fn canonicalise(mass: Leading<'_>, runs: &[Range<usize>], shapes: &mu
 /// Gives every mode of a repeated eigenvalue the mean of the quotients, and the largest bar of them, which holds for the mean
 /// whatever the basis.
 ///
-/// Bars are relative to a quotient: one that stayed relative to its own would be another beside the mean.
+/// Bars are relative to a quotient: one that stayed relative to its own quotient would be wrong for the mean.
 pub(super) fn average(runs: &[Range<usize>], lambda: &mut [f64], errors: &mut [ModeError]) {
     for run in runs {
         let (of_run, errors) = (&mut lambda[run.clone()], &mut errors[run.clone()]);

@@ -1,4 +1,4 @@
-//! The vectors of a basis, in memory for as many as it may come to have.
+//! The vectors of a basis, in memory for the largest number that it may have.
 
 use faer::{MatMut, MatRef};
 

@@ -50,7 +50,7 @@ const SETTLED_BAR: f64 = 1e-10;
 /// Finds elastic modes with a shift-invert operator.
 ///
 /// Where few soft motions spread the spectrum over many powers of ten, a search leaves the modes far above them with few
-/// digits. Those are then found beside the others, as all elastic modes are beside rigid-body motion.
+/// digits. Those are then found with the others deflated, as all elastic modes are found with rigid-body motion deflated.
 ///
 /// # Errors
 /// The eigensolver does not converge.

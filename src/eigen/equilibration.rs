@@ -30,7 +30,7 @@ impl Equilibrated {
         Self::with_rows(pencil).0
     }
 
-    /// The same, and ‖(DKD)_i‖₁ and ‖(DMD)_i‖₁ of each row.
+    /// The scaling of a pencil, and ‖(DKD)_i‖₁ and ‖(DMD)_i‖₁ of each row.
     pub fn with_rows(pencil: Pencil<'_>) -> (Self, Vec<[f64; 2]>) {
         let Pencil { stiffness, mass } = pencil;
         let scale: Vec<f64> = stiffness.diagonal().into_iter().map(dense::power_of_two_root).collect();
@@ -67,7 +67,7 @@ impl Equilibrated {
         dense::norm(&x)
     }
 
-    /// The same of a small dense pencil in given scales.
+    /// The norms of a small dense pencil in given scales.
     pub fn of_dense(stiffness: MatRef<'_, f64>, mass: MatRef<'_, f64>, scale: Vec<f64>) -> Self {
         let n = stiffness.nrows();
         let norm = |matrix: MatRef<'_, f64>| {

@@ -38,9 +38,9 @@ const SHRINKS: f64 = 0.1;
 
 /// Passes over V, the last one only where the one before left little of a column.
 const MAX_PASSES: usize = 3;
-/// Share of a unit column that is no rounding, where the first pass was not over all of V: half its digits.
+/// Share of a unit column that is not rounding, where the first pass was not over all of V: half its digits.
 const LEFT: f64 = 1e-8;
-/// Share of a unit column whose orthogonality is that of rounding: twice is enough.
+/// Share of a unit column that has to be left for its orthogonality to be that of rounding: twice is enough.
 const MIN_ORTHOGONAL_SHARE: f64 = 0.5;
 
 /// What an iteration looks for.
@@ -500,7 +500,7 @@ impl KrylovBasis<'_> {
     }
 }
 
-/// Whether a column kept less beside those before it than is good for what was carried along with it; `r` is their triangle.
+/// Whether a column lost so much to those before it that M times it, which was carried along, lost digits; `r` is their triangle.
 fn shrinks(r: &Mat<f64>) -> bool {
     (0..r.ncols()).any(|j| r[(j, j)] < SHRINKS * dense::norm(dense::column(r.as_ref(), j)))
 }

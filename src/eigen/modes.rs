@@ -118,7 +118,7 @@ impl Modes {
         self.in_order(&order)
     }
 
-    /// The same modes in ascending order.
+    /// These modes in ascending order.
     pub(crate) fn ascending(self) -> Self {
         if self.lambda.is_sorted() {
             return self;

@@ -15,7 +15,7 @@ const WELL_CONDITIONED: f64 = 1e2;
 
 /// QR of a narrow block in the M-inner product, MX carried along: X = W R. Done twice, W is orthonormal to rounding.
 ///
-/// A column of length at most `least` beside those before it is dependent: it becomes zero and its row of R too. One that is told to be
+/// A column is dependent when at most `least` of it is left without those before it: it becomes zero and its row of R too. One that is told to be
 /// on entry is left as it is, and its row of R is zero.
 pub fn mass_qr(block: &mut Mat<f64>, mass_block: &mut Mat<f64>, least: f64, dependent: &mut [bool]) -> Mat<f64> {
     let by_cholesky = if dependent.contains(&true) { None } else { by_cholesky(block, mass_block, least) };
@@ -99,7 +99,7 @@ mod tests {
         SparseMatrix::new((N, N), (0..=N).collect(), (0..N as u32).collect(), values)
     }
 
-    /// Columns of which each keeps about this share of its length beside the one before it, and less beside all, of lengths that
+    /// Columns of which each keeps about this share of its length without the one before it, and less without all, of lengths that
     /// differ by powers of ten.
     fn chain(share: f64) -> Mat<f64> {
         let wave = |i: usize, j: usize| ((i * (2 * j + 3)) as f64).sin();
@@ -149,7 +149,7 @@ mod tests {
         }
     }
 
-    /// A column that is told to be, one that is a multiple of another, one of no length and one that is no number.
+    /// A column that is told to be, one that is a multiple of another, one of no length and one that is not a number.
     #[test]
     fn dependent_columns_become_zero_and_are_told() {
         let told = |change: &dyn Fn(&mut Mat<f64>, &mut [bool; 8]), least: f64| {

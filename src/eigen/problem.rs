@@ -1,4 +1,4 @@
-//! The eigenproblem as the solvers see it, and what they give back.
+//! The eigenproblem that the solvers take, and the result that they return.
 
 use faer::{Mat, MatMut, MatRef};
 
@@ -104,7 +104,7 @@ pub struct Eigenpairs {
 }
 
 impl Eigenpairs {
-    /// The same pairs in ascending order.
+    /// These pairs in ascending order.
     pub(super) fn ascending(self) -> Self {
         let mut order: Vec<usize> = (0..self.values.len()).collect();
         order.sort_by(|a, b| self.values[*a].total_cmp(&self.values[*b]));
@@ -122,7 +122,7 @@ pub struct EigenWork {
     pub steps: usize,
     /// Thick restarts.
     pub restarts: usize,
-    /// Numeric factorisations beside that of K_II.
+    /// Numeric factorisations in addition to that of K_II.
     pub factorisations: usize,
 }
 

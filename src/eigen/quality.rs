@@ -22,7 +22,7 @@ pub struct ModeError {
     pub data_bar: f64,
     /// The share of the residual: what the eigensolver left, by Kato and Temple.
     pub residual_bar: f64,
-    /// ε ‖K‖ ‖x‖² / xᵀMx, equilibrated: an eigenvalue of this size is rounding of whoever made K, whatever the terms of
+    /// ε ‖K‖ ‖x‖² / xᵀMx, equilibrated: an eigenvalue of this size is rounding of the program that wrote K, whatever the terms of
     /// xᵀKx, which may all vanish for a matrix that was itself projected.
     pub rounding_floor: f64,
     /// λ up to which the motion costs no energy as far as anybody can tell; see `modes::zero`.
@@ -113,7 +113,7 @@ fn energy_noise(problem: ModalProblem<'_>, shapes: MatRef<'_, f64>, terms: &[f64
 /// Temple 1928), δ added up over the group. What a residual moves along the rigid-body modes, which deflation took out,
 /// counts (‖Qᵀr‖/λ)².
 ///
-/// With σ inside the spectrum rᵀy is no square any more; δ² is then yᵀMy, since y = (λ − σ) (OP x − θx).
+/// With σ inside the spectrum rᵀy is not a square any more; δ² is then yᵀMy, since y = (λ − σ) (OP x − θx).
 ///
 /// `around` are the nearest other eigenvalues below the lowest and above the highest mode, or what they lie beyond.
 pub(super) fn add_residual_bars(

@@ -7,7 +7,7 @@ use super::problem::{Interval, Wanted, are_clustered, is_above};
 /// Residual ‖OP x − θx‖ over θ at which a pair is taken: the Rayleigh quotient then errs by its square, and the backward
 /// error, which is this times λ over the largest one at most, stays below the limit of measure M-01.
 pub(super) const TOLERANCE: f64 = 1e-13;
-/// The same for the pair beyond the wanted ones, of which only λ is used.
+/// The residual at which the pair beyond the wanted ones is taken, of which only λ is used.
 const NEXT_TOLERANCE: f64 = 1e-4;
 /// Rounding of OP in units of ε times its largest eigenvalue: a θ below it is that of an infinite eigenvalue.
 pub(super) const ROUNDING: f64 = 16.0;

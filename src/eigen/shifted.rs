@@ -31,7 +31,7 @@ pub struct Shifted<'a> {
 /// The first shift relative to the median of K_ii / M_ii. The largest ratio would do where all dofs are alike, but a few
 /// rotations of tiny inertia raise it by many orders of magnitude, and then eigenvalues can no longer be told apart.
 const FIRST_SHIFT: f64 = 1e-6;
-/// The same in units of the precision of the data, whose rounding may leave eigenvalues below zero.
+/// The first shift in units of the precision of the data, whose rounding may leave eigenvalues below zero.
 const ROUNDINGS_OF_DATA: f64 = 10.0;
 /// Refactorisations before the shift is taken as it is.
 const MAX_ROUNDS: usize = 4;

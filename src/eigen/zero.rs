@@ -4,25 +4,25 @@
 //! λ = xᵀKx / xᵀMx          Rayleigh quotient of the motion
 //! N_d                      what rounding of the digits of K can make of it
 //! N_a = ε |x|ᵀ|K||x|       what rounding of one ulp in every entry can make of it, all with one sign
-//! N_f = ε ‖DKD‖ ‖D⁻¹x‖²    the same of the norm of K instead of its entries, D = diag(1/√K_ii)
+//! N_f = ε ‖DKD‖ ‖D⁻¹x‖²    that rounding from the norm of K instead of its entries, D = diag(1/√K_ii)
 //! zero:  |λ| ≤ ¾ N_d + 10 (N_a + N_f)         all over xᵀMx
 //! ```
-//! A motion is zero where its energy cannot be told from none, and only there: its own error bar decides, never a share of the
+//! A motion is zero where its energy cannot be told from none, and only there. Its own error bar decides, never a share of the
 //! largest eigenvalue, which a thin plate has 10⁹ times above its softest mode.
 //!
 //! N_d is the bound of M-09, which refuses a mode that is known to half of its frequency: λ ≤ N_d. So nothing that has a known
-//! frequency is zero, and what lies between ¾ N_d and N_d, where neither is sure, is kept as a mode and refused for its digits. A
+//! frequency is zero, and what lies between ¾ N_d and N_d, where neither is certain, is kept as a mode and refused for its digits. A
 //! motion without energy comes to ¾ N_d with a chance below 3·10⁻⁷, by the tail that N_d is taken from.
 //!
-//! Whoever made K in double precision left some roundings in each entry; where the entries are differences of larger numbers, as
-//! in a matrix that was itself projected, they are rounding of the norm of K and not of their own size: that is N_f.
+//! The program that made K in double precision left some roundings in each entry. Where entries are differences of larger numbers, as
+//! in a matrix that was itself projected, the roundings are relative to the norm of K and not to the entries: that is N_f.
 
 /// Share of N_d up to which a motion is zero.
 const SHARE_OF_BOUND: f64 = 0.75;
-/// Roundings in an entry of K by whoever made it: element integration and assembly.
+/// Roundings in an entry of K by the program that wrote it: element integration and assembly.
 const ROUNDINGS_OF_THE_PRODUCER: f64 = 10.0;
 /// Share of the first elastic eigenvalue that a negative one may have: by practice a component is free whose rigid-body frequencies
-/// stay below a ten-thousandth of the first elastic one, and what is below zero by no more is rounding of whoever made K.
+/// stay below a ten-thousandth of the first elastic one, and what is below zero by no more is rounding of the program that wrote K.
 const NEGLIGIBLE: f64 = 1e-8;
 
 /// λ up to which a motion is zero, from N_d, N_a and N_f over its modal mass.
@@ -35,7 +35,7 @@ pub(crate) fn is_zero(lambda: f64, level: f64) -> bool {
     lambda.is_nan() || level.is_nan() || lambda.abs() <= level
 }
 
-/// Whether a negative Rayleigh quotient is no instability, being negligible compared with the first elastic one.
+/// Whether a negative Rayleigh quotient is not an instability, being negligible compared with the first elastic one.
 pub(crate) fn is_negligible(lambda: f64, first_elastic: Option<f64>) -> bool {
     -lambda <= NEGLIGIBLE * first_elastic.unwrap_or(0.0)
 }

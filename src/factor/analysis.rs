@@ -55,7 +55,7 @@ pub(super) struct Supernode<'a> {
     pub(super) steps: Range<usize>,
     /// Rows below the triangle, ascending; those from `n` on belong to the border.
     pub(super) below: &'a [u32],
-    /// The same rows as places of its task: its own steps first, then those it reaches outside.
+    /// The rows of `below` as places of its task: its own steps first, then those it reaches outside.
     pub(super) local: &'a [u32],
     /// Where its entries are in the factor, by panels.
     pub(super) values: Range<usize>,
@@ -187,7 +187,7 @@ impl Analysis {
         bytes.saturating_mul(self.n_values() as u64)
     }
 
-    /// Bytes that elimination needs beside the factor when one thread does it: what waits for its parent, and the largest front.
+    /// Bytes that elimination needs in addition to the factor when one thread does it: what waits for its parent, and the largest front.
     pub fn stack_bytes(&self) -> u64 {
         8u64.saturating_mul(self.stack as u64)
     }

@@ -50,7 +50,7 @@ impl<'a> Cholesky<'a> {
         Ok(Self { analysis, kept: Kept::Double(numbers), smallest_pivot_ratio })
     }
 
-    /// The same with the entries of L kept as `storage` says. In single precision they take half the memory: elimination still
+    /// Factors K − σM and keeps the entries of L as `storage` says. In single precision they take half the memory: elimination still
     /// computes in double precision and refuses what [`Cholesky::new`] refuses, and solves take some steps of conjugate gradients
     /// with the matrix itself, which bring their residuals to rounding of double precision.
     ///

@@ -55,7 +55,7 @@ impl<'a> Pivots<'a> {
         }
     }
 
-    /// Those of columns `start` .. `end`.
+    /// The pivots of columns `start` .. `end`.
     fn part(&mut self, start: usize, end: usize) -> Pivots<'_> {
         Pivots {
             diagonal: &mut self.diagonal[start..end],

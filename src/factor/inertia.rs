@@ -29,7 +29,7 @@ pub struct InertiaCount {
     pub pivot_gap: f64,
     /// Smallest |eigenvalue| of S(σ) over its largest: near rounding, σ lies on a free eigenvalue.
     pub schur_gap: f64,
-    /// The same relative to the stiffness of the interface dofs before condensation, which rounding of S(σ) is relative to.
+    /// Smallest |eigenvalue| of S(σ) relative to the interface stiffness before condensation, as rounding of S(σ) is.
     pub condensed_gap: f64,
 }
 
@@ -153,7 +153,7 @@ fn count_negative_beyond(analysis: &Analysis, stiffness: Leading<'_>, share: f64
     Ok(Indefinite::new(analysis, pencil, -1.0, Keep::Pivots)?.signs()?.negative)
 }
 
-/// Why K is no definite matrix, where its digits are few and rounding of them may be all that is wrong with it.
+/// Why K is not a definite matrix, where its digits are few and rounding of them may be all that is wrong with it.
 pub fn few_digits(error: Error, analysis: &Analysis, stiffness: Leading<'_>, precision: f64) -> Error {
     let is_of_definiteness = matches!(
         error,

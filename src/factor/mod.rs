@@ -8,9 +8,9 @@
 //! multifrontal   fronts, on faer's dense kernels        substitution   forward and backward through the tree
 //! ```
 //!
-//! The interface is a border that is not eliminated: L has its rows, and what is left of its block is the Schur
-//! complement. Subtrees are eliminated side by side and large fronts in tiles, all cut by the work and not by the number
-//! of threads, so that bits repeat. Nothing outside this folder knows how a factor is stored.
+//! The interface is a border that is not eliminated. L has its rows, and elimination leaves the Schur complement in its
+//! block. Threads eliminate subtrees side by side and large fronts in tiles. Both are cut by the amount of work and not by
+//! the number of threads, so that bits repeat. Nothing outside this folder knows how a factor is stored.
 
 mod analysis;
 mod cholesky;

@@ -38,12 +38,12 @@ pub(super) enum Keep {
 /// The numbers of a factor whose entries are kept as T.
 #[derive(Debug)]
 pub(super) struct Numbers<T> {
-    /// Those of each task.
+    /// The numbers of each task.
     tasks: Vec<TaskNumbers<T>>,
     /// What elimination left of the border, both triangles.
     pub(super) schur: Mat<f64>,
     /// A bound of the largest entry of |L||B||Lᵀ| of an indefinite matrix: the largest of its diagonal with the row sums of |B|
-    /// on that of B, which bounds the entries beside the diagonal too (Cauchy and Schwarz).
+    /// on that of B, which bounds the off-diagonal entries too (Cauchy and Schwarz).
     pub(super) largest_product: f64,
 }
 
@@ -132,7 +132,7 @@ struct Workspace {
     tools: Tools,
 }
 
-/// What the elimination of one supernode needs beside its front.
+/// What the elimination of one supernode needs in addition to its front.
 struct Tools {
     /// The trapezoid of the front.
     trapezoid: Vec<f64>,

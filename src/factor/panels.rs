@@ -7,7 +7,7 @@
 //! ```
 //! A solve reads a panel from end to end and asks for the next one meanwhile: one stream of memory instead of many short ones. Eight
 //! right-hand sides and a factor of 300 MB take 25 ms on two threads; stored by columns they took 38, asking ahead 31. The upper
-//! triangle beside the panels on the diagonal is not stored, a seventh of the memory.
+//! triangle of the panels on the diagonal is not stored, a seventh of the memory.
 
 use std::ops::Range;
 
@@ -100,7 +100,7 @@ impl<'a, T: Entry> Panels<'a, T> {
         &self.values[row(rows.start)..row(rows.end)]
     }
 
-    /// The same, and what another panel holds of these rows and after, which is read next.
+    /// These rows of a panel, and what another panel, which is read next, holds of them and after.
     #[inline(always)]
     pub(super) fn rows_and_next(&self, panel: Panel, rows: Range<usize>, next: Option<Panel>) -> [&'a [T]; 2] {
         let after = |next: Panel| &self.values[next.at + (rows.start - next.first) * next.width..];

@@ -21,7 +21,7 @@ pub(super) fn prefetch<T>(entries: &[T], at: usize) {
 mod tests {
     use super::*;
 
-    /// A place outside is no fault of the bounds, and none of the processor.
+    /// A place outside is not a fault of the bounds and not one of the processor.
     #[test]
     fn asking_for_what_is_not_there_is_no_fault() {
         (0..1000).for_each(|at| prefetch(&[0.0; 100], at));

@@ -1,14 +1,14 @@
 //! Solves as accurate as those of a factor in double precision, by a factor that is kept in single.
 //!
 //! ```text
-//! A = K − σM     n × n, its border beside it      X, B   n × k
+//! A = K − σM     n × n, with its border           X, B   n × k
 //! D A D ≈ L̃ L̃ᵀ   L̃ rounded to single precision    D      powers of two
 //! ```
 //! L is computed in double precision and each entry is rounded. L̃ L̃ᵀ is then definite whatever it is rounded to, and far nearer
 //! to A than a matrix whose elimination was rounded: L⁻¹L̃ − I is of the size u κ(L) = u √κ(A), not u κ(A), with u = 6·10⁻⁸.
 //! Conjugate gradients (Hestenes, Stiefel 1952) go on where √κ nears 10⁷ too, with a step or two for each eigenvalue that is
 //! out of line: three steps on solids (κ = 10⁷ to 10⁹), six on a plate (10¹²), seven on a bar (7·10¹³). Every right-hand side has
-//! scalars of its own, so that its solution never depends on the others beside it.
+//! scalars of its own, so that its solution never depends on the other columns of its block.
 
 use std::sync::{Mutex, OnceLock};
 
@@ -22,12 +22,13 @@ use crate::error::{Error, Result};
 use crate::sparse::Pencil;
 use crate::sparse::{absolute_product, product};
 
-/// Right-hand sides that are solved for at once, with nine blocks of so many columns beside them.
+/// Right-hand sides that are solved for at once, with nine more blocks of so many columns.
 const TILE: usize = 8;
 /// |B − AX| relative to |A||X| + |B| that is aimed at in every row: what a factor in double precision leaves is 2e-15 to 1e-14.
 const AIM: f64 = 16.0 * f64::EPSILON;
-/// The same at which a solution is taken where it gets no better: rounding of a residual of a hundred terms may add up to γ_100.
-const ENOUGH: f64 = 100.0 * f64::EPSILON;
+/// |B − AX| relative to |A||X| + |B| up to which a solution that gets no better is accepted: rounding of a residual of a hundred
+/// terms may add up to γ_100.
+const MAX_STALLED_RESIDUAL: f64 = 100.0 * f64::EPSILON;
 /// Rows whose terms are below this share of the typical row are at rest, and measured against that: their terms are rounding
 /// of solutions elsewhere (Arioli, Demmel, Duff 1989).
 const AT_REST: f64 = 1e-6;
@@ -152,7 +153,7 @@ impl<'a> Refined<'a> {
             left.retain(|(j, left)| {
                 // The residual of recurrences drifts from the true one: start again from that, until it gets no better.
                 let is_stuck = left.is_nan() || *left > 0.5 * before[*j] || tile.steps[*j] >= MAX_STEPS;
-                let is_done = *left <= if is_stuck { ENOUGH } else { AIM };
+                let is_done = *left <= if is_stuck { MAX_STALLED_RESIDUAL } else { AIM };
                 if is_stuck && !is_done {
                     let shortfall = Shortfall { column: first + j, residual: *left, steps: tile.steps[*j] };
                     self.shortfall.get_or_init(|| shortfall);

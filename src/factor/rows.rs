@@ -154,7 +154,7 @@ enum Kernel<'a, T, const W: usize> {
     Rows { panels: Panels<'a, T>, first: usize, top: &'a [Row<W>], rows: &'a mut [Row<W>] },
     /// Takes the rows below into rows of the top.
     Columns { panels: Panels<'a, T>, first: usize, below: &'a [Row<W>], targets: &'a mut [Row<W>] },
-    /// The same for all of the top, and solves the transposed triangle.
+    /// Takes the rows below into all rows of the top, and solves the transposed triangle.
     Backward { panels: Panels<'a, T>, diagonal: Diagonal<'a>, top: &'a mut [Row<W>], below: &'a [Row<W>] },
 }
 

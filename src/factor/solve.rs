@@ -21,7 +21,7 @@ pub trait SolveOperator: Sync {
     fn bytes(&self) -> u64;
 }
 
-/// The same where there is nothing better than to solve.
+/// fᵀA⁻¹f of each column where there is nothing better than to solve.
 pub(super) fn by_solutions<S: SolveOperator + ?Sized>(operator: &S, loads: MatRef<'_, f64>) -> Vec<f64> {
     let mut x = loads.to_owned();
     operator.solve_in_place(x.as_mut());

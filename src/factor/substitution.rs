@@ -64,7 +64,7 @@ impl<'a, T: Entry> Factor<'a, T> {
         }
     }
 
-    /// The same for at most eight columns.
+    /// Solves for a block of at most eight columns.
     pub(super) fn solve_eight(self, block: MatMut<'_, f64>) {
         self.solve_tile::<8>(block);
     }

@@ -14,7 +14,7 @@ pub struct Allowance {
 }
 
 impl Allowance {
-    /// So many bytes; without a number as many as there are.
+    /// An allowance of this many bytes; `None` sets no limit.
     pub fn of(bytes: Option<u64>) -> Self {
         Self { available: bytes.unwrap_or(u64::MAX), claimed: AtomicU64::new(0) }
     }

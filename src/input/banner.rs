@@ -126,12 +126,12 @@ pub(super) fn square_order(path: &Path, line: u64, rows: u64, cols: u64) -> Resu
     order.ok_or_else(|| Error::MatrixOrder { path: path.to_owned(), line, n: rows, limit: MAX_ORDER as u64 })
 }
 
-/// A line that holds no numbers on purpose. Percent is Matrix Market's, the others are usual in bare tables.
+/// Whether a line is a comment. Matrix Market marks comments with a percent sign, bare tables with other signs.
 pub(super) fn is_comment(line: &[u8]) -> bool {
     matches!(line.first(), Some(b'%' | b'#')) || line.starts_with(b"**")
 }
 
-/// The start of a text from a file, fit for a message.
+/// The start of a text from a file, for a message.
 pub(super) fn excerpt(text: &[u8]) -> String {
     const LONGEST: usize = 60;
     let shown: String = String::from_utf8_lossy(&text[..text.len().min(4 * LONGEST)])

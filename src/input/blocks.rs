@@ -1,4 +1,4 @@
-//! Text in large blocks cut at line ends: one thread reads and inflates while the pool works on the blocks before.
+//! Text in large blocks cut at line ends. One thread reads and inflates while the pool works on earlier blocks.
 
 use std::io::Read;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use super::source::{Source, read_error};
 use crate::error::{Error, Result};
 
-/// Bytes of a block: large enough to hide the hand-over, small enough that a dozen of them are nothing.
+/// Bytes of a block: large enough to hide the hand-over, small enough that a dozen of them take little memory.
 pub(super) const BLOCK_BYTES: usize = 1 << 21;
 /// The longest line. Entries and comments are far shorter; a longer one is not text.
 const MAX_LINE_BYTES: usize = 1 << 16;
@@ -64,7 +64,7 @@ fn consume_all(receiver: Receiver<Vec<u8>>, consume: &mut impl FnMut(&[Vec<u8>])
     Ok(())
 }
 
-/// Reads blocks and sends them, to the end of the file or until nobody receives any more.
+/// Reads blocks and sends them, to the end of the file or until the receiver is gone.
 fn produce(path: &Path, mut source: Source, block_bytes: usize, sender: &SyncSender<Vec<u8>>) -> Result<Ending> {
     let mut block = Vec::with_capacity(block_bytes + READ_BYTES);
     let mut is_first = true;
@@ -78,7 +78,7 @@ fn produce(path: &Path, mut source: Source, block_bytes: usize, sender: &SyncSen
         is_first = false;
         if n_read == 0 {
             let last_line = if block.is_empty() { LastLine::Terminated } else { LastLine::Open };
-            // A receiver that went away has its own error to report.
+            // A receiver that is gone has reported its own error.
             let _ = sender.send(block);
             return Ok(Ending { digest: source.digest(), last_line });
         }

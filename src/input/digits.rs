@@ -24,7 +24,7 @@ const SINGLE_DIGITS: u32 = 7;
 const MAX_DECIMAL_DIGITS: u32 = 15;
 /// The most digits that occur in exact data.
 const MAX_EXACT_DIGITS: u32 = 6;
-/// Values looked at.
+/// Size of the sample.
 const SAMPLE: usize = 2000;
 /// Different values that data of many digits must have to be taken for rounded.
 const MIN_DISTINCT: usize = 3;

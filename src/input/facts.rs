@@ -12,7 +12,7 @@ pub struct InputFacts {
     pub matrices: [MatrixFacts; 2],
     /// Digests of the other files by their role: `dofs`, `nodes`, and `nodes_data` for what those refer to.
     pub files: BTreeMap<&'static str, String>,
-    /// Remarks of the readers that are no warnings.
+    /// Remarks of the readers that are not warnings.
     pub notes: Vec<String>,
     /// Remarks that are warnings.
     pub warnings: Vec<Warning>,

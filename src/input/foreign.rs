@@ -1,4 +1,4 @@
-//! Files of known formats that are not read, told by how they begin, and the way round each.
+//! Files of known formats that are not read: how they are recognised, and how each can be converted.
 
 use std::io::Read;
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::error::{Error, Result};
 use crate::regular_file;
 
-/// Bytes looked at.
+/// Bytes from which a format is recognised.
 const HEAD: u64 = 1 << 12;
 /// What a file is read for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
-//! Entries of a text matrix as they come: repeated ones are added up before they cost memory.
+//! Entries of a text matrix while it is read. Repeated entries are added up before they cost memory.
 //!
-//! A file may repeat its entries as often as its size allows, and gzip makes it small: what is held is bounded by the entries that differ,
-//! not by the lines. When many have come a sample tells how many differ; where it is less than half of them, they are merged. Sums are
-//! those of the file's order to the last bit, whenever that is done.
+//! A file may repeat its entries as often as its size allows, and gzip makes such a file small. So memory is bounded by the number of
+//! positions and not by the number of lines. When many entries have been read, a sample estimates how many positions there are. If they are
+//! less than half of the entries, entries are merged. Sums have the bits of the file's order, whenever they are merged.
 
 use std::hash::{BuildHasher, RandomState};
 
@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use crate::sparse::Triplets;
 
-/// Entries below which nothing is looked at: 64 MiB.
+/// Up to this number, 64 MiB, entries are not merged.
 const FIRST_LOOK: usize = 1 << 22;
 /// One position in so many is in the sample.
 const SAMPLED: u64 = 64;

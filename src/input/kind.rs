@@ -1,4 +1,4 @@
-//! Which reader a file needs, told by its name or by its first bytes, and which files a model is made of.
+//! Which reader a file needs, by its name or its first bytes, and which files a model is made of.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};

@@ -1,7 +1,7 @@
 //! Matrices in text: Matrix Market coordinate files, and the bare triplets of CalculiX (`.sti`, `.mas`) and Abaqus.
 //!
-//! Bare triplets have no size: the largest index is the order of the matrix. One shape of file is known by looking
-//! back, a size line without a banner: first line `n n m`, then m entries within n.
+//! Bare triplets have no size: the largest index is the order of the matrix. A size line without a
+//! banner is recognised only at the end of the file: the first line is `n n m`, and m entries within n follow.
 
 use std::path::Path;
 
@@ -111,7 +111,7 @@ struct Reading<'a> {
 
 impl Reading<'_> {
     /// Room for the entries that the size line declares, as far as a file of this length holds them (of a gzipped one that is
-    /// too few): lists that grow bit by bit are held twice each time.
+    /// too few): a list that grows is held twice each time it moves.
     fn expect_entries(&mut self) {
         let Some(Head::Coordinate { n_entries, .. }) = self.head else { return };
         let most = std::fs::metadata(self.path).map_or(0, |file| file.len() / MIN_LINE_BYTES as u64);

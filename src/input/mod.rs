@@ -1,6 +1,6 @@
 //! Reading: matrices, dof maps and nodes as finite element programs export them.
 //!
-//! Nothing is guessed silently: whatever a reader had to do beyond copying is a note that reaches the report.
+//! A reader never guesses silently. Whatever it did beyond copying becomes a note in the report.
 
 mod allowance;
 mod banner;

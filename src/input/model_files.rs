@@ -40,7 +40,7 @@ pub struct Input {
 /// Reads the files of a model, K and M at the same time, whatever memory that takes.
 ///
 /// # Errors
-/// Those of [`read_within`].
+/// The errors of [`read_within`].
 pub fn read(model: &ModelJob) -> Result<Input> {
     read_within(model, &Allowance::of(None))
 }
@@ -48,7 +48,8 @@ pub fn read(model: &ModelJob) -> Result<Input> {
 /// Reads the files of a model, K and M at the same time.
 ///
 /// # Errors
-/// Those of the files; [`Error::Changed`] where one is written meanwhile; [`Error::MemoryRead`] where they hold more than `allowance`;
+/// A file that cannot be read or whose content is wrong; [`Error::Changed`] where one is written meanwhile;
+/// [`Error::MemoryRead`] where they hold more than `allowance`;
 /// [`Error::SizeMismatch`], [`Error::DofCount`], [`Error::DofNodeMissing`] and [`Error::DofOrderUnknown`] where they do not fit together;
 /// [`Error::Duplicates`] where the job refuses them.
 pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
@@ -89,7 +90,7 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
     Ok(Input { stiffness, mass, dofs, nodes, rows, digests, notes })
 }
 
-/// Starts the HDF5 library, so that what happens afterwards is a matter of the files.
+/// Starts the HDF5 library. A failure after that is the fault of a file.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`].
@@ -99,10 +100,10 @@ pub fn start_hdf5() -> Result<()> {
     Ok(())
 }
 
-/// Reads those files of a model that the HDF5 library reads, and forgets them.
+/// Reads the files of a model that need the HDF5 library, and discards what was read.
 ///
 /// # Errors
-/// Those of the files.
+/// A file that cannot be read or whose content is wrong.
 pub fn read_hdf5_parts(model: &ModelJob, allowance: &Allowance) -> Result<()> {
     let is_hdf5 = |path: &Path| hdf5_location(path).is_some();
     if is_hdf5(&model.stiffness) {

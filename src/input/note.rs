@@ -1,4 +1,4 @@
-//! What a reader did beyond copying, to be told to the user.
+//! What a reader did beyond copying, for the user.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::dofs::Dof;
 use crate::sparse::Triangle;
 
-/// A remark on the input that is no error. Its text is one line for the report.
+/// A remark on the input that is not an error. Its text is one line for the report.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum InputNote {

@@ -15,7 +15,7 @@ const MAX_RATIO: u64 = 1000;
 /// tables of numbers stay below 30:1.
 const MAX_RATIO_LARGE: u64 = 100;
 /// Inflated bytes below which no ratio is judged.
-const SMALL: u64 = 1 << 20;
+const MIN_JUDGED_BYTES: u64 = 1 << 20;
 /// Inflated bytes above which the strict ratio holds.
 const LARGE: u64 = 1 << 30;
 /// Bytes asked of the system at once.
@@ -60,7 +60,7 @@ impl Source {
     fn check_inflation(&self) -> std::io::Result<()> {
         let compressed = self.file().n_read;
         let limit = if self.inflated > LARGE { MAX_RATIO_LARGE } else { MAX_RATIO };
-        if self.inflated > SMALL && self.inflated / limit > compressed {
+        if self.inflated > MIN_JUDGED_BYTES && self.inflated / limit > compressed {
             let inflation = Inflation { compressed, inflated: self.inflated, limit };
             return Err(std::io::Error::other(inflation));
         }

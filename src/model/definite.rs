@@ -18,7 +18,7 @@ use crate::sparse::{SparseMatrix, product};
 
 /// Steps of Lanczos: an eigenvalue a tenth of the spectrum's width outside of it converges by e⁻¹⁵ in them.
 const STEPS: usize = 30;
-/// Relative energies above minus this are rounding of whoever made the matrix, in binary data.
+/// Relative energies above minus this are rounding of the program that wrote the matrix, in binary data.
 const ROUNDING: f64 = 1e-9;
 /// Units of the last digit of the data that the energy of a motion may be off by: the entries of a row, with one sign.
 const DIGITS: f64 = 100.0;
@@ -77,7 +77,7 @@ impl Lanczos<'_> {
         for (value, scale) in dense::column_mut(unit.as_mut(), 0).iter_mut().zip(self.scale) {
             *value *= f64::from(u8::from(*scale > 0.0));
         }
-        let (mut diagonal, mut beside) = (Vec::new(), Vec::<f64>::new());
+        let (mut diagonal, mut off_diagonal) = (Vec::new(), Vec::<f64>::new());
         let mut before = vec![0.0; n];
         let mut length = dense::norm(dense::column(unit.as_ref(), 0));
         for step in 0..STEPS.min(n) {
@@ -86,7 +86,7 @@ impl Lanczos<'_> {
             let mut next = self.apply(&unit);
             let along = dense::dot(dense::column(unit.as_ref(), 0), &next);
             dense::add_scaled(&mut next, -along, dense::column(unit.as_ref(), 0));
-            if let Some(beta) = beside.last() {
+            if let Some(beta) = off_diagonal.last() {
                 dense::add_scaled(&mut next, -*beta, &before);
             }
             diagonal.push(along);
@@ -95,14 +95,14 @@ impl Lanczos<'_> {
             if length.is_nan() || length <= 1e-10 * along.abs() {
                 break;
             }
-            beside.push(length);
+            off_diagonal.push(length);
             before.copy_from_slice(dense::column(unit.as_ref(), 0));
             dense::column_mut(unit.as_mut(), 0).copy_from_slice(&next);
         }
         let m = diagonal.len();
         Mat::from_fn(m, m, |i, j| match i.abs_diff(j) {
             0 => diagonal[i],
-            1 => beside[i.min(j)],
+            1 => off_diagonal[i.min(j)],
             _ => 0.0,
         })
     }

@@ -1,4 +1,4 @@
-//! What the checks of a model found that is no error: remarks and warnings, one sentence each.
+//! What the checks of a model found that is not an error: remarks and warnings, one sentence each.
 
 use crate::dofs::Direction;
 
@@ -8,7 +8,7 @@ pub const ASYMMETRY_WARN: f64 = 1e-12;
 /// soft joints come to 10⁸ of each other.
 pub(super) const PENALTY: f64 = 1e10;
 
-/// Something the checks found that is no error.
+/// Something the checks found that is not an error.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Finding {
     /// K or M was symmetric to rounding only and was replaced by its symmetric part.

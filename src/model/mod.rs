@@ -117,7 +117,7 @@ impl Model {
         self.stiffness.rows()
     }
 
-    /// Takes down the facts of the model.
+    /// Records the facts of the model.
     pub fn facts(&self) -> ModelFacts {
         let n_nodes = |dofs: &DofMap| dofs.iter().map(|dof| dof.node).collect::<HashSet<_>>().len();
         ModelFacts {
@@ -167,10 +167,10 @@ fn symmetrised(name: &'static str, input: MatrixInput, names: RowNames<'_>) -> R
 /// row of a mass (catalogue I-02).
 fn check_not_swapped(stiffness: &SparseMatrix, mass: &SparseMatrix, dofs: Option<&[Dof]>) -> Result<()> {
     // Rows near a support or with rotations do not cancel in K; rows of M never do, since translations carry mass.
-    const MOST: f64 = 0.5;
-    const FEW: f64 = 0.05;
+    const MIN_CANCELLING_IN_MASS: f64 = 0.5;
+    const MAX_CANCELLING_IN_STIFFNESS: f64 = 0.05;
     let (in_stiffness, in_mass) = rayon::join(|| cancelling_rows(stiffness, dofs), || cancelling_rows(mass, dofs));
-    if in_mass > MOST && in_stiffness < FEW {
+    if in_mass > MIN_CANCELLING_IN_MASS && in_stiffness < MAX_CANCELLING_IN_STIFFNESS {
         return Err(Error::Swapped { in_stiffness, in_mass });
     }
     Ok(())

@@ -7,7 +7,7 @@ use crate::sparse::diagonal;
 /// Largest and smallest exponents: what is left at the upper end takes the sums of many entries, at the lower end entries
 /// of a 10⁻¹⁸ th of the largest with all their digits.
 const EXPONENTS: std::ops::RangeInclusive<i32> = -960..=1000;
-/// Those of the ratio of K to M. No sums are made of it: what is left at the upper end, 2¹⁵, takes eigenvalues above the ratio
+/// Exponents of the ratio of K to M. No sums are made of it: what is left at the upper end, 2¹⁵, takes eigenvalues above the ratio
 /// of the largest entries; frequencies that leave the range all the same are refused where they are written.
 const RATIOS: std::ops::RangeInclusive<i32> = -960..=1008;
 
@@ -29,7 +29,7 @@ impl Scaling {
         let (stiffness_exponent, mass_exponent) = rayon::join(|| scale_to_unit(stiffness), || scale_to_unit(mass));
         let scaling = Self { stiffness: stiffness_exponent, mass: mass_exponent };
         let ratio = scaling.stiffness - scaling.mass;
-        // Beside one huge entry the others may fall below what the range holds with all digits.
+        // Next to one huge entry the others may fall below what the range holds with all digits.
         let least = |matrix: &SparseMatrix| {
             let positive = diagonal(matrix).into_iter().filter(|value| *value > 0.0);
             positive.fold(f64::INFINITY, f64::min)
@@ -40,7 +40,7 @@ impl Scaling {
             ("the stiffness", scaling.stiffness, EXPONENTS),
             ("the mass", scaling.mass, EXPONENTS),
             ("the ratio of stiffness to mass, the square of a frequency,", ratio, RATIOS),
-            ("the smallest diagonal entry beside the largest", smallest, EXPONENTS),
+            ("the smallest diagonal entry, relative to the largest,", smallest, EXPONENTS),
         ];
         match sizes.into_iter().find(|(_, exponent, range)| !range.contains(exponent)) {
             Some((what, exponent, _)) => Err(Error::UnitRange { what, exponent }),

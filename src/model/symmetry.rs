@@ -157,12 +157,12 @@ mod tests {
             entries.iter().for_each(|(row, col, value)| triplets.push(*row, *col, *value));
             triplets.assemble(n as usize, crate::sparse::Declared::General, "a".as_ref()).expect("a matrix").0
         };
-        let beside: Vec<usize> = (0..entries.len()).filter(|at| entries[*at].0 != entries[*at].1).collect();
+        let off_diagonal: Vec<usize> = (0..entries.len()).filter(|at| entries[*at].0 != entries[*at].1).collect();
         for threads in [1, 2, 5] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             pool.install(|| {
                 assert!(is_symmetric(&of(&entries)));
-                for at in beside.iter().step_by(97) {
+                for at in off_diagonal.iter().step_by(97) {
                     let mut other = entries.clone();
                     other[*at].2 += 1e-9;
                     assert!(!is_symmetric(&of(&other)), "{:?} on {threads} threads", entries[*at]);

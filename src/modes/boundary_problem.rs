@@ -45,7 +45,7 @@ pub struct BoundaryProblem<'a> {
 
 /// Relative residual of K x = f up to which the factor of K_II serves the free component. Healthy interfaces give 10⁻¹⁶ to
 /// the precision of the data; at this limit half the digits of a mode would be lost.
-pub(super) const HOLDS_UP: f64 = 1e-8;
+pub(super) const MAX_RESIDUAL_OF_CLAMPED_FACTOR: f64 = 1e-8;
 
 impl<'a> BoundaryProblem<'a> {
     /// K, M and the rigid-body modes of the dofs that are free to move.
@@ -82,7 +82,7 @@ impl<'a> BoundaryProblem<'a> {
         }
         let operator = FreeAtZero::new(factor, &partition.stiffness, constraint, rigid)?;
         let residual = relative_residual(problem, &operator);
-        if residual <= HOLDS_UP {
+        if residual <= MAX_RESIDUAL_OF_CLAMPED_FACTOR {
             let is_by_digits = partition.has_few_digits() && residual > SETTLED;
             let solved = match is_by_digits {
                 true => solve(&RefinedAtZero::new(&operator, rigid)),
@@ -96,7 +96,7 @@ impl<'a> BoundaryProblem<'a> {
     /// Hands an operator below zero to `solve`, by a factor of K − σM on the dofs that are free to move.
     ///
     /// # Errors
-    /// Those of [`shifted`]; those of `solve`.
+    /// The errors of [`shifted`] and those of `solve`.
     pub(super) fn with_operator_below<T>(
         &self,
         solve: impl FnOnce(&dyn ShiftInvert) -> Result<T>,
@@ -248,6 +248,7 @@ mod tests {
     use crate::input::{Input, MatrixInput};
     use crate::job::{Coupling, Eigensolver, InterfaceJob, NodeSelection, Origin};
     use crate::model::Model;
+    use crate::random::SEED;
     use crate::rigid;
     use crate::sparse::{AssemblyNotes, Declared, Triplets};
 
@@ -316,7 +317,7 @@ mod tests {
         assert!(relative_residual(problem, &operator) < 1e-14);
         // The share itself times ‖f‖ / (‖K‖‖x‖), which is above 1/κ.
         assert!(relative_residual(problem, &Off(&operator, 0.01)) > 1e-2 / 4e3);
-        assert!(relative_residual(problem, &Off(&operator, 0.01)) > HOLDS_UP);
+        assert!(relative_residual(problem, &Off(&operator, 0.01)) > MAX_RESIDUAL_OF_CLAMPED_FACTOR);
         let request = ModeRequest { wanted: Wanted::Count(6), eigensolver: Eigensolver::Lanczos, seed: SEED };
         let at_zero = elastic_modes(problem, &operator, request).expect("converges");
         let found = by_shift(&partition, problem, |shifted| {

@@ -16,7 +16,7 @@
 //! c = [`ROUNDINGS`]. Growth beyond the limit makes a count likely, not certain, and the report says so.
 //!
 //! # Where there are no more modes
-//! A search that ends with fewer modes than were asked for is held against the rank of M, which is the number of finite
+//! A search that ends with fewer modes than were asked for is compared with the rank of M, which is the number of finite
 //! eigenvalues. Where they differ the count is taken above any spectrum of a mesh with these diagonals instead of just above
 //! the highest mode, and what it finds missing is looked for as any other mode.
 
@@ -160,7 +160,7 @@ fn certify_modes(
 ) -> Result<Certificate> {
     let may_be_more = n_finite.is_some_and(|n_finite| modes.count() + problem.n_rigid() < n_finite);
     let far = may_be_more.then(|| above_all(problem));
-    // Where nothing is known above the modes there is no gap for a better place, and the doubt below decides alone.
+    // Where nothing is known above the modes there is no gap for a better place, and only the doubt below decides.
     let serves = |end: &ElasticCount| {
         let sigma = end.inertia.sigma;
         let is_above = modes.lambda.last().is_none_or(|last| *last < sigma) && far.is_none_or(|far| far <= sigma);
@@ -209,7 +209,7 @@ fn judge(problem: &BoundaryProblem<'_>, modes: &Modes, upper: ElasticCount) -> C
         intervals.push(CountedInterval {
             from,
             to,
-            // A count that falls with the shift is no count; the sum over the intervals is then more than the whole.
+            // A count that falls with the shift is not a count; the sum over the intervals is then more than the whole.
             n_counted: (end.n_elastic + rigid).saturating_sub(below),
             n_found: modes.n_between(from, to) + rigid,
             growth: end.inertia.growth.max(lower.0),
@@ -257,7 +257,7 @@ fn growth_limit(problem: &BoundaryProblem<'_>, modes: &Modes, mass_floors: &[f64
     let of_found = modes.lambda.iter().zip(floors).map(|(lambda, floor)| (sigma - lambda).abs() / floor);
     let of_next = modes.next.map(|next| (next - sigma).abs() / floor);
     let ratios: Vec<f64> = of_found.chain(of_next).collect();
-    // What is not a number bounds nothing.
+    // NaN never counts as a bound.
     if ratios.iter().any(|ratio| ratio.is_nan()) {
         return 0.0;
     }

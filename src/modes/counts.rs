@@ -192,15 +192,15 @@ impl<'a> Counts<'a> {
 
     /// How many times λ grows from the last count to where so many eigenvalues are expected, by what it and the one before tell.
     fn growth(target: f64, last: (f64, usize), before: Option<(f64, usize)>) -> f64 {
-        const LEAST: f64 = 1.2;
-        const MOST: f64 = 16.0;
+        const MIN_GROWTH: f64 = 1.2;
+        const MAX_GROWTH: f64 = 16.0;
         let power = match before {
             // There may be no more.
             Some(before) if before.1 == last.1 => 0.0,
             Some(before) if before.1 > 0 => power(before, last),
             _ => POWER,
         };
-        if last.1 == 0 { MOST } else { (target / last.1 as f64).powf(1.0 / power).clamp(LEAST, MOST) }
+        if last.1 == 0 { MAX_GROWTH } else { (target / last.1 as f64).powf(1.0 / power).clamp(MIN_GROWTH, MAX_GROWTH) }
     }
 }
 

@@ -17,9 +17,9 @@ use crate::error::Result;
 use crate::sparse::Leading;
 
 /// Largest order: the decomposition takes some 10 n³ operations, half a minute here.
-const LARGEST: usize = 3000;
+const MAX_ORDER: usize = 3000;
 /// The share of the spectrum from which it is faster than slices.
-const MOST: f64 = 0.5;
+const MIN_SHARE_WANTED: f64 = 0.5;
 /// Smallest pivot of the scaled M: above it the eigenvalues keep all but three digits of what rounding leaves.
 const DEFINITE: f64 = 1e-6;
 
@@ -30,7 +30,7 @@ const DEFINITE: f64 = 1e-6;
 pub(super) fn all_modes(problem: &BoundaryProblem<'_>, wanted: usize) -> Result<Option<Modes>> {
     let modal = problem.modal();
     let n = modal.mass.rows();
-    if n > LARGEST || (wanted as f64) < MOST * n as f64 {
+    if n > MAX_ORDER || (wanted as f64) < MIN_SHARE_WANTED * n as f64 {
         return Ok(None);
     }
     // Powers of two bring the diagonal of M near one, so that the pivots can be compared.

@@ -1,7 +1,7 @@
-//! How many eigenvalues there are at all: the finite ones, as many as M has rank.
+//! The number of finite eigenvalues, which is the rank of M.
 //!
 //! A search that ends with fewer modes than were asked for has found all there are, or has lost some. A count far above the
-//! spectrum tells below its shift; the rank of M tells without a shift.
+//! spectrum decides for eigenvalues below its shift; the rank of M decides without a shift.
 
 use super::boundary_problem::BoundaryProblem;
 use crate::eigen::ratios;
@@ -21,7 +21,7 @@ pub(super) fn above_all(problem: &BoundaryProblem<'_>) -> f64 {
 /// Finite eigenvalues there are at most, those of zero modes included, where `n_found` are known.
 ///
 /// Rows with mass bound the rank of M in exact arithmetic. Where there are more of them than eigenvalues known, M itself is
-/// counted: of what lies within its rounding nobody can tell whether it is mass.
+/// counted: whether what lies within its rounding is mass cannot be known.
 ///
 /// # Errors
 /// No memory for a factor.

@@ -55,7 +55,7 @@ impl<'a> Search<'a> {
         Ok(Self { problem, wanted, n_asked, eigensolver: job.eigensolver, edge, at_once: 1 })
     }
 
-    /// The same search with so many slices at the same time, which changes its time and its memory alone.
+    /// This search with so many slices at the same time, which changes only its time and its memory.
     pub fn with_slices_at_once(self, at_once: usize) -> Self {
         match self.eigensolver {
             Eigensolver::Lanczos => Self { at_once, ..self },

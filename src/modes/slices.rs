@@ -7,10 +7,10 @@
 //! An interval that lacks more modes than a search takes at once is cut by further counts. A search has
 //! its shift inside the interval, the modes known inside it deflated, and is made M-orthogonal to all modes known. Every other
 //! interval is searched first, each as if there were no others: they do not touch, so that their modes are orthogonal by what lies
-//! between them, and as many are searched side by side as memory allows. Those between them follow, beside the modes of the
-//! first round. How many are searched at the same time changes no result.
+//! between them, and as many are searched side by side as memory allows. Those between them follow, with the modes of the
+//! first round deflated. How many are searched at the same time changes no result.
 //!
-//! An interval in which modes stay missing is cut further, so that each search has fewer to find, until it is given up by name.
+//! An interval in which modes stay missing is cut further, so that each search has fewer to find, until the search ends with an error that names it.
 //! The last end is moved up where it may lie inside a cluster: clusters stay whole.
 
 use std::sync::OnceLock;

@@ -21,11 +21,11 @@ pub struct Results<'a> {
     pub evidence: Evidence<'a>,
     /// What verification found.
     pub findings: &'a Findings,
-    /// The reduced beside the full model.
+    /// The reduced model compared with the full one.
     pub preserved: &'a Compared,
     /// The symbolic factorisation of K_II.
     pub analysis: &'a Analysis,
-    /// Factorisations beside that of K_II, those of the modes, the certificate and the enclosures.
+    /// Factorisations in addition to that of K_II: those of the modes, the certificate and the enclosures.
     pub n_beside: usize,
 }
 

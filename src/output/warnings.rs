@@ -8,11 +8,11 @@ use crate::job::Precision;
 use crate::modes::Boundary;
 use crate::rigid::RigidSource;
 
-/// Relative error bar of a frequency above which the digits of the data are told about: what a modal test resolves, the
+/// Relative error bar of a frequency above which a warning names the digits of the data: what a modal test resolves, the
 /// limit of M-09.
 const WANTED: f64 = 1e-4;
 
-/// Mechanisms, motions that nobody can tell from mechanisms, rigid-body motions without mass.
+/// Mechanisms, motions that cannot be told from mechanisms, rigid-body motions without mass.
 pub(super) fn of_motions(results: &Results<'_>) -> Vec<Warning> {
     let rigid = results.evidence.rigid;
     let loose = results.loose;
@@ -80,7 +80,7 @@ pub(super) fn refinement(results: &Results<'_>) -> Option<String> {
     ))
 }
 
-/// A factor in single precision that nobody asked for.
+/// A factor in single precision that the job did not ask for.
 pub(super) fn mixed_precision(results: &Results<'_>) -> Option<Warning> {
     let was_chosen = results.job.run.precision == Precision::Auto;
     let refinement = refinement(results).filter(|_| was_chosen)?;

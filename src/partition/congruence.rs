@@ -1,6 +1,6 @@
 //! The congruence TᵀAT of a symmetric sparse matrix, row by row and in parallel.
 //!
-//! Rows are counted first and then written where they stay: the result is the only memory of its size.
+//! Rows are counted first and then written to their final place, so that no second copy of the result is needed.
 
 use std::collections::BTreeMap;
 

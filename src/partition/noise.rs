@@ -7,14 +7,14 @@
 //! |xᵀEx| ≤ Σ h (Q⁺ + Q⁻)                                 whatever the roundings
 //! |xᵀEx| ≤ √(2 ln(2/p)/3) (Σ h² (Q⁺² + Q⁻²))^½           but for a chance of p
 //! ```
-//! The first bound is far from what happens: roundings have either sign, and a sum of N of them grows like √N. The second one
+//! The first bound is far too large in practice: roundings have either sign, and a sum of N of them grows like √N. The second one
 //! takes the roundings of different numbers as independent and even within half a unit. Such a number times a weight c has the
 //! moments of a normal one of variance c²h²/3 at most (its sinh(t)/t ≤ exp(t²/6)), so that a sum of them exceeds t with a
 //! probability below 2 exp(−3t² / 2Σc²h²) (Hoeffding 1963, with the variance of uniform numbers).
 //!
-//! Equal numbers round equally: elements of one shape give one number at many places, and its roundings are one. Numbers that merely
-//! came to be equal by being rounded have roundings of their own. Of all ways to part the entries of one size into groups
-//! that round alike Q⁺² + Q⁻² is the largest sum of squares, and holds for each of them.
+//! Equal numbers round equally. Elements of one shape give one number at many places, with one rounding. Numbers that are equal only
+//! after rounding have different roundings. Of all ways to part the entries of one size into groups that round alike,
+//! Q⁺² + Q⁻² is the largest sum of squares, and therefore a bound for each of them.
 //!
 //! Rigid patches are made of sums of entries, which were rounded before: their entries are taken as the model has them.
 

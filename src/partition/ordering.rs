@@ -1,7 +1,7 @@
 //! The order of elimination of the internal dofs.
 //!
-//! Nested dissection runs on the graph of nodes, not of dofs: three to six times smaller, the same separators. In frames
-//! minimum degree may need less work, and then it is taken.
+//! Nested dissection runs on the graph of nodes, not of dofs: which is three to six times smaller and has the same separators. For frames
+//! minimum degree may need less work, and then it is used.
 
 use rayon::prelude::*;
 

@@ -47,7 +47,7 @@ pub struct Partition {
     pub fit: CoordinateFit,
     /// What the model was.
     pub model: ModelFacts,
-    /// What was found of the interface that is no error.
+    /// What was found of the interface that is not an error.
     pub findings: Vec<Finding>,
     /// How much rigid patches enlarge rounding of the data of K; one without patches.
     pub cancellation: f64,

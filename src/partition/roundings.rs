@@ -26,7 +26,7 @@ pub(super) struct Entry {
 }
 
 impl PatchEntries {
-    /// Those of a matrix of the model.
+    /// The entries of patches in a matrix of the model.
     pub(super) fn of(matrix: &SparseMatrix, transformation: &Transformation) -> Self {
         let n = transformation.dofs.len();
         let mut place = Vec::with_capacity(transformation.rows.len());

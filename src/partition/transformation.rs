@@ -115,7 +115,7 @@ impl Transformation {
         self.dofs.iter().take_while(|dof| !dof.is_interface).count()
     }
 
-    /// The same transformation with dof `order[k]` moved to place k.
+    /// This transformation with dof `order[k]` moved to place k.
     pub(super) fn permuted(self, order: &[u32]) -> Self {
         let mut place = vec![0u32; order.len()];
         for (new, old) in order.iter().enumerate() {

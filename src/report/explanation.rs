@@ -62,7 +62,7 @@ const fn line(id: &'static str, proof: Proof, meaning: &'static str, remedy: &'s
 }
 
 /// Every check, in the order of the identifiers.
-pub const EXPLANATIONS: [Explanation; 26] = [
+pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-01",
         Proof::Measured,
@@ -210,12 +210,6 @@ pub const EXPLANATIONS: [Explanation; 26] = [
          relative to the response. A small value says that the difference of M-20 is that of the reduction and not of the \
          solution it is compared with.",
         "The comparison at the frequency named says little: give more damping in [scene], or a band that ends below it.",
-    ),
-    line(
-        "M-22",
-        Proof::Measured,
-        "Angle between the spaces that Rubin's and Herting's methods span. Both must describe the same motions.",
-        "The interface is badly conditioned; see M-23.",
     ),
     line(
         "M-23",

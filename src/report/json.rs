@@ -1,4 +1,4 @@
-//! The report as a JSON document: stored values beside the verdicts that follow from them.
+//! The report as a JSON document: stored values and the verdicts that follow from them.
 
 use std::path::Path;
 

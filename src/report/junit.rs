@@ -1,4 +1,4 @@
-//! The checks as JUnit XML, which continuous integration shows beside its other tests.
+//! The checks as JUnit XML, which continuous integration shows together with its other tests.
 
 use std::fmt::Write;
 

@@ -1,7 +1,7 @@
 //! The report: what was read, what was computed, what was checked, and what the run cost.
 //!
 //! The body depends on the job and its files alone: it is byte for byte the same for any number of threads, on any day
-//! and in any folder. Times, memory, threads and paths are facts of the run and live beside it.
+//! and in any folder. Times, memory, threads and paths are facts of the run and are kept apart from it.
 
 mod conclusion;
 mod explanation;
@@ -73,7 +73,7 @@ pub struct ReportBody {
     pub trust_intervals: Vec<TrustInterval>,
     /// The component as a rigid body.
     pub rigid_body: RigidBodyEvidence,
-    /// The reduced beside the full model.
+    /// The reduced model compared with the full one.
     pub preservation: Preservation,
 }
 

@@ -110,7 +110,7 @@ impl Tone {
     }
 }
 
-/// The sign and the word of a verdict.
+/// The sign and the name of a verdict.
 pub(crate) fn verdict_word(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Info => "· shown",

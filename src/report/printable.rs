@@ -1,4 +1,4 @@
-//! Text of other people, fit to be shown: names and paths from jobs, meshes and superelements may hold characters that move the
+//! Text from elsewhere, made safe to show: names and paths from jobs, meshes and superelements may hold characters that move the
 //! cursor, colour, hide or rearrange the words around them, or begin a line of their own.
 //!
 //! Every output passes through here once, where it is put together: lines of [`Page`](super::page::Page), elements of the page for

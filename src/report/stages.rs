@@ -12,7 +12,7 @@ pub trait Observer {
     fn stage(&mut self, name: &'static str);
 }
 
-/// Nobody listens.
+/// An observer that ignores the stages.
 impl Observer for () {
     fn stage(&mut self, _name: &'static str) {}
 }

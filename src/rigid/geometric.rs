@@ -17,7 +17,7 @@ use crate::sparse::{product, product_and_terms};
 /// of a straight row of translations about its own axis): a thousand times rounding, far below any real thickness.
 const NO_DISPLACEMENT: f64 = 1e-11;
 /// Modal masses relative to the largest below which a rigid motion has no inertia: the square of the rounding that the
-/// direction of the motion carries, with a factor of ten thousand. A real one may be small beside a seismic mass.
+/// direction of the motion carries, with a factor of ten thousand. A real one may be small next to a seismic mass.
 pub(crate) const NO_MASS: f64 = 1e-24;
 
 /// The zero-energy rigid motions of every body.
@@ -146,7 +146,7 @@ fn is_free_to_k(partition: &Partition, energies: &[f64], noise: f64) -> Result<b
     }
 }
 
-/// The spectrum tells whether K is indefinite, or rounded by whoever made it.
+/// The spectrum tells whether K is indefinite, or rounded by the program that wrote it.
 fn refuse_negative(partition: &Partition, energy: f64, noise: f64) -> Result<()> {
     match algebraic::zero_modes(partition) {
         // Too far below zero for a shift that suits rigid-body motions.
@@ -159,7 +159,7 @@ fn refuse_negative(partition: &Partition, energy: f64, noise: f64) -> Result<()>
     }
 }
 
-/// Those of the motions without mass that cost no energy either; one that is held is no rigid-body mode.
+/// The motions without mass that cost no energy either; one that is held is not a rigid-body mode.
 fn without_energy(partition: &Partition, massless: Mat<f64>) -> Result<Mat<f64>> {
     if massless.ncols() == 0 {
         return Ok(massless);
@@ -186,7 +186,7 @@ fn padded(matrix: MatRef<'_, f64>) -> Mat<f64> {
     Mat::from_fn(6, matrix.ncols(), |i, j| if i < matrix.nrows() { matrix[(i, j)] } else { 0.0 })
 }
 
-/// The same space as Q with QᵀMQ = I and the motions without mass.
+/// The space of `motions` as Q with QᵀMQ = I, and the motions without mass.
 fn mass_orthonormal(partition: &Partition, motions: MatRef<'_, f64>) -> Result<(Mat<f64>, Mat<f64>)> {
     let modal_mass = |q: MatRef<'_, f64>| {
         let mut modal_mass = dense::gram(q, product(&partition.mass, q).as_ref());

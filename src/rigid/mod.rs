@@ -2,11 +2,11 @@
 //!
 //! ```text
 //! U    n' × n_r    K U = 0; for one free body the six unit motions, translations first, rotations about the origin
-//! Q    n' × n_r    the same space, QᵀMQ = I, used to deflate
+//! Q    n' × n_r    spans the space of U with QᵀMQ = I, used to deflate
 //! ```
 //!
-//! They come from the coordinates where those are known, and are verified against K; without coordinates from the
-//! matrices, by inverse iteration. The count is never assumed: it is the number of motions that K lets pass.
+//! Where coordinates are known, rigid-body modes come from them and are verified against K. Otherwise they come from the
+//! matrices, by inverse iteration. Their number is never assumed: it is the number of motions without energy that K has.
 
 mod algebraic;
 mod energy;

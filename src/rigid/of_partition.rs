@@ -11,7 +11,7 @@ use crate::partition::Partition;
 /// Without an interface there is no S in which mechanisms would show, so that a free component is counted by its matrices too.
 ///
 /// # Errors
-/// Those of [`from_coordinates`] and [`from_matrices`].
+/// The errors of [`from_coordinates`] and [`from_matrices`].
 pub fn rigid_body_modes(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
     let Some(sites) = partition.sites() else {
         return from_matrices(partition);

@@ -80,7 +80,7 @@ impl RigidBodyModes {
         self.orthonormal.as_ref().subcols(self.count() - self.n_massless, self.n_massless)
     }
 
-    /// The same modes without those of mechanisms: what was known before these were looked for.
+    /// These modes without those of mechanisms: what was known before these were looked for.
     pub(crate) fn without_mechanisms(&self) -> Self {
         let n = self.count() - self.n_mechanisms;
         let massive = self.massive().subcols(0, n - self.n_massless);

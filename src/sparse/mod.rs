@@ -1,7 +1,7 @@
 //! The sparse matrix of the model, and its assembly from triplets.
 //!
-//! sprs owns the storage: its constructor checks every index once, after which products and factorisations may trust
-//! them. Row indices are 32-bit, which cuts the memory traffic of a product by a quarter; pointers are machine words,
+//! sprs owns the storage. Its constructor checks every index once, and products and factorisations trust the indices
+//! after that. Row indices are 32-bit, which cuts the memory traffic of a product by a quarter; pointers are machine words,
 //! so that the number of entries has no 32-bit limit. Symmetric matrices are stored whole (both triangles): compressed
 //! rows are then also compressed columns, and a product needs no scatter, which makes it parallel and deterministic.
 
@@ -46,7 +46,7 @@ pub struct Triplets {
     pub values: Vec<f64>,
 }
 
-/// What assembling a matrix did beyond copying, to be told to the user.
+/// What assembling a matrix did beyond copying, for the user.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct AssemblyNotes {
     /// Entries that repeated an earlier position and were added to it.

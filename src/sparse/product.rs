@@ -54,7 +54,7 @@ pub fn product_and_terms<'a>(matrix: impl Into<Leading<'a>>, x: MatRef<'_, f64>)
     (y, terms)
 }
 
-/// Some columns as ranges of those to be multiplied together: an eighth of all, so that what is held of a product is small beside the
+/// Some columns as ranges of those to be multiplied together: an eighth of all, so that what is held of a product is small compared with the
 /// columns themselves, rounded up to whole groups of eight and 32 at most, as many as save time.
 pub fn panels(n_columns: usize) -> impl Iterator<Item = Range<usize>> {
     const PANELS: usize = 8;

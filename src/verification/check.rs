@@ -1,4 +1,4 @@
-//! One line of the verification: a measured value, the limits it is judged by and the verdict.
+//! A check: a measured value, the limits it is judged by, and the verdict.
 //!
 //! Some measures have no limit that would be true of every model: they are shown, not judged.
 
@@ -6,8 +6,8 @@ use serde::Serialize;
 
 /// The three sources a limit can come from; the largest one is active.
 ///
-/// A figure from engineering practice may be out of reach of the arithmetic (ε·κ) or of the data (digits of the text);
-/// the limit is then what can be attained, and the line says so.
+/// A figure from engineering practice may be out of reach of the arithmetic (ε·κ) or of the data (digits of the text).
+/// The limit is then what can be attained, and the check says so.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Limits {
     /// What practice asks.
@@ -34,11 +34,11 @@ impl Limits {
     /// No limit: the value is shown, not judged.
     pub const NONE: Self = Self { engineering: f64::INFINITY, arithmetic: 0.0, data: 0.0 };
 
-    /// The same limits with what arithmetic and data may excuse capped.
+    /// These limits with what arithmetic and data may excuse capped.
     ///
-    /// An excuse is computed from the results it excuses. Without a cap a bad result would loosen its own judge.
+    /// An excuse is computed from the results it excuses. Without a cap a bad result would loosen its own limit.
     pub fn capped(self, arithmetic: f64, data: f64) -> Self {
-        // A value that is not a number excuses nothing.
+        // NaN never counts as an excuse.
         let cap = |value: f64, most: f64| if value.is_nan() { 0.0 } else { value.min(most) };
         Self { arithmetic: cap(self.arithmetic, arithmetic), data: cap(self.data, data), ..self }
     }
@@ -96,10 +96,10 @@ pub struct Check {
 }
 
 impl Check {
-    /// `fail_above` of a check that warns above its limit and never fails: finite, so that a value that is not does fail.
+    /// `fail_above` of a check that warns above its limit and never fails. It is finite, so that an infinite value does fail.
     pub const NEVER: f64 = f64::MAX;
 
-    /// The verdict; a value that is not a number fails, and so does one that only an infinite excuse would let pass.
+    /// The verdict. NaN fails, and so does a value that only an infinite limit would let pass.
     pub fn verdict(&self) -> Verdict {
         if self.value.is_finite() && !self.is_judged() {
             Verdict::Info
@@ -117,7 +117,7 @@ impl Check {
         self.limits.engineering.is_finite()
     }
 
-    /// How many times the value fits into the limit: above one is good.
+    /// Limit over value: above one is good.
     pub fn margin(&self) -> f64 {
         self.limits.value() / self.value
     }

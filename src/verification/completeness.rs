@@ -5,8 +5,8 @@ use super::evidence::Evidence;
 use crate::modes::Mending;
 use crate::number;
 
-/// M-06, where a count was made: judged interval by interval, so that a mode too many in one does not hide one missing in
-/// another.
+/// M-06, where a count was made. Each interval is judged by itself, so that a mode too many in one does not hide a mode
+/// missing in another.
 pub(super) fn count(evidence: &Evidence<'_>) -> Option<Check> {
     let certificate = evidence.certificate?;
     let differences = certificate.intervals.iter().map(|interval| interval.n_counted.abs_diff(interval.n_found));
@@ -23,7 +23,7 @@ pub(super) fn count(evidence: &Evidence<'_>) -> Option<Check> {
         limits: Limits::default(),
         fail_above: 0.0,
         worst: Some(format!(
-            "counted {}, found {}{mended}; {} with the interface held, {} free; pivot growth {:.1}; {} of what would make the count doubtful",
+            "counted {}, found {}{mended}; {} with the interface held, {} free; pivot growth {:.1}; doubt {} (limit 1)",
             certificate.n_counted,
             certificate.n_found,
             certificate.count.clamped,

@@ -52,7 +52,7 @@ pub(super) fn internal_condition(evidence: &Evidence<'_>) -> f64 {
     norms.stiffness_norm * estimate
 }
 
-/// M-23 in its five lines.
+/// The checks of M-23.
 pub(super) fn conditioning(evidence: &Evidence<'_>, internal: f64) -> Result<Vec<Check>> {
     let mut checks = vec![
         judged(
@@ -102,14 +102,14 @@ fn condition(
     Ok((ratio, softest.map(|i| coordinate_name(evidence, i))))
 }
 
-/// The smallest share of its length that a column of Ψ_D keeps beside the columns before it.
+/// The smallest share of its length that a column of Ψ_D keeps when the columns before it are taken out.
 pub(super) fn independence(evidence: &Evidence<'_>) -> (f64, Option<String>) {
     let basis = evidence.basis;
     let mut least = (1.0, None);
     for (slot, named) in basis.kept.iter().enumerate() {
         let length = dense::norm(dense::column(basis.mixing.as_ref(), *named));
         let share = basis.mixing[(slot, *named)].abs() / length;
-        // Below, or not a number.
+        // Below the limit, or NaN.
         if share.is_nan() || share < least.0 {
             least = (share, Some(coordinate_name(evidence, evidence.partition.n_interface() + slot)));
         }
@@ -121,7 +121,8 @@ fn shown(name: &'static str, equation: &'static str, (value, worst): (f64, Optio
     Check { id: "M-23", name, equation, value, limits: Limits::NONE, fail_above: f64::INFINITY, worst }
 }
 
-/// A line that warns above its limit and never fails: a bad condition loses digits, and other measures say whether too many.
+/// A check that warns above its limit and never fails: a bad condition loses digits, and other checks say whether too many
+/// are lost.
 fn judged(name: &'static str, equation: &'static str, (value, worst): (f64, Option<String>), limit: f64) -> Check {
     let limits = Limits { engineering: limit, ..Limits::default() };
     Check { id: "M-23", name, equation, value, limits, fail_above: Check::NEVER, worst }

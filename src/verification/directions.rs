@@ -1,4 +1,4 @@
-//! The rigid directions in which a component is looked at.
+//! The rigid directions in which a component is examined.
 
 use faer::Mat;
 
@@ -19,7 +19,7 @@ pub(super) struct Directions {
     pub(super) masses: Vec<f64>,
 }
 
-/// Share of the largest modal mass below which a motion moves nothing: a rotation about the line all mass lies on.
+/// Share of the largest modal mass below which a motion moves no mass, as a rotation about the line on which all mass lies.
 const NOTHING: f64 = 1e-12;
 
 impl Directions {
@@ -75,8 +75,8 @@ impl Directions {
     }
 }
 
-/// The mean position of the translations, weighted with the diagonal of M: near the centre of mass, which is all that a
-/// rotation that is looked at by itself asks for.
+/// The mean position of the translations, weighted with the diagonal of M: near the centre of mass, which is close
+/// enough for rotations that are examined one by one.
 fn middle_of_mass(partition: &Partition, sites: &[Site]) -> [f64; 3] {
     let (mut sum, mut total) = ([0.0; 3], 0.0);
     for (row, site) in sites.iter().enumerate().filter(|(_, site)| site.direction <= Direction::Uz) {

@@ -1,8 +1,8 @@
 //! The retained modes as eigenpairs of the full model: M-01, M-02, M-03, M-04, M-09.
 //!
 //! ```text
-//! r = K x − λ M x    residual of a pair, measured here from the shapes, whatever the eigensolver said of it
-//! D                  powers of two near 1/√K_ii: no unit of length or angle weighs in
+//! r = K x − λ M x    residual of a pair, measured here from the shapes, not taken from the eigensolver
+//! D                  powers of two near 1/√K_ii, so that units of length and angle do not matter
 //! ```
 
 use faer::Mat;
@@ -18,7 +18,7 @@ use crate::sparse::Pencil;
 use crate::sparse::panels;
 
 /// Residual of a solve beyond which the free modes are computed by another factor ([`crate::modes`] says why).
-const SOLVE_HOLDS_UP: f64 = 1e-8;
+const MAX_SOLVE_RESIDUAL: f64 = 1e-8;
 
 /// How far roundings of one sign may exceed their typical sum.
 const NOISE_FACTOR: f64 = 10.0;
@@ -49,7 +49,7 @@ impl Pairs {
         let modes = &evidence.retained.modes;
         let mut found =
             Self { backward: Worst::none(), componentwise: Worst::none(), concentration: 1.0, coupling: (0.0, (0, 0)) };
-        // The memory beside the shapes is five such panels.
+        // The memory needed in addition to the shapes is five such panels.
         for panel in panels(modes.count()) {
             let (start, end) = (panel.start, panel.end);
             let shapes = modes.shapes.as_ref().get(.., panel.clone());
@@ -89,7 +89,7 @@ fn spread(evidence: &Evidence<'_>) -> f64 {
     lambda.last().copied().unwrap_or(1.0) / lambda.first().copied().unwrap_or(1.0)
 }
 
-/// What the eigensolver and the data leave of a residual, relative to the terms it is summed from.
+/// Limits of a residual, relative to the terms it is summed from: what the eigensolver and the data leave of it.
 fn residual_limits(evidence: &Evidence<'_>) -> Limits {
     let precision = evidence.partition.precision;
     let digits = precision.stiffness.max(precision.mass);
@@ -100,7 +100,7 @@ fn residual_limits(evidence: &Evidence<'_>) -> Limits {
     // stands for the sum over the rigid-body modes. An interface that holds too badly is not used for this.
     let motion = match evidence.retained.boundary {
         Boundary::FreeInterface => {
-            (10.0 * digits / evidence.rank.singular_ratio).min(SOLVE_HOLDS_UP.max(10.0 * digits))
+            (10.0 * digits / evidence.rank.singular_ratio).min(MAX_SOLVE_RESIDUAL.max(10.0 * digits))
         }
         Boundary::FixedInterface => 0.0,
     };
@@ -130,7 +130,7 @@ pub(super) fn backward_error(evidence: &Evidence<'_>, pairs: &Pairs) -> Check {
 pub(super) fn componentwise_error(evidence: &Evidence<'_>, pairs: &Pairs) -> Check {
     const FAIL: f64 = 1e-8;
     // What may be left is a share of the norm of the whole mode, and all of it may be in one row, which is measured by the
-    // largest component. It weighs more still beside the smallest terms that a row is judged by.
+    // largest component. It weighs more still against the smallest terms that a row is judged by.
     let (of_norm, in_one_row) = (residual_limits(evidence), pairs.concentration / AT_REST);
     let limits =
         Limits { engineering: 1e-11, arithmetic: of_norm.arithmetic * in_one_row, data: of_norm.data * in_one_row };
@@ -183,13 +183,13 @@ pub(super) fn stiffness_orthogonality(evidence: &Evidence<'_>, pairs: &Pairs) ->
     const FAIL: f64 = 1e-7;
     let (value, (a, b)) = pairs.coupling;
     let cancellation = evidence.retained.modes.errors.iter().map(|error| error.cancellation).fold(0.0, f64::max);
-    // Rounding of x_iᵀKx_j is that of its terms, √(c_i c_j) times the energies; beside it there is what is left of
+    // Rounding of x_iᵀKx_j is that of its terms, √(c_i c_j) times the energies; added to it is the rest of
     // x_iᵀMx_j, a few ε, times √(λ_j / λ_i).
     let arithmetic = NOISE_FACTOR * f64::EPSILON * cancellation.max(spread(evidence).sqrt());
     // Rigid-body motion that K does not quite let pass is strain energy of the modes, and relative to it that much larger.
     let data = residual_limits(evidence).data * cancellation;
     let limits = Limits { engineering: 1e-10, arithmetic, data };
-    // A thousandth is what measured modes are accepted with. What the digits explain beyond it is a warning beside M-09,
+    // A thousandth is what measured modes are accepted with. What the digits explain beyond it is a warning in addition to M-09,
     // up to a hundredth.
     let explained = limits.capped(1e-3, 1e-2).value();
     let limits = limits.capped(1e-3, 1e-3);

@@ -6,7 +6,7 @@ use super::evidence::Evidence;
 use crate::dense;
 use crate::eigen::ModeError;
 
-/// M-07 and M-08, and what the count is worth: M-06.
+/// M-07 and M-08, and how far the count is proved: M-06.
 pub(super) fn checks(evidence: &Evidence<'_>) -> Vec<Check> {
     let Some(enclosures) = evidence.enclosures else { return Vec::new() };
     let mut checks = vec![counted(enclosures)];

@@ -9,7 +9,7 @@
 //! T = K_s⁻¹M is self-adjoint in the inner product of K_s with eigenvalues 1/μ, also where M is singular, and
 //! ‖Tx − x/μ̃‖_{K_s} = ρ‖x‖_{K_s}/μ̃: some eigenvalue has |μ̃/μ − 1| ≤ ρ. Groups of modes whose intervals overlap hold as
 //! many eigenvalues as they have modes (Kahan 1967; Cao, Xie and Li 1996). Where a count proves that there are no others, each
-//! group holds exactly its own, the distances to the neighbours are known, and the interval of a single mode shrinks
+//! group holds exactly the eigenvalues of its modes, the distances to the neighbours are known, and the interval of a single mode shrinks
 //! to μ̃ρ²/gap (Kato 1949, Temple 1928). Everything is an upper bound that includes the rounding of its own computation.
 
 mod bracket;
@@ -35,13 +35,13 @@ pub struct Enclosures {
     pub intervals: Vec<Option<[f64; 2]>>,
     /// For each mode a bound of the sine of its angle to the eigenvectors of its cluster; none without a proved count.
     pub angles: Vec<Option<f64>>,
-    /// What the count is worth.
+    /// How far the count is proved.
     pub count: CountProof,
     /// Factorisations it took.
     pub n_factorisations: usize,
 }
 
-/// What a count of eigenvalues is worth.
+/// How far a count of eigenvalues is proved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CountProof {
     /// How far the factors may be from the matrix, relative to the distance of the shift to the highest mode: below one
@@ -63,7 +63,7 @@ impl CountProof {
 /// Encloses the retained modes where the job asks for it.
 ///
 /// # Errors
-/// Those of [`enclosures`].
+/// The errors of [`enclosures`].
 pub fn enclosures_where_asked(
     component: Component<'_>,
     retained: &Retained,
@@ -120,7 +120,7 @@ pub fn enclosures(
     Ok(Enclosures { intervals, angles, count, n_factorisations: n_metric + 1 })
 }
 
-/// The count above the highest mode, what it is worth, and the eigenvalue up to which there are no others.
+/// The count above the highest mode, how far it is proved, and the eigenvalue up to which there are no others.
 ///
 /// In the metric of K_s the eigenvalues of K − σ'M are ν = (λ − σ')/(λ − σ), and a factorisation that is off by E moves
 /// them by at most ω = ‖E‖/floor. Every λ with ν < −ω is counted, and no λ with ν > ω.
@@ -130,7 +130,7 @@ fn proof(analysis: &Analysis, metric: &Metric<'_>, groups: &[Group], shift: f64)
     let top = groups.last().map_or(metric.sigma, |group| group.interval[1]);
     let distance = (shift - top) / (top - metric.sigma);
     let enclosed = groups.iter().map(|group| group.members.len()).sum();
-    // A number that is none proves nothing.
+    // NaN proves nothing.
     let uncertainty = if omega.is_nan() || omega >= 1.0 || distance <= 0.0 { f64::INFINITY } else { omega / distance };
     let ceiling = (shift + omega * metric.sigma) / (1.0 + omega);
     Ok((CountProof { uncertainty, counted: count.below, enclosed }, ceiling))

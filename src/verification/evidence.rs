@@ -17,7 +17,7 @@ use super::enclosure::Enclosures;
 pub(super) const NAMES: [&str; 6] =
     ["translation x", "translation y", "translation z", "rotation x", "rotation y", "rotation z"];
 
-/// Everything the checks look at: the results of the stages, none of their workings.
+/// Everything that the checks examine: the results of the stages.
 #[derive(Clone, Copy, Debug)]
 pub struct Evidence<'a> {
     /// The partitioned matrices.
@@ -26,7 +26,7 @@ pub struct Evidence<'a> {
     pub factor: &'a Cholesky<'a>,
     /// The rigid-body modes.
     pub rigid: &'a RigidBodyModes,
-    /// How well the interface reacts them.
+    /// How well the interface reacts the rigid-body modes.
     pub rank: InterfaceRank,
     /// The constraint modes.
     pub constraint: &'a ConstraintModes,
@@ -44,7 +44,7 @@ pub struct Evidence<'a> {
     pub expect: Option<&'a Expectation>,
 }
 
-/// What a rigid-body mode is called: `rotation z` of one free body, else by its number.
+/// The name of a rigid-body mode: `rotation z` of one free body, otherwise its number.
 pub(super) fn rigid_name(evidence: &Evidence<'_>, mode: usize) -> String {
     match NAMES.get(mode).filter(|_| evidence.rigid.is_classical) {
         Some(name) => (*name).to_owned(),
@@ -52,7 +52,7 @@ pub(super) fn rigid_name(evidence: &Evidence<'_>, mode: usize) -> String {
     }
 }
 
-/// What a reduced coordinate is called: `node 12 uz`, `mode 3`, `inertia relief 2`.
+/// The name of a reduced coordinate: `node 12 uz`, `mode 3`, `inertia relief 2`.
 pub(super) fn coordinate_name(evidence: &Evidence<'_>, coordinate: usize) -> String {
     let n_b = evidence.partition.n_interface();
     match coordinate.checked_sub(n_b).map(|slot| evidence.basis.coordinates.get(slot).copied()) {
@@ -66,7 +66,7 @@ pub(super) fn coordinate_name(evidence: &Evidence<'_>, coordinate: usize) -> Str
     }
 }
 
-/// The precision of the data of K where it is coarser than that of the arithmetic, else nothing.
+/// The precision of the data of K where it is coarser than that of the arithmetic, otherwise zero.
 pub(super) fn data_noise(partition: &Partition) -> f64 {
     let precision = partition.precision.stiffness;
     if precision > f64::EPSILON { precision * partition.cancellation } else { 0.0 }

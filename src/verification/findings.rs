@@ -24,13 +24,13 @@ pub struct RigidBody {
     pub routes: Option<MassRoutes>,
     /// Eigenvalues of the zero modes of the reduced pencil.
     pub eigenvalues: Vec<f64>,
-    /// How far motion in each direction is from straining the component.
+    /// How much energy and force motion in each direction costs.
     pub grounding: Vec<Grounding>,
-    /// What the modes carry of the inertia in each direction.
+    /// The share of the inertia in each direction that the modes carry.
     pub effective_mass: Option<EffectiveMasses>,
 }
 
-/// All checks and what they rest on.
+/// Makes all checks, and returns them with the values they rest on.
 ///
 /// # Errors
 /// A dense eigenproblem that does not converge.

@@ -1,4 +1,4 @@
-//! How far rigid-body motion is from straining the component, direction by direction.
+//! How much energy and force rigid-body motion costs, direction by direction.
 
 use faer::MatRef;
 
@@ -23,7 +23,7 @@ pub struct Grounding {
     pub force_ratio: f64,
     /// Node and direction of the largest force.
     pub worst: Option<String>,
-    /// What the ratio says.
+    /// The verdict on the ratio.
     pub restraint: Restraint,
 }
 
@@ -34,13 +34,13 @@ pub enum Restraint {
     Free,
     /// A weak spring holds what should be free.
     Grounded,
-    /// It is held in earnest, or no motion of the component as a whole.
+    /// A support holds it, or it is not a motion of the component as a whole.
     Held,
 }
 
 /// Energy ratio above which a free motion is not free: a rigid-body frequency of a thousandth of the first elastic one.
 const GROUNDED_ABOVE: f64 = 1e-6;
-/// Energy ratio above which a motion is held in earnest: its frequency is a tenth of the first elastic one.
+/// Energy ratio above which a support holds a motion: its frequency is a tenth of the first elastic one.
 const HELD_ABOVE: f64 = 1e-2;
 /// How far roundings of one sign may exceed their typical sum.
 const NOISE_FACTOR: f64 = 10.0;
@@ -121,6 +121,6 @@ fn ritz_values(
     dense::symmetrise(&mut energies);
     dense::symmetrise(&mut masses);
     let values = lowest_eigenpairs(energies.as_ref(), masses.as_ref(), first, 0)?.0;
-    // Without a definite pencil nothing is known of the motions: zero is never too large beside an eigenvalue.
+    // Without a definite pencil nothing is known of the motions. Zero stands for that: it is never above an eigenvalue.
     Ok(if values.is_empty() { vec![0.0] } else { values })
 }

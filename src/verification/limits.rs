@@ -1,7 +1,7 @@
-//! Limits that a reduction and its file are held to alike, from the error bars of the frequencies that are known.
+//! Limits for a reduction and for its file, from the error bars of the frequencies that are known.
 //!
-//! The bar of a frequency says what rounding of the arithmetic and of the data can make of an energy xᵀKx of unit modal mass. That
-//! of a rigid-body motion is summed of the same entries of K, and so are those of the reduced matrices.
+//! The bar of a frequency says how far rounding of the arithmetic and of the data can change an energy xᵀKx of unit modal mass. The
+//! energies of rigid-body motions and of the reduced matrices are sums of the same entries of K.
 
 use super::check::Limits;
 
@@ -12,14 +12,14 @@ const NOISE_FACTOR: f64 = 10.0;
 const RIGID_ENERGY: f64 = 1e-8;
 /// Energy at which the component is held: a rigid-body frequency of a hundredth of the first elastic one.
 pub(crate) const GROUNDED: f64 = 1e-4;
-/// What rounding may excuse of an energy without a word: at a tenth of the first elastic frequency nothing tells a rigid-body motion
-/// from an elastic one.
+/// What rounding may excuse of an energy without a warning: at a tenth of the first elastic frequency a rigid-body motion
+/// cannot be told from an elastic one.
 const LARGEST_ENERGY: f64 = 1e-2;
 /// What rounding that the digits of K explain may excuse at all: a quarter of the first elastic frequency.
 const LARGEST_EXPLAINED_ENERGY: f64 = 1.0 / 16.0;
 /// Relative force of a rigid-body motion at which the component is held.
 const HELD: f64 = 1e-6;
-/// Relative error bar of a frequency that is unknown: with half of it open it is no frequency any more.
+/// Relative error bar of a frequency that is unknown: half of it is open.
 pub(crate) const UNKNOWN: f64 = 0.5;
 /// Relative difference of a frequency that reduced models are accepted with; one that is off by more is not preserved, whatever the
 /// reason.
@@ -34,7 +34,7 @@ pub(crate) struct Known {
     pub(crate) relative_bar: f64,
 }
 
-/// What a check passes at, and what it fails above.
+/// The limits of a check, and the value above which it fails.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Judged {
     pub(crate) limits: Limits,
@@ -46,13 +46,14 @@ pub(crate) fn noise(known: impl IntoIterator<Item = Known>, first: f64) -> f64 {
     known.into_iter().map(|known| known.lambda * known.relative_bar / first).fold(0.0, f64::max)
 }
 
-/// Limits of an energy that should be nothing, relative to that of the first elastic mode, at a noise of which the digits of the
+/// Limits of an energy that should be zero, relative to that of the first elastic mode, at a noise of which the digits of the
 /// data have a share.
 pub(crate) fn of_energy(noise: f64, share_of_data: f64) -> Judged {
     of_nothing(noise, share_of_data, GROUNDED)
 }
 
-/// Those of a file alone, which does not say how many digits its matrices had: a warning where digits could explain the energy.
+/// Limits of such an energy in a file alone. The file does not say how many digits its matrices had: a warning where
+/// digits could explain the energy.
 pub(crate) fn of_unexplained_energy(noise: f64) -> Judged {
     let Judged { limits, fail_above } = of_energy(noise, 1.0);
     Judged { limits, fail_above: fail_above.max(LARGEST_EXPLAINED_ENERGY) }
@@ -77,7 +78,7 @@ pub(crate) fn of_frequency(relative_bar: f64, share_of_data: f64) -> Judged {
     let noise = NOISE_FACTOR * relative_bar;
     let limits = Limits { engineering: 1e-9, arithmetic: noise * (1.0 - share_of_data), data: noise * share_of_data };
     let limits = limits.capped(NOT_PRESERVED, NOT_PRESERVED);
-    // What the digits leave open is no failure of the reduction: up to the error bar itself it is a warning, with M-09.
+    // What the digits leave open is not a failure of the reduction: up to the error bar itself it is a warning, with M-09.
     let within_bar = (0.5 * relative_bar * share_of_data).min(OPEN);
     Judged { limits, fail_above: limits.value().max(1e-6).max(within_bar) }
 }
@@ -98,7 +99,7 @@ mod tests {
         let of_few = of_energy(0.5, 1.0);
         assert_eq!((of_few.limits.value(), of_few.limits.active()), (LARGEST_ENERGY, ActiveLimit::Data));
         assert_eq!(of_few.fail_above, LARGEST_EXPLAINED_ENERGY);
-        // Arithmetic explains no more than it excuses.
+        // The arithmetic explains no more than its limit.
         assert_eq!(of_energy(0.5, 0.0).fail_above, LARGEST_ENERGY);
     }
 

@@ -40,7 +40,7 @@ pub(super) fn accelerations(evidence: &Evidence<'_>, condition: f64) -> Option<C
     for j in 0..directions.count() {
         let energy = |a: &Mat<f64>, b: MatRef<'_, f64>| {
             let energy = dense::dot(dense::column(a.as_ref(), j), dense::column(b, j));
-            // Below zero it is rounding; what is not a number stays so.
+            // Below zero it is rounding; NaN stays NaN.
             if energy < 0.0 { 0.0 } else { energy.sqrt() }
         };
         let (missed, whole) = (energy(&error, forces.as_ref()), energy(&full, loads));
@@ -52,7 +52,7 @@ pub(super) fn accelerations(evidence: &Evidence<'_>, condition: f64) -> Option<C
     }
     let limits = if is_exact(evidence, &directions) {
         let arithmetic = f64::EPSILON * condition;
-        // The condition is that of the matrix, not of this solve; a thousandth of a deflection is read by nobody.
+        // The condition is that of the matrix, not of this solve; a thousandth of a deflection makes no difference.
         Limits { engineering: 1e-9, arithmetic, data: data_noise(partition) * condition }.capped(1e-3, 1e-2)
     } else {
         Limits::NONE
@@ -85,10 +85,10 @@ fn reduced_deflections(evidence: &Evidence<'_>, loads: MatRef<'_, f64>) -> Optio
     Some(dense::product(psi_d, eta.as_ref()))
 }
 
-/// Whether the answers to these accelerations are among the columns of Ψ_D: inertia relief is there for every rigid-body
+/// Whether the answers to these accelerations are among the columns of Ψ_D: Ψ_D has inertia relief for every rigid-body
 /// mode, and the accelerations are rigid-body motions that K lets pass.
 fn is_exact(evidence: &Evidence<'_>, directions: &Directions) -> bool {
-    // What is left of a translation that is a rigid-body motion is rounding; of one that is held, all of it.
+    // A translation that is a rigid-body motion leaves only rounding; one that is held stays whole.
     const SAME: f64 = 1e-6;
     let basis = evidence.basis;
     let is_relief = |c: &DynamicCoordinate| matches!(c, DynamicCoordinate::InertiaRelief(_));
@@ -134,7 +134,7 @@ pub(super) fn effective_masses(evidence: &Evidence<'_>) -> Result<Option<Effecti
 /// None where it is not.
 fn interior_masses(evidence: &Evidence<'_>, gamma: MatRef<'_, f64>, start: MatRef<'_, f64>) -> Option<Vec<f64>> {
     // Shares are read to three digits; the square of this is what the total is off by.
-    const ENOUGH: f64 = 1e-4;
+    const MAX_RESIDUAL: f64 = 1e-4;
     const MAX_STEPS: usize = 500;
     let mass = evidence.partition.internal().mass;
     let inverse: Vec<f64> = mass.diagonal().into_iter().map(|m| if m > 0.0 { 1.0 / m } else { 0.0 }).collect();
@@ -147,14 +147,14 @@ fn interior_masses(evidence: &Evidence<'_>, gamma: MatRef<'_, f64>, start: MatRe
     let mut z = precondition(&r);
     let (mut p, mut rz) = (z.clone(), dots(&r, &z));
     for _ in 0..MAX_STEPS {
-        if rz.iter().zip(&sizes).all(|(rz, size)| *rz <= ENOUGH * ENOUGH * size) {
+        if rz.iter().zip(&sizes).all(|(rz, size)| *rz <= MAX_RESIDUAL * MAX_RESIDUAL * size) {
             // The total that the residual still owes is of second order.
             return Some(dots(&gamma, &x).iter().zip(dots(&r, &x)).map(|(found, owed)| found + owed).collect());
         }
         let image = product(mass, p.as_ref());
         let curvature = dots(&p, &image);
         for j in 0..x.ncols() {
-            // A column that is done has no direction left.
+            // A column that has converged has no direction left.
             let alpha = if curvature[j] > 0.0 { rz[j] / curvature[j] } else { 0.0 };
             dense::add_scaled(dense::column_mut(x.as_mut(), j), alpha, dense::column(p.as_ref(), j));
             dense::add_scaled(dense::column_mut(r.as_mut(), j), -alpha, dense::column(image.as_ref(), j));
@@ -171,7 +171,7 @@ fn interior_masses(evidence: &Evidence<'_>, gamma: MatRef<'_, f64>, start: MatRe
 /// M-19: the direction that is carried least.
 ///
 /// It is shown, not judged. M̂ holds the whole rigid-body mass whatever the modes (M-16), so what the modes leave out
-/// still moves with the interface; what it misses is its own vibration above the highest mode, which nobody asked for, and
+/// still moves with the interface; what it misses is its own vibration above the highest mode, which the job does not ask for, and
 /// the deflection under its own inertia, which M-18 measures.
 pub(super) fn effective_mass(masses: &EffectiveMasses) -> Option<Check> {
     let carried = |j: usize| masses.shares.iter().map(|shares| shares[j]).sum::<f64>();

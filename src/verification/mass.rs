@@ -29,7 +29,7 @@ pub(super) fn preserved(evidence: &Evidence<'_>) -> Check {
     }
 }
 
-/// Rounding of ÛᵀM̂Û: an interface that is small beside the component holds large masses on long levers, which cancel.
+/// Rounding of ÛᵀM̂Û: an interface that is small compared with the component holds large masses on long levers, which cancel.
 fn rounding(evidence: &Evidence<'_>) -> f64 {
     const NOISE_FACTOR: f64 = 10.0;
     let (m, u) = (&evidence.reduction.mass, &evidence.reduction.rigid_body_modes);
@@ -59,7 +59,7 @@ pub(super) fn expected(evidence: &Evidence<'_>) -> Option<Check> {
     }
     let may_lack_rows = !known.is_free && expect.mass.is_none_or(|expected| mass < expected);
     let centre = known.place.map_or_else(String::new, |Place { centre, gyration }| {
-        // What is rounding compared with the component's size would only draw the eye.
+        // Rounding compared with the component's size is shown as zero.
         let shown = |value: f64| quantity(if value.abs() < 1e-12 * gyration { 0.0 } else { value }, 6);
         format!(", centre ({})", centre.map(shown).join(", "))
     });
@@ -88,7 +88,7 @@ fn found_mass(mass: f64, expected: Option<f64>) -> String {
     format!("{found}, expected {}{ratio}", quantity(expected, 6))
 }
 
-/// Share of the mass that supports may take out of a held model: one that lacks more has lost more than its supports.
+/// Share of the mass that supports may take out of a held model. A model that lacks more has another fault.
 const TAKEN_OUT: f64 = 0.5;
 
 /// Mass and centre in scaled units.
@@ -127,7 +127,7 @@ impl Place {
         let centre = [m_f[(1, 5)] / mass, m_f[(2, 3)] / mass, m_f[(0, 4)] / mass];
         let about_origin = (m_f[(3, 3)] + m_f[(4, 4)] + m_f[(5, 5)]) / (2.0 * mass);
         let square = about_origin - centre.iter().map(|x| x * x).sum::<f64>();
-        // A point has none; what rounding leaves of one is no length to compare with.
+        // A point has none; what rounding leaves of one is not a length to compare with.
         let gyration = if square > f64::EPSILON * about_origin { square.sqrt() } else { about_origin.sqrt() };
         Self { centre, gyration }
     }

@@ -1,7 +1,7 @@
 //! Proof of what the reduction preserves.
 //!
 //! Verification never changes a result. It measures, names the equation and compares with a limit of the form
-//! max(engineering, arithmetic, data); each line says which of the three was active. The identifiers are stable.
+//! max(engineering, arithmetic, data). Each check says which of the three was active. Identifiers of checks are stable.
 
 pub mod check;
 mod completeness;

@@ -1,11 +1,11 @@
-//! A small symmetric pencil in spectral form: its eigenvalues, and its response at any frequency for the price of a sum.
+//! A small symmetric pencil in spectral form: its eigenvalues, and its response at any frequency as a sum over them.
 //!
 //! ```text
 //! K + αM = L Lᵀ,  L⁻¹ M L⁻ᵀ = Q Θ Qᵀ,  P = L⁻ᵀ Q         r × r, α > 0
 //! (K − zM)⁻¹ = P [1 − (z + α) θ]⁻¹ Pᵀ                       for any complex z
 //! λ = 1/θ − α                                               accurate at the low end
 //! ```
-//! No θ is divided by, so that coordinates without mass (θ = 0) answer statically, as they should. With structural
+//! Nothing is divided by θ, so that coordinates without mass (θ = 0) answer statically, as they should. With structural
 //! damping K (1 + iη) − ω²M = (1 + iη) (K − zM) at z = ω² / (1 + iη): a complex symmetric matrix is never factored.
 
 use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
@@ -29,7 +29,7 @@ impl Spectral {
     /// The spectral form of a pencil; α should be near the lowest elastic eigenvalue.
     ///
     /// # Errors
-    /// [`Error::DenseEigen`] where K + αM is not definite, M is negative, or either holds values that are not numbers.
+    /// [`Error::DenseEigen`] where K + αM is not definite, M is negative, or either holds NaN.
     pub(super) fn of(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Result<Self> {
         let n = k.nrows();
         let spectral = Self::if_definite(k, m, alpha)?.ok_or(Error::DenseEigen { n })?;
@@ -40,7 +40,7 @@ impl Spectral {
         }
     }
 
-    /// The same whatever M is; none where K + αM is not definite.
+    /// The decomposition of a pencil whatever M is; none where K + αM is not definite.
     pub(super) fn if_definite(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Result<Option<Self>> {
         let n = k.nrows();
         let shifted = Mat::from_fn(n, n, |i, j| k[(i, j)] + alpha * m[(i, j)]);

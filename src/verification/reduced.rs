@@ -14,7 +14,7 @@ use crate::modes::Boundary;
 use crate::sparse::absolute_energy;
 use crate::sparse::{Leading, panels};
 
-/// How large the terms are that the reduced stiffness is summed from: rounding of an entry is ε times these.
+/// The size of the terms that the reduced matrices are summed from: rounding of an entry is ε times these.
 pub(super) struct Terms {
     /// max (|Ψ|ᵀ|K||Ψ|)_ii / K_BB,ii of the interface columns.
     interface: f64,
@@ -163,7 +163,7 @@ pub(super) fn frequency_difference(evidence: &Evidence<'_>, spectrum: &Spectrum)
         }
     }
     // Both values carry the rounding of their quadratic forms, for which the error bars stand; not that of the residual,
-    // which is the mode's own fault.
+    // which belongs to the mode.
     let bars = modes.errors.iter().map(|error| error.data_bar).fold(0.0, f64::max);
     let Judged { limits, fail_above } = limits::of_frequency(bars, share_of_data(evidence.partition));
     Check {
@@ -198,7 +198,7 @@ pub(super) fn symmetry(evidence: &Evidence<'_>, terms: &Terms) -> Check {
 
 /// M-25, definiteness.
 ///
-/// A mass that is singular is no failure: rotations without inertia leave one. M-23 warns of it.
+/// A mass that is singular is not a failure: rotations without inertia leave one. M-23 warns of it.
 pub(super) fn definiteness(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check {
     let stiffness = spectrum.negative_share();
     let first = spectrum.first_elastic();

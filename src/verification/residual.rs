@@ -4,7 +4,7 @@
 //! ω_i = |r_i| / ((|K| + |λ||M|)|x|)_i                         a row that moves
 //! ω_i = |r_i| / ((‖K_i‖ + |λ|‖M_i‖) ‖x‖_∞), equilibrated      a row at rest: its own terms are rounding themselves
 //! ```
-//! After Arioli, Demmel and Duff (1989), who tell the two kinds of rows apart by the size of their terms.
+//! Arioli, Demmel and Duff (1989) tell the two kinds of rows apart by the size of their terms.
 
 use faer::{Mat, MatRef};
 
@@ -61,7 +61,7 @@ impl<'a> Rows<'a> {
             let [k, m] = self.of_row[row];
             let norm = (k + lambda.abs() * m) * largest / d[row];
             let size = if *terms > AT_REST * norm { *terms } else { norm };
-            // A row without terms has nothing to leave a residual of.
+            // A row without terms has no residual.
             let error = if *r == 0.0 { 0.0 } else { r.abs() / size };
             if dense::worse(error, worst.0) {
                 worst = (error, row);
@@ -71,7 +71,7 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// What some vectors leave of a pencil, n × k each.
+/// Residuals of some vectors in a pencil, n × k each.
 pub(super) struct Residuals {
     /// K x.
     pub(super) forces: Mat<f64>,

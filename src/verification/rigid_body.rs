@@ -1,11 +1,11 @@
-//! Mass properties of the reduced model by routes that share nothing with each other: M-16.
+//! Mass properties of the reduced model by independent routes: M-16.
 //!
 //! ```text
 //! geometry      UᵀMU         from the coordinates and the full mass
 //! stiffness     Û = N N⁺U_B  N the null space of K̂_BB as a dense decomposition finds it
 //! eigenvectors  Û = Φ ΦᵀM̂Û   Φ the zero modes of the reduced pencil
 //! ```
-//! Each gives M_F = ÛᵀM̂Û. After the checks that the space industry makes of Craig-Bampton models, free of units here.
+//! Each gives M_F = ÛᵀM̂Û. The space industry checks Craig-Bampton models in this way; here the checks do not depend on units.
 
 use faer::{Mat, MatRef};
 
@@ -96,7 +96,7 @@ pub(super) fn routes_agree(evidence: &Evidence<'_>, spectrum: &Spectrum, routes:
     // A null space is known to the size of what is zero over what is not.
     let (zero, elastic) = (zero_level(evidence), spectrum.lowest_elastic);
     let limits = Limits { engineering: 1e-10, arithmetic: zero.arithmetic / elastic, data: zero.data / elastic };
-    // Beside a motion that is nearly without energy no decomposition tells the null space: W-GREY has said so.
+    // Where a motion is nearly without energy no decomposition tells the null space: W-GREY has said so.
     let fail_above = if zero.value() > FAIL * elastic { 1.0 } else { FAIL };
     let limits = limits.capped(FAIL, FAIL);
     Check {

@@ -14,7 +14,7 @@ use crate::rigid::{noise_of_digits, scales};
 /// How far roundings of one sign may exceed their typical sum.
 const NOISE_FACTOR: f64 = 10.0;
 
-/// M-05, energy; shown, not judged, where no elastic mode is known to compare it with.
+/// M-05, energy. The value is shown and not judged where no elastic mode is known to compare it with.
 pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[Grounding]) -> Check {
     let energy = evidence.rigid.energy;
     let worst = strained(grounding, |direction| direction.energy_ratio);
@@ -38,8 +38,8 @@ pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[
     Check { value, limits: judged.limits, fail_above: judged.fail_above, ..check }
 }
 
-/// Limits of an energy that should be nothing: by the error bars of the modes and what few digits make of rigid-body motion itself,
-/// which those of modes with the interface held do not tell; without either by the moduli of its terms.
+/// Limits of an energy that should be zero. They come from the error bars of the modes and from what few digits make of rigid-body motion
+/// itself, which the bars of modes with the interface held do not show. Without either they come from the moduli of its terms.
 pub(super) fn energy_limits(evidence: &Evidence<'_>, first: f64) -> Judged {
     let modes = &evidence.retained.modes;
     let known = modes.lambda.iter().zip(&modes.errors);

@@ -10,8 +10,8 @@ use crate::error::Result;
 use crate::rigid::unit_motions;
 use crate::sparse::{panels, product};
 
-/// Constraint modes that are all looked at; of more, random combinations are.
-const FEW: usize = 64;
+/// Up to this number every constraint mode is checked; of more, random combinations are.
+const MAX_SINGLE_COLUMNS: usize = 64;
 /// Random combinations: a column that is wrong shows in each of them but for a set of measure zero, and eight leave it a
 /// chance of 10⁻⁸ to be ten times smaller in all of them than it is.
 const PROBES: usize = 8;
@@ -27,7 +27,7 @@ pub(super) fn static_solves(evidence: &Evidence<'_>) -> Result<Check> {
     let partition = evidence.partition;
     let rows = Rows::of(partition.pencil());
     let n_b = partition.n_interface();
-    let (combinations, column_is) = if n_b <= FEW {
+    let (combinations, column_is) = if n_b <= MAX_SINGLE_COLUMNS {
         (Mat::identity(n_b, n_b), "constraint mode")
     } else {
         (gaussian(n_b, &rows.norms.scale[partition.n_internal..]), "random combination")

@@ -19,9 +19,9 @@ pub(super) struct Spectrum {
     is_definite: bool,
     /// The M̂-orthonormal eigenvectors of as many as there are rigid-body modes, r × n_r or fewer.
     pub(super) zero_shapes: Mat<f64>,
-    /// Those under the boundary of the retained modes, zero modes left out.
+    /// Eigenvalues under the boundary of the retained modes, zero modes left out.
     pub(super) same_boundary: Vec<f64>,
-    /// Rigid-body motions that cost K̂ something, and motions that cost it nothing and are none.
+    /// Rigid-body motions that cost energy in K̂, and motions without energy that are not rigid-body motions.
     pub(super) n_held: usize,
     pub(super) n_others: usize,
     /// Zero modes that have mass, and with it a place in the spectrum.

@@ -4,7 +4,7 @@
 mod imports;
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use imports::{Import, Sources, circles};
 

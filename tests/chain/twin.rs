@@ -217,7 +217,7 @@ pub(crate) fn difference(found: MatRef<'_, f64>, expected: MatRef<'_, f64>) -> f
     if expected.ncols() == 0 { 0.0 } else { (found - expected).norm_max() / size }
 }
 
-/// The same of the worst column, each relative to its own largest entry.
+/// The largest difference in the worst column, each relative to its own largest entry.
 pub(crate) fn column_difference(found: MatRef<'_, f64>, expected: MatRef<'_, f64>) -> f64 {
     assert_eq!(found.shape(), expected.shape());
     let columns = 0..found.ncols();

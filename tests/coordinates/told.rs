@@ -66,7 +66,7 @@ fn rotations_that_supports_hold_alone_are_said_in_the_job() {
     assert_eq!(ended.code, ExitCode::Done, "{}{}", ended.out, ended.err);
     assert_eq!(place.superelement("x.supel").tensors().rigid_body_modes.cols(), 3);
     assert_eq!(warnings(&place), [""; 0]);
-    // Springs so soft that they would pass for rounded coordinates are no rounding: K knows three motions without energy.
+    // Springs so soft that they would pass for rounded coordinates are not rounding: K knows three motions without energy.
     let (_, ended) = by_job(&against_rotation(&block(), &[0, 1, 2], 1e-9), "", FOOT);
     assert!(ended.err.contains("E-ROTATIONS-HELD"), "{}{}", ended.out, ended.err);
 }

@@ -107,8 +107,8 @@ fn examine(pairs: &Path, pair: &Pair, method: &str) -> Vec<String> {
     let (stiffness, mass) = (text(&job.stiffness), text(&job.mass));
     let mut args: Vec<&str> = vec!["reduce", "--stiffness", &stiffness, "--mass", &mass, "--interface", &interface];
     args.extend(["--method", method, "--modes", N_MODES, "--output", &output, "--allow-unverified"]);
-    let beside = [("--dofs", job.dofs.as_deref().map(text)), ("--nodes", job.nodes.as_deref().map(text))];
-    for (flag, path) in &beside {
+    let tables = [("--dofs", job.dofs.as_deref().map(text)), ("--nodes", job.nodes.as_deref().map(text))];
+    for (flag, path) in &tables {
         if let Some(path) = path {
             args.extend([*flag, path.as_str()]);
         }

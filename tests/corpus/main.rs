@@ -46,14 +46,14 @@ fn find(folder: &Path, name: &str) -> Option<PathBuf> {
 fn model_job(pairs: &Path, pair: &Pair) -> ModelJob {
     let folder = pairs.join(pair.folder);
     let matrix = |name: &str| find(&folder, name).unwrap_or_else(|| panic!("{}: no {name}", pair.name));
-    let beside = |names: &[&str]| {
+    let next_to_it = |names: &[&str]| {
         (pair.source == Source::Coordinates).then(|| names.iter().find_map(|name| find(&folder, name))).flatten()
     };
     ModelJob {
         stiffness: matrix(pair.files[0]),
         mass: matrix(pair.files[1]),
-        dofs: beside(&["model.dof", "dof.csv"]),
-        nodes: beside(&["nodes.csv"]),
+        dofs: next_to_it(&["model.dof", "dof.csv"]),
+        nodes: next_to_it(&["nodes.csv"]),
         ..ModelJob::default()
     }
 }

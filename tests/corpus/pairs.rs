@@ -5,7 +5,7 @@ use supel::error::Error;
 /// Where rigid-body modes come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Source {
-    /// The dof map and the nodes that lie beside the matrices.
+    /// The dof map and the nodes that lie next to the matrices.
     Coordinates,
     /// The matrices alone.
     Matrices,

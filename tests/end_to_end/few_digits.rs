@@ -127,7 +127,7 @@ fn fault(component: &Component, place: &Place, run: Run, reference: &Found) -> O
     if ended.code == ExitCode::CheckFailed {
         let warnings = body["warnings"].as_array().expect("warnings");
         let is_for_digits = warnings.iter().any(|warning| warning["code"] == "W-DATA-PRECISION");
-        return (!is_for_digits).then(|| format!("fails without a word of the digits: {}", ended.err));
+        return (!is_for_digits).then(|| format!("fails and does not mention the digits: {}", ended.err));
     }
     let found = Found::of(&body);
     if found.n_rigid != reference.n_rigid {

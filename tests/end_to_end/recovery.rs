@@ -132,7 +132,7 @@ fn rows_are_the_basis(case: &Case) {
 /// Rows in single precision recover the deformation to 10⁻⁶, whatever rigid-body motion it rides on; applied to the whole
 /// motion they would lose it in the rounding, a hundred times more for a motion a hundred times larger.
 #[test]
-fn single_precision_serves_the_deformation_alone() {
+fn c_12_single_precision_serves_the_deformation_alone() {
     let case = Case::new();
     let (double, single) = (case.all("double"), case.all("single"));
     assert_eq!(single.tensors().recovery.as_ref().expect("rows").precision(), Precision::Single);
@@ -263,7 +263,7 @@ fn bent_by(case: &Case, load: &[f64; 6]) -> (Vec<f64>, f64) {
     ((0..model.n).map(|row| displacements[(row, 0)]).collect(), turn)
 }
 
-/// The same of the superelement's own stiffness, carried away by a motion of the foot and recovered.
+/// The displacements of nodes under a load by the superelement's own stiffness, carried away by a motion of the foot and recovered.
 fn recovered(file: &Superelement, nodes: &[Vector3], load: &[f64; 6], carried: &Motion) -> Vec<Vector3> {
     let (k, [_, tip]) = (&file.tensors().stiffness, [0, 1].map(|node| file.tensors().interface_positions[node]));
     let of_tip = Mat::from_fn(6, 6, |i, j| k[(6 + i, 6 + j)]);

@@ -112,19 +112,19 @@ fn a_job_does_not_depend_on_the_jobs_before_it() {
     }
 }
 
-/// The same state is shared by jobs that run at the same time.
+/// Jobs that run at the same time share the state of the process.
 #[test]
-fn a_job_does_not_depend_on_the_jobs_beside_it() {
+fn a_job_does_not_depend_on_jobs_that_run_at_its_side() {
     for solver in eigensolvers() {
         let flags = |method: &str| format!("--method {method} --eigensolver {solver} --modes 6 --threads 2");
         let methods = ["herting", "craig-bampton", "herting", "craig-bampton"];
         let alone = methods.map(|method| beam(&square_beam(), &flags(method)));
-        let beside = std::thread::scope(|scope| {
+        let together = std::thread::scope(|scope| {
             let started = methods.map(|method| scope.spawn(move || beam(&square_beam(), &flags(method))));
             started.map(|job| job.join().expect("a job that ends"))
         });
-        for (job, (beside, alone)) in beside.iter().zip(&alone).enumerate() {
-            assert_same(beside, alone, &format!("{solver}, job {job} beside three others"));
+        for (job, (together, alone)) in together.iter().zip(&alone).enumerate() {
+            assert_same(together, alone, &format!("{solver}, job {job} together with three others"));
         }
     }
 }

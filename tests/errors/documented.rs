@@ -9,25 +9,46 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The cells of every row of the document whose first is a code with this start.
-fn rows(start: &str) -> Vec<Vec<String>> {
+/// The document, line by line, each with the exit code that the heading above it names.
+fn lines_by_exit_code() -> Vec<(Option<u8>, String)> {
     let text = std::fs::read_to_string(root().join("docs/errors.md")).expect("the document");
-    let rows = text.lines().filter_map(|line| line.strip_prefix("| `")?.strip_suffix(" |"));
-    let cells = rows.map(|row| row.split(" | ").map(|cell| cell.trim_matches('`').to_owned()).collect::<Vec<_>>());
-    cells.filter(|cells| cells[0].starts_with(start)).collect()
+    let mut exit_code = None;
+    let with_code = |line: &str| {
+        if line.starts_with('#') {
+            exit_code = line.split_once(": exit code ").map(|(_, code)| code.parse().expect("an exit code"));
+        }
+        (exit_code, line.to_owned())
+    };
+    text.lines().map(with_code).collect()
 }
 
-/// One line for each error, in the order of the enum, with its exit code, what is wrong and what to do.
+/// The cells of every row of the document whose first is a code with this start, and the exit code of its section.
+fn rows(start: &str) -> Vec<(Option<u8>, Vec<String>)> {
+    let cells = |line: &str| -> Option<Vec<String>> {
+        let row = line.strip_prefix("| `")?.strip_suffix(" |")?;
+        Some(row.split(" | ").map(|cell| cell.trim_matches('`').to_owned()).collect())
+    };
+    let rows = lines_by_exit_code().into_iter().filter_map(|(exit_code, line)| Some((exit_code, cells(&line)?)));
+    rows.filter(|(_, cells)| cells[0].starts_with(start)).collect()
+}
+
+/// One line for each error, in the section of its exit code and there in the order of the enum, with what is wrong and
+/// what to do. Sections follow each other by exit code.
 #[test]
 fn every_error_has_its_line() {
-    let found: Vec<(String, String)> = rows("E-").into_iter().map(|row| (row[0].clone(), row[1].clone())).collect();
-    let of_enum = Error::CODES.iter().map(|(_, code, class)| (code.to_string(), (*class as u8).to_string()));
-    let others = [(USAGE_CODE, "2"), (INTERNAL_CODE, "70")].map(|(code, exit)| (code.to_owned(), exit.to_owned()));
-    assert_eq!(found, of_enum.chain(others).collect::<Vec<_>>());
-    for row in rows("E-").into_iter().chain(rows("W-")) {
-        let n_cells = if row[0].starts_with("E-") { 4 } else { 3 };
-        assert_eq!(row.len(), n_cells, "{row:?}");
-        assert!(row.iter().skip(n_cells - 2).all(|cell| cell.contains(' ')), "{row:?}");
+    let found: Vec<(u8, String)> = rows("E-")
+        .into_iter()
+        .map(|(exit, row)| (exit.expect("a section with an exit code"), row[0].clone()))
+        .collect();
+    let of_enum = Error::CODES.iter().map(|(_, code, class)| (*class as u8, code.to_string()));
+    let others = [(2, USAGE_CODE), (70, INTERNAL_CODE)].map(|(exit, code)| (exit, code.to_owned()));
+    let mut expected: Vec<(u8, String)> = of_enum.chain(others).collect();
+    // A stable sort keeps the order of the enum inside a class.
+    expected.sort_by_key(|(exit, _)| *exit);
+    assert_eq!(found, expected);
+    for (_, row) in rows("E-").into_iter().chain(rows("W-")) {
+        assert_eq!(row.len(), 3, "{row:?}");
+        assert!(row.iter().skip(1).all(|cell| cell.contains(' ')), "{row:?}");
     }
 }
 
@@ -46,7 +67,7 @@ fn codes_are_unique_and_say_what_they_are() {
 
 /// The codes of warnings in the document.
 pub(crate) fn warnings() -> Vec<String> {
-    rows("W-").into_iter().map(|row| row[0].clone()).collect()
+    rows("W-").into_iter().map(|(_, row)| row[0].clone()).collect()
 }
 
 /// The codes of warnings in the sources are those of the document, in alphabetical order.

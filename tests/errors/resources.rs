@@ -59,7 +59,7 @@ write     = { superelement = "x.supel" }
     assert_eq!(error.code(), "E-MEM");
 }
 
-/// The same factor where the system gives no such memory: an error, not an abort. The limit holds for a process of its own.
+/// A factor for which the system gives no memory is an error, not an abort. The limit holds for a process of its own.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_factor_that_cannot_be_allocated() {
@@ -161,7 +161,7 @@ fn slices_at_the_same_time_are_those_that_memory_holds() {
     assert_eq!(at_once(None).expect("no limit"), 4);
 }
 
-/// The same frequencies within their bars and the same verdicts, or a refusal that says what to do, and never silently.
+/// Mixed precision gives the same frequencies within their bars and the same verdicts, or a refusal that says what to do.
 #[test]
 fn a_job_that_fits_in_mixed_precision_alone() {
     let place = Place::with(&brick([10, 9, 8], [1.0, 0.9, 0.8], &Material::STEEL_SI));

@@ -12,11 +12,11 @@ pub(crate) fn diagonal(values: &[f64]) -> SparseMatrix {
 pub(crate) fn symmetric(
     n: usize,
     edges: &[(u32, u32)],
-    mut beside: impl FnMut(u32, u32) -> f64,
+    mut off_diagonal: impl FnMut(u32, u32) -> f64,
     diagonal: impl Fn(usize) -> f64,
 ) -> SparseMatrix {
     let mut triplets = Triplets::default();
-    edges.iter().for_each(|(row, col)| triplets.push(*row, *col, beside(*row, *col)));
+    edges.iter().for_each(|(row, col)| triplets.push(*row, *col, off_diagonal(*row, *col)));
     (0..n).for_each(|dof| triplets.push(dof as u32, dof as u32, diagonal(dof)));
     triplets.assemble(n, Declared::Symmetric, "symmetric".as_ref()).expect("a matrix").0
 }
@@ -61,7 +61,7 @@ pub(crate) fn grid(size: [usize; 3]) -> SparseMatrix {
     spd(size.iter().product(), &grid_edges(size))
 }
 
-/// The same in an order drawn by lot, which is no postorder of its tree.
+/// `edges` in an order drawn by lot, which is no postorder of its tree.
 fn shuffled(n: usize, edges: &[(u32, u32)]) -> Vec<(u32, u32)> {
     let mut random = SplitMix64::new(3);
     let mut order: Vec<u32> = (0..n as u32).collect();

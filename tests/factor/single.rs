@@ -70,7 +70,7 @@ fn solutions_are_as_accurate_as_those_in_double_precision() {
 
 /// A matrix perturbed by rounding of single precision would have other eigenvalues altogether; its factor acts by κ(L) = √κ.
 #[test]
-fn ill_conditioned_solutions_take_few_steps() {
+fn c_11_ill_conditioned_solutions_take_few_steps() {
     let matrix = cantilever(600);
     let mass = unit(600);
     let analysis = Analysis::new(pencil(&matrix, &mass)).expect("an analysis");

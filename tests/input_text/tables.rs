@@ -6,7 +6,7 @@ use supel::input::{Input, InputNote, read};
 
 use crate::{Folder, gzip, job, mtx};
 
-/// Reads a model of n rows with these tables beside it.
+/// Reads a model of n rows with these tables.
 fn read_tables(n: usize, dofs: Option<&[u8]>, nodes: Option<&[u8]>) -> Result<Input> {
     let folder = Folder::new();
     let matrix = folder.write("k.mtx", mtx("symmetric", n, &[(1, 1, 1.0), (n, n, 1.0)]));

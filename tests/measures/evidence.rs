@@ -52,7 +52,7 @@ pub(crate) fn with_evidence<T>(
     })
 }
 
-/// The same for a generated model with all its digits.
+/// The evidence of a generated model with all its digits.
 pub(crate) fn with_model<T>(
     model: &supel_models::Model,
     interfaces: &[InterfaceJob],

@@ -55,7 +55,7 @@ fn disturb(matrix: &mut faer::Mat<f64>, (row, column): (usize, usize), share: f6
     matrix[(row, column)] += share * largest;
 }
 
-/// The same on both sides of the diagonal, relative to it.
+/// Adds to an entry on both sides of the diagonal, relative to it.
 fn disturb_pair(matrix: &mut faer::Mat<f64>, (i, j): (usize, usize), share: f64) {
     let by = share * (matrix[(i, i)] * matrix[(j, j)]).sqrt();
     matrix[(i, j)] += by;

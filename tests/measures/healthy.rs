@@ -63,7 +63,7 @@ fn slender_and_thin_solids_pass() {
     // Three nodes a thousandth of the length apart react its rotations a thousand times worse than its translations.
     assert_warns_only("slender, one end", &slender, &[direct("end", &[1, 102, 203])], 6, &["M-23"]);
     let plate = brick([30, 30, 1], [1.0, 1.0, 1e-3], &Material::UNIT);
-    // c = 10¹¹: the roundings of whoever made K may shift a frequency by more than a tenth of a per mille.
+    // c = 10¹¹: the roundings of the program that wrote K may shift a frequency by more than a tenth of a per mille.
     assert_warns_only("plate", &plate, &[direct("corners", &[1, 31, 931])], 6, &["M-09"]);
     let beam = brick([20, 2, 2], [10.0, 1.0, 1.0], &Material::UNIT);
     assert_healthy("beam", &beam, &[direct("end", &[1, 22, 64])], 12);

@@ -1,4 +1,4 @@
-//! What results must not depend on: the order of rows, units, the number of bodies beside.
+//! What results must not depend on: the order of rows, units, the number of other bodies.
 
 use proptest::prelude::*;
 use supel_models as models;
@@ -22,7 +22,7 @@ fn eigenvalues(chain: &Chain) -> Vec<f64> {
     found.iter().map(|lambda| lambda * unit).collect()
 }
 
-/// The same model with its rows in another order; row k of the old becomes row `place[k]`.
+/// `model` with its rows in another order; row k of the old becomes row `place[k]`.
 fn permuted(model: &models::Model, place: &[u32]) -> models::Model {
     let moved = |entries: &[models::model::Entry]| {
         entries.iter().map(|&(i, j, value)| (place[i as usize], place[j as usize], value)).collect()

@@ -45,7 +45,7 @@ fn hinge_between_interfaces() {
     let error = refusal(reduce(&hinged_pair(), &pins, Method::Herting, 2));
     assert!(matches!(error, Error::Mechanism { n_rigid: 6, n_more: 1 }), "{error}");
     assert_says(&error, ErrorClass::ModelPhysics, &["1 motions", "6 rigid-body modes", "close hinges"]);
-    // Held at the interface the pair is no mechanism, and Craig-Bampton keeps the hinge in its constraint modes.
+    // Held at the interface the pair is not a mechanism, and Craig-Bampton keeps the hinge in its constraint modes.
     let chain = reduce(&hinged_pair(), &pins, Method::CraigBampton, 2).expect("a component held at its interface");
     assert_eq!(chain.rigid.count(), 6);
 }
@@ -133,7 +133,7 @@ fn with_spectrum(lambda: &[f64]) -> models::Model {
     models::Model { stiffness, mass, dofs: Vec::new(), ..spring(n, Ends::Free) }
 }
 
-/// A rigid-body motion of an energy below zero is rounding of whoever made K as long as it is nothing compared with the first elastic mode;
+/// A rigid-body motion of an energy below zero is rounding of the program that wrote K as long as it is nothing compared with the first elastic mode;
 /// what is more is an eigenvalue of K, which is counted before K is called indefinite.
 #[test]
 fn negative_energy_of_a_rigid_body_motion_is_rounding_or_counted() {

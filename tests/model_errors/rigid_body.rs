@@ -45,7 +45,7 @@ fn counts_are_found_not_assumed() {
     }
 }
 
-/// A hinge adds a zero mode that is no rigid-body motion: coordinates give six, the matrices seven.
+/// A hinge adds a zero mode that is not a rigid-body motion: coordinates give six, the matrices seven.
 #[test]
 fn hinged_pair_has_a_seventh_zero_mode() {
     let model = hinged_pair();
@@ -83,7 +83,7 @@ fn coordinates_with_axes_exchanged() {
     assert_says(&error, ErrorClass::InputData, &["coordinates", "node ", "check units, axes"]);
 }
 
-/// One node of sixty, moved by a hundredth of an edge, is found and named: the force is largest there or beside it.
+/// One node of sixty, moved by a hundredth of an edge, is found and named: the force is largest there or at a neighbour.
 #[test]
 fn one_node_out_of_place() {
     let mut model = brick([4, 3, 2], [4.0, 3.0, 2.0], &Material::UNIT);

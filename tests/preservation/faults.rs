@@ -1,7 +1,6 @@
 //! The checker checked: each measure of preservation fails on a reduced model that was damaged for it.
 
 use faer::Scale;
-use supel::factor::Analysis;
 use supel::job::{Certify, Job, Method};
 use supel::modes::Retained;
 use supel::reduction::Reduction;

@@ -20,7 +20,7 @@ impl Dense {
         Self { k: full(&model.stiffness), m: full(&model.mass) }
     }
 
-    /// The same under a congruence.
+    /// These matrices under a congruence.
     pub(crate) fn transformed(&self, t: &Mat<f64>) -> Self {
         Self { k: t.transpose() * &self.k * t, m: t.transpose() * &self.m * t }
     }

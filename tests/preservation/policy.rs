@@ -1,6 +1,5 @@
 //! What is compared: cheap defaults, and whatever the scene states.
 
-use supel::factor::Analysis;
 use supel::job::{Job, Method};
 use supel::modes::Retained;
 use supel::verification::Evidence;

@@ -77,7 +77,7 @@ impl Component {
         self.reduced_from(&self.model())
     }
 
-    /// The same job for another model of the same nodes.
+    /// This job for another model of the same nodes.
     pub(crate) fn reduced_from(&self, model: &Model) -> Chain {
         reduce(model, &self.interfaces(), self.method, self.count).unwrap_or_else(|error| panic!("{self:?}: {error}"))
     }

@@ -40,7 +40,7 @@ fn same(found: &[f64], expected: &[f64], n_rigid: usize, tolerance: f64) -> Resu
     Ok(())
 }
 
-/// The same model with its rows in another order; row k of the old becomes row `place[k]`.
+/// `model` with its rows in another order; row k of the old becomes row `place[k]`.
 fn permuted(model: &Model, place: &[u32]) -> Model {
     let moved = |entries: &[Entry]| {
         entries.iter().map(|&(i, j, value)| (place[i as usize], place[j as usize], value)).collect()

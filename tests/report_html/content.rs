@@ -56,7 +56,7 @@ fn verdict_comes_first_and_counts_the_checks() {
     assert_eq!(failing.body.verdict(), Verdict::Fail);
     let failing = said(failing);
     let expected =
-        "✗ Not verified 20 of 26 checks passed; failed: M-03, M-12, M-21; past the limit: M-02, M-11, M-20; 1 warning.";
+        "✗ Not verified 19 of 25 checks passed; failed: M-03, M-12, M-21; past the limit: M-02, M-11, M-20; 1 warning.";
     assert!(failing.contains(expected), "{failing}");
     let mut incomplete = sample::passing_report();
     for (n_found, doubt, expected) in
@@ -150,9 +150,10 @@ fn every_check_is_explained_and_advice_follows_what_is_past_its_limit() {
 }
 
 #[test]
-fn explanations_cover_m_01_to_m_26_in_order() {
+fn explanations_cover_every_number_in_use_in_order() {
     let ids: Vec<String> = EXPLANATIONS.iter().map(|explanation| explanation.id.to_owned()).collect();
-    let expected: Vec<String> = (1..=26).map(|number| format!("M-{number:02}")).collect();
+    let expected: Vec<String> =
+        (1..=26).filter(|number| *number != 22).map(|number| format!("M-{number:02}")).collect();
     assert_eq!(ids, expected);
 }
 

@@ -36,7 +36,7 @@ fn report_of_all_checks() -> Report {
     report
 }
 
-/// The page read back by a parser that forgives nothing.
+/// The page read back by a strict XML parser.
 fn parse(page: &str) -> Document<'_> {
     let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
     Document::parse_with_options(page, options).unwrap_or_else(|error| panic!("the page is not well-formed: {error}"))

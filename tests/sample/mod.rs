@@ -67,7 +67,7 @@ pub(crate) fn full_report() -> Report {
     report
 }
 
-/// The same without anything to complain of.
+/// A report without anything to complain of.
 pub(crate) fn passing_report() -> Report {
     Report { body: body(), run: run_facts() }
 }

@@ -1,4 +1,4 @@
-//! Mass matrices: lines MS-01 to MS-07. MS-08 (added masses) waits for its feature.
+//! Mass matrices: lines MS-01 to MS-08.
 
 use supel::error::Error;
 use supel_models::model::Entry;
@@ -181,4 +181,28 @@ fn ms_07_seismic_mass_at_the_base() {
     // Modes of the interior do not know the mass of the interface.
     assert!(worst_ratio(&eigenvalues(&clamped), &eigenvalues(&light)) <= 1e-13);
     let _ = reduce(&seismic, &[direct("pins", &[1, 12, 28])], Method::Herting, 2).expect("a chain");
+}
+
+/// A rotor at two of the interface nodes, as heavy as the component: Craig-Bampton's modes of the interior do not know it,
+/// free modes do, and no frequency rises (Rayleigh).
+#[test]
+fn ms_08_a_mass_added_at_the_interface() {
+    let block = brick([3, 2, 2], [3.0, 2.1, 1.9], &Material::UNIT);
+    let pins = [direct("pins", &[1, 12, 28])];
+    let mut loaded = block.clone();
+    for entry in loaded.mass.iter_mut().filter(|entry| entry.0 == entry.1) {
+        if [1, 28].contains(&block.dofs[entry.0 as usize].0) {
+            entry.2 += 6.0;
+        }
+    }
+    for eigensolver in eigensolvers() {
+        let found =
+            |model: &Model, method| eigenvalues(&Case::new(model, &pins).method(method).by(eigensolver).accepted());
+        let [alone, with_rotor] = [&block, &loaded].map(|model| found(model, "craig-bampton"));
+        assert!(worst_ratio(&with_rotor, &alone) <= 1e-13, "{eigensolver}: {with_rotor:?} for {alone:?}");
+        let [alone, with_rotor] = [&block, &loaded].map(|model| found(model, "herting"));
+        let is_lower = |(with_rotor, alone): (&f64, &f64)| *with_rotor < alone * (1.0 + 1e-12);
+        assert!(with_rotor.iter().zip(&alone).all(is_lower), "{eigensolver}: {with_rotor:?} for {alone:?}");
+        assert!(with_rotor[0] < 0.9 * alone[0], "{eigensolver}: {with_rotor:?} for {alone:?}");
+    }
 }

@@ -41,10 +41,10 @@ impl Two {
     }
 }
 
-/// A symmetric tridiagonal matrix: diagonal, and what stands beside it.
+/// A symmetric tridiagonal matrix: its diagonal and the entries next to it.
 pub(crate) struct Tridiagonal {
     pub(crate) diagonal: Vec<Two>,
-    pub(crate) beside: Vec<Two>,
+    pub(crate) off_diagonal: Vec<Two>,
 }
 
 /// The lowest `count` eigenvalues of T x = λ W x, W positive definite, T not negative, to thirty bits beyond a double.
@@ -56,7 +56,7 @@ pub(crate) fn eigenvalues(t: &Tridiagonal, w: &Tridiagonal, count: usize, above:
         for i in 0..t.diagonal.len() {
             let mut next = shifted(t.diagonal[i], w.diagonal[i]);
             if i > 0 {
-                let b = shifted(t.beside[i - 1], w.beside[i - 1]);
+                let b = shifted(t.off_diagonal[i - 1], w.off_diagonal[i - 1]);
                 next = next.plus(b.times(b).over(pivot).negative());
             }
             negative += usize::from(next.0 < 0.0);
@@ -82,9 +82,9 @@ pub(crate) fn eigenvalues(t: &Tridiagonal, w: &Tridiagonal, count: usize, above:
 #[test]
 fn chain_of_springs_is_exact() {
     let n = 40;
-    let of = |diagonal: f64, beside: f64| Tridiagonal {
+    let of = |diagonal: f64, off_diagonal: f64| Tridiagonal {
         diagonal: vec![Two(diagonal, 0.0); n],
-        beside: vec![Two(beside, 0.0); n - 1],
+        off_diagonal: vec![Two(off_diagonal, 0.0); n - 1],
     };
     let found = eigenvalues(&of(2.0, -1.0), &of(1.0, 0.0), 10, 5.0);
     let exact = supel_models::spring_spectrum(n, supel_models::Ends::Fixed);

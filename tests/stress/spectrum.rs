@@ -3,7 +3,7 @@
 //! Every answer is certified by Sturm counts, and every line that has a right answer is solved by both eigensolvers. ARPACK
 //! runs behind what its known faults ask for: power-of-two scaling against its absolute floor, rigid-body modes deflated, and
 //! sweeps that deflate what was found until nothing larger is left, against missed copies. Both therefore agree in
-//! every line. What ARPACK gives without these, and that it is wrong, is shown beside the search itself
+//! every line. What ARPACK gives without these, and that it is wrong, is shown next to the search itself
 //! (`src/modes/arpack/sweep.rs`).
 
 use supel::dense;
@@ -118,7 +118,7 @@ fn e_03_cut_inside_a_pair() {
     }
 }
 
-/// The same where the band comes in slices and nothing is known above its end: pairs on the end, clusters across it.
+/// A cut inside a pair where the band comes in slices and nothing is known above its end: pairs on the end, clusters across it.
 #[test]
 fn e_03_cut_inside_a_pair_at_the_end_of_the_last_slice() {
     let integers: Vec<f64> = (1..=1100).map(f64::from).collect();
@@ -375,7 +375,7 @@ fn e_11_start_orthogonal_to_a_mode() {
     }
 }
 
-/// The same elastic modes from every shift: where one is too near the spectrum or zero it is refused, and the tool's own is
+/// Every shift gives the same elastic modes: where one is too near the spectrum or zero it is refused, and the tool's own is
 /// taken instead.
 #[test]
 fn s_02_shift_sweep() {
@@ -476,7 +476,7 @@ fn c_10_no_further_mode_exists() {
     }
 }
 
-/// The same in slices: of a chain with every third mass 500 modes are left where 600 are asked for, each spring between them a third.
+/// Too many modes in slices: of a chain with every third mass 500 modes are left where 600 are asked for, each spring between them a third.
 #[test]
 fn c_10_too_many_modes_in_slices() {
     let mut model = spring(1502, Ends::Fixed);

@@ -51,7 +51,7 @@ pub(crate) fn for_each_case(method: Method, check: impl Fn(&Case, &Chain, &Twin)
     }
 }
 
-/// The same with both methods.
+/// Runs a check on every case with both methods.
 pub(crate) fn for_each_method(check: impl Fn(&Case, &Chain, &Twin)) {
     for method in [Method::CraigBampton, Method::Herting] {
         for_each_case(method, &check);
@@ -75,7 +75,7 @@ fn sheet() -> Model {
     membrane([4, 3], [4.0, 2.0], &Material::UNIT)
 }
 
-/// The same matrices without the meaning of their rows.
+/// The matrices of a model without the meaning of their rows.
 fn anonymous(model: Model) -> Model {
     Model { dofs: Vec::new(), ..model }
 }

@@ -50,7 +50,7 @@ fn elastic_modes_are_orthogonal_in_mass_and_stiffness() {
                 let (coupling, bound) = (masses[(i, j)].abs(), residual + n * EPS * sizes[(i, j)]);
                 assert!(coupling <= bound, "{}: XᵀMX of {i} and {j} is {coupling:e}, bound {bound:e}", case.name);
                 let coupling = energies[(i, j)].abs() / (lambda[i] * lambda[j]).sqrt();
-                // K x = λ M x + r: what is left of XᵀMX enters beside the residual.
+                // K x = λ M x + r: what is left of XᵀMX enters in addition to the residual.
                 let bound = 2.0 * residual * (lambda[j] / lambda[i]).sqrt() + n * (bar(chain, i) + bar(chain, j));
                 assert!(coupling <= bound, "{}: XᵀKX of {i} and {j} is {coupling:e}, bound {bound:e}", case.name);
             }

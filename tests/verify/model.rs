@@ -113,7 +113,7 @@ fn a_model_that_is_held() {
     assert_fails(&failures(&place), "full model has as many free motions");
 }
 
-/// The same matrices in other bytes: a warning that names the file, and nothing fails.
+/// The model's matrices in other bytes: a warning names the file, and nothing fails.
 #[test]
 fn the_same_matrices_in_another_file_warn() {
     let place = reduced("herting");

@@ -47,7 +47,7 @@ fn changed(matrix: &Matrix, (i, j): (usize, usize), factor: f64) -> Matrix {
     })
 }
 
-/// The same for a matrix that is not symmetric.
+/// Adds to one entry of a matrix that is not symmetric.
 fn changed_at(matrix: &Matrix, (i, j): (usize, usize), by: f64) -> Matrix {
     Matrix::from_fn(matrix.rows(), matrix.cols(), |row, col| {
         matrix[(row, col)] + if (row, col) == (i, j) { by } else { 0.0 }

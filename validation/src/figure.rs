@@ -204,7 +204,7 @@ pub fn drawn(figure: &Figure, lines: &[Line]) -> Result<String> {
     Ok(svg)
 }
 
-/// From the lowest to the highest value of the lines inside a window, zero among them; none of what is no number.
+/// From the lowest to the highest value of the lines inside a window, zero among them; none of what is not a number.
 fn range(lines: &[Line], [from, to]: [f64; 2]) -> [f64; 2] {
     let points = lines.iter().flat_map(|line| &line.points).filter(|(x, y)| (from..=to).contains(x) && y.is_finite());
     points.fold([0.0, 0.0], |[low, high]: [f64; 2], (_, y)| [low.min(*y), high.max(*y)])
@@ -306,7 +306,7 @@ fn within(points: &[(f64, f64)], x: [f64; 2], y: [f64; 2]) -> Vec<Vec<(f64, f64)
         let (across, along) = (share(a.0, step.0, x), share(a.1, step.1, y));
         let (first, last) = (across[0].max(along[0]).max(0.0), across[1].min(along[1]).min(1.0));
         let place = |share: f64| if share == 1.0 { *b } else { (a.0 + share * step.0, a.1 + share * step.1) };
-        // A line ends where it leaves the window, and before what is no number.
+        // A line ends where it leaves the window, and before what is not a number.
         if first < last && (step.0 + step.1).is_finite() {
             match runs.last_mut().filter(|run| first == 0.0 && run.last() == Some(a)) {
                 Some(run) => run.push(place(last)),

@@ -1,4 +1,4 @@
-//! The page that sets every claim of the paper beside what was found.
+//! The page that compares every claim of the paper with what was found.
 
 use std::fmt::Write;
 
@@ -77,7 +77,7 @@ fn solid(pendulum: &Pendulum) -> String {
     )
 }
 
-/// What the paper says of iterations beside what was counted at the coarsest and the finest tolerance.
+/// What the paper says of iterations, compared with what was counted at the coarsest and the finest tolerance.
 fn iterations(studies: &[Study]) -> String {
     let mut rows = String::new();
     for study in studies {

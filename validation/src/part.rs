@@ -73,7 +73,7 @@ impl Part {
 /// The superelement of a job, by the library; nothing but the model's files is touched.
 ///
 /// # Errors
-/// Those of supel; a verification that did not pass.
+/// The errors of supel; a verification that did not pass.
 pub fn reduced(job: &Path) -> Result<Superelement> {
     struct Silent;
     impl Observer for Silent {

@@ -59,7 +59,7 @@ pub struct Swing {
 /// The bracket reduced, with all of its nodes recovered.
 ///
 /// # Errors
-/// Those of the reduction.
+/// The errors of the reduction.
 pub fn superelement(folder: &Path, n_modes: usize) -> Result<Superelement> {
     let part = part(n_modes);
     let job = part.write(&folder.join(&part.name))?;
@@ -139,7 +139,7 @@ pub struct Figures {
     pub n_modes: usize,
     /// Largest change of energy as a share of the largest kinetic energy.
     pub of_kinetic: f64,
-    /// The same as a share of the largest strain energy.
+    /// Largest change of energy as a share of the largest strain energy.
     pub of_strain: f64,
     /// Largest distance of a coordinate of the base from the finest swing, as a share of its largest value.
     pub away: f64,
@@ -151,7 +151,7 @@ impl Pendulum {
     /// Reduces and swings in folders of their own below `folder`; a frame of the film every 10 ms.
     ///
     /// # Errors
-    /// Those of [`superelement`] and [`swing`].
+    /// The errors of [`superelement`] and [`swing`].
     pub fn new(folder: &Path) -> Result<Self> {
         let one = |n_modes| Ok((n_modes, swing(&superelement(folder, n_modes)?, &SCHEME, 10)?));
         Ok(Self { swings: [0, 20, 60].into_iter().map(one).collect::<Result<_>>()? })

@@ -53,7 +53,7 @@ pub struct Spinning {
 /// The beam's parts, each with its static modes and `n_modes` free modes.
 ///
 /// # Errors
-/// Those of the reduction.
+/// The errors of the reduction.
 pub fn parts(n_components: usize, n_modes: usize, folder: &std::path::Path) -> Result<Vec<Superelement>> {
     let elements = ELEMENTS / n_components;
     let end = |number: usize| [number as f64 / n_components as f64, 0.0, 0.0];

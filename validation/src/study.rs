@@ -33,7 +33,7 @@ impl Study {
     /// Reduces the parts and runs all variants; files of the parts are left in `folder`.
     ///
     /// # Errors
-    /// Those of the reduction and of the reference.
+    /// The errors of the reduction and of the reference.
     pub fn new(example: Example, folder: &Path, program: Option<&Path>) -> Result<Self> {
         let mut study = Self {
             example,

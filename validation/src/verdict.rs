@@ -16,7 +16,7 @@ pub enum Verdict {
     NotReached,
 }
 
-/// A claim of the paper beside what was found.
+/// A claim of the paper and what was found.
 #[derive(Clone, Debug)]
 pub struct Claim {
     /// The paper's words, shortened.
@@ -40,7 +40,7 @@ impl Claim {
         Self { paper, found, reference: "–".to_owned(), verdict }
     }
 
-    /// The same, compared with columns of the reference.
+    /// This claim, compared with columns of the reference.
     pub fn against(self, study: &Study, columns: &[usize]) -> Self {
         let one = |column: &usize| {
             let largest = study.reference.column(*column).into_iter().fold(0.0_f64, |largest, v| largest.max(v.abs()));
@@ -54,9 +54,9 @@ impl Claim {
 
 /// RMS misfit up to which a response is captured "overall", per cent.
 pub const OVERALL: f64 = 15.0;
-/// The same for "accurately"; above it the correlation is "poor".
+/// RMS misfit up to which a response is captured "accurately", per cent; above it the correlation is "poor".
 pub const ACCURATE: f64 = 5.0;
-/// The same for "excellent correlation".
+/// RMS misfit up to which there is "excellent correlation", per cent.
 pub const EXCELLENT: f64 = 2.0;
 /// Share of a misfit from which its change is "noticed", "considerable" or "significant".
 pub const NOTICED: f64 = 0.25;
@@ -72,7 +72,7 @@ pub enum Change {
     Worse,
     /// Larger.
     SlightlyWorse,
-    /// The same.
+    /// Neither larger nor smaller.
     Same,
     /// Smaller.
     SlightlyBetter,

@@ -14,7 +14,7 @@ const HEXAHEDRON: u8 = 12;
 /// Writes the frames of a solid with the length of the deformation at every node.
 ///
 /// # Errors
-/// Those of the HDF5 library.
+/// The errors of the HDF5 library.
 pub fn write(path: &Path, mesh: &HexMesh, frames: &[Frame]) -> Result<()> {
     let (n_nodes, n_cells, n_steps) = (mesh.nodes.len() as i64, mesh.elements.len() as i64, frames.len());
     let root = File::create(path)?.create_group("VTKHDF")?;

@@ -300,8 +300,8 @@ fn bead_on_a_spun_rod_flies_outwards() {
         // The tolerance leaves its share of the Coriolis force, below 200 N, over β' = 4/h² times a mean inertia above 1; each
         // step rounds.
         let left = SCHEME.tolerance * 200.0 * 0.25 * step * step + n_steps as f64 * f64::EPSILON * length(&place);
-        let beside = phi.cos() * place[1] - phi.sin() * place[0];
-        assert!(beside.abs() < left, "it leaves the rod by {beside:e} m, {left:e} allowed");
+        let distance = phi.cos() * place[1] - phi.sin() * place[0];
+        assert!(distance.abs() < left, "it leaves the rod by {distance:e} m, {left:e} allowed");
         length(&place)
     };
     let (mut expected, mut term) = (centre, centre);
@@ -372,7 +372,7 @@ fn bead_thrown_along_a_turning_rod_is_pushed_by_coriolis() {
         assert!((coarse / fine / 4.0 - 1.0).abs() < small, "{coarse:e} {fine:e}");
     }
     assert_stated(&format!("place and force are {:.1e} m and {:.1e} off at 8 ms", coarse[0], coarse[1]));
-    // On the way with constant velocity the bead is u/ω (1 − cos ωt) beside the rod: the difference over two steps is short by
+    // On the way with constant velocity the bead is u/ω (1 − cos ωt) away from the rod: the difference over two steps is short by
     // (ω h)²/12 of one half of the force.
     assert!((24.0 * coarse[2] / (small * small) - 1.0).abs() < small * small, "{:e}", coarse[2]);
     let refused = |velocity: Vector3, kind: Kind| {

@@ -22,7 +22,7 @@ fn finished(example: Example, variant: Variant) -> (Curves, Curves) {
     counted(example, variant, f64::INFINITY)
 }
 
-/// The same with a bound on the mean iterations per step: those of the independent implementation and a tenth.
+/// A run that ends, with a bound on the mean iterations per step: those of the independent implementation and a tenth.
 fn counted(example: Example, variant: Variant, most: f64) -> (Curves, Curves) {
     let run = run(example, variant);
     assert_eq!(run.stopped, None, "{} {}", example.name(), variant.slug());

@@ -89,7 +89,8 @@ fn examples_reach_what_page_and_readme_say() {
     }
 }
 
-/// The same words, and numbers that differ by no more than one in the last digit: processors round differently. Whole numbers
+/// Whether two lines have the same words, and numbers that differ by one in the last digit at most: processors round
+/// differently. Whole numbers
 /// count what an iteration did where it came to a threshold, which rounding moves by a few of ten.
 fn is_same(line: &str, row: &str) -> bool {
     let words = |text: &str| -> Vec<String> { text.split_whitespace().map(str::to_owned).collect() };

@@ -1,6 +1,6 @@
 //! Writes the bundled example: `make-bracket [folder]`, by default `examples/bracket` of the workspace.
 //!
-//! The same bytes every time, up to the version of the libraries that pack them.
+//! It writes the same bytes every time, up to the version of the libraries that pack them.
 
 use std::error::Error;
 use std::fs::{self, File};

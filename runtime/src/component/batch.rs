@@ -44,7 +44,7 @@ pub fn evaluate_all(evaluations: &mut [Evaluation<'_>], threads: NonZero<usize>)
 ///
 /// # Errors
 ///
-/// Those of [`evaluate_all`].
+/// The errors of [`evaluate_all`].
 pub fn tangents_all(evaluations: &mut [Evaluation<'_>], threads: NonZero<usize>) -> Result<(), BatchError> {
     shared(evaluations, threads, ModalComponent::tangents)
 }
@@ -53,7 +53,7 @@ pub fn tangents_all(evaluations: &mut [Evaluation<'_>], threads: NonZero<usize>)
 ///
 /// # Errors
 ///
-/// Those of [`evaluate_all`].
+/// The errors of [`evaluate_all`].
 pub fn exact_tangents_all(evaluations: &mut [Evaluation<'_>], threads: NonZero<usize>) -> Result<(), BatchError> {
     shared(evaluations, threads, ModalComponent::exact_tangents)
 }
@@ -63,7 +63,7 @@ type Evaluate = fn(&ModalComponent, &State<'_>, &mut Workspace) -> Result<(), Ev
 /// Parts per thread: components of different size spread evenly, and threads seldom meet at the queue.
 const PARTS: usize = 8;
 
-/// Every thread takes the next part that nobody has.
+/// Every thread takes the next part that no other thread has taken.
 fn shared(evaluations: &mut [Evaluation<'_>], threads: NonZero<usize>, evaluate: Evaluate) -> Result<(), BatchError> {
     let helpers = threads.get().min(evaluations.len()).saturating_sub(1);
     let size = evaluations.len().div_ceil(PARTS * (helpers + 1)).max(1);

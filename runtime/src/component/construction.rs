@@ -37,7 +37,7 @@ const FREE: f64 = 1e-5;
 /// Forces of rigid-body motion below this are rounding, also in matrices that were printed with twelve digits.
 const UNDAMPED: f64 = 1e-10;
 
-/// The damping in proportion to a stiffness has its residual; forces this much larger are no rounding.
+/// The damping in proportion to a stiffness has its residual; forces this much larger are not rounding.
 const ABOVE_THE_STIFFNESS: f64 = 10.0;
 
 /// Smallest pivot of the rigid-body mass scaled to unit diagonal: of a body ten thousand times its size away from the
@@ -57,7 +57,7 @@ impl ModalComponent {
     ///
     /// # Errors
     ///
-    /// Those of [`with_measures`](Self::with_measures).
+    /// The errors of [`with_measures`](Self::with_measures).
     pub fn new(superelement: &Superelement, frame: FloatingFrame) -> Result<Self, ComponentError> {
         Self::with_measures(superelement, frame, Measures::MotionBased)
     }

@@ -9,12 +9,12 @@ use crate::metadata::Direction;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ComponentError {
-    /// The superelement is joined to nothing.
+    /// The superelement has no interface node.
     #[error(
         "the superelement has no interface node; its motion is that of its interface nodes: reduce it with at least one"
     )]
     NoInterfaceNodes,
-    /// Part of the interface are bare rows, of which nobody knows what they displace.
+    /// Part of the interface are bare rows. It is not known what they displace.
     #[error(
         "{count} interface coordinates are rows without a node; large motion needs positions and six dofs: give the nodes' coordinates and reduce again"
     )]
@@ -67,7 +67,7 @@ pub enum ComponentError {
         /// What is allowed.
         limit: f64,
     },
-    /// The mass sees no difference between some rigid-body motions.
+    /// The mass does not determine the floating frame: some rigid-body motions have no inertia of their own.
     #[error(
         "the mass of the component does not resist each rigid-body motion, or too far from the origin for rounding to tell, so that a mass-weighted floating frame is undefined; place the model near the origin, or choose the rigid floating frame"
     )]
@@ -106,10 +106,10 @@ pub enum EvaluationError {
         "the workspace was made by another component; evaluate each component in workspaces that it has made itself"
     )]
     ForeignWorkspace,
-    /// There is no state to which the question belongs.
+    /// No state has been evaluated, or the last evaluation failed.
     #[error("the last evaluation in the workspace failed, so that it holds no state; evaluate one first")]
     NoState,
-    /// The loads of gravity in the file are the weight of no body.
+    /// The loads of gravity in the file are not the weight of a body.
     #[error(
         "the loads of gravity in the file are not the weight of a body, the same mass along each axis at one centre, so that they have no potential; use their forces, or write the file without them"
     )]
@@ -120,7 +120,7 @@ pub enum EvaluationError {
         /// Number of the node.
         node: usize,
     },
-    /// The floating frame given to start from is no rigid-body motion.
+    /// The floating frame given to start from is not a rigid-body motion.
     #[error(
         "the floating frame to start from is not a finite translation and a rotation matrix; orthonormalise it, or give none"
     )]

@@ -81,7 +81,7 @@ impl ModalComponent {
     ///
     /// # Errors
     ///
-    /// Those of [`gravity_forces`](Self::gravity_forces); [`EvaluationError::NoPotential`] where the loads of gravity in the
+    /// The errors of [`gravity_forces`](Self::gravity_forces); [`EvaluationError::NoPotential`] where the loads of gravity in the
     /// file are those of no mass.
     pub fn gravity_potential(&self, g: &Vector3, workspace: &Workspace) -> Result<f64, EvaluationError> {
         self.check_gravity(g, workspace)?;
@@ -101,7 +101,7 @@ impl ModalComponent {
     ///
     /// # Errors
     ///
-    /// Those of [`gravity_forces`](Self::gravity_forces); [`EvaluationError::WrongLength`] for `stiffness`.
+    /// The errors of [`gravity_forces`](Self::gravity_forces); [`EvaluationError::WrongLength`] for `stiffness`.
     pub fn add_gravity_stiffness(
         &self,
         g: &Vector3,

@@ -2,7 +2,7 @@
 
 use core::sync::atomic::{AtomicUsize, Ordering};
 
-/// A number that no other component of this process has; a clone, which has the same matrices, shares it.
+/// A number that no other component of this process has. A clone shares it, because it has the same matrices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Identity(usize);
 

@@ -64,7 +64,7 @@ impl ModalComponent {
     ///
     /// # Errors
     ///
-    /// Those of [`add_load`](Self::add_load).
+    /// The errors of [`add_load`](Self::add_load).
     pub fn add_load_stiffness(
         &self,
         load: &DeadLoad,

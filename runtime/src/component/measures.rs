@@ -39,7 +39,7 @@ pub(super) struct NodeRates {
 }
 
 impl NodeRates {
-    /// Those of node j from ė, v and V_F.
+    /// The rates of node j from ė, v and V_F.
     pub(super) fn of(j: usize, deformation_rate: &[f64], velocities: &[f64], frame_velocity: &Vector6) -> Self {
         let six = |values: &[f64]| core::array::from_fn(|i| values[6 * j + i]);
         Self { measure: six(deformation_rate), node: six(velocities), frame: *frame_velocity }

@@ -45,7 +45,7 @@ pub struct Workspace {
     pub(super) scratch: Scratch,
 }
 
-/// What the getters hand out.
+/// What the getters return.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Results {
     pub(super) elastic: Vec<f64>,
@@ -81,7 +81,7 @@ pub(super) struct Scratch {
 }
 
 impl Results {
-    /// Forces and energies that are numbers.
+    /// Fails unless forces and energies are finite.
     pub(super) fn check_forces(&self) -> Result<(), EvaluationError> {
         let each = [
             ("elastic forces", self.elastic.as_slice()),
@@ -94,7 +94,7 @@ impl Results {
         check_finite(each)
     }
 
-    /// Tangent matrices of numbers.
+    /// Fails unless the tangent matrices are finite.
     pub(super) fn check_tangents(&self) -> Result<(), EvaluationError> {
         let each = [
             ("tangent stiffness", self.stiffness.as_slice()),
@@ -106,7 +106,7 @@ impl Results {
         check_finite(each)
     }
 
-    /// An exact stiffness of numbers.
+    /// Fails unless the exact stiffness is finite.
     pub(super) fn check_exact_stiffness(&self) -> Result<(), EvaluationError> {
         check_finite([("exact stiffness", &self.exact_stiffness)])
     }
@@ -119,7 +119,7 @@ pub(super) fn check_finite<const N: usize>(each: [(&'static str, &[f64]); N]) ->
     }
 }
 
-/// Zero times an infinity is no number, nor is any sum with one: eight sums side by side take the processor's vectors.
+/// Zero times an infinity is not a number, nor is any sum with one: eight sums side by side take the processor's vectors.
 pub(super) fn all_finite(values: &[f64]) -> bool {
     let (eights, rest) = values.as_chunks::<8>();
     let mut zeros = [0.0; 8];
@@ -177,7 +177,7 @@ impl Workspace {
         workspace
     }
 
-    /// That the last evaluation succeeded.
+    /// Fails unless the last evaluation succeeded.
     pub(super) fn check_state(&self) -> Result<(), EvaluationError> {
         if self.has_state { Ok(()) } else { Err(EvaluationError::NoState) }
     }

@@ -90,7 +90,7 @@ fn a_component_that_is_held_is_refused() {
     assert!(matches!(error, ComponentError::NotFree { residual, .. } if residual > 0.1), "{error}");
 }
 
-/// One node just holds a component: what is left of its stiffness is rounding, and a spring shows beside the first mode.
+/// One node just holds a component: what is left of its stiffness is rounding, and a spring is visible against the first mode.
 #[test]
 fn a_component_of_one_node_is_free_unless_a_spring_holds_it() {
     let (tensors, metadata, _) = beam::reduced_parts(&beam::arc_nodes(), &beam::SOFT, &[8], 5);

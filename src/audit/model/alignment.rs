@@ -23,7 +23,7 @@ use crate::dense;
 /// nothing else sees and on nothing more.
 const RECOVERED: f64 = 1e-3;
 
-/// What is free to turn.
+/// The parts of the basis that may turn.
 pub(super) struct Freedom<'a> {
     /// The named column that each modal coordinate of the file is, as its place among those made again.
     pub(super) kept: &'a [usize],

@@ -1,6 +1,6 @@
 //! The modes that the job asks for, found by another eigensolver from another factor: M-01, M-06.
 //!
-//! Nothing of the file takes part: how many there are is what the job, the spectrum and a count of it say.
+//! The file takes no part in this. The job, the spectrum and a count say how many modes there are.
 
 use std::ops::Range;
 

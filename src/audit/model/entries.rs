@@ -17,7 +17,7 @@ use crate::verification::check::{Check, Limits};
 
 /// F.
 const BOTH: f64 = 10.0;
-/// Relative difference of an entry that nobody asks to be less.
+/// Relative difference of an entry that is always accepted.
 const ENGINEERING: f64 = 1e-12;
 /// A difference this many times its bound is none of rounding.
 const FAR: f64 = 10.0;

@@ -1,4 +1,4 @@
-//! Whether file and job speak of the same component: M-26, M-06.
+//! Whether file and job describe the same component: M-26, M-06.
 
 use supel_runtime::{Coordinate, Generator, RigidBodyModes, Superelement};
 

@@ -139,7 +139,7 @@ pub(super) fn column_products(x: MatRef<'_, f64>, y: MatRef<'_, f64>) -> Vec<f64
 
 /// The largest √(a/b).
 fn largest_ratio(a: &[f64], b: &[f64]) -> f64 {
-    // Rounding may leave a square below zero; what is left of nothing, or is no number, is no small error.
+    // Rounding may leave a square below zero; what is left of nothing, or is not a number, is not a small error.
     let ratio = |(a, b): (&f64, &f64)| if *a <= 0.0 { 0.0 } else { (a / b).sqrt() };
     dense::worst(a.iter().zip(b).map(ratio))
 }

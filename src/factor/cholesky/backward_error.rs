@@ -3,7 +3,7 @@
 use super::{Cholesky, Kept};
 use crate::factor::rounding::{gamma, largest_row_sum};
 
-/// Roundings of an entry beside those of its sum: the root or the division of the pivot, and the product with its
+/// Roundings of an entry in addition to those of its sum: the root or the division of the pivot, and the product with its
 /// reciprocal.
 const PIVOT: usize = 3;
 

@@ -3,7 +3,7 @@
 //! ```text
 //! A     n × n   as it was handed to the factorisation, in the order of its pivots
 //! E, C          a pivot of B and the updated rows below it: L = C E⁻¹
-//! u     half the distance of one to the next double; p, r = the diagonal of E over what stands beside it; q = |pr|
+//! u     half the distance of one to the next double; p, r = the diagonal of E over its off-diagonal entry; q = |pr|
 //! ```
 //! Every entry of L B Lᵀ is a sum of at most as many products as its shorter row of L has entries, taken in whatever order,
 //! which errs by γ of their number times the sum of magnitudes (Higham 2002, lemma 8.4), and each product takes L E or C

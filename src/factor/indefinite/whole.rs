@@ -25,7 +25,7 @@ pub struct WholeCount {
 /// Counts the eigenvalues of a whole pencil below σ.
 ///
 /// # Errors
-/// Those of [`crate::factor::count_below`].
+/// The errors of [`crate::factor::count_below`].
 ///
 /// # Panics
 /// The analysis has a border.

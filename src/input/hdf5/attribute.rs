@@ -1,4 +1,4 @@
-//! Attributes: whole numbers beside a group or dataset.
+//! Attributes: whole numbers attached to a group or dataset.
 //!
 //! Texts are not read. Most programs write them with variable length, which puts them into the global heap of the file,
 //! and a damaged heap makes the library loop for ever or read beyond its buffers. No format needs them: members and shapes

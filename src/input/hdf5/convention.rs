@@ -12,7 +12,7 @@ pub(super) enum Convention {
     Matlab,
     /// `data`, `indices`, `indptr`, with the shape in this attribute.
     ShapeAttribute(&'static str),
-    /// The same with the shape in a dataset `shape` or, without one, square.
+    /// `data`, `indices`, `indptr`, with the shape in a dataset `shape` or, without one, square.
     ShapeDataset,
 }
 

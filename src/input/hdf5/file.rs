@@ -199,7 +199,7 @@ impl<'a> Group<'a> {
         self.find_group(path)?.ok_or_else(|| self.missing(path, "group"))
     }
 
-    /// The same, `None` where a component of the path does not exist.
+    /// The group at `path` below this one, `None` where a component of the path does not exist.
     pub(super) fn find_group(&self, path: &str) -> Result<Option<Group<'a>>> {
         let mut here = Group { h5: self.h5, group: self.group.clone(), name: self.name.clone() };
         for component in path.split('/').filter(|c| !c.is_empty() && *c != ".") {
@@ -224,7 +224,7 @@ impl<'a> Group<'a> {
         self.find_dataset(path)?.ok_or_else(|| self.missing(path, "dataset"))
     }
 
-    /// The same, `None` where it does not exist.
+    /// The dataset at `path` below this group, `None` where it does not exist.
     pub(super) fn find_dataset(&self, path: &str) -> Result<Option<Dataset<'a>>> {
         let (folder, member) = path.rsplit_once('/').unwrap_or(("", path));
         let Some(group) = self.find_group(folder)? else {

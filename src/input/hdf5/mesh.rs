@@ -104,7 +104,7 @@ pub(super) fn points(values: &[f64], n_axes: usize) -> Vec<[f64; 3]> {
     values.chunks_exact(n_axes).map(|p| std::array::from_fn(|axis| p.get(axis).copied().unwrap_or(0.0))).collect()
 }
 
-/// True if the first character that is no blank opens a tag.
+/// True if the first character that is not a blank opens a tag.
 fn is_xml(path: &Path) -> Result<bool> {
     let read = |source| Error::Read { path: path.to_owned(), source };
     let mut head = Vec::new();

@@ -71,7 +71,7 @@ impl Markup {
         let _ = writeln!(self.0, "<{tag}>{}</{tag}>", escaped(text));
     }
 
-    /// The same with a class.
+    /// An element with a class that holds nothing but text.
     pub(super) fn classed(&mut self, tag: &str, class: &str, text: &str) {
         let _ = writeln!(self.0, "<{tag} class=\"{class}\">{}</{tag}>", escaped(text));
     }
@@ -183,7 +183,7 @@ impl Markup {
     }
 }
 
-/// The class that colours a verdict; the word beside it says the same.
+/// The class that colours a verdict; the word next to it says the verdict too.
 pub(super) fn class_of(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Info => "info",

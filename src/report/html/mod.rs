@@ -1,9 +1,8 @@
 //! The report as one page for people: to be read, printed and signed.
 //!
-//! The page needs no script and nothing from elsewhere. First the verdict and what it is about, with room for
-//! signatures; then the evidence, in the order in which an engineer asks for it; last the facts of the run. What stands
-//! in the element `body` is the same for any number of threads, on any day and in any folder; `of-run` and `run` hold
-//! the rest.
+//! The page needs no script and loads nothing. The verdict and what it is about come first, with room for signatures. The
+//! evidence follows, in the order in which an engineer asks for it, and the facts of the run come last. The element `body`
+//! has the same content for any number of threads, on any day and in any folder; `of-run` and `run` hold the rest.
 
 mod checks;
 mod front;

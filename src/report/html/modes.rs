@@ -52,7 +52,7 @@ fn trust(page: &mut Markup, intervals: &[TrustInterval]) {
         ]
     });
     let caption = "Intervals in which every natural frequency is accounted for: the number counted from the signs of two \
-                   factorisations, rigid-body motions included, beside the number found. A large pivot growth would make the signs doubtful."
+                   factorisations, rigid-body motions included, next to the number found. A large pivot growth would make the signs doubtful."
         .to_owned();
     page.table(&Table { id: "table-trust".to_owned(), caption, heads, rows: rows.collect() });
 }

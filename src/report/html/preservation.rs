@@ -60,7 +60,7 @@ fn shapes(page: &mut Markup, mac: &[Vec<f64>]) {
         description = format!("The smallest value on the diagonal is {} (mode {mode})", mode_table::mac(value));
     }
     if let Some((row, column, value)) = most {
-        description += &format!("; the largest beside it is {} (modes {row} and {column})", in_words(value, 2));
+        description += &format!("; the next largest is {} (modes {row} and {column})", in_words(value, 2));
     }
     description.push('.');
     page.figure(&Figure {

@@ -62,7 +62,7 @@ fn mass(page: &mut Markup, routes: &[MassRoute]) {
     });
     let caption =
         "Mass properties by independent routes, in the units of the model; inertia about the centre of mass. \
-                   A value that is rounding beside its neighbours is shown as 0."
+                   A value that is only rounding compared with its neighbours is shown as 0."
             .to_owned();
     page.table(&Table { id: "table-mass".to_owned(), caption, heads, rows: rows.collect() });
 }

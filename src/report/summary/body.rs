@@ -89,7 +89,7 @@ pub(crate) fn mass_properties(page: &mut Page, properties: &MassProperties) {
         page.entry("total mass", &number::quantity(mass, 7));
     }
     if let Some(cg) = properties.cg {
-        // A coordinate that is rounding beside the others would only draw the eye.
+        // A coordinate that is rounding compared with the others would only draw the eye.
         let size = cg.iter().fold(0.0_f64, |size, coordinate| size.max(coordinate.abs()));
         page.entry("centre of mass", &format!("({})", cg.map(|coordinate| rounded(coordinate, size)).join(", ")));
     }

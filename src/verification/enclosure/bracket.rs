@@ -43,7 +43,7 @@ pub(super) fn groups(pairs: &[Pair]) -> Vec<Group> {
     groups
 }
 
-/// The same with groups nearer than modes of one cluster put together: within it directions are nobody's own, and the
+/// Groups with those nearer than modes of one cluster put together: within a cluster no mode has a direction of its own, and the
 /// angle is that to the space of all.
 pub(super) fn clusters(pairs: &[Pair], groups: &[Group]) -> Vec<Group> {
     let mut clusters: Vec<Group> = Vec::new();
@@ -109,7 +109,7 @@ impl Group {
 fn reach(pair: &Pair, t_low: f64, t_high: f64) -> [f64; 2] {
     let high = if t_high < 1.0 { pair.mu * t_high / (1.0 - t_high) } else { f64::INFINITY };
     let low = pair.mu * t_low / (1.0 + t_low);
-    // A bound that is not a number bounds nothing.
+    // NaN never counts as a bound.
     let low = if low.is_nan() { f64::INFINITY } else { low };
     let high = if high.is_nan() { f64::INFINITY } else { high };
     [pair.lambda - OUTWARD * low - pair.rounding, pair.lambda + OUTWARD * high + pair.rounding]
@@ -125,7 +125,7 @@ fn least_singular(group: &[Pair]) -> f64 {
     (1.0 - 1e-12 - largest).max(0.0).sqrt()
 }
 
-/// What is known of the eigenvalues beside a group, where all below `ceiling` are in groups.
+/// What is known of the eigenvalues on both sides of a group, where all below `ceiling` are in groups.
 pub(super) fn neighbours(groups: &[Group], index: usize, ceiling: f64, sigma: f64) -> Neighbours {
     let below = index.checked_sub(1).map(|before| OUTWARD * (groups[before].interval[1] - sigma));
     let above = groups.get(index + 1).map_or(ceiling, |after| after.interval[0].min(ceiling)) - sigma;

@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::verification::check::{Check, Limits};
 use crate::verification::evidence::{Evidence, data_noise};
 
-/// What arithmetic and data may excuse without a word, and at all: past two digits the comparison says little, past one nothing.
+/// What arithmetic and data may excuse without a warning, and what they may excuse at most: past two digits the comparison says little, past one nothing.
 const MOST_EXCUSED: [f64; 2] = [1e-2, 1e-1];
 
 impl Reference {

@@ -6,7 +6,7 @@ use crate::modes::Boundary as ModeBoundary;
 use crate::number::quantity;
 use crate::verification::evidence::Evidence;
 
-/// What a support does to the interface dofs.
+/// A support: which interface dofs it holds and which it loads.
 #[derive(Clone, Debug)]
 pub(super) struct Boundary {
     pub(super) name: String,

@@ -24,7 +24,7 @@ use super::{counts, interfaces, mac, response, sizes, statics};
 /// The comparison for the report, and the checks that follow from it.
 #[derive(Clone, Debug, Default)]
 pub struct Compared {
-    /// Reduced beside full.
+    /// The reduced model compared with the full one.
     pub report: Preservation,
     /// M-06, M-15, M-17, M-20, M-21 and M-24, as far as they were made.
     pub checks: Vec<Check>,
@@ -33,7 +33,7 @@ pub struct Compared {
 /// Compares the reduced with the full model; `analysis` is the structure of K_II.
 ///
 /// # Errors
-/// No memory. What the arithmetic cannot do is left out by name.
+/// No memory. A comparison that the arithmetic cannot make is left out, and the report names it.
 pub fn preservation(evidence: &Evidence<'_>, analysis: &Analysis, job: &Job) -> Result<Compared> {
     let plan = Plan::new(evidence, analysis, job);
     let interfaces = interfaces::interfaces(evidence.partition);

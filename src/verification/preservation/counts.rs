@@ -40,11 +40,11 @@ pub(super) struct Condensed {
 }
 
 impl Condensed {
-    /// Factors K − σM above the band at a shift that is off the eigenvalues of all references; none where there is none such,
+    /// Factors K − σM above the band at a shift that is off the eigenvalues of all references; none where there is no such shift,
     /// or where rounding decides a sign.
     ///
     /// # Errors
-    /// No memory; pivots that are not numbers.
+    /// No memory; pivots that are NaN.
     pub(super) fn new(
         evidence: &Evidence<'_>,
         analysis: &Analysis,

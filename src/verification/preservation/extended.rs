@@ -34,11 +34,11 @@ const MAX_STEPS: usize = 24;
 /// Steps without progress after which the limit of arithmetic is met. A band with modes that the basis lacks makes none
 /// for a few steps, until they are found.
 const MAX_IDLE: usize = 4;
-/// A residual above this share of the smallest so far is no progress.
+/// A residual above this share of the smallest so far is not progress.
 const PROGRESS: f64 = 0.7;
 /// Residual columns, relative to the largest, that are worth a solve of their own.
 const WORTH_A_SOLVE: f64 = 1e-6;
-/// Length a new direction must keep beside those before it.
+/// Length a new direction must keep after those before it are taken out.
 const INDEPENDENT: f64 = 1e-8;
 /// Samples looked at in every step; the others wait until these are answered.
 const PROBES: usize = 3;

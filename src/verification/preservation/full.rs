@@ -1,7 +1,7 @@
-//! The full model under a boundary of the scene: its eigenvalues from the factor that is already there.
+//! The full model under a boundary of the scene: its eigenvalues from the factor of K_II.
 //!
 //! Holding interface dofs takes rows and columns away, loading them adds to the diagonal of M; K_II stays as it is, and
-//! with it its factor. Where that does not hold up, K − σM of the supported model is factored anew.
+//! so does its factor. Where that factor is not accurate enough, K − σM of the supported model is factored anew.
 
 use faer::{Mat, MatRef};
 
@@ -22,7 +22,7 @@ use crate::sparse::{SparseMatrix, product};
 
 /// Backward error up to which a pair found with the factor of K_II is taken. Sound supports give 10⁻¹⁶ to 10⁻¹⁴; where the
 /// lowest λ is 10⁻⁹ of ‖K‖, as in slender models, its Rayleigh quotient then errs by (10⁻¹²/10⁻⁹)² = 10⁻⁶ at most.
-const HOLDS_UP: f64 = 1e-12;
+const MAX_BACKWARD_ERROR: f64 = 1e-12;
 /// Singular values of the rigid-body motions at the held dofs, relative to the largest, below which a motion passes. The
 /// interface rank uses the same figure.
 const PASSES: f64 = 1e-10;
@@ -72,7 +72,7 @@ impl Supported {
         let entries = EntriesAt { partition, kept: &self.kept };
         let problem = problem.with_noise(&entries);
         let modes = self.by_factor(evidence, problem, request)?;
-        if modes.errors.iter().all(|error| error.backward <= HOLDS_UP) {
+        if modes.errors.iter().all(|error| error.backward <= MAX_BACKWARD_ERROR) {
             return Ok(modes);
         }
         let analysis = Analysis::new(pencil)?;

@@ -13,12 +13,12 @@ use crate::reduction::transpose_apply;
 use crate::sparse::product;
 use crate::verification::pencil::Spectral;
 
-/// Modes shown in the matrix of the report; more make a page nobody reads.
+/// Modes shown in the matrix of the report; more do not fit on a readable page.
 const SHOWN: usize = 48;
 /// Eigenvalues within this many error bars of one another are one cluster: which vectors span it is rounding.
 const WITHIN_BARS: f64 = 10.0;
 
-/// What became of the retained modes.
+/// The retained modes as the reduced model has them.
 pub(super) struct Preserved {
     pub(super) modes: Vec<PreservedMode>,
     pub(super) mac: Vec<Vec<f64>>,

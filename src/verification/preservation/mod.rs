@@ -1,15 +1,16 @@
-//! What the reduction preserves: the reduced model beside the full one.
+//! What the reduction preserves: the reduced model compared with the full one.
 //!
 //! ```text
 //! mac          retained modes as eigenpairs of both models             (34) (35), M-15
 //! boundaries   frequencies with interfaces held, free, loaded           M-24
-//! counts       how many the full model has of them                      M-06
+//! counts       how many such frequencies the full model has             M-06
 //! statics      stiffness of each interface by direct solves             M-17
 //! response     frequency response of all pairs of interface dofs        M-20, M-21
-//! sizes        the same errors of a smaller basis
+//! sizes        these errors for a smaller basis
 //! ```
-//! Every answer of the full model comes from the full sparse matrices with a residual that is looked at; the factor of
-//! K_II, which is there already, only speeds it up. What would be dear and nobody asked for is left out by name.
+//! Every answer of the full model comes from the full sparse matrices, and its residual is checked. The factor of K_II,
+//! which exists already, only speeds this up. A costly comparison that the job does not ask for is left out, and the report
+//! names it.
 
 mod boundaries;
 mod boundary;

@@ -1,5 +1,5 @@
 //! What the reduction preserves: modes, frequencies under other boundaries, statics and the frequency response, each
-//! of the reduced model beside the same of the full one.
+//! of the reduced model next to those of the full one.
 
 use serde::Serialize;
 
@@ -125,7 +125,7 @@ pub struct ResponseSample {
     pub frequency_hz: f64,
     /// Magnitude of the worst pair in the full model.
     pub full: f64,
-    /// The same in the reduced model.
+    /// Magnitude of the worst pair in the reduced model.
     pub reduced: f64,
     /// Largest error over all pairs, in dB.
     pub error_db: f64,

@@ -1,4 +1,4 @@
-//! What is compared with the full model: the one place where its cost is weighed.
+//! What is compared with the full model. Only this module weighs the cost.
 
 use super::super::evidence::Evidence;
 use crate::dense;
@@ -8,9 +8,9 @@ use crate::job::{Certify, Job, ModeSelection, SceneJob, Support};
 /// Modes are kept up to this multiple of the band that a reduction serves: with less, the response at the end of the
 /// band has lost a digit that the modes kept could give (Herting: 5 % against 0.5 %).
 const CUT_OFF: f64 = 1.5;
-/// Floating-point operations that a comparison nobody asked for may cost: a few seconds of one core.
+/// Floating-point operations that a comparison which the job does not ask for may cost: a few seconds of one core.
 const UNASKED_FLOPS: f64 = 1e10;
-/// Right-hand sides an eigensolution takes beside three for each mode found.
+/// Right-hand sides an eigensolution takes in addition to three for each mode found.
 const SOLVES_BESIDE: f64 = 64.0;
 /// Blocks of n_B right-hand sides that the response converges in.
 const RESPONSE_BLOCKS: f64 = 6.0;
@@ -18,7 +18,7 @@ const RESPONSE_BLOCKS: f64 = 6.0;
 /// What will be compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// Lowest and highest frequency of interest, in Hz; none where no mode tells and nobody says.
+    /// Lowest and highest frequency of interest, in Hz; none where neither the job nor a mode gives one.
     pub band_hz: Option<[f64; 2]>,
     /// Structural damping factor η of K (1 + iη).
     pub eta: f64,
@@ -61,7 +61,7 @@ impl Plan {
         }
         let cost = Cost::of(evidence, analysis);
         let dear = "it would take long on a model of this size; state it in [scene] to have it";
-        // Whoever asks for more than a count asks for the whole comparison.
+        // A job that asks for more than a count asks for the whole comparison.
         let is_full = !matches!(job.run.certify, Certify::None | Certify::Count);
         let is_asked = is_full || scene.boundaries.is_some();
         let of_supports =

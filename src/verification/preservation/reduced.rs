@@ -5,12 +5,12 @@
 //! (PᵀK̂P + αM̂) y = θ⁻¹ M̂ y                   dense, α at the first eigenvalue that is looked for
 //! x = P y,  λ = xᵀK̂x / xᵀM̂x                 Rayleigh quotient
 //! ```
-//! The full model is solved beside the same motions; ΨÛ is the motion itself (24), so that Ψx is M-orthogonal to it and
+//! The full model is solved with the same motions deflated; ΨÛ is the motion itself (24), so that Ψx is M-orthogonal to it and
 //! Rayleigh's bound holds between the two whatever energy the digits of K leave to a rigid-body motion.
 //!
 //! A dense decomposition errs by ε λ_j/λ_1 in the vector of eigenvalue j, and units of dofs and added masses spread a
 //! spectrum over ten powers of ten and more. The error of the quotient is the square of the vector's, and eigenvalues past
-//! [`SPREAD`] are found beside the lower ones, as the elastic ones are beside rigid-body motion.
+//! [`SPREAD`] are found with the lower ones deflated, as the elastic ones are with rigid-body motion deflated.
 
 use faer::{Mat, MatRef};
 

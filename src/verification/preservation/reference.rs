@@ -14,7 +14,7 @@ use crate::verification::evidence::Evidence;
 
 /// How far roundings of one sign may exceed their typical sum.
 pub(super) const ROUNDINGS: f64 = 10.0;
-/// Backward error of a pair beyond which it is nobody's, unless the digits of the data explain it: half the digits are gone.
+/// Backward error of a pair beyond which it is not accepted, unless the digits of the data explain it: half the digits are gone.
 const NOT_SOLVED: f64 = 1e-8;
 
 /// The full model's answer under one boundary.
@@ -68,7 +68,7 @@ impl Reference {
         self.passing.ncols()
     }
 
-    /// The same motions in the coordinates of a reduced model without the dofs that are held, n × n_zero.
+    /// Rigid-body motions that the support lets pass, in the coordinates of a reduced model without the dofs that are held, n × n_zero.
     pub(super) fn passing_coordinates(&self, n: usize) -> Mat<f64> {
         let motions = &self.passing;
         Mat::from_fn(n, motions.ncols(), |i, j| if i < motions.nrows() { motions[(i, j)] } else { 0.0 })

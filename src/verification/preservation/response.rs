@@ -19,7 +19,7 @@ use crate::verification::pencil::Spectral;
 /// A pair that responds this much less than its two driving points do is judged by them: symmetry uncouples such pairs,
 /// and what is left of them is rounding. A thousandth is 60 dB, the dynamic range of a good measurement.
 const UNCOUPLED: f64 = 1e-3;
-/// The antiresonances of the worst pair may show another pair to be worse; its own are then sampled too, this often.
+/// How often another pair is sampled: the antiresonances of the worst pair may show that another one is worse.
 const PASSES: usize = 3;
 
 /// The answers of the full model, for further reduced models to be compared with.
@@ -29,7 +29,7 @@ pub(super) struct FullResponse {
     eta: f64,
 }
 
-/// The comparison and what it rests on.
+/// The comparison and the values it rests on.
 pub(super) struct Compared {
     pub(super) report: ResponseComparison,
     pub(super) full: FullResponse,
@@ -116,7 +116,7 @@ impl FullResponse {
         samples.map(|(hz, full)| worst_pair(full, &Response::of(reduced, evidence, *hz, self.eta))).collect()
     }
 
-    /// Magnitudes of one pair beside the largest error of all pairs; rotations count as displacements at the length.
+    /// Magnitudes of one pair, and the largest error of all pairs; rotations count as displacements at the length.
     fn shown(&self, evidence: &Evidence<'_>, reduced: &Spectral, pair: (usize, usize)) -> Vec<ResponseSample> {
         let partition = evidence.partition;
         let length = rotation_length(partition);
@@ -201,7 +201,7 @@ pub(super) fn checks(compared: &Compared) -> [Check; 2] {
             name: "frequency response of the interfaces",
             equation: "max |20 log₁₀ |Ĥ/H||, 20 log₁₀(1 + |Ĥ − H|/|H|) in dB over pairs of dofs and the band",
             value: report.worst_db,
-            // How much is tolerable is for the scene to say; nobody has said.
+            // How much is tolerable is for the scene to say, and it says nothing.
             limits: Limits::NONE,
             fail_above: f64::INFINITY,
             worst: Some(format!("{driven} to {observed} at {} Hz", quantity(report.worst_at_hz, 6))),
@@ -213,7 +213,7 @@ pub(super) fn checks(compared: &Compared) -> [Check; 2] {
             value: compared.uncertainty.0,
             // A hundredth is a tenth of a dB.
             limits: Limits { engineering: 1e-2, ..Limits::default() },
-            // Past it the comparison says nothing, which makes no reduction wrong.
+            // Past it the comparison says nothing. That does not make a reduction wrong.
             fail_above: Check::NEVER,
             worst: Some(format!("{} Hz", quantity(compared.uncertainty.1, 6))),
         },

@@ -1,4 +1,4 @@
-//! Where the frequency response is looked at: the ends of the band, found frequencies, antiresonances and a grid.
+//! The frequencies at which the response is compared: the ends of the band, found frequencies, antiresonances and a grid.
 
 use faer::Mat;
 
@@ -10,7 +10,7 @@ use crate::verification::pencil::Spectral;
 /// Points of the logarithmic grid.
 const GRID: usize = 24;
 /// Resonances, and antiresonances of one driving point, that are sampled; of more, evenly spread ones.
-const MOST: usize = 24;
+const MAX_RESONANCES: usize = 24;
 /// A band that starts at zero is sampled from this share of the first elastic frequency on: below it the response is
 /// the rigid-body or the static line to (1/10)² = 1 %, and both are compared elsewhere.
 const NEAR_ZERO: f64 = 0.1;
@@ -28,7 +28,7 @@ pub(super) fn first(evidence: &Evidence<'_>, reduced: &Spectral, band_hz: [f64; 
     merged(grid.chain(resonances).collect())
 }
 
-/// The same with the elastic frequencies of the full model and the antiresonances at two driving points, which are the
+/// `samples` with the elastic frequencies of the full model and the antiresonances at two driving points, which are the
 /// frequencies of the reduced model with the dof held.
 ///
 /// # Errors
@@ -60,13 +60,13 @@ pub(super) fn elastic_hz(evidence: &Evidence<'_>, spectral: &Spectral) -> Vec<f6
     elastic.map(|lambda| evidence.partition.scaling.hertz(lambda)).collect()
 }
 
-/// At most [`MOST`] of them, evenly spread, the last among them.
+/// At most [`MAX_RESONANCES`] of them, evenly spread, the last among them.
 fn spread(all: Vec<f64>) -> Vec<f64> {
     let n = all.len();
-    if n <= MOST {
+    if n <= MAX_RESONANCES {
         return all;
     }
-    (0..MOST).map(|i| all[i * (n - 1) / (MOST - 1)]).collect()
+    (0..MAX_RESONANCES).map(|i| all[i * (n - 1) / (MAX_RESONANCES - 1)]).collect()
 }
 
 fn merged(mut all: Vec<f64>) -> Vec<f64> {
@@ -83,7 +83,7 @@ mod tests {
     fn long_lists_are_spread_evenly_and_keep_their_ends() {
         let all: Vec<f64> = (0..100).map(f64::from).collect();
         let some = spread(all);
-        assert_eq!((some.len(), some[0], some[MOST - 1]), (MOST, 0.0, 99.0));
+        assert_eq!((some.len(), some[0], some[MAX_RESONANCES - 1]), (MAX_RESONANCES, 0.0, 99.0));
     }
 
     #[test]

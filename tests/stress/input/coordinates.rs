@@ -88,7 +88,7 @@ fn i_18_one_node_out_of_place() {
         eprintln!("{name}");
         let moved = |index, [x, y, z]: [f64; 3]| if index == 17 { [x, y + 0.01, z] } else { [x, y, z] };
         coordinates_refused(&with_nodes(&model, moved), rest, &["node 18 u"]);
-        // Beside coordinates of five digits it still stands out.
+        // Among coordinates of five digits it still stands out.
         let rounded = |index, position: [f64; 3]| moved(index, position.map(|x| rounded(x, 5)));
         coordinates_refused(&with_nodes(&model, rounded), rest, &["node 18 u"]);
     }
@@ -156,7 +156,7 @@ fn i_20_a_frame_that_was_not_declared() {
 }
 
 /// Frames at some nodes only: no translation of the coordinates is free, and still motions without energy are. Coordinates
-/// cannot tell them from supports with a mechanism; what they never are is a component without a word.
+/// cannot tell them from supports with a mechanism; they are never accepted without a warning or an error.
 #[test]
 fn i_20_frames_at_some_nodes() {
     let mut block = steel_brick();

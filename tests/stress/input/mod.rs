@@ -24,7 +24,7 @@ fn chain() -> Place {
     Place::with(&spring(5, Ends::Free))
 }
 
-/// The same held at both ends, so that small changes of K leave no rigid-body motion in doubt.
+/// The chain held at both ends, so that small changes of K leave no rigid-body motion in doubt.
 fn held_chain() -> Place {
     Place::with(&spring(5, Ends::Fixed))
 }
@@ -34,7 +34,7 @@ fn chain_job() -> String {
     chain_job_with("\"K.mtx\"", "count = 1")
 }
 
-/// The same with another value for the stiffness, and other modes.
+/// The job of the chain with another value for the stiffness, and other modes.
 fn chain_job_with(stiffness: &str, modes: &str) -> String {
     format!(
         "model     = {{ stiffness = {stiffness}, mass = \"M.mtx\" }}\n\

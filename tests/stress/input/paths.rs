@@ -50,7 +50,7 @@ fn i_23_what_is_no_file() {
     stiffness_path_refused(&place, "\"\"", "E-JOB-EMPTY", &["model.stiffness"]);
 }
 
-/// The same for tables, maps and the job itself: none is waited for.
+/// Tables, maps and the job itself that are not files are refused, not waited for.
 #[cfg(unix)]
 #[test]
 fn i_23_tables_and_jobs_that_are_no_files() {

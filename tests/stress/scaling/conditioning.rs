@@ -16,7 +16,7 @@ use crate::program::{Case, METHODS, bars, checks, eigensolvers, eigenvalues, lin
 fn chain_of(springs: &[f64]) -> (Model, Tridiagonal) {
     let n = springs.len();
     let (mut stiffness, mut mass) = (Assembler::default(), Assembler::default());
-    let mut exact = Tridiagonal { diagonal: vec![Two(0.0, 0.0); n], beside: Vec::new() };
+    let mut exact = Tridiagonal { diagonal: vec![Two(0.0, 0.0); n], off_diagonal: Vec::new() };
     for (i, k) in springs.iter().enumerate() {
         let next = i + 1;
         for end in [i, next].into_iter().filter(|end| *end < n) {
@@ -25,7 +25,7 @@ fn chain_of(springs: &[f64]) -> (Model, Tridiagonal) {
         }
         if next < n {
             stiffness.add(i as u32, next as u32, -k);
-            exact.beside.push(Two(-k, 0.0));
+            exact.off_diagonal.push(Two(-k, 0.0));
         }
         mass.add(i as u32, i as u32, 1.0);
     }
@@ -34,7 +34,7 @@ fn chain_of(springs: &[f64]) -> (Model, Tridiagonal) {
 }
 
 fn unit(n: usize) -> Tridiagonal {
-    Tridiagonal { diagonal: vec![Two(1.0, 0.0); n], beside: vec![Two(0.0, 0.0); n - 1] }
+    Tridiagonal { diagonal: vec![Two(1.0, 0.0); n], off_diagonal: vec![Two(0.0, 0.0); n - 1] }
 }
 
 /// A penalty between hub and face takes digits of all that it is added to. The bar knows how many, whatever the contrast.
@@ -63,7 +63,7 @@ fn c_03_penalty_contrast_shows_in_the_bars() {
             let largest = bars(&outcome).into_iter().fold(0.0, f64::max);
             let is_told = warnings(&outcome).contains(&"W-DATA-PRECISION");
             assert_eq!(is_told, 0.5 * largest > 1e-4, "10^{exponent}: {largest:e}");
-            // Up to 10⁹ nothing fails; beyond, measures may, and the file is refused: never is it wrong without a word.
+            // Up to 10⁹ nothing fails; beyond, measures may, and the file is refused: it is never wrong silently.
             let failed = lines(&outcome, Verdict::Fail);
             assert!(failed.is_empty() || exponent > 9, "10^{exponent}: {failed:?}");
             told.push((exponent, is_told));
@@ -82,7 +82,7 @@ fn c_04_graded_mesh_stays_within_its_bars() {
     let ratio = 1e6f64.powf(1.0 / n as f64);
     let h: Vec<f64> = (0..=n).map(|i| ratio.powi(-i)).collect();
     let (mut stiffness, mut mass) = (Assembler::default(), Assembler::default());
-    let zeros = || Tridiagonal { diagonal: vec![Two(0.0, 0.0); n as usize], beside: Vec::new() };
+    let zeros = || Tridiagonal { diagonal: vec![Two(0.0, 0.0); n as usize], off_diagonal: Vec::new() };
     let (mut k, mut m) = (zeros(), zeros());
     for (element, h) in h.iter().enumerate() {
         let (left, right) = (element.checked_sub(1), (element < n as usize).then_some(element));
@@ -95,8 +95,8 @@ fn c_04_graded_mesh_stays_within_its_bars() {
         if let (Some(left), Some(right)) = (left, right) {
             stiffness.add(left as u32, right as u32, -1.0 / h);
             mass.add(left as u32, right as u32, h / 6.0);
-            k.beside.push(Two(-1.0 / h, 0.0));
-            m.beside.push(Two(h / 6.0, 0.0));
+            k.off_diagonal.push(Two(-1.0 / h, 0.0));
+            m.off_diagonal.push(Two(h / 6.0, 0.0));
         }
     }
     let nodes = (0..n).map(|i| [f64::from(i), 0.0, 0.0]).collect();
@@ -144,7 +144,7 @@ fn c_06_near_interface_nodes() {
     }
 }
 
-/// Inertia-relief columns beside modes: unit length and orthogonality keep M̂ well conditioned.
+/// Inertia-relief columns together with modes: unit length and orthogonality keep M̂ well conditioned.
 #[test]
 fn c_08_inertia_relief_leaves_the_reduced_mass_well_conditioned() {
     let model = brick([10, 2, 2], [10.0, 2.1, 1.9], &Material::STEEL_SI);

@@ -48,7 +48,7 @@ fn c_01_units_of_stiffness_and_mass() {
             }
         }
     }
-    // λ of 10²⁹⁸ is representable, and Craig-Bampton gives it. Inertia-relief modes K_II⁻¹(MU)_I of 10⁻³⁰⁰ beside
+    // λ of 10²⁹⁸ is representable, and Craig-Bampton gives it. Inertia-relief modes K_II⁻¹(MU)_I of 10⁻³⁰⁰ together with
     // mass-normalised ones of 10⁷⁵ are not: the mixing matrix would hold 10³⁷⁵.
     let extreme = scaled(&block(), 1e150, 1e-150);
     let reference = eigenvalues(&Case::new(&block(), &pins).method("craig-bampton").clean());
@@ -120,7 +120,8 @@ fn c_15_denormal_and_huge_entries() {
     for entry in pinned.stiffness.iter_mut().filter(|entry| (entry.0, entry.1) == (29, 29)) {
         entry.2 += 1e300;
     }
-    let error = Case::new(&pinned, &[rows("end", &[0])]).refused(&["the smallest diagonal entry beside the largest"]);
+    let error =
+        Case::new(&pinned, &[rows("end", &[0])]).refused(&["the smallest diagonal entry, relative to the largest,"]);
     assert!(matches!(error, Error::UnitRange { .. }), "{error}");
 }
 

@@ -1,4 +1,4 @@
-//! Motions without energy that are no rigid-body motions: S-05, S-06, S-22.
+//! Motions without energy that are not rigid-body motions: S-05, S-06, S-22.
 
 use supel_models::model::Assembler;
 use supel_models::transform::{join, supported, translated};
@@ -116,7 +116,7 @@ fn s_06_near_mechanism_is_told_and_never_flips() {
         let mut seen = Vec::new();
         for p in 2..=16 {
             let case = Case::new(&sprung(10f64.powi(-p)), &interfaces).method(method);
-            // The softer the spring, the more of a solve with K_II goes into its motion; the other modes are found beside it.
+            // The softer the spring, the more of a solve with K_II goes into its motion; the other modes are found with it deflated.
             let outcome = case.accepted();
             let codes: Vec<_> = warnings(&outcome);
             let zone = match (codes.contains(&"W-MECHANISM"), codes.contains(&"W-GREY")) {

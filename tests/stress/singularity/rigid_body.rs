@@ -118,7 +118,7 @@ fn s_07_plane_model_has_three_rigid_body_modes() {
     }
 }
 
-/// The same with directions that nothing fills.
+/// A plane model with directions that nothing fills.
 #[test]
 fn s_08_plane_model_with_empty_rows_is_refused() {
     let plane = membrane([3, 2], [3.0, 2.0], &Material::UNIT);

@@ -18,7 +18,7 @@ use super::alterations::{ALTERATIONS, altered};
 use super::fields::{changes, fields_of};
 use super::subjects::{Subject, root, subjects};
 
-/// What verification says of a change; the later the less.
+/// What verification says of a change, from the clearest answer to none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Seen {
     Refused,

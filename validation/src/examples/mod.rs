@@ -147,7 +147,7 @@ impl Example {
     /// is given.
     ///
     /// # Errors
-    /// A superelement that the component refuses. A run that stops is no error.
+    /// A superelement that the component refuses. A run that stops is not an error.
     pub fn run(self, parts: &[Superelement], variant: &Variant, scheme: Option<Scheme>) -> Result<Run> {
         let or = |own: Scheme| scheme.unwrap_or(own);
         match self {
@@ -214,7 +214,7 @@ impl Example {
 pub struct Variant {
     /// Modal elements: those of the whole structure, or the strategy of section 5.5.
     pub layout: usize,
-    /// Modes of each modal element beside its static modes.
+    /// Modes of each modal element in addition to its static modes.
     pub n_modes: usize,
     /// How deformation is measured.
     pub measures: Measures,
@@ -255,7 +255,7 @@ pub struct Run {
 /// The superelements of parts, reduced in folders of their names.
 ///
 /// # Errors
-/// Those of writing the files and of supel.
+/// The errors of writing the files and of supel.
 pub fn reduced_parts(parts: &[Part], folder: &Path) -> Result<Vec<Superelement>> {
     parts.iter().map(|part| reduced(&part.write(&folder.join(&part.name))?)).collect()
 }

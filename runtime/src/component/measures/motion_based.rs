@@ -76,7 +76,7 @@ pub(super) fn carried(node: &NodeMeasure, [x, x_f]: [&Vector6; 2]) -> Matrix6 {
     difference_6(&scaled(&difference(x, x_f), &cosine.first(), &cosine.second(&p_u)), &turning)
 }
 
-/// That of [`carried`], J̇, and J̇ − Ė̂.
+/// The matrix of [`carried`] for the rates, J̇, and J̇ − Ė̂.
 pub(super) fn rate_matrices(node: &NodeMeasure, rates: &NodeRates) -> RateMatrices {
     let j = tangent_inverse_rate(&node.e, &rates.measure);
     let frame = difference_6(&j, &hat(&rates.measure));

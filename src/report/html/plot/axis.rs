@@ -1,4 +1,4 @@
-//! Axes: where a value lies and what is written beside it.
+//! Axes: where a value lies and what is written next to it.
 
 use std::ops::Range;
 

@@ -20,7 +20,7 @@ pub(super) const LETTER: u32 = 24;
 /// Height of what is written below an axis.
 pub(super) const X_LABELS: u32 = 76;
 
-/// Letters that fit beside the end of a line.
+/// Letters that fit next to the end of a line.
 const END_LABEL: usize = 17;
 
 pub(super) const INK: RGBColor = RGBColor(26, 33, 41);
@@ -30,7 +30,7 @@ pub(super) const BLUE: RGBColor = RGBColor(31, 95, 168);
 pub(super) const PALE_BLUE: RGBColor = RGBColor(182, 204, 229);
 pub(super) const ORANGE: RGBColor = RGBColor(176, 78, 11);
 
-/// Colours of lines that stand beside each other: apart in lightness too, each readable as text on white.
+/// Colours of lines that stand next to each other: apart in lightness too, each readable as text on white.
 pub(super) const SERIES: [RGBColor; 6] =
     [BLUE, ORANGE, RGBColor(22, 116, 64), RGBColor(122, 61, 158), RGBColor(12, 108, 128), RGBColor(125, 87, 0)];
 
@@ -51,12 +51,12 @@ pub(super) fn draw(height: u32, content: impl FnOnce(&Area<'_>) -> Drawn) -> Opt
     Some(svg)
 }
 
-/// Room beside the axes, in pixels.
+/// Room next to the axes, in pixels.
 #[derive(Clone, Copy)]
 pub(super) struct Margins {
     /// For the labels of the vertical axis.
     pub(super) left: u32,
-    /// For what is written beside the ends of lines.
+    /// For what is written next to the ends of lines.
     pub(super) right: u32,
 }
 
@@ -98,7 +98,7 @@ pub(super) fn text(size: u32, colour: RGBColor, across: HPos, along: VPos) -> Te
     ("sans-serif", size).into_font().color(&colour).pos(Pos::new(across, along))
 }
 
-/// Writes what each line is beside its right end, moved apart where the ends meet.
+/// Writes what each line is next to its right end, moved apart where the ends meet.
 pub(super) fn end_labels(
     area: &Area<'_>,
     chart: &Chart<'_, '_>,
