@@ -5,7 +5,7 @@ use faer::{Mat, MatMut, MatRef};
 use super::eigenproblem::Interval;
 use super::operator::{Factored, FreeAtZero, RefinedAtZero, ShiftInvert};
 use super::random::SplitMix64;
-use super::{Component, Equilibrated, ModalProblem, SEED, SETTLED, Shifted, shifted};
+use super::{CARRIES_NOTHING, Component, Equilibrated, ModalProblem, SEED, Shifted, shifted};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, InertiaCount, ShiftedFactor, count_below};
@@ -91,8 +91,9 @@ impl<'a> BoundaryProblem<'a> {
         let operator = FreeAtZero::new(factor, &partition.stiffness, constraint, rigid)?;
         let residual = relative_residual(problem, &operator);
         if residual <= HOLDS_UP {
-            let is_by_digits = partition.has_few_digits() && residual > SETTLED;
-            let solved = match is_by_digits {
+            // K of few digits makes forces of rigid-body motion, and so do roundings of penalties that tie dofs: modes of the operator
+            // as it is would be those of another K by as much.
+            let solved = match residual > CARRIES_NOTHING {
                 true => solve(&RefinedAtZero::new(&operator, rigid)),
                 false => solve(&operator),
             };

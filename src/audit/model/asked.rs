@@ -82,8 +82,11 @@ impl AskedModes {
         // Motions that K does not quite let pass are not those of the next operator: what they cost it is what tells both apart.
         let energy = rigid.energy.largest_quotient / full.first;
         for group in &found.groups {
-            let turn = energy / gap_of(&found.modes, full.sigma, group);
+            let gap = gap_of(&found.modes, full.sigma, group);
+            let turn = energy / gap;
             found.angles[group.clone()].iter_mut().for_each(|angle| *angle = (*angle + turn).min(1.0));
+            // A shape that lacks δ of θ, and is turned by δ/γ for it, has a quotient that is off by δ²/γ.
+            found.residual_bars[group.clone()].iter_mut().for_each(|bar| *bar += turn * turn * gap);
         }
         Ok(Self { boundary: Boundary::FreeInterface, n_zero: rigid.count(), ..found })
     }
