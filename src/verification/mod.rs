@@ -13,6 +13,7 @@ mod grounding;
 pub(crate) mod limits;
 mod loads;
 mod mass;
+mod penalty;
 mod pencil;
 pub mod preservation;
 mod reduced;
@@ -37,6 +38,8 @@ use check::Check;
 pub use enclosure::{CountProof, Enclosures, enclosures, enclosures_where_asked};
 pub use grounding::{Grounding, Restraint};
 pub use loads::EffectiveMasses;
+pub(crate) use penalty::LARGEST_OF_MESHES;
+pub use penalty::Penalties;
 pub use preservation::{Compared, preservation};
 pub use rigid_body::MassRoutes;
 
@@ -74,6 +77,8 @@ pub struct Findings {
     pub checks: Vec<Check>,
     /// The component as a rigid body, in scaled units.
     pub rigid_body: RigidBody,
+    /// Rows whose stiffness takes the digits that checks ask for.
+    pub penalties: Option<Penalties>,
 }
 
 /// The component as a rigid body.
@@ -134,7 +139,8 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     checks.extend(conditioning::conditioning(evidence, condition)?);
     checks.push(reduced::symmetry(evidence, &terms));
     checks.push(reduced::definiteness(evidence, &spectrum));
-    Ok(Findings { checks, rigid_body })
+    let penalties = penalty::penalties(evidence, spectrum.first_elastic());
+    Ok(Findings { checks, rigid_body, penalties })
 }
 
 /// What a rigid-body mode is called: `rotation z` of one free body, else by its number.
