@@ -10,7 +10,7 @@ use super::indefinite::Indefinite;
 use super::multifrontal::Keep;
 use super::{Analysis, Pencil};
 use crate::dense;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, held_words};
 use crate::partition::Partition;
 use crate::sparse::{Leading, SparseMatrix};
 
@@ -154,6 +154,12 @@ fn count_negative_beyond(analysis: &Analysis, stiffness: Leading<'_>, share: f64
     Ok(Indefinite::new(analysis, pencil, -1.0, Keep::Pivots)?.signs()?.negative)
 }
 
+/// The boundary that a definite matrix is factored under: its interface is held where it is the border of the elimination, or left
+/// out of the block.
+pub(super) fn boundary_of(analysis: &Analysis, stiffness: Leading<'_>) -> &'static str {
+    if analysis.n_border() > 0 || !stiffness.is_whole() { "held" } else { "free" }
+}
+
 /// Why K is no definite matrix, where its digits are few and rounding of them may be all that is wrong with it.
 pub fn few_digits(error: Error, analysis: &Analysis, stiffness: Leading<'_>, precision: f64) -> Error {
     let is_of_definiteness = matches!(
@@ -163,12 +169,11 @@ pub fn few_digits(error: Error, analysis: &Analysis, stiffness: Leading<'_>, pre
     if !is_of_definiteness || precision <= f64::EPSILON {
         return error;
     }
-    let boundary = if analysis.n_border() > 0 { "held" } else { "free" };
+    let held = held_words(boundary_of(analysis, stiffness));
     match count_negative_beyond(analysis, stiffness, precision) {
         Ok(0) => {
-            let what = format!(
-                "whether it is definite with the interface {boundary}: as it stands it is not, with other last digits it is"
-            );
+            let what =
+                format!("whether it is definite with {held}: as it stands it is not, with other last digits it is");
             Error::DigitsTooFew { what, precision }
         }
         _ => error,
