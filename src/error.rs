@@ -1421,7 +1421,7 @@ pub enum Error {
     },
     /// Eigenvalues of K below zero.
     #[error(
-        "the stiffness has {count} negative eigenvalues with {}, by a Sturm count – expected none – the component is preloaded beyond buckling, has negative springs, or its matrix lacks digits; reduce it at a smaller preload",
+        "the stiffness has {count} negative eigenvalues with {}, by a Sturm count – expected none – the component is preloaded beyond buckling, has negative springs, or its matrix lacks digits, which a penalty far above all else takes too; reduce it at a smaller preload",
         held_words(boundary)
     )]
     IndefiniteStiffness {

@@ -67,11 +67,20 @@ impl DataSource<'_> {
         if x.ncols() == 0 || !self.partition.has_few_digits() {
             return None;
         }
-        let Some(kept) = self.kept else { return Some(self.partition.energy_noise(x)) };
+        Some(self.of_partition(x, Partition::energy_noise))
+    }
+
+    /// Terms of xᵀKx that rigid patches have taken up.
+    pub(super) fn patch_terms(&self, x: MatRef<'_, f64>) -> Vec<f64> {
+        self.of_partition(x, Partition::patch_terms)
+    }
+
+    fn of_partition(&self, x: MatRef<'_, f64>, of: impl Fn(&Partition, MatRef<'_, f64>) -> Vec<f64>) -> Vec<f64> {
+        let Some(kept) = self.kept else { return of(self.partition, x) };
         let mut whole = Mat::zeros(self.partition.n_dofs(), x.ncols());
         for (row, dof) in kept.iter().enumerate() {
             (0..x.ncols()).for_each(|j| whole[(*dof, j)] = x[(row, j)]);
         }
-        Some(self.partition.energy_noise(whole.as_ref()))
+        of(self.partition, whole.as_ref())
     }
 }

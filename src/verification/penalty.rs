@@ -55,7 +55,10 @@ struct Worst {
 /// Stiff rows that cost the rigid-body motions or the modes digits that are asked for; `first` is the first elastic eigenvalue.
 pub(super) fn penalties(evidence: &Evidence<'_>, first: Option<f64>) -> Option<Penalties> {
     let (partition, retained) = (evidence.partition, evidence.retained);
-    let contrast = contrasts(partition);
+    let n = partition.n_dofs();
+    let mut contrast = contrasts(partition);
+    // What rigid patches have taken up is no row of K any more: all of it together stands behind the rows.
+    contrast.push(partition.cancellation);
     if contrast.iter().all(|ratio| *ratio < LARGEST_OF_MESHES) {
         return None;
     }
@@ -67,9 +70,12 @@ pub(super) fn penalties(evidence: &Evidence<'_>, first: Option<f64>) -> Option<P
         for columns in panels(x.ncols()) {
             let panel = x.get(.., columns.clone());
             let (_, terms) = product_and_terms(stiffness, panel);
+            let of_patches = partition.patch_terms(panel);
             for (at, j) in columns.enumerate() {
                 let (x, terms) = (dense::column(panel, at), dense::column(terms.as_ref(), at));
-                let cost: Vec<f64> = x.iter().zip(terms).map(|(x, t)| precision * x.abs() * t / scale(j)).collect();
+                let mut cost: Vec<f64> = x.iter().zip(terms).map(|(x, t)| precision * x.abs() * t / scale(j)).collect();
+                cost.resize(n, 0.0);
+                cost.push(precision * of_patches[at] / scale(j));
                 let found = of_motion(&cost, &contrast, asked);
                 let is_worse = |found: &Worst| worst.as_ref().is_none_or(|worst| found.excess > worst.excess);
                 if let Some(found) = found.filter(is_worse) {
@@ -82,10 +88,11 @@ pub(super) fn penalties(evidence: &Evidence<'_>, first: Option<f64>) -> Option<P
     look(eigenpairs::pencil(evidence).stiffness, modes.shapes.as_ref(), &|j| modes.lambda[j], FREQUENCY_ASKED);
     let Worst { noise, asked, noise_without, rows, .. } = worst?;
     let stiffness = diagonal(&partition.stiffness);
-    let stiffest = rows.iter().copied().max_by(|a, b| stiffness[*a].total_cmp(&stiffness[*b]))?;
+    let size = |row: usize| stiffness.get(row).copied().unwrap_or(f64::INFINITY);
+    let stiffest = rows.iter().copied().max_by(|a, b| size(*a).total_cmp(&size(*b)))?;
     Some(Penalties {
         n_rows: rows.len(),
-        stiffest: partition.name_of(stiffest),
+        stiffest: if stiffest < n { partition.name_of(stiffest) } else { "nodes of a rigid patch".to_owned() },
         ratio: contrast[stiffest],
         noise,
         asked,
@@ -105,17 +112,27 @@ fn of_motion(cost: &[f64], contrast: &[f64], asked: f64) -> Option<Worst> {
     is_costly.then(|| Worst { excess: noise / asked, noise, asked, noise_without, rows: rows() })
 }
 
-/// How many times stiffer each row is than the softest one it is coupled with, by stiffness and by stiffness over mass: the first
-/// alone compares newtons per metre with newton metres, the second alone takes a heavy neighbour for a soft one.
+/// How many times stiffer each row is than the softest one it is coupled with, by stiffness and by stiffness over mass: the second
+/// alone takes a heavy neighbour for a soft one. Translations are compared with translations and rotations with rotations, as far as
+/// that is known: a slender beam is far stiffer against stretching than against rotation of its ends.
 fn contrasts(partition: &Partition) -> Vec<f64> {
     let (k, m) = (diagonal(&partition.stiffness), diagonal(&partition.mass));
     let ratio = |i: usize, j: usize| {
         let of_stiffness = k[i] / k[j];
         if m[i] > 0.0 && m[j] > 0.0 { of_stiffness.min(of_stiffness * m[j] / m[i]) } else { of_stiffness }
     };
+    let kind = |i: usize| {
+        let dof = &partition.dofs[i];
+        let direction = dof.dof.map(|dof| dof.direction).or(dof.site.map(|site| site.direction));
+        direction.map(crate::input::Direction::is_rotation)
+    };
+    let is_like = |i: usize, j: usize| kind(i).is_none() || kind(j).is_none() || kind(i) == kind(j);
     let of_row = |i: usize| {
-        let coupled =
-            partition.pencil().stiffness.entries(i).filter(|(j, value)| *j != i && *value != 0.0 && k[*j] > 0.0);
+        let coupled = partition
+            .pencil()
+            .stiffness
+            .entries(i)
+            .filter(|(j, value)| *j != i && *value != 0.0 && k[*j] > 0.0 && is_like(i, *j));
         coupled.fold(1.0, |most: f64, (j, _)| most.max(ratio(i, j)))
     };
     (0..k.len()).map(of_row).collect()

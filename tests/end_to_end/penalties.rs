@@ -37,8 +37,16 @@ fn tied(penalty: f64) -> Model {
     Model { stiffness: stiffness.finish(), ..joined }
 }
 
-fn flags(method: &str, coupling: &str) -> String {
-    let nodes: Vec<String> = END.iter().map(ToString::to_string).collect();
+/// How an interface is chosen in the tied bodies, and in one where the nodes are joined.
+const INTERFACES: [(&str, &[i64], &[i64]); 3] = [
+    ("interface", &END, &END),
+    ("rigid-interface", &END, &END),
+    // Both sides of the ties in one patch, of whose stiffness nothing is left in K but its roundings.
+    ("rigid-interface", &[1, 6, 11, 16, 21, 26, 31, 36], &TIED),
+];
+
+fn flags(method: &str, coupling: &str, nodes: &[i64]) -> String {
+    let nodes: Vec<String> = nodes.iter().map(ToString::to_string).collect();
     format!("--{coupling} end={} --method {method} --modes 6", nodes.join(","))
 }
 
@@ -61,21 +69,22 @@ fn reduction_and_both_verifications_conclude_alike_of_penalties_of_any_size() {
     let exact = Place::with(&join(&body(), &body(), &TIED.map(|node| (node, node))));
     let mut faults = Vec::new();
     let mut n_verified = 0;
-    for (method, coupling) in [
-        ("herting", "interface"),
-        ("herting", "rigid-interface"),
-        ("craig-bampton", "interface"),
-        ("craig-bampton", "rigid-interface"),
-    ] {
-        let flags = flags(method, coupling);
-        exact.reduce(&exact.model_flags(), &flags).expect(ExitCode::Done);
+    let ways =
+        ["herting", "craig-bampton"].into_iter().flat_map(|method| INTERFACES.map(|interface| (method, interface)));
+    for (method, (coupling, nodes, nodes_joined)) in ways {
+        exact.reduce(&exact.model_flags(), &flags(method, coupling, nodes_joined)).expect(ExitCode::Done);
         let joined = frequencies(&exact.report("x.report.json"));
-        for exponent in 1..=13 {
+        let flags = flags(method, coupling, nodes);
+        for exponent in [1, 3, 4, 5, 6, 7, 8, 9, 10, 12] {
             let place = Place::with(&tied(10f64.powi(exponent)));
-            let at = format!("{method}, {coupling}, 1e{exponent}");
+            let at = format!("{method}, {flags}, 1e{exponent}");
             let ended = place.reduce(&place.model_flags(), &flags);
             if ended.code == ExitCode::Done {
                 n_verified += 1;
+                let report = place.report("x.report.json");
+                if report["body"]["model"]["rigid_body_modes"]["count"] != 6 {
+                    faults.push(format!("{at}: not free"));
+                }
                 let job = place.text("job.json");
                 let kept = supel(&["inspect", &place.text("x.supel"), "--job"]).expect(ExitCode::Done).out;
                 place.write("job.json", kept.as_bytes());
@@ -87,7 +96,7 @@ fn reduction_and_both_verifications_conclude_alike_of_penalties_of_any_size() {
                     }
                 }
                 // A spring of a thousand elements in series with the body is no softer than a hundredth of it.
-                let off = frequencies(&place.report("x.report.json"))
+                let off = frequencies(&report)
                     .iter()
                     .zip(&joined)
                     .fold(0.0, |most: f64, (a, b)| most.max(((a[0] - b[0]).abs() - a[1] - b[1]) / b[0]));
@@ -102,9 +111,9 @@ fn reduction_and_both_verifications_conclude_alike_of_penalties_of_any_size() {
             } else if !ended.err.contains("penalty") {
                 faults.push(format!("{at}: refused without a word of the penalty: {}", ended.err));
             }
-            println!("{at}: {:?}", ended.code);
         }
     }
     assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
-    println!("{n_verified}");
+    // Up to ten thousand times the stiffness of the bodies nothing is lost that a check asks for.
+    assert!(n_verified >= 18, "{n_verified} verified");
 }
