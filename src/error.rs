@@ -1412,15 +1412,19 @@ pub enum Error {
     },
     /// A pivot of a matrix that should be definite was not positive.
     #[error(
-        "the stiffness with the interface held is not positive definite – elimination stopped at {dof} – expected a positive pivot – the structure has a mechanism there or is unstable, or a penalty far above all else takes its digits"
+        "the stiffness is not positive definite with {} – elimination stopped at {dof} – expected a positive pivot – the structure has a mechanism there or is unstable, or a penalty far above all else takes its digits",
+        held_words(boundary)
     )]
     NotDefinite {
         /// The dof eliminated when it happened.
         dof: String,
+        /// `free` or `held`: the interface while it was factored.
+        boundary: &'static str,
     },
     /// Eigenvalues of K below zero.
     #[error(
-        "the stiffness has {count} negative eigenvalues with the interface {boundary}, by a Sturm count – expected none – the component is preloaded beyond buckling, has negative springs, or its matrix lacks digits; reduce it at a smaller preload"
+        "the stiffness has {count} negative eigenvalues with {}, by a Sturm count – expected none – the component is preloaded beyond buckling, has negative springs, or its matrix lacks digits, which a penalty far above all else takes too; reduce it at a smaller preload",
+        held_words(boundary)
     )]
     IndefiniteStiffness {
         /// How many.
@@ -1587,6 +1591,11 @@ impl fmt::Display for Suggested<'_> {
 }
 
 /// Names for a message: the first few, and how many more there are.
+/// What was held while a matrix was factored; a component need not have an interface.
+pub(crate) fn held_words(boundary: &str) -> &'static str {
+    if boundary == "held" { "the interface held" } else { "no interface held" }
+}
+
 fn listed(names: &[String]) -> String {
     const SHOWN: usize = 12;
     match names.len() {

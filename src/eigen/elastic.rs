@@ -41,10 +41,10 @@ pub struct ModeRequest {
 /// mode, ε · 10⁶ of itself, moves its Rayleigh quotient by the square.
 const SPREAD: f64 = 1e6;
 /// Backward error of a mode that lacks no digits, a hundredth of what M-01 lets pass.
-pub(crate) const SETTLED: f64 = 1e-12;
+const SETTLED: f64 = 1e-12;
 /// Backward error above which a step of inverse iteration is tried on a mode: a tenth of what M-01 asks for, and ten times what
 /// modes are left with that carry nothing unseen.
-const CARRIES_NOTHING: f64 = 1e-14;
+pub(crate) const CARRIES_NOTHING: f64 = 1e-14;
 /// Share of λ that the residual of such a mode may leave in doubt, a tenth of what M-24 looks at.
 const SETTLED_BAR: f64 = 1e-10;
 /// Finds elastic modes with a shift-invert operator.

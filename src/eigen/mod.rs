@@ -26,8 +26,8 @@ mod shifted;
 pub(crate) mod zero;
 
 pub use cluster::REPEATED_WITHIN;
+pub(crate) use elastic::{CARRIES_NOTHING, judged, pairs_between, purified, settled_at};
 pub use elastic::{Eigensolver, ModeRequest, elastic_modes};
-pub(crate) use elastic::{SETTLED, judged, pairs_between, purified, settled_at};
 pub use equilibration::Equilibrated;
 pub use lanczos::{lanczos, lanczos_between};
 pub use modal_problem::{EnergyNoise, ModalProblem};

@@ -29,6 +29,9 @@ pub struct ModalProblem<'a> {
 pub trait EnergyNoise: Debug + Sync {
     /// What the digits of K leave open of xᵀKx for each column of x (n × k); nothing where K has as many digits as a double.
     fn energy_noise(&self, x: MatRef<'_, f64>) -> Option<Vec<f64>>;
+
+    /// |x|ᵀ|K||x| of terms that cancelled while K was made, and of which it shows nothing but the roundings.
+    fn hidden_terms(&self, x: MatRef<'_, f64>) -> Vec<f64>;
 }
 
 impl<'a> ModalProblem<'a> {

@@ -60,7 +60,10 @@ pub(crate) fn rayleigh_quotients(
         let (image, terms) = product_and_terms(matrix, shapes);
         (image, energies_of_terms(shapes, terms.as_ref()))
     };
-    let (mut forces, stiffness_terms) = both(problem.stiffness);
+    let (mut forces, mut stiffness_terms) = both(problem.stiffness);
+    if let Some(noise) = problem.noise {
+        stiffness_terms.iter_mut().zip(noise.hidden_terms(shapes)).for_each(|(terms, more)| *terms += more);
+    }
     let (momenta, mass_terms) = both(problem.mass);
     let norms = Equilibrated::of(problem.pencil());
     let rounding = f64::EPSILON;

@@ -6,7 +6,7 @@ use faer::{Mat, MatMut, MatRef};
 
 use super::elimination::Kind;
 use super::entry::Entry;
-use super::inertia::count_negative;
+use super::inertia::{boundary_of, count_negative};
 use super::matrix::Shifted;
 use super::multifrontal::{Keep, Numbers, Stop, eliminate};
 use super::refined::{Refined, Refinement};
@@ -177,8 +177,9 @@ impl SolveOperator for Cholesky<'_> {
 
 /// Why there is no Cholesky factor: negative eigenvalues of K where a count finds any, otherwise a mechanism at `dof`.
 fn not_definite(analysis: &Analysis, pencil: Pencil<'_>, dof: String) -> Error {
+    let boundary = boundary_of(analysis, pencil.stiffness);
     match count_negative(analysis, pencil.stiffness) {
-        Ok(count) if count > 0 => Error::IndefiniteStiffness { count, boundary: "held" },
-        _ => Error::NotDefinite { dof },
+        Ok(count) if count > 0 => Error::IndefiniteStiffness { count, boundary },
+        _ => Error::NotDefinite { dof, boundary },
     }
 }

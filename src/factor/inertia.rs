@@ -10,7 +10,7 @@ use super::Analysis;
 use super::indefinite::Indefinite;
 use super::multifrontal::Keep;
 use crate::dense;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, held_words};
 use crate::sparse::Pencil;
 use crate::sparse::{Leading, SparseMatrix};
 
@@ -100,6 +100,12 @@ fn counted<'a>(
     Ok((factor, schur, count))
 }
 
+/// The boundary that a definite matrix is factored under: its interface is held where it is the border of the elimination, or left
+/// out of the block.
+pub(super) fn boundary_of(analysis: &Analysis, stiffness: Leading<'_>) -> &'static str {
+    if analysis.n_border() > 0 || !stiffness.is_whole() { "held" } else { "free" }
+}
+
 /// Eigenvalues of K_II below zero by more than rounding of its entries, however σ and M are.
 ///
 /// K_II + τ diag(K_II) is counted: a negative eigenvalue that a relative change τ of the diagonal makes vanish is one that
@@ -162,12 +168,11 @@ pub fn few_digits(error: Error, analysis: &Analysis, stiffness: Leading<'_>, pre
     if !is_of_definiteness || precision <= f64::EPSILON {
         return error;
     }
-    let boundary = if analysis.n_border() > 0 { "held" } else { "free" };
+    let held = held_words(boundary_of(analysis, stiffness));
     match count_negative_beyond(analysis, stiffness, precision) {
         Ok(0) => {
-            let what = format!(
-                "whether it is definite with the interface {boundary}: as it stands it is not, with other last digits it is"
-            );
+            let what =
+                format!("whether it is definite with {held}: as it stands it is not, with other last digits it is");
             Error::DigitsTooFew { what, precision }
         }
         _ => error,

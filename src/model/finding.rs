@@ -4,8 +4,8 @@ use crate::dofs::Direction;
 
 /// Above this relative asymmetry a finding becomes a warning; below it the asymmetry is rounding of the producer.
 pub const ASYMMETRY_WARN: f64 = 1e-12;
-/// Times the median diagonal entry of K above which a row is held or tied by a penalty: rotations of thick parts in millimetres and
-/// soft joints come to 10⁸ of each other.
+/// Times the median diagonal entry of K above which a row is held or tied by a penalty, whatever it costs: rotations of thick parts in
+/// millimetres and soft joints come to 10⁸ of each other. Smaller ones are named by the digits they take, once there are modes.
 pub(super) const PENALTY: f64 = 1e10;
 
 /// Something the checks found that is not an error.

@@ -7,8 +7,8 @@ use crate::constraint::{FreeAtZero, RefinedAtZero};
 use crate::eigen::ElasticCount;
 use crate::eigen::Interval;
 use crate::eigen::relative_residual;
-use crate::eigen::{Factored, ShiftInvert};
-use crate::eigen::{ModalProblem, SETTLED, Shifted, shifted};
+use crate::eigen::{CARRIES_NOTHING, Factored, ShiftInvert};
+use crate::eigen::{ModalProblem, Shifted, shifted};
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, InertiaCount, ShiftedFactor, count_below};
 use crate::job::Method;
@@ -83,8 +83,9 @@ impl<'a> BoundaryProblem<'a> {
         let operator = FreeAtZero::new(factor, &partition.stiffness, constraint, rigid)?;
         let residual = relative_residual(problem, &operator);
         if residual <= MAX_RESIDUAL_OF_CLAMPED_FACTOR {
-            let is_by_digits = partition.has_few_digits() && residual > SETTLED;
-            let solved = match is_by_digits {
+            // K of few digits makes forces of rigid-body motion, and so do roundings of penalties that tie dofs: modes of the operator
+            // as it is would be those of another K by as much.
+            let solved = match residual > CARRIES_NOTHING {
                 true => solve(&RefinedAtZero::new(&operator, rigid)),
                 false => solve(&operator),
             };

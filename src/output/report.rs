@@ -204,6 +204,7 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
         });
     }
     warnings.extend(warnings::of_motions(results));
+    warnings.extend(warnings::penalties(results));
     warnings.extend(warnings::data_precision(results));
     warnings.extend(warnings::mixed_precision(results));
     warnings.extend(rigid_body::expectation_unchecked(results));

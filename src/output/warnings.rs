@@ -7,6 +7,7 @@ use crate::factor::Refinement;
 use crate::job::Precision;
 use crate::modes::Boundary;
 use crate::rigid::RigidSource;
+use crate::verification::{LARGEST_OF_MESHES, Penalties};
 
 /// Relative error bar of a frequency above which a warning names the digits of the data: what a modal test resolves, the
 /// limit of M-09.
@@ -87,6 +88,21 @@ pub(super) fn mixed_precision(results: &Results<'_>) -> Option<Warning> {
     Some(Warning {
         code: "W-MIXED-PRECISION",
         message: format!("in double precision the run would not have fitted into memory; {refinement}"),
+    })
+}
+
+/// Stiff rows that take the digits, where the model has not named them for their size alone.
+pub(super) fn penalties(results: &Results<'_>) -> Option<Warning> {
+    let named = results.evidence.partition.model.findings.iter().any(|finding| finding.warning() == Some("W-PENALTY"));
+    let Penalties { n_rows, stiffest, ratio, noise, asked, noise_without } =
+        results.findings.penalties.as_ref().filter(|_| !named)?;
+    Some(Warning {
+        code: "W-PENALTY",
+        message: format!(
+            "{n_rows} rows are more than {LARGEST_OF_MESHES} times stiffer than rows they are coupled with, up to {ratio:.0e} times at \
+             {stiffest}: their terms cancel and leave energies known to {noise:.0e}, where {asked:.0e} is asked for and {noise_without:.0e} is \
+             had without them; tie dofs by elimination, or by a smaller penalty"
+        ),
     })
 }
 

@@ -31,6 +31,8 @@ pub const CHANCE_OF_MORE: f64 = 1e-12;
 /// Share of its own size that half a unit of the last digit is at least, in units of that of the smallest number of as many digits:
 /// single precision counts as seven digits, and is coarser than these where the first of them is a nine.
 const LEAST_SHARE: f64 = 1.0 / 8.0;
+/// How much larger than their sum the terms of a patch of a mesh are, at most: by about the number of layers of elements that it ties.
+const LARGEST_OF_MESHES: f64 = 1e3;
 /// Columns that one reading of the entries serves.
 const WIDTH: usize = 8;
 
@@ -56,6 +58,26 @@ impl Partition {
         let roundings = self.roundings.get_or_init(|| Roundings::of(&self.stiffness, &self.dofs, &self.patches));
         let panels = (0..x.ncols()).step_by(WIDTH);
         panels.flat_map(|first| self.panel_noise(roundings, x.subcols(first, WIDTH.min(x.ncols() - first)))).collect()
+    }
+
+    /// Terms of xᵀKx that cancelled when rigid patches took up entries of K, of each column: Σ |x̃_i||K_ij||x̃_j| inside the patches, where
+    /// a penalty between nodes of one patch leaves no other trace than its rounding. Nothing for patches of a mesh, whose terms
+    /// are of the size of their sum.
+    pub(crate) fn patch_terms(&self, x: MatRef<'_, f64>) -> Vec<f64> {
+        let mut terms = vec![0.0; x.ncols()];
+        if self.cancellation < LARGEST_OF_MESHES {
+            return terms;
+        }
+        let is_patch = |row: u32| row as usize >= self.n_dofs();
+        for (first, terms) in (0..x.ncols()).step_by(WIDTH).zip(terms.chunks_mut(WIDTH)) {
+            let extended = self.extended(x.subcols(first, terms.len()));
+            for entry in self.patches.entries.iter().filter(|entry| is_patch(entry.row) && is_patch(entry.col)) {
+                let (a, b) = (&extended[entry.row as usize], &extended[entry.col as usize]);
+                let size = if entry.row == entry.col { entry.value.abs() } else { 2.0 * entry.value.abs() };
+                terms.iter_mut().zip(a.iter().zip(b)).for_each(|(sum, (a, b))| *sum += size * (a * b).abs());
+            }
+        }
+        terms
     }
 
     /// Whether the entries of K were rounded to fewer digits than double precision has.

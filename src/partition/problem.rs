@@ -21,6 +21,10 @@ impl EnergyNoise for Partition {
     fn energy_noise(&self, x: MatRef<'_, f64>) -> Option<Vec<f64>> {
         (x.ncols() > 0 && self.has_few_digits()).then(|| Self::energy_noise(self, x))
     }
+
+    fn hidden_terms(&self, x: MatRef<'_, f64>) -> Vec<f64> {
+        self.patch_terms(x)
+    }
 }
 
 /// The entries of a partition's K at some of its dofs.
@@ -32,15 +36,23 @@ pub struct EntriesAt<'a> {
     pub kept: &'a [usize],
 }
 
-impl EnergyNoise for EntriesAt<'_> {
-    fn energy_noise(&self, x: MatRef<'_, f64>) -> Option<Vec<f64>> {
-        if x.ncols() == 0 || !self.partition.has_few_digits() {
-            return None;
-        }
+impl EntriesAt<'_> {
+    /// A motion of the dofs that are kept, with the others at rest, n' × k.
+    fn whole(&self, x: MatRef<'_, f64>) -> Mat<f64> {
         let mut whole = Mat::zeros(self.partition.n_dofs(), x.ncols());
         for (row, dof) in self.kept.iter().enumerate() {
             (0..x.ncols()).for_each(|j| whole[(*dof, j)] = x[(row, j)]);
         }
-        Some(self.partition.energy_noise(whole.as_ref()))
+        whole
+    }
+}
+
+impl EnergyNoise for EntriesAt<'_> {
+    fn energy_noise(&self, x: MatRef<'_, f64>) -> Option<Vec<f64>> {
+        (x.ncols() > 0 && self.partition.has_few_digits()).then(|| self.partition.energy_noise(self.whole(x).as_ref()))
+    }
+
+    fn hidden_terms(&self, x: MatRef<'_, f64>) -> Vec<f64> {
+        self.partition.patch_terms(self.whole(x).as_ref())
     }
 }

@@ -14,7 +14,7 @@ pub(super) struct PatchEntries {
     /// How the rows of the patches follow the dofs of the partition.
     pub(super) rows: Vec<Box<[(u32, f64)]>>,
     /// Entries with at least one such row, one of each pair: places in the extended motion, and the value.
-    entries: Vec<Entry>,
+    pub(super) entries: Vec<Entry>,
 }
 
 /// An entry of the upper triangle: its place in the motion extended by the rows of patches, and its value.

@@ -12,19 +12,22 @@ use crate::sparse::{SparseMatrix, energies_of_terms, product_and_terms};
 pub(crate) fn zero_energy(partition: &Partition, x: MatRef<'_, f64>, terms: MatRef<'_, f64>) -> f64 {
     let norms = Equilibrated::of(partition.pencil());
     let (digits, sizes) = (partition.energy_noise(x), energies_of_terms(x, terms));
+    let patches = partition.patch_terms(x);
     let level = |j: usize| {
         let floor = norms.stiffness_norm * norms.scaled_norm(dense::column(x, j)).powi(2);
-        zero::level(digits[j], f64::EPSILON * sizes[j], f64::EPSILON * floor)
+        zero::level(digits[j], f64::EPSILON * (sizes[j] + patches[j]), f64::EPSILON * floor)
     };
     (0..x.ncols()).map(level).fold(0.0, f64::max)
 }
 
-/// What few digits of K can make of the energy of a rigid-body motion of unit modal mass.
+/// What few digits of K, or roundings of it that rigid patches hide, can make of the energy of a rigid-body motion of unit modal mass.
 pub(crate) fn noise_of_digits(partition: &Partition, rigid: &RigidBodyModes) -> f64 {
-    match partition.has_few_digits() {
+    let of_patches = partition.patch_terms(rigid.massive()).into_iter().fold(0.0, f64::max);
+    let of_digits = match partition.has_few_digits() {
         true => partition.energy_noise(rigid.massive()).into_iter().fold(0.0, f64::max),
         false => 0.0,
-    }
+    };
+    of_digits.max(f64::EPSILON * of_patches)
 }
 
 /// The largest ‖Kq‖ / ‖ |K||q| ‖ of the columns.

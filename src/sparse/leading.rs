@@ -28,6 +28,11 @@ impl<'a> Leading<'a> {
         self.n
     }
 
+    /// Whether the block is all of the matrix.
+    pub fn is_whole(self) -> bool {
+        self.n == self.whole.rows()
+    }
+
     /// Stored entries of the block.
     pub fn nnz(self) -> usize {
         (0..self.n).map(|row| self.row(row).0.len()).sum()

@@ -4,6 +4,7 @@ use super::check::Check;
 use super::evidence::Evidence;
 use super::grounding::{self, Grounding};
 use super::loads::{self, EffectiveMasses};
+use super::penalty::{self, Penalties};
 use super::rigid_body::{self, MassRoutes};
 use super::{completeness, conditioning, eigenpairs, enclosed, mass, reduced, rigid_motion, solves, spectrum};
 use crate::error::Result;
@@ -15,6 +16,8 @@ pub struct Findings {
     pub checks: Vec<Check>,
     /// The component as a rigid body, in scaled units.
     pub rigid_body: RigidBody,
+    /// Rows whose stiffness takes the digits that checks ask for.
+    pub penalties: Option<Penalties>,
 }
 
 /// The component as a rigid body.
@@ -75,5 +78,6 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     checks.extend(conditioning::conditioning(evidence, condition)?);
     checks.push(reduced::symmetry(evidence, &terms));
     checks.push(reduced::definiteness(evidence, &spectrum));
-    Ok(Findings { checks, rigid_body })
+    let penalties = penalty::penalties(evidence, spectrum.first_elastic());
+    Ok(Findings { checks, rigid_body, penalties })
 }

@@ -10,6 +10,11 @@ const NOISE_FACTOR: f64 = 10.0;
 /// Energy of a rigid-body motion relative to that of the first elastic mode that practice accepts: a rigid-body frequency of 10⁻⁴
 /// of the first elastic one.
 const RIGID_ENERGY: f64 = 1e-8;
+/// Relative difference of one frequency that is computed twice.
+const SAME_FREQUENCY: f64 = 1e-9;
+/// Noise of energies and of frequencies at which their limits are still those of practice.
+pub(crate) const ENERGY_ASKED: f64 = RIGID_ENERGY / NOISE_FACTOR;
+pub(crate) const FREQUENCY_ASKED: f64 = SAME_FREQUENCY / NOISE_FACTOR;
 /// Energy at which the component is held: a rigid-body frequency of a hundredth of the first elastic one.
 pub(crate) const GROUNDED: f64 = 1e-4;
 /// What rounding may excuse of an energy without a warning: at a tenth of the first elastic frequency a rigid-body motion
@@ -76,7 +81,8 @@ fn of_nothing(noise: f64, share_of_data: f64, fails_at: f64) -> Judged {
 /// Limits of the relative difference of two frequencies of one mode whose eigenvalue has this relative bar.
 pub(crate) fn of_frequency(relative_bar: f64, share_of_data: f64) -> Judged {
     let noise = NOISE_FACTOR * relative_bar;
-    let limits = Limits { engineering: 1e-9, arithmetic: noise * (1.0 - share_of_data), data: noise * share_of_data };
+    let limits =
+        Limits { engineering: SAME_FREQUENCY, arithmetic: noise * (1.0 - share_of_data), data: noise * share_of_data };
     let limits = limits.capped(NOT_PRESERVED, NOT_PRESERVED);
     // What the digits leave open is not a failure of the reduction: up to the error bar itself it is a warning, with M-09.
     let within_bar = (0.5 * relative_bar * share_of_data).min(OPEN);

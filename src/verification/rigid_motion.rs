@@ -12,7 +12,7 @@ use crate::dense;
 use crate::rigid::{noise_of_digits, scales};
 
 /// How far roundings of one sign may exceed their typical sum.
-const NOISE_FACTOR: f64 = 10.0;
+pub(super) const NOISE_FACTOR: f64 = 10.0;
 
 /// M-05, energy. The value is shown and not judged where no elastic mode is known to compare it with.
 pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[Grounding]) -> Check {

@@ -4,7 +4,9 @@ use faer::{Mat, MatRef};
 
 use super::check::{Check, Limits};
 use super::evidence::Evidence;
+use super::evidence::data_noise;
 use super::residual::{Residuals, Rows, Worst};
+use super::rigid_motion::NOISE_FACTOR;
 use crate::dense;
 use crate::error::Result;
 use crate::rigid::unit_motions;
@@ -15,7 +17,7 @@ const MAX_SINGLE_COLUMNS: usize = 64;
 /// Random combinations: a column that is wrong shows in each of them but for a set of measure zero, and eight leave it a
 /// chance of 10⁻⁸ to be ten times smaller in all of them than it is.
 const PROBES: usize = 8;
-/// Relative force of rigid-body motion at which M-05 fails.
+/// Relative force of rigid-body motion at which M-05 fails, or at more where the digits of the data make more of it.
 const GROUNDED: f64 = 1e-6;
 
 /// M-10: K_II Ψ_S = −K_IB, row by row.
@@ -80,7 +82,8 @@ fn forces_of_correction<'a>(evidence: &Evidence<'a>) -> Result<(Mat<f64>, MatRef
     let motions = unit_motions(partition, &evidence.rigid.without_mechanisms())?;
     let mut forces = product(&partition.stiffness, motions.as_ref());
     forces.as_mut().subrows_mut(partition.n_internal, partition.n_interface()).fill(0.0);
-    forces *= faer::Scale(TWICE * (GROUNDED / evidence.rigid.energy.largest_residual).min(1.0));
+    let excused = GROUNDED.max(NOISE_FACTOR * data_noise(partition));
+    forces *= faer::Scale(TWICE * (excused / evidence.rigid.energy.largest_residual).min(1.0));
     Ok((forces, lift))
 }
 

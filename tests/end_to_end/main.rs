@@ -3,6 +3,7 @@
 mod failures;
 mod few_digits;
 mod foreign_names;
+mod penalties;
 mod place;
 mod recovery;
 mod results;

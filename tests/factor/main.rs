@@ -10,7 +10,7 @@ use faer::{Mat, MatRef, Side};
 use supel::error::Error;
 use supel::factor::{Analysis, Cholesky, SolveOperator, Storage, count_negative, whole_count};
 use supel::sparse::Pencil;
-use supel::sparse::{SparseMatrix, absolute_product, product};
+use supel::sparse::{Leading, SparseMatrix, absolute_product, product};
 
 use matrices::{diagonal, families, grid, spd};
 
@@ -150,11 +150,21 @@ fn a_pivot_that_is_not_positive_is_named_by_its_dof() {
     let analysis = Analysis::new(pencil(&matrix, &mass)).expect("an analysis");
     let name = |dof: usize| format!("dof {dof}");
     let error = Cholesky::new(&analysis, pencil(&matrix, &mass), 0.0, &name).expect_err("singular");
-    assert!(matches!(&error, Error::NotDefinite { dof } if dof == "dof 17"), "{error}");
+    assert!(matches!(&error, Error::NotDefinite { dof, .. } if dof == "dof 17"), "{error}");
     values[17] = -1.0;
     let matrix = diagonal(&values);
     let error = Cholesky::new(&analysis, pencil(&matrix, &mass), 0.0, &name).expect_err("indefinite");
     assert!(matches!(error, Error::IndefiniteStiffness { count: 1, .. }), "{error}");
+    assert!(error.to_string().contains("with no interface held"), "{error}");
+    // As the border of the elimination, or left out of the block, an interface is held.
+    let whole = pencil(&matrix, &mass);
+    let bordered = Analysis::with_border(whole, 5).expect("an analysis");
+    let block = Pencil::new(Leading::new(&matrix, 45), Leading::new(&mass, 45));
+    let of_block = Analysis::new(block).expect("an analysis");
+    for (analysis, pencil) in [(&bordered, whole), (&of_block, block)] {
+        let error = Cholesky::new(analysis, pencil, 0.0, &name).expect_err("indefinite");
+        assert!(error.to_string().contains("with the interface held"), "{error}");
+    }
     assert_eq!(count_negative(&analysis, &matrix).expect("a count"), 1);
 }
 

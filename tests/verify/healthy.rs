@@ -1,7 +1,7 @@
 //! Files as the program writes them pass every check, with warnings counted as failures.
 
 use supel::cli::ExitCode;
-use supel_models::{Ends, spring};
+use supel_models::{Ends, Material, brick, spring};
 
 use crate::place::{Place, supel};
 
@@ -85,4 +85,18 @@ fn the_bundled_example() {
     let place = Place::with_example();
     supel(&["reduce", &place.text("job.toml"), "--output", &place.text("x.supel")]).expect(ExitCode::Done);
     passes(&place, "the bracket");
+}
+
+/// Bending about either axis of a section that is square but for its last digits: the two shapes are any two of their plane as far as
+/// rounding goes, and so are their error bars.
+#[test]
+fn modes_that_are_nearly_one_are_verified_with_the_job() {
+    for off in [1e-9, 1e-10, 1e-11, 1e-12, 1e-13] {
+        let place = Place::with(&brick([6, 2, 2], [0.4, 0.06, 0.06 * (1.0 + off)], &Material::STEEL_SI));
+        for method in ["herting", "craig-bampton"] {
+            let rest = format!("--rigid-interface foot=1,8,15,22,29,36,43,50,57 --method {method} --modes 8");
+            place.reduce(&place.model_flags(), &rest).expect(ExitCode::Done);
+            passes(&place, &format!("off by {off:e}, {method}"));
+        }
+    }
 }

@@ -36,6 +36,8 @@ pub(super) struct AskedModes {
     pub(super) modes: Modes,
     /// How far each shape, mine or the file's, may lie outside the space of its group: the sine of an angle in the mass.
     pub(super) angles: Vec<f64>,
+    /// How far each may be turned inside of its group, unless it shares its eigenvalue: the same sine.
+    pub(super) turns_inside: Vec<f64>,
     /// What the residual of a shape of the file may add to its relative error bar, at most.
     pub(super) residual_bars: Vec<f64>,
     /// Ranges of modes that are compared as one space.
@@ -56,6 +58,7 @@ impl AskedModes {
             boundary: Boundary::FixedInterface,
             modes: Modes::none(partition.n_internal),
             angles: Vec::new(),
+            turns_inside: Vec::new(),
             residual_bars: Vec::new(),
             groups: Vec::new(),
             wanted,
@@ -81,8 +84,11 @@ impl AskedModes {
         // Motions that K does not quite let pass are not those of the next operator: what they cost it is what tells both apart.
         let energy = rigid.energy.largest_quotient / full.first;
         for group in &found.groups {
-            let turn = energy / gap_of(&found.modes, full.sigma, group);
+            let gap = gap_of(&found.modes, full.sigma, group);
+            let turn = energy / gap;
             found.angles[group.clone()].iter_mut().for_each(|angle| *angle = (*angle + turn).min(1.0));
+            // A shape that lacks δ of θ, and is turned by δ/γ for it, has a quotient that is off by δ²/γ.
+            found.residual_bars[group.clone()].iter_mut().for_each(|bar| *bar += turn * turn * gap);
         }
         Ok(Self { boundary: Boundary::FreeInterface, n_zero: rigid.count(), ..found })
     }
@@ -111,10 +117,22 @@ impl AskedModes {
         let lacking = lacking(problem, (factor, sigma), &modes);
         let groups = clusters(&modes, sigma);
         let angles = angles(&modes, sigma, (&lacking, &groups));
+        let turns_inside = turns_inside(&modes, (&lacking, &groups));
         let residual_bars = residual_bars(&modes, sigma, (&lacking, &groups));
         let boundary = Boundary::FixedInterface;
         let of_digits = if partition.has_few_digits() { partition.precision.stiffness } else { 0.0 };
-        Ok(Self { boundary, modes, angles, residual_bars, groups, wanted, n_zero: 0, count: None, of_digits })
+        Ok(Self {
+            boundary,
+            modes,
+            angles,
+            turns_inside,
+            residual_bars,
+            groups,
+            wanted,
+            n_zero: 0,
+            count: None,
+            of_digits,
+        })
     }
 
     /// Counts the eigenvalues below a shift above the modes, by the inertia of the whole matrix.
@@ -236,6 +254,17 @@ fn angles(modes: &Modes, sigma: f64, (lacking, groups): (&[f64], &[Range<usize>]
         group.clone().map(move |j| (lacking[j] / gap).min(1.0))
     };
     groups.iter().flat_map(of_group).collect()
+}
+
+/// δ over the distance to the nearest other eigenvalue of the group. Modes of one eigenvalue are in the basis that their space defines.
+fn turns_inside(modes: &Modes, (lacking, groups): (&[f64], &[Range<usize>])) -> Vec<f64> {
+    let lambda = &modes.lambda;
+    let of_mode = |group: &Range<usize>, j: usize| {
+        let distances = group.clone().map(|other| (lambda[other] / lambda[j] - 1.0).abs());
+        let nearest = distances.filter(|distance| *distance > 0.0).fold(f64::INFINITY, f64::min);
+        (lacking[j] / nearest).min(1.0)
+    };
+    groups.iter().flat_map(|group| group.clone().map(|j| of_mode(group, j))).collect()
 }
 
 /// What a residual leaves of λ in doubt: by Kato and Temple Σδ²/γ of a cluster, δ at most (see the error bars of the modes).

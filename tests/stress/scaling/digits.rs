@@ -18,14 +18,15 @@ fn c_13_bars_follow_the_digits_of_the_text() {
         for eigensolver in eigensolvers() {
             let case = Case::new(&rounded(&model, digits), &pins).by(eigensolver);
             if digits == 5 {
-                // Nothing is verified, the digits are named, and the bars hold.
+                // No check fails for what the digits explain: the bars hold, checks past their limits warn, and the digits are named.
                 let outcome = case.run().expect("modes");
-                assert_eq!(outcome.report.body.verdict(), Verdict::Fail, "{:#?}", outcome.report.body.checks);
+                assert_eq!(outcome.report.body.verdict(), Verdict::Warn, "{:#?}", outcome.report.body.checks);
                 assert!(warnings(&outcome).contains(&"W-DATA-PRECISION"), "{:?}", outcome.report.body.warnings);
                 for ((found, exact), bar) in eigenvalues(&outcome).iter().zip(&exact).zip(bars(&outcome)) {
                     assert!((found / exact - 1.0).abs() <= bar, "{found} for {exact}, bar {bar:e}");
                 }
-                println!("5 digits, {eigensolver}: {:#?}", lines(&outcome, Verdict::Fail));
+                assert_eq!(n_rigid(&outcome), 6);
+                println!("5 digits, {eigensolver}: {:#?}", lines(&outcome, Verdict::Warn));
                 continue;
             }
             let outcome = case.accepted();

@@ -1,0 +1,156 @@
+//! Rows whose stiffness takes the digits that checks ask for: penalties that tie dofs to each other.
+//!
+//! ```text
+//! u |x_i| (|K||x|)_i        what rounding of row i makes of the energy of a motion x of unit modal mass, u the precision of K
+//! c_i                       how many times stiffer row i is than the softest row that it is coupled with
+//! ```
+//! What a penalty costs is not known from its size: one that holds a dof costs nothing, for nothing moves there, and one that ties two
+//! moving dofs costs its size times ε, because its terms cancel. So the roundings of the motions are added up as they are and with
+//! the stiffness of their neighbours in place of that of the stiff rows. Where the first is more than the accuracy asked for and
+//! most of it is gone in the second, the stiff rows have taken the digits.
+
+use faer::MatRef;
+
+use super::eigenpairs;
+use super::evidence::Evidence;
+use super::limits::{ENERGY_ASKED, FREQUENCY_ASKED};
+use crate::dense;
+use crate::partition::Partition;
+use crate::sparse::{Leading, diagonal, panels, product_and_terms};
+
+/// How many times stiffer than a neighbour a row of a mesh is, at most: the corner of a solid has an eighth of the stiffness inside, and
+/// elements next to each other grade by ten.
+pub(crate) const LARGEST_OF_MESHES: f64 = 100.0;
+/// Share of the roundings that the stiff rows have where they cost a digit.
+const ONE_DIGIT: f64 = 10.0;
+
+/// Rows that take digits from what they touch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Penalties {
+    /// How many.
+    pub n_rows: usize,
+    /// What the stiffest is called.
+    pub stiffest: String,
+    /// How many times stiffer it is than a row it is coupled with.
+    pub ratio: f64,
+    /// What roundings make of an energy, relative to that of the first elastic mode or to its own.
+    pub noise: f64,
+    /// What is asked for.
+    pub asked: f64,
+    /// What roundings would make of it if these rows were as stiff as their neighbours.
+    pub noise_without: f64,
+}
+
+/// The motion that the stiff rows cost most.
+struct Worst {
+    /// Noise over what is asked for.
+    excess: f64,
+    noise: f64,
+    asked: f64,
+    noise_without: f64,
+    /// Stiff rows with more than their share of the roundings.
+    rows: Vec<usize>,
+}
+
+/// Stiff rows that cost the rigid-body motions or the modes digits that are asked for; `first` is the first elastic eigenvalue.
+pub(super) fn penalties(evidence: &Evidence<'_>, first: Option<f64>) -> Option<Penalties> {
+    let (partition, retained) = (evidence.partition, evidence.retained);
+    let n = partition.n_dofs();
+    let mut contrast = contrasts(partition);
+    // What rigid patches have taken up is no row of K any more: all of it together stands behind the rows.
+    contrast.push(partition.cancellation);
+    if contrast.iter().all(|ratio| *ratio < LARGEST_OF_MESHES) {
+        return None;
+    }
+    let modes = &retained.modes;
+    let first = first.filter(|first| *first > 0.0).or(modes.lambda.first().copied()).or(modes.next)?;
+    let precision = f64::EPSILON.max(partition.precision.stiffness);
+    let mut worst: Option<Worst> = None;
+    let mut look = |stiffness: Leading<'_>, x: MatRef<'_, f64>, scale: &dyn Fn(usize) -> f64, asked: f64| {
+        for columns in panels(x.ncols()) {
+            let panel = x.get(.., columns.clone());
+            let (_, terms) = product_and_terms(stiffness, panel);
+            let of_patches = partition.patch_terms(panel);
+            for (at, j) in columns.enumerate() {
+                let (x, terms) = (dense::column(panel, at), dense::column(terms.as_ref(), at));
+                let mut cost: Vec<f64> = x.iter().zip(terms).map(|(x, t)| precision * x.abs() * t / scale(j)).collect();
+                cost.resize(n, 0.0);
+                cost.push(precision * of_patches[at] / scale(j));
+                let found = of_motion(&cost, &contrast, asked);
+                let is_worse = |found: &Worst| worst.as_ref().is_none_or(|worst| found.excess > worst.excess);
+                if let Some(found) = found.filter(is_worse) {
+                    worst = Some(found);
+                }
+            }
+        }
+    };
+    look(partition.pencil().stiffness, evidence.rigid.massive(), &|_| first, ENERGY_ASKED);
+    look(eigenpairs::pencil(evidence).stiffness, modes.shapes.as_ref(), &|j| modes.lambda[j], FREQUENCY_ASKED);
+    let Worst { noise, asked, noise_without, rows, .. } = worst?;
+    let stiffness = diagonal(&partition.stiffness);
+    let size = |row: usize| stiffness.get(row).copied().unwrap_or(f64::INFINITY);
+    let stiffest = rows.iter().copied().max_by(|a, b| size(*a).total_cmp(&size(*b)))?;
+    Some(Penalties {
+        n_rows: rows.len(),
+        stiffest: if stiffest < n { partition.name_of(stiffest) } else { "nodes of a rigid patch".to_owned() },
+        ratio: contrast[stiffest],
+        noise,
+        asked,
+        noise_without,
+    })
+}
+
+/// What the stiff rows cost one motion, where that is a digit and more than is asked for.
+fn of_motion(cost: &[f64], contrast: &[f64], asked: f64) -> Option<Worst> {
+    let noise: f64 = cost.iter().sum();
+    let is_stiff = |row: usize| contrast[row] >= LARGEST_OF_MESHES;
+    let without = |(row, cost): (usize, &f64)| if is_stiff(row) { cost / contrast[row] } else { *cost };
+    let noise_without: f64 = cost.iter().enumerate().map(without).sum();
+    let is_costly = noise > asked && ONE_DIGIT * noise_without <= noise;
+    let share = noise / cost.len() as f64;
+    let rows = || (0..cost.len()).filter(|row| is_stiff(*row) && cost[*row] > share).collect();
+    is_costly.then(|| Worst { excess: noise / asked, noise, asked, noise_without, rows: rows() })
+}
+
+/// How many times stiffer each row is than the softest one it is coupled with, by stiffness and by stiffness over mass: the second
+/// alone takes a heavy neighbour for a soft one. Translations are compared with translations and rotations with rotations, as far as
+/// that is known: a slender beam is far stiffer against stretching than against rotation of its ends.
+fn contrasts(partition: &Partition) -> Vec<f64> {
+    let (k, m) = (diagonal(&partition.stiffness), diagonal(&partition.mass));
+    let ratio = |i: usize, j: usize| {
+        let of_stiffness = k[i] / k[j];
+        if m[i] > 0.0 && m[j] > 0.0 { of_stiffness.min(of_stiffness * m[j] / m[i]) } else { of_stiffness }
+    };
+    let kind = |i: usize| {
+        let dof = &partition.dofs[i];
+        let direction = dof.dof.map(|dof| dof.direction).or(dof.site.map(|site| site.direction));
+        direction.map(crate::dofs::Direction::is_rotation)
+    };
+    let is_like = |i: usize, j: usize| kind(i).is_none() || kind(j).is_none() || kind(i) == kind(j);
+    let of_row = |i: usize| {
+        let coupled = partition
+            .pencil()
+            .stiffness
+            .entries(i)
+            .filter(|(j, value)| *j != i && *value != 0.0 && k[*j] > 0.0 && is_like(i, *j));
+        coupled.fold(1.0, |most: f64, (j, _)| most.max(ratio(i, j)))
+    };
+    (0..k.len()).map(of_row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stiff_rows_are_named_where_they_cost_a_digit_that_is_asked_for() {
+        let contrast = [1.0, 1e4, 1e4, 50.0];
+        let named = |cost: [f64; 4], asked: f64| of_motion(&cost, &contrast, asked).map(|worst| worst.rows);
+        assert_eq!(named([1e-12, 1e-7, 2e-7, 1e-12], 1e-9), Some(vec![1, 2]));
+        // Nothing that is asked for is lost; nothing moves at the stiff rows; a mesh is as stiff as that; others lose as much.
+        assert_eq!(named([1e-12, 1e-10, 2e-10, 1e-12], 1e-9), None);
+        assert_eq!(named([1e-7, 1e-30, 1e-30, 1e-7], 1e-9), None);
+        assert_eq!(named([1e-12, 1e-12, 1e-12, 1e-7], 1e-9), None);
+        assert_eq!(named([1e-7, 1e-7, 1e-7, 1e-12], 1e-9), None);
+    }
+}
