@@ -11,16 +11,13 @@ use super::Evidence;
 use super::check::{Check, Limits};
 use super::limits::UNKNOWN;
 use super::residual::{AT_REST, Residuals, Rows, Worst};
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::factor::Pencil;
 use crate::modes::{Boundary, MassOrthogonality, ModeError, NOTICED_BAR, mass_orthogonality};
 use crate::sparse::panels;
 
 /// Residual of a solve beyond which the free modes are computed by another factor ([`crate::modes`] says why).
 const SOLVE_HOLDS_UP: f64 = 1e-8;
-
-/// How far roundings of one sign may exceed their typical sum.
-const NOISE_FACTOR: f64 = 10.0;
 
 /// What was measured of all pairs.
 pub(super) struct Pairs {

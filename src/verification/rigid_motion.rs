@@ -8,11 +8,8 @@ use super::limits::{self, Judged, Known};
 use super::residual::Worst;
 use super::spectrum::{NOT_FREE, Spectrum, zero_level};
 use super::{Evidence, coordinate_name, reduced_norms, rigid_name, share_of_data};
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::rigid::{noise_of_digits, scales};
-
-/// How far roundings of one sign may exceed their typical sum.
-const NOISE_FACTOR: f64 = 10.0;
 
 /// M-05, energy; shown, not judged, where no elastic mode is known to compare it with.
 pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[Grounding]) -> Check {
