@@ -15,7 +15,7 @@ use supel_runtime::Superelement;
 
 use crate::error::Result;
 use crate::factor::Analysis;
-use crate::input::{Input, InputNote};
+use crate::input::{Input, InputNote, PatchFaces};
 use crate::job::Job;
 use crate::report::{Report, Warning, WorkCounters};
 use crate::rigid::LooseMotions;
@@ -83,6 +83,8 @@ pub struct Results<'a> {
     pub job: &'a Job,
     /// What was read.
     pub input: &'a InputFacts,
+    /// Faces of the patches whose origin is the mean of their nodes, as far as the mesh tells.
+    pub faces: &'a [PatchFaces],
     /// Mechanisms and what comes near them.
     pub loose: &'a LooseMotions,
     /// The results of the stages.

@@ -33,7 +33,7 @@ use crate::sparse::{Leading, SparseMatrix};
 
 use roundings::{PatchEntries, Roundings};
 
-pub use interface::{InterfaceNode, recovered_rows};
+pub use interface::{InterfaceNode, patches, recovered_rows};
 pub use roundings::CHANCE_OF_MORE;
 pub use transformation::{DofOrigin, ReducedDof, Transformation, TransformationRow};
 

@@ -8,9 +8,9 @@ use supel::error::Result;
 use supel::job::{Coupling, Eigensolver, Job, Method};
 use supel::outcome::{Outcome, Resources};
 use supel::report::{
-    Completeness, DroppedCoordinate, Generator, InterfacePosition, InterfaceReport, MassProperties, MatrixReport,
-    ModeKind, ModeRow, ModelReport, Observer, PositionOrigin, ReductionReport, Report, ReportBody, RigidBodyModes,
-    RigidBodySource, RunFacts, StageTime, Warning, WorkCounters,
+    Completeness, DroppedCoordinate, FacesReport, Generator, InterfacePosition, InterfaceReport, MassProperties,
+    MatrixReport, ModeKind, ModeRow, ModelReport, Observer, PositionOrigin, ReductionReport, Report, ReportBody,
+    RigidBodyModes, RigidBodySource, RunFacts, StageTime, Warning, WorkCounters,
 };
 use supel::verification::check::{Check, Limits};
 use supel_runtime::{
@@ -95,6 +95,7 @@ fn body() -> ReportBody {
                         node: None,
                         position: [0.25, 0.0, -1.5e-3],
                         origin: PositionOrigin::MeanOfNodes,
+                        faces: Some(FacesReport { count: 80, centroid: [0.25, 3e-3, -5.5e-3], distance: 5e-3 }),
                     }],
                 },
                 InterfaceReport {
