@@ -63,7 +63,7 @@ use basis::Basis;
 use coordinates::Levers;
 use error::{Error, Result};
 use factor::{Analysis, Cholesky};
-use input::{Allowance, Cells, Patches};
+use input::{Allowance, Cells, PatchFaces, Patches};
 use job::{Coupling, Job};
 use model::Model;
 use modes::{Component, ModeSource, Retained};
@@ -83,9 +83,7 @@ use verification::Evidence;
 /// # Errors
 /// Those of the stages; each says what, where, what was found, what was expected and what to do.
 pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Result<Outcome> {
-    let allowance = Allowance::of(resources.allowed(job));
-    let (facts, partition, patches) = prepared(job, &allowance, observer)?;
-    let faces = input::patch_faces(&job.model, &patches, &allowance)?;
+    let (facts, partition, faces) = prepared(job, (resources, Faces::Wanted), observer)?;
 
     observer.stage("rigid-body modes");
     // The analysis asks for the pattern of the matrices alone: it is made beside, and is the first of what a factor needs.
@@ -165,13 +163,24 @@ fn refused(error: Error, analysis: &Analysis, partition: &Partition, rigid: &Rig
     rigid::or_lack_of_rank(error, partition, rigid)
 }
 
-/// The first four stages, which every look at the full model begins with.
-fn prepared(job: &Job, allowance: &Allowance, observer: &mut dyn Observer) -> Result<(InputFacts, Partition, Patches)> {
+/// Whether the faces of patches are looked for.
+enum Faces {
+    Wanted,
+    Unwanted,
+}
+
+/// The first four stages, which every look at the full model begins with, and the faces of patches.
+fn prepared(
+    job: &Job,
+    (resources, wanted): (Resources, Faces),
+    observer: &mut dyn Observer,
+) -> Result<(InputFacts, Partition, Vec<PatchFaces>)> {
     // Small dense decompositions use faer's global setting; sequential ones give the same bits on every machine.
     faer::set_global_parallelism(faer::Par::Seq);
 
     observer.stage("read");
-    let read = input::read_within(&job.model, allowance)?;
+    let allowance = Allowance::of(resources.allowed(job));
+    let read = input::read_within(&job.model, &allowance)?;
     let facts = InputFacts::of(&read);
 
     observer.stage("check");
@@ -184,15 +193,16 @@ fn prepared(job: &Job, allowance: &Allowance, observer: &mut dyn Observer) -> Re
 
     observer.stage("partition");
     let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;
-    let patches = match Cells::of(job) {
-        Cells::Wanted => partition::patches(&model, &job.interfaces),
-        Cells::Unwanted => Patches::default(),
+    let patches = match (wanted, Cells::of(job)) {
+        (Faces::Wanted, Cells::Wanted) => partition::patches(&model, &job.interfaces),
+        _ => Patches::default(),
     };
     let weight = job.model.expect.as_ref().and_then(|_| model.weight());
     let mut partition = Partition::new(model, &job.interfaces)?;
     partition.recovered = recovered;
     partition.model.weight = weight;
-    Ok((facts, partition, patches))
+    let faces = input::patch_faces(&job.model, &patches, &allowance)?;
+    Ok((facts, partition, faces))
 }
 
 /// Checks a superelement that was made earlier: by its own content, and with a job against the full matrices.
@@ -211,8 +221,7 @@ pub fn verify(
         observer.stage("verification");
         return audit::of_file(superelement);
     };
-    let allowance = Allowance::of(resources.allowed(job));
-    let (facts, partition, _) = prepared(job, &allowance, observer)?;
+    let (facts, partition, _) = prepared(job, (resources, Faces::Unwanted), observer)?;
 
     observer.stage("reference");
     factor::comparison_within_memory(&partition, job, resources, superelement.tensors().frequencies.len())?;

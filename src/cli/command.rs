@@ -231,7 +231,7 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
             mass: mass.clone(),
             dofs: model.dofs,
             nodes: model.nodes,
-            symmetric: model.symmetric.map(Into::into),
+            symmetric: model.symmetric,
             drop_empty: model.drop_empty,
             ..ModelJob::default()
         },

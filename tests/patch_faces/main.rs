@@ -264,9 +264,8 @@ fn topology(kind: &str, numbers: &[i64]) -> String {
 fn assert_centroid(found: &Result<Vec<PatchFaces>>, n_faces: usize, centroid: Point, what: &str) {
     let Ok([only]) = found.as_deref() else { panic!("{what}: {found:?}") };
     assert_eq!((only.interface.as_str(), only.n_faces), ("below", n_faces), "{what}");
-    for axis in 0..3 {
-        let difference = only.centroid[axis] - centroid[axis];
-        assert!(difference.abs() <= ROUNDING * 3.0, "{what}: {only:?}");
+    for (found, expected) in only.centroid.iter().zip(centroid) {
+        assert!((found - expected).abs() <= ROUNDING * 3.0, "{what}: {only:?}");
     }
 }
 
@@ -296,8 +295,11 @@ fn every_kind_of_cell_in_every_format() {
             // The same grid at another time.
             let found = xdmf(&mesh, &(table.clone() + &table)).faces(&patches);
             assert_centroid(&found, n_faces, CENTROID, &what("XDMF"));
-            let stream: Vec<i64> =
-                mesh.cells.iter().flat_map(|cell| [&[kind.code], &rows(&[cell.clone()], 0)[..]].concat()).collect();
+            let stream: Vec<i64> = mesh
+                .cells
+                .iter()
+                .flat_map(|cell| [&[kind.code], &rows(std::slice::from_ref(cell), 0)[..]].concat())
+                .collect();
             let points_and_lines = [&[1, 1, 0, 2, 2, 0, 1, 34, 0, 1, 2], &stream[..]].concat();
             let found = xdmf(&mesh, &topology("Mixed", &points_and_lines)).faces(&patches);
             assert_centroid(&found, n_faces, CENTROID, &what("XDMF, mixed"));

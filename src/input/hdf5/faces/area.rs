@@ -10,6 +10,13 @@
 /// A node's shape function and its two derivatives.
 type Shape = [f64; 3];
 
+/// Whether a face has nodes in the middles of its edges.
+#[derive(Clone, Copy, PartialEq)]
+enum Degree {
+    Linear,
+    Quadratic,
+}
+
 /// Area and first moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Moments {
@@ -29,15 +36,15 @@ pub(super) fn moments(corners: &[[f64; 3]], middles: &[[f64; 3]]) -> Moments {
     /// √(3/5) and the weights 5/9, 8/9, 5/9.
     const AT: [f64; 3] = [-0.774_596_669_241_483_4, 0.0, 0.774_596_669_241_483_4];
     const WEIGHT: [f64; 3] = [5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0];
-    let is_quadratic = !middles.is_empty();
+    let degree = if middles.is_empty() { Degree::Linear } else { Degree::Quadratic };
     let mut total = Moments::default();
     for (xi, w_xi) in AT.into_iter().zip(WEIGHT) {
         for (eta, w_eta) in AT.into_iter().zip(WEIGHT) {
             let (shapes, weight) = if corners.len() == 3 {
                 let (a, b) = (0.5 * (1.0 + xi), 0.5 * (1.0 + eta));
-                (triangle(a, b * (1.0 - a), is_quadratic), 0.25 * (1.0 - a) * w_xi * w_eta)
+                (triangle(a, b * (1.0 - a), degree), 0.25 * (1.0 - a) * w_xi * w_eta)
             } else {
-                (quadrilateral(xi, eta, is_quadratic), w_xi * w_eta)
+                (quadrilateral(xi, eta, degree), w_xi * w_eta)
             };
             let at = |part: usize| -> [f64; 3] {
                 let nodes = corners.iter().chain(middles).zip(&shapes);
@@ -51,9 +58,9 @@ pub(super) fn moments(corners: &[[f64; 3]], middles: &[[f64; 3]]) -> Moments {
 }
 
 /// Shape functions of a triangle with corners (0, 0), (1, 0), (0, 1).
-fn triangle(x: f64, y: f64, is_quadratic: bool) -> Vec<Shape> {
+fn triangle(x: f64, y: f64, degree: Degree) -> Vec<Shape> {
     let linear: [Shape; 3] = [[1.0 - x - y, -1.0, -1.0], [x, 1.0, 0.0], [y, 0.0, 1.0]];
-    if !is_quadratic {
+    if degree == Degree::Linear {
         return linear.into();
     }
     let corner = |[l, a, b]: Shape| [l * (2.0 * l - 1.0), (4.0 * l - 1.0) * a, (4.0 * l - 1.0) * b];
@@ -63,11 +70,11 @@ fn triangle(x: f64, y: f64, is_quadratic: bool) -> Vec<Shape> {
 }
 
 /// Shape functions of a square with corners (−1, −1), (1, −1), (1, 1), (−1, 1).
-fn quadrilateral(x: f64, y: f64, is_quadratic: bool) -> Vec<Shape> {
+fn quadrilateral(x: f64, y: f64, degree: Degree) -> Vec<Shape> {
     const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let corner = |[a, b]: [f64; 2]| -> Shape {
         let (u, v) = (1.0 + a * x, 1.0 + b * y);
-        if !is_quadratic {
+        if degree == Degree::Linear {
             return [0.25 * u * v, 0.25 * a * v, 0.25 * b * u];
         }
         let w = a * x + b * y - 1.0;
@@ -78,7 +85,7 @@ fn quadrilateral(x: f64, y: f64, is_quadratic: bool) -> Vec<Shape> {
     let along =
         |a: f64| -> Shape { [0.5 * (1.0 - y * y) * (1.0 + a * x), 0.5 * a * (1.0 - y * y), -y * (1.0 + a * x)] };
     let mut shapes: Vec<Shape> = CORNERS.map(corner).into();
-    if is_quadratic {
+    if degree == Degree::Quadratic {
         shapes.extend([across(-1.0), along(1.0), across(1.0), along(-1.0)]);
     }
     shapes
@@ -101,8 +108,8 @@ mod tests {
 
     fn assert_is(found: Moments, area: f64, centroid: [f64; 2]) {
         assert!((found.area / area - 1.0).abs() < ROUNDING, "{found:?}");
-        for axis in 0..2 {
-            assert!((found.first[axis] / area - centroid[axis]).abs() < ROUNDING, "{found:?}");
+        for (first, expected) in found.first.iter().zip(centroid) {
+            assert!((first / area - expected).abs() < ROUNDING, "{found:?}");
         }
         assert_eq!(found.first[2], 0.0);
     }

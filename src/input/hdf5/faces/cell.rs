@@ -130,9 +130,8 @@ mod tests {
         for (shape, n_edges) in SHAPES {
             let cell = Cell::linear(shape);
             for order in cell.orders() {
-                let mut uses: BTreeMap<[usize; 2], usize> = BTreeMap::new();
                 let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
-                order.iter().for_each(|edge| drop(uses.insert(sorted(*edge), 0)));
+                let mut uses: BTreeMap<[usize; 2], usize> = order.iter().map(|edge| (sorted(*edge), 0)).collect();
                 assert_eq!(uses.len(), n_edges, "{shape:?}");
                 for face in cell.faces() {
                     for at in 0..face.len() {
