@@ -12,6 +12,9 @@ use crate::error::{Error, Result};
 /// How much faster operations of dense blocks are than those of a triangular solve, which waits for memory. For forecasts of time.
 pub const GAIN: f64 = 4.0;
 
+/// How far roundings of one sign may exceed their typical sum: for limits of what sums of many terms leave.
+pub const NOISE_FACTOR: f64 = 10.0;
+
 /// Products smaller than this many multiplications are done by one thread: starting a second one costs more.
 const PARALLEL_ABOVE: usize = 1 << 18;
 

@@ -7,11 +7,14 @@ mod document;
 mod interface;
 mod recovery;
 mod scene;
+mod schema;
 mod validation;
 
 use std::path::{Path, PathBuf};
 
-use serde::{Deserialize, Serialize};
+use clap::ValueEnum;
+use schemars::JsonSchema;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::dofs::Direction;
 pub use crate::eigen::Eigensolver;
@@ -22,9 +25,10 @@ pub use document::Notation;
 pub use interface::{Coupling, InterfaceJob, NodeSelection, Origin, Region};
 pub use recovery::{RecoveryJob, RecoveryPrecision};
 pub use scene::{DampingJob, SceneJob, Support};
+pub use schema::schema;
 
-/// A whole job.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// What to read, how to reduce and what to write. Paths are relative to the folder of the document.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Job {
     /// The finite element model.
@@ -97,17 +101,21 @@ impl Job {
 }
 
 /// Where the matrices, the meaning of their rows and the nodes come from.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ModelJob {
     /// File of K; inside an HDF5 file a group follows the colon: `model.h5:/K`.
+    #[schemars(length(min = 1))]
     pub stiffness: PathBuf,
     /// File of M.
+    #[schemars(length(min = 1))]
     pub mass: PathBuf,
     /// File that says which node and direction each row is.
+    #[schemars(length(min = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dofs: Option<PathBuf>,
     /// File of the nodes: a table or a mesh.
+    #[schemars(length(min = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nodes: Option<PathBuf>,
     /// The triangle of K and M that holds, where the other is incomplete.
@@ -115,6 +123,7 @@ pub struct ModelJob {
     pub symmetric: Option<Triangle>,
     /// What becomes of entries that repeat a position.
     #[serde(default, skip_serializing_if = "Duplicates::are_added")]
+    #[schemars(extend("default" = "add"))]
     pub duplicates: Duplicates,
     /// Whether rows without stiffness and mass are dropped; they are an error otherwise.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -124,6 +133,7 @@ pub struct ModelJob {
     pub units: Option<String>,
     /// Rotations that supports hold although they hold no translation; any other that costs energy then is an error.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "rotations")]
+    #[schemars(schema_with = "schema::rotations")]
     pub held_rotations: Vec<Direction>,
     /// What the user knows of the component, to be compared with what the matrices say.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -140,7 +150,7 @@ fn rotations<'de, D: serde::Deserializer<'de>>(deserializer: D) -> std::result::
 }
 
 /// What becomes of entries of a matrix that repeat a position.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Duplicates {
     /// They are added, which is the rule of assembled formats; the report counts them.
@@ -157,10 +167,11 @@ impl Duplicates {
 }
 
 /// Mass properties known from elsewhere.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Expectation {
     /// Total mass.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mass: Option<f64>,
     /// Centre of mass.
@@ -169,7 +180,7 @@ pub struct Expectation {
 }
 
 /// Method and modes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReductionJob {
     /// The method.
@@ -182,7 +193,7 @@ pub struct ReductionJob {
 }
 
 /// The reduction method: which modes fill the dynamic mode matrix.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// Constraint modes and fixed-interface normal modes.
@@ -192,8 +203,9 @@ pub enum Method {
 }
 
 /// How many elastic modes are kept.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged, try_from = "ModeTable")]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+#[schemars(deny_unknown_fields)]
 pub enum ModeSelection {
     /// `{ count = 40 }`, extended to complete clusters.
     Count {
@@ -203,8 +215,16 @@ pub enum ModeSelection {
     /// `{ up_to_hz = 1000 }`.
     UpTo {
         /// The highest frequency.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         up_to_hz: f64,
     },
+}
+
+// A derived untagged enum would answer every mistake with "did not match any variant".
+impl<'de> Deserialize<'de> for ModeSelection {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
+        ModeTable::deserialize(deserializer)?.try_into().map_err(serde::de::Error::custom)
+    }
 }
 
 /// The keys of `modes`; exactly one of them is there.
@@ -228,7 +248,7 @@ impl TryFrom<ModeTable> for ModeSelection {
 }
 
 /// How completeness of the modes is certified.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Certify {
     /// Not at all; the report says so.
@@ -241,7 +261,7 @@ pub enum Certify {
 }
 
 /// How the entries of the factor are kept.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Precision {
     /// In double precision.
@@ -260,33 +280,39 @@ impl Precision {
 }
 
 /// How the run is done.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RunJob {
     /// Certificate of completeness.
     #[serde(default)]
     pub certify: Certify,
     /// Memory the run may use, in GiB; what the machine has free where absent.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub memory_gib: Option<f64>,
     /// How the factor is kept.
     #[serde(default, skip_serializing_if = "Precision::is_double")]
+    #[schemars(extend("default" = "double"))]
     pub precision: Precision,
 }
 
 /// What is written and where.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WriteJob {
     /// The superelement file.
+    #[schemars(regex(pattern = r"[^/]\.supel$"))]
     pub superelement: PathBuf,
     /// The report; next to the superelement as `name.report.json` where absent.
+    #[schemars(regex(pattern = r"[^/]\.json$"))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub report: Option<PathBuf>,
     /// The report as a page for people, where it is wanted.
+    #[schemars(regex(pattern = r"[^/]\.html$"))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub html: Option<PathBuf>,
     /// The checks as JUnit XML, where they are wanted.
+    #[schemars(regex(pattern = r"[^/]\.xml$"))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub junit: Option<PathBuf>,
     /// Displacements inside the component that the superelement can recover, where they are wanted.

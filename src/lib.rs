@@ -226,8 +226,9 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     faer::set_global_parallelism(faer::Par::Seq);
 
     observer.stage("read");
-    let read = input::read_within(&job.model, &Allowance::of(resources.allowed(job)))?;
-    let facts = InputFacts::of(&read);
+    let allowance = Allowance::of(resources.allowed(job));
+    let read = input::read_within(&job.model, &allowance)?;
+    let mut facts = InputFacts::of(&read);
 
     observer.stage("check");
     let model = Model::new(read)?;
@@ -239,10 +240,12 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
 
     observer.stage("partition");
     let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;
+    let patches = partition::patches(&model, &job.interfaces);
     let weight = job.model.expect.as_ref().and_then(|_| model.weight());
     let mut partition = Partition::new(model, &job.interfaces)?;
     partition.recovered = recovered;
     partition.model.weight = weight;
+    facts.faces = input::patch_faces(&job.model, &patches, &allowance)?;
     Ok((facts, partition))
 }
 

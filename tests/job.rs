@@ -404,6 +404,48 @@ fn recoveries() -> Vec<Value> {
     ]
 }
 
+/// The schema that editors get is that of the types; `SUPEL_UPDATE_DOCS=1` writes it.
+#[test]
+fn the_schema_is_that_of_the_types() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("schemas/job.schema.json");
+    let made = serde_json::to_string_pretty(&supel::job::schema()).expect("JSON") + "\n";
+    if std::env::var_os("SUPEL_UPDATE_DOCS").is_some() {
+        std::fs::write(&path, made).expect("written");
+        return;
+    }
+    assert!(
+        std::fs::read_to_string(&path).expect("the schema") == made,
+        "schemas/job.schema.json is not that of the types"
+    );
+}
+
+/// Every value that a job may have is said what it is for.
+#[test]
+fn every_key_is_described() {
+    fn walk(schema: &Value, part: &Value, place: &str, bare: &mut Vec<String>) {
+        let target = part["$ref"].as_str().map(|to| schema.pointer(to.trim_start_matches('#')).expect("a definition"));
+        for (key, value) in part["properties"].as_object().into_iter().flatten() {
+            let here = format!("{place}.{key}");
+            let of_type = value["$ref"].as_str().and_then(|to| schema.pointer(to.trim_start_matches('#')));
+            // A table of one key is described as a whole.
+            let is_only = part["properties"].as_object().is_some_and(|keys| keys.len() == 1);
+            let of_table = Some(part).filter(|_| is_only);
+            if [Some(value), of_type, of_table].iter().flatten().all(|part| part["description"].is_null()) {
+                bare.push(here.clone());
+            }
+            walk(schema, value, &here, bare);
+        }
+        let choices = ["oneOf", "anyOf"].into_iter().filter_map(|key| part[key].as_array()).flatten();
+        choices.chain(target).for_each(|part| walk(schema, part, place, bare));
+        if part["items"].is_object() {
+            walk(schema, &part["items"], &format!("{place}[]"), bare);
+        }
+    }
+    let (schema, mut bare) = (supel::job::schema(), Vec::new());
+    walk(&schema, &schema, "", &mut bare);
+    assert!(bare.is_empty(), "keys without a description: {bare:?}");
+}
+
 /// What the schema refuses supel refuses, and the other way round: editors that know the schema tell the truth.
 #[test]
 fn schema_and_program_agree() {

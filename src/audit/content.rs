@@ -5,17 +5,13 @@ use supel_runtime::{Coordinate, Matrix, Superelement};
 
 use super::kept_job::kept_job;
 use super::spectrum::eigenvalues;
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::error::Result;
 use crate::job::Job;
 use crate::modes::Boundary;
 use crate::verification::check::Limits;
-use crate::verification::limits::{self, Judged, Known};
+use crate::verification::limits::{self, Judged, Known, LARGEST_EXCUSE};
 
-/// Roundings of one sign may exceed their typical sum by this.
-const NOISE_FACTOR: f64 = 10.0;
-/// What the recorded error bars may excuse at most: a file cannot loosen the limits of its own checks without end.
-const LARGEST_EXCUSE: f64 = 1e-3;
 /// A superelement with its matrices unpacked.
 pub(super) struct Content<'a> {
     pub(super) superelement: &'a Superelement,
@@ -36,14 +32,29 @@ pub(super) struct Content<'a> {
     /// The first elastic eigenvalue, the unit that energies are compared with.
     pub(super) first: f64,
     /// Rounding of the arithmetic and of the data in an energy, relative to `first`, as error bars tell.
-    noise: f64,
-    /// Whether a model gives that, and not the file itself.
-    noise_is_known: bool,
+    noise: Noise,
     /// Powers of two near 1/√(K̂ + λ₁M̂)_ii. Of K̂ alone nothing may be left: an interface that just holds the component
     /// has none.
     pub(super) scale: Vec<f64>,
     /// The job kept in the file, where it is one of this version.
     pub(super) job: Option<Job>,
+}
+
+/// Rounding in an energy, by whose error bars it is known.
+#[derive(Clone, Copy, Debug)]
+enum Noise {
+    /// Those of modes that were found anew.
+    OfModel(f64),
+    /// Those that the file states.
+    OfFile(f64),
+}
+
+impl Noise {
+    fn size(self) -> f64 {
+        match self {
+            Self::OfModel(noise) | Self::OfFile(noise) => noise,
+        }
+    }
 }
 
 impl<'a> Content<'a> {
@@ -61,8 +72,7 @@ impl<'a> Content<'a> {
             m_f: unpacked(&tensors.rigid_body_mass),
             n_b: superelement.n_interface(),
             boundary: boundary(superelement),
-            noise_is_known: noise.is_some(),
-            noise: noise.unwrap_or_else(|| by_own_bars(superelement, first)),
+            noise: noise.map_or_else(|| Noise::OfFile(by_own_bars(superelement, first)), Noise::OfModel),
             job: kept_job(superelement),
             k,
             m,
@@ -85,25 +95,25 @@ impl<'a> Content<'a> {
     /// Limits of an energy that should be nothing, relative to that of the first elastic mode. A file does not say how many digits
     /// its matrices had, and all that its bars explain counts alike.
     pub(super) fn energy_limits(&self) -> Judged {
-        match self.noise_is_known {
-            true => limits::of_energy(self.noise, 1.0),
-            false => limits::of_unexplained_energy(self.noise),
+        match self.noise {
+            Noise::OfModel(noise) => limits::of_energy(noise, 1.0),
+            Noise::OfFile(noise) => limits::of_unexplained_energy(noise),
         }
     }
 
     /// Limits of a force of rigid-body motion, in the scales of K̂ + λ₁M̂.
     pub(super) fn force_limits(&self) -> Judged {
-        limits::of_force(self.noise, 1.0)
+        limits::of_force(self.noise.size(), 1.0)
     }
 
     /// Limits of the relative difference of two frequencies of one mode.
     pub(super) fn frequency_limits(&self) -> Judged {
-        limits::of_frequency(self.noise, 1.0)
+        limits::of_frequency(self.noise.size(), 1.0)
     }
 
     /// A difference of numbers that rounding alone may tell apart.
     pub(super) fn rounding_limits(&self) -> Limits {
-        let arithmetic = (NOISE_FACTOR * self.noise).min(LARGEST_EXCUSE);
+        let arithmetic = (NOISE_FACTOR * self.noise.size()).min(LARGEST_EXCUSE);
         Limits { engineering: 1e-10, arithmetic, data: 0.0 }
     }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use supel_runtime::{Coordinate, Generator, Method as FileMethod, RigidBodyModes, Superelement};
 
 use super::content::Content;
-use super::record::flaw;
+use super::record::{self, flaw};
 use super::rigid_motion::is_nearly_unit;
 use crate::job::{Coupling, Job, Method, ModeSelection, NodeSelection, RecoveryPrecision};
 use crate::modes::Boundary;
@@ -24,30 +24,33 @@ pub fn is_of_this_version(superelement: &Superelement) -> bool {
 
 /// Method, units, interfaces, axes, band and recovery are those of the job kept in the file.
 pub(super) fn agrees(content: &Content<'_>) -> Check {
-    let (metadata, tensors) = (content.superelement.metadata(), content.superelement.tensors());
+    let tensors = content.superelement.tensors();
     let mut flaws = Vec::new();
     if let Some(job) = &content.job {
         flaws.extend(by_job(content, job).iter().map(ToString::to_string));
-    } else if is_of_this_version(content.superelement) {
-        flaws.push("it is no job of the version that wrote it".to_owned());
     }
     // No job turns the axes of an interface node, and the matrices are in the inertial frame whatever the axes.
     let inertial = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     if tensors.interface_frames.iter().any(|frame| *frame != inertial) {
         flaws.push("turned axes of interface nodes".to_owned());
     }
-    if is_of_this_version(content.superelement) {
-        let made_by_none = [
-            (tensors.damping.is_some(), "damping"),
-            (tensors.load_vectors.is_some(), "load vectors"),
-            (!metadata.flags.is_empty(), "flags"),
-            (!metadata.validity.assumptions.is_empty(), "assumptions about the simulation"),
-            (!metadata.validity.unloaded.is_empty(), "unloaded directions"),
-            (!metadata.inputs.contains_key("stiffness") || !metadata.inputs.contains_key("mass"), "no digests"),
-        ];
-        flaws.extend(made_by_none.iter().filter(|(is_there, _)| *is_there).map(|(_, what)| (*what).to_owned()));
-    }
+    flaws.extend(applied(content, made_by_none(content)));
     flaw("file is what its job asks for", "number of differences to the job kept in the file", &flaws)
+}
+
+/// What no reduction by this version makes, and other programs and versions may.
+fn made_by_none(content: &Content<'_>) -> Vec<String> {
+    let (metadata, tensors) = (content.superelement.metadata(), content.superelement.tensors());
+    let found = [
+        (content.job.is_none(), "it is no job of the version that wrote it"),
+        (tensors.damping.is_some(), "damping"),
+        (tensors.load_vectors.is_some(), "load vectors"),
+        (!metadata.flags.is_empty(), "flags"),
+        (!metadata.validity.assumptions.is_empty(), "assumptions about the simulation"),
+        (!metadata.validity.unloaded.is_empty(), "unloaded directions"),
+        (!metadata.inputs.contains_key("stiffness") || !metadata.inputs.contains_key("mass"), "no digests"),
+    ];
+    found.iter().filter(|(is_there, _)| *is_there).map(|(_, what)| (*what).to_owned()).collect()
 }
 
 fn by_job(content: &Content<'_>, job: &Job) -> Vec<&'static str> {
@@ -212,12 +215,14 @@ pub(super) fn accounts(content: &Content<'_>) -> Check {
         flaws.push("an interface coordinate left out".to_owned());
     }
     let is_method = matches!(metadata.method, FileMethod::CraigBampton | FileMethod::Herting);
-    if is_method && is_of_this_version(content.superelement) {
+    if is_method {
         flaws.extend(of_method(content).iter().map(ToString::to_string));
+        flaws.extend(applied(content, with_method(content)));
     }
     flaw("its parts belong together", "number of parts missing, surplus or of another method", &flaws)
 }
 
+/// What the method of a file says of its columns, whoever made them.
 fn of_method(content: &Content<'_>) -> Vec<&'static str> {
     let (metadata, tensors) = (content.superelement.metadata(), content.superelement.tensors());
     let modal =
@@ -229,8 +234,7 @@ fn of_method(content: &Content<'_>) -> Vec<&'static str> {
         }
     };
     let n_r = content.n_rigid();
-    let is_modal = content.n_b == 0 && n_r > 0;
-    let is_held = metadata.method == FileMethod::CraigBampton && !is_modal;
+    let (is_modal, is_held) = (is_modal(content), is_held(content));
     let boundary = if is_held { Boundary::FixedInterface } else { Boundary::FreeInterface };
     expect(tensors.frequencies.is_empty() || content.boundary == boundary, "modes of another boundary");
     let numbers = |pick: fn(&Coordinate) -> Option<usize>| -> Vec<usize> {
@@ -249,16 +253,63 @@ fn of_method(content: &Content<'_>) -> Vec<&'static str> {
     let all = |is_there: bool| if is_there { (0..n_r).collect() } else { Vec::new() };
     expect(relief == all(!is_held && !is_modal), "inertia relief");
     expect(rigid == all(is_modal), "rigid-body coordinates");
-    expect(tensors.mixing.is_some() == (!is_held && content.n_reduced() > content.n_b), "mixing");
     // Mass properties and gravity take the six unit motions, which are the first six of seven and more.
-    let is_geometric = metadata.model.rigid_body_modes == RigidBodyModes::Geometric;
-    let is_classical = tensors.gravity.is_some();
-    expect(
-        metadata.model.mass_properties.is_some() == is_classical,
-        "gravity without mass properties, or these without it",
-    );
-    expect(is_classical || !is_geometric, "no gravity");
-    let is_told = is_geometric || n_r > 6 || is_nearly_unit(content);
-    expect(!is_classical || is_told, "rigid-body modes said to be algebraic");
+    let is_told = metadata.model.rigid_body_modes == RigidBodyModes::Geometric || n_r > 6 || is_nearly_unit(content);
+    expect(tensors.gravity.is_none() || is_told, "rigid-body modes said to be algebraic");
     flaws
+}
+
+/// What this version writes with the columns of a method, and other programs and versions need not.
+fn with_method(content: &Content<'_>) -> Vec<String> {
+    let (metadata, tensors) = (content.superelement.metadata(), content.superelement.tensors());
+    let is_mixed = !is_held(content) && content.n_reduced() > content.n_b;
+    let is_classical = tensors.gravity.is_some();
+    let is_geometric = metadata.model.rigid_body_modes == RigidBodyModes::Geometric;
+    let found = [
+        (tensors.mixing.is_some() != is_mixed, "mixing"),
+        (
+            metadata.model.mass_properties.is_some() != is_classical,
+            "gravity without mass properties, or these without it",
+        ),
+        (!is_classical && is_geometric, "no gravity"),
+    ];
+    found.iter().filter(|(is_there, _)| *is_there).map(|(_, what)| (*what).to_owned()).collect()
+}
+
+/// Whether the columns are the modes of a free component without interface.
+fn is_modal(content: &Content<'_>) -> bool {
+    content.n_b == 0 && content.n_rigid() > 0
+}
+
+/// Whether the modes are those of the held interface.
+fn is_held(content: &Content<'_>) -> bool {
+    content.superelement.metadata().method == FileMethod::CraigBampton && !is_modal(content)
+}
+
+/// What rules of this version find, where the file says that it is of this version. Otherwise [`other_version`] says that they were
+/// not held against it.
+pub(super) fn applied(content: &Content<'_>, found: Vec<String>) -> Vec<String> {
+    if is_of_this_version(content.superelement) { found } else { Vec::new() }
+}
+
+/// M-26: the program that made it, as far as this one can speak for it. What a file says of that is no reason to believe the rest of
+/// it: where it names another version, the rules of this one are not held against it, and that leaves a doubt.
+pub(super) fn other_version(content: &Content<'_>) -> Check {
+    let worst = (!is_of_this_version(content.superelement)).then(|| {
+        let Generator { name, version } = &content.superelement.metadata().generator;
+        let mut unlike = made_by_none(content);
+        unlike.extend(with_method(content));
+        unlike.extend(record::of_version(content));
+        let unlike = if unlike.is_empty() { String::new() } else { format!("; it differs in: {}", unlike.join(", ")) };
+        format!("what depends on the version was not checked, because the file says {name} {version}{unlike}")
+    });
+    Check {
+        id: "M-26",
+        name: "it was made by this version",
+        equation: "1 where another program or version is named, else 0",
+        value: f64::from(u8::from(worst.is_some())),
+        limits: Limits::default(),
+        fail_above: Check::NEVER,
+        worst,
+    }
 }

@@ -4,7 +4,7 @@ use supel_runtime::{MassProperties, RigidBodyModes, mass_properties};
 
 use super::content::{Content, unpacked};
 use super::rigid_motion::is_nearly_unit;
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::verification::check::{Check, Limits};
 
 /// M-16: ÛᵀM̂Û against the rigid-body mass of the full model.
@@ -38,7 +38,6 @@ pub(super) fn rigid_body_mass(content: &Content<'_>) -> Option<Check> {
 
 /// Rounding of ÛᵀM̂Û: an interface that is small for its component holds large masses on long levers, which cancel.
 fn rounding(content: &Content<'_>) -> f64 {
-    const NOISE_FACTOR: f64 = 10.0;
     let (m, u) = (&content.m, &content.u);
     let terms = |j: usize| {
         let of_row = |i: usize| (0..m.ncols()).map(|k| m[(i, k)].abs() * u[(k, j)].abs()).sum::<f64>();

@@ -115,6 +115,7 @@ fn checked(content: &Content<'_>) -> Result<Audit> {
     audit.checks.push(record::verdicts(content));
     audit.checks.push(record::consistent(content)?);
     audit.checks.push(kept_job::agrees(content));
+    audit.checks.push(kept_job::other_version(content));
     audit.notes = notes::notes(content);
     Ok(audit.sorted())
 }

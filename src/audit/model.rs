@@ -105,25 +105,8 @@ impl<'a> Reference<'a> {
     /// # Errors
     /// A dense eigenproblem that does not converge.
     pub(super) fn against(&self, superelement: &Superelement) -> Result<Audit> {
-        let mut audit = Audit::default();
-        let checks = &mut audit.checks;
-        checks.push(identity::digests(superelement, self.facts));
-        checks.push(identity::generator(superelement));
-        checks.extend(identity::jobs(superelement, self.job));
-        checks.push(identity::interface(superelement, self.partition));
-        checks.push(identity::statements(superelement, (self.partition, self.job), &self.motions));
-        checks.push(self.asked.backward_error());
-        checks.extend(self.asked.count());
-        checks.push(identity::n_modes(superelement, &self.asked));
-        checks.push(identity::modal_coordinates(superelement, &self.projected, self.asked.boundary));
-        checks.push(self.solves());
         let file = Scaled::of(superelement, self.partition);
-        match condition_of(file.m.as_ref())? < SINGULAR {
-            true => checks.extend(identity::dropped(superelement, &self.projected, self.asked.boundary)),
-            false => audit.notes.push(
-                "its mass is singular: which columns depend on those that were kept is not seen in it".to_owned(),
-            ),
-        }
+        let mut audit = self.identity(superelement, &file)?;
         let checks = &mut audit.checks;
         checks.push(bars::frequencies(&file, &self.asked, self.partition.precision));
         checks.push(bars::error_bars(superelement, &self.asked));
@@ -139,6 +122,28 @@ impl<'a> Reference<'a> {
         checks.extend(self.motions.checks(&file));
         self.matrices(superelement, &file, &mut audit)?;
         Ok(audit.sorted())
+    }
+
+    /// Whether the file speaks of the component of the job, and has the modes it asks for.
+    fn identity(&self, superelement: &Superelement, file: &Scaled) -> Result<Audit> {
+        let mut audit = Audit::default();
+        let checks = &mut audit.checks;
+        checks.push(identity::digests(superelement, self.facts));
+        checks.extend(identity::jobs(superelement, self.job));
+        checks.push(identity::interface(superelement, self.partition));
+        checks.push(identity::statements(superelement, (self.partition, self.job), &self.motions));
+        checks.push(self.asked.backward_error());
+        checks.extend(self.asked.count());
+        checks.push(identity::n_modes(superelement, &self.asked));
+        checks.push(identity::modal_coordinates(superelement, &self.projected, self.asked.boundary));
+        checks.push(self.solves());
+        match condition_of(file.m.as_ref())? < SINGULAR {
+            true => checks.extend(identity::dropped(superelement, &self.projected, self.asked.boundary)),
+            false => audit.notes.push(
+                "its mass is singular: which columns depend on those that were kept is not seen in it".to_owned(),
+            ),
+        }
+        Ok(audit)
     }
 
     /// Everything that has the coordinates of the file.

@@ -10,7 +10,7 @@ pub(super) fn notes(content: &Content<'_>) -> Vec<String> {
     let metadata = content.superelement.metadata();
     let mut notes = Vec::new();
     if content.job.is_none() {
-        notes.push("the job kept in the file is of another version; what it expects was not compared".to_owned());
+        notes.push("the job kept in the file is none of this version; what it expects was not compared".to_owned());
     }
     if metadata.model.rigid_body_modes == RigidBodyModes::Algebraic && content.n_rigid() > 0 {
         notes.push("the rigid-body modes have no geometric meaning; mass and centre were not compared".to_owned());

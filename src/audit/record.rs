@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use supel_runtime::{CheckSummary, Coordinate, Superelement, Verdict};
 
 use super::content::Content;
-use super::kept_job::is_of_this_version;
+use super::kept_job::applied;
 use super::spectrum::condition;
 use crate::error::Result;
 use crate::job::Certify;
@@ -73,11 +73,9 @@ pub(super) fn consistent(content: &Content<'_>) -> Result<Check> {
         .filter(|check| !follows(check))
         .map(|check| format!("{} says {:?} of its value", check.id, check.verdict).to_lowercase())
         .collect();
-    if is_of_this_version(content.superelement) {
-        flaws.extend(missing(content, checks));
-        flaws.extend(bars(content, checks));
-        flaws.extend(mass_condition(content, checks)?);
-    }
+    flaws.extend(bars(content, checks));
+    flaws.extend(mass_condition(content, checks)?);
+    flaws.extend(applied(content, of_version(content)));
     Ok(flaw("the checks on record agree with the file", "number of records missing or contradicted", &flaws))
 }
 
@@ -88,6 +86,17 @@ fn follows(check: &CheckSummary) -> bool {
         (Some(value), Verdict::Warn | Verdict::Fail) => value > check.limit,
         (None, verdict) => verdict == Verdict::Fail,
     }
+}
+
+/// What a record of this version has, and those of other programs and versions need not.
+pub(super) fn of_version(content: &Content<'_>) -> Vec<String> {
+    /// What practice asks of M-09.
+    const LIMIT: f64 = 1e-4;
+    let checks = &content.superelement.metadata().verification.checks;
+    let has_other_limit = checks.iter().any(|check| check.id == "M-09" && check.limit != LIMIT);
+    let mut flaws = missing(content, checks);
+    flaws.extend(has_other_limit.then(|| "M-09 has another limit".to_owned()));
+    flaws
 }
 
 fn missing(content: &Content<'_>, checks: &[CheckSummary]) -> Vec<String> {
@@ -114,8 +123,6 @@ fn missing(content: &Content<'_>, checks: &[CheckSummary]) -> Vec<String> {
 fn bars(content: &Content<'_>, checks: &[CheckSummary]) -> Option<String> {
     /// What the residual of a mode adds to its bar, relative to the digits and in itself, where nothing is wrong.
     const RESIDUAL: [f64; 2] = [10.0, 1e-9];
-    /// What practice asks of it.
-    const LIMIT: f64 = 1e-4;
     let record = checks.iter().find(|check| check.id == "M-09")?;
     let metadata = content.superelement.metadata();
     let named = metadata.coordinates.iter().chain(metadata.dropped.iter().map(|dropped| &dropped.column));
@@ -130,7 +137,7 @@ fn bars(content: &Content<'_>, checks: &[CheckSummary]) -> Option<String> {
     // A bar that is not a number has no place in the file, nor has the value.
     let stated = record.value.unwrap_or(f64::INFINITY);
     let agrees = stated <= largest * (1.0 + 1e-9) && largest <= stated * RESIDUAL[0] + RESIDUAL[1];
-    (!agrees || record.limit != LIMIT).then(|| "M-09 is not that of the error bars".to_owned())
+    (!agrees).then(|| "M-09 is not that of the error bars".to_owned())
 }
 
 /// The last M-23 on record is the condition of M̂ with a diagonal near one.
@@ -139,8 +146,8 @@ fn mass_condition(content: &Content<'_>, checks: &[CheckSummary]) -> Result<Opti
     const UNITS: f64 = 4.0;
     /// Where hardly a digit is left the value is a sign of that and no more.
     const LARGEST: f64 = 1e12;
-    let stated = checks.iter().rev().find(|check| check.id == "M-23").and_then(|check| check.value);
+    let Some(record) = checks.iter().rev().find(|check| check.id == "M-23") else { return Ok(None) };
     let found = condition(content)?.value;
-    let agrees = stated.is_some_and(|stated| (found / UNITS..=found * UNITS).contains(&stated));
+    let agrees = record.value.is_some_and(|stated| (found / UNITS..=found * UNITS).contains(&stated));
     Ok((found < LARGEST && !agrees).then(|| "M-23 is not that of the mass".to_owned()))
 }

@@ -9,11 +9,8 @@
 use supel_runtime::{Direction, Precision, RecoveredDof, RigidBodyModes};
 
 use super::content::{Content, unpacked};
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::verification::check::{Check, Limits};
-
-/// Roundings of one sign may exceed their typical sum by this.
-const NOISE_FACTOR: f64 = 10.0;
 
 /// M-11: recovered rows carry rigid-body motion, where that is the six unit motions.
 pub(super) fn rigid_motion(content: &Content<'_>) -> Option<Check> {

@@ -8,8 +8,8 @@ use super::flags::{
 use super::process;
 use crate::error::{Error, Result};
 use crate::job::{
-    Certify, Coupling, Duplicates, InterfaceJob, Job, ModeSelection, ModelJob, NodeSelection, Origin, Precision,
-    ReductionJob, RunJob, WriteJob,
+    Coupling, Duplicates, InterfaceJob, Job, ModeSelection, ModelJob, NodeSelection, Origin, ReductionJob, RunJob,
+    WriteJob,
 };
 
 /// One command, ready to run.
@@ -158,9 +158,9 @@ fn build_reduce(flags: ReduceFlags) -> Result<ReduceCommand> {
     if strictness == Strictness::Strict {
         job.model.duplicates = Duplicates::Refuse;
     }
-    job.run.certify = reduction.certify.map_or(job.run.certify, Certify::from);
+    job.run.certify = reduction.certify.unwrap_or(job.run.certify);
     job.run.memory_gib = run.memory_gib.or(job.run.memory_gib);
-    job.run.precision = run.precision.map_or(job.run.precision, Precision::from);
+    job.run.precision = run.precision.unwrap_or(job.run.precision);
     job.validate()?;
     // Paths of the document are absolute already; those of flags are relative to where the command was typed.
     let job = job.resolve(Path::new(""))?;
@@ -179,11 +179,11 @@ fn override_job(
     replace(&mut job.model.mass, model.mass);
     job.model.dofs = model.dofs.or(job.model.dofs);
     job.model.nodes = model.nodes.or(job.model.nodes);
-    job.model.symmetric = model.symmetric.map(Into::into).or(job.model.symmetric);
+    job.model.symmetric = model.symmetric.or(job.model.symmetric);
     job.model.drop_empty |= model.drop_empty;
-    replace(&mut job.reduction.method, reduction.method.map(Into::into));
+    replace(&mut job.reduction.method, reduction.method);
     replace(&mut job.reduction.modes, mode_selection(reduction));
-    replace(&mut job.reduction.eigensolver, reduction.eigensolver.map(Into::into));
+    replace(&mut job.reduction.eigensolver, reduction.eigensolver);
     replace(&mut job.write.superelement, output.output);
     job.write.report = output.report.or(job.write.report);
     job.write.html = output.html.or(job.write.html);
@@ -231,16 +231,12 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
             mass: mass.clone(),
             dofs: model.dofs,
             nodes: model.nodes,
-            symmetric: model.symmetric.map(Into::into),
+            symmetric: model.symmetric,
             drop_empty: model.drop_empty,
             ..ModelJob::default()
         },
         interfaces,
-        reduction: ReductionJob {
-            method: method.into(),
-            modes,
-            eigensolver: reduction.eigensolver.map(Into::into).unwrap_or_default(),
-        },
+        reduction: ReductionJob { method, modes, eigensolver: reduction.eigensolver.unwrap_or_default() },
         scene: None,
         run: RunJob::default(),
         write: WriteJob {

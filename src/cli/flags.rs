@@ -2,9 +2,11 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValuesParser, Resettable, TypedValueParser};
 use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 
-use crate::job;
+use crate::job::{Certify, Eigensolver, Method, Precision};
+use crate::sparse::Triangle;
 
 /// Turns finite element models into verified superelements for multibody simulation.
 #[derive(Debug, Parser)]
@@ -63,7 +65,7 @@ pub(super) struct ModelFlags {
     #[arg(long, value_name = "FILE")]
     pub(super) nodes: Option<PathBuf>,
     /// Which triangle of K and M is right, where the other is incomplete
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = values::<Triangle>())]
     pub(super) symmetric: Option<Triangle>,
     /// Drop rows that have neither stiffness nor mass; the report names them
     #[arg(long)]
@@ -80,7 +82,7 @@ pub(super) struct ModelFlags {
 #[command(next_help_heading = "Reduction", group = ArgGroup::new("how many").args(["up_to_hz", "modes"]))]
 pub(super) struct ReductionFlags {
     /// Reduction method
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = values::<Method>())]
     pub(super) method: Option<Method>,
     /// Keep the modes up to this frequency
     #[arg(long, value_name = "F", allow_negative_numbers = true)]
@@ -89,10 +91,10 @@ pub(super) struct ReductionFlags {
     #[arg(long, value_name = "N")]
     pub(super) modes: Option<usize>,
     /// Eigensolver [default: lanczos]
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = values::<Eigensolver>())]
     pub(super) eigensolver: Option<Eigensolver>,
     /// How completeness of the modes is certified [default: count]
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = values::<Certify>())]
     pub(super) certify: Option<Certify>,
 }
 
@@ -137,7 +139,7 @@ pub(super) struct RunFlags {
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub(super) memory_gib: Option<f64>,
     /// Precision of the stored factor: mixed takes half the memory and more time [default: double]
-    #[arg(long, value_name = "HOW")]
+    #[arg(long, value_name = "HOW", value_parser = values::<Precision>())]
     pub(super) precision: Option<Precision>,
 }
 
@@ -181,86 +183,8 @@ pub(super) struct VerifyFlags {
     pub(super) threads: Option<u16>,
 }
 
-/// The triangles, as they are typed.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum Triangle {
-    Lower,
-    Upper,
-}
-
-/// The methods, as they are typed.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum Method {
-    CraigBampton,
-    Herting,
-}
-
-/// The eigensolvers, as they are typed.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum Eigensolver {
-    Lanczos,
-    Arpack,
-}
-
-/// The certificates, as they are typed.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum Certify {
-    None,
-    Count,
-    Full,
-}
-
-/// How a factor is kept, as it is typed.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum Precision {
-    Double,
-    Mixed,
-    Auto,
-}
-
-impl From<Triangle> for crate::sparse::Triangle {
-    fn from(triangle: Triangle) -> Self {
-        match triangle {
-            Triangle::Lower => Self::Lower,
-            Triangle::Upper => Self::Upper,
-        }
-    }
-}
-
-impl From<Method> for job::Method {
-    fn from(method: Method) -> Self {
-        match method {
-            Method::CraigBampton => Self::CraigBampton,
-            Method::Herting => Self::Herting,
-        }
-    }
-}
-
-impl From<Eigensolver> for job::Eigensolver {
-    fn from(eigensolver: Eigensolver) -> Self {
-        match eigensolver {
-            Eigensolver::Lanczos => Self::Lanczos,
-            Eigensolver::Arpack => Self::Arpack,
-        }
-    }
-}
-
-impl From<Precision> for job::Precision {
-    fn from(precision: Precision) -> Self {
-        match precision {
-            Precision::Double => Self::Double,
-            Precision::Mixed => Self::Mixed,
-            Precision::Auto => Self::Auto,
-        }
-    }
-}
-
-impl From<Certify> for job::Certify {
-    fn from(certify: Certify) -> Self {
-        match certify {
-            Certify::None => Self::None,
-            Certify::Count => Self::Count,
-            Certify::Full => Self::Full,
-        }
-    }
+/// The values of an enum of the job, without the descriptions that its schema has.
+fn values<T: ValueEnum + Clone + Send + Sync + 'static>() -> impl TypedValueParser<Value = T> {
+    let names = T::value_variants().iter().filter_map(ValueEnum::to_possible_value);
+    PossibleValuesParser::new(names.map(|name| name.help(Resettable::Reset))).try_map(|name| T::from_str(&name, false))
 }

@@ -15,6 +15,7 @@ use super::unmet::unmet;
 use super::{memory, overwriting, process};
 use crate::error::{Error, Result};
 use crate::forecast::Resources;
+use crate::input::Cells;
 use crate::outcome::Outcome;
 use crate::report::{JunitWarnings, Observer, Report, StageClock, html, junit, summary};
 use crate::verification::check::{Check, Limits, Verdict};
@@ -28,7 +29,9 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     refuse_unwritable(&command.job.write)?;
     let resources = Resources { memory_bytes: memory::available_bytes() };
     let rehearsed = match terminal.program {
-        Program::Supel => rehearsal::rehearse(&command.job.model, resources.allowed(&command.job))?,
+        Program::Supel => {
+            rehearsal::rehearse(&command.job.model, Cells::of(&command.job), resources.allowed(&command.job))?
+        }
         Program::Other => Rehearsed::Nothing,
     };
     if command.answer != Answer::Nothing {

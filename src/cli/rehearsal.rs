@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use super::exit_code::ExitCode;
 use super::process;
 use crate::error::{Error, Result};
-use crate::input::{self, Allowance};
+use crate::input::{self, Allowance, Cells};
 use crate::job::ModelJob;
 
 /// The hidden subcommand of the child.
@@ -31,6 +31,7 @@ const LONGEST_PAUSE: Duration = Duration::from_millis(20);
 #[derive(Serialize, Deserialize)]
 struct Task {
     model: ModelJob,
+    cells: Cells,
     memory_bytes: Option<u64>,
 }
 
@@ -55,16 +56,17 @@ impl Rehearsed {
     }
 }
 
-/// Reads the HDF5 files of a model in a child process, where there are any, in no more than `memory_bytes`.
+/// Reads the HDF5 files of a model in a child process, where there are any, in no more than `memory_bytes`; the cells of the mesh too
+/// where this process will.
 ///
 /// An error that the child finds in a file is not passed on: this process finds the same one.
 ///
 /// # Errors
 /// [`Error::Hdf5Crash`], [`Error::Hdf5Time`], [`Error::OutOfMemory`] and [`Error::RehearsalKilled`] by how the child ended;
 /// [`Error::Rehearsal`] where it could not be started.
-pub(super) fn rehearse(model: &ModelJob, memory_bytes: Option<u64>) -> Result<Rehearsed> {
+pub(super) fn rehearse(model: &ModelJob, cells: Cells, memory_bytes: Option<u64>) -> Result<Rehearsed> {
     let Some(path) = input::hdf5_file(model) else { return Ok(Rehearsed::Nothing) };
-    let task = Task { model: model.clone(), memory_bytes };
+    let task = Task { model: model.clone(), cells, memory_bytes };
     let failed = |source| Error::Rehearsal { source };
     let time = time_for(&path);
     let mut child = std::env::current_exe().and_then(|program| start(&program)).map_err(failed)?;
@@ -158,7 +160,7 @@ pub(super) fn read_from_stdin() -> Result<ExitCode> {
     input::start_hdf5()?;
     let mut stdout = std::io::stdout();
     stdout.write_all(STARTED).and_then(|()| stdout.flush()).map_err(failed)?;
-    match threads.install(|| input::read_hdf5_parts(&task.model, &Allowance::of(task.memory_bytes))) {
+    match threads.install(|| input::read_hdf5_parts(&task.model, task.cells, &Allowance::of(task.memory_bytes))) {
         Ok(()) => Ok(ExitCode::Done),
         Err(error @ Error::OutOfMemory { .. }) => Err(error),
         Err(_) => Ok(ExitCode::InputData),

@@ -15,6 +15,7 @@ use super::{accompanying, memory, process};
 use crate::audit::{self, Audit};
 use crate::error::{Error, Result};
 use crate::forecast::Resources;
+use crate::input::Cells;
 use crate::job::Job;
 use crate::regular_file;
 use crate::report::{Against, Reproduction, VerificationReport};
@@ -32,7 +33,10 @@ pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Te
     let resources = Resources { memory_bytes: memory::available_bytes() };
     let to_read = command.job.as_ref().or(rerun.as_ref());
     let rehearsed = match to_read.filter(|_| terminal.program == Program::Supel) {
-        Some(job) => rehearsal::rehearse(&job.model, resources.allowed(job))?,
+        Some(job) => {
+            let cells = if rerun.is_some() { Cells::of(job) } else { Cells::Unwanted };
+            rehearsal::rehearse(&job.model, cells, resources.allowed(job))?
+        }
         None => Rehearsed::Nothing,
     };
     if command.answer != Answer::Nothing {

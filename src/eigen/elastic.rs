@@ -1,5 +1,7 @@
 //! The elastic modes of a pencil by a shift-invert operator: found, made accurate and judged.
 
+use clap::ValueEnum;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 #[cfg(feature = "arpack")]
@@ -16,7 +18,7 @@ use crate::error::Result;
 use crate::sparse::{Precision, product};
 
 /// Which eigensolver finds the modes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Eigensolver {
     /// Block Lanczos with thick restart.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Input, InputNote, MatrixInput};
+use super::{Input, InputNote, MatrixInput, PatchFaces};
 use crate::error::Warning;
 
 /// What is remembered of the input after its matrices have gone into the model.
@@ -14,6 +14,8 @@ pub struct InputFacts {
     pub files: BTreeMap<&'static str, String>,
     /// Remarks of the readers that are not warnings.
     pub notes: Vec<String>,
+    /// Faces of the patches whose origin is the mean of their nodes, as far as the mesh tells.
+    pub faces: Vec<PatchFaces>,
     /// Remarks that are warnings.
     pub warnings: Vec<Warning>,
 }
@@ -40,6 +42,7 @@ impl InputFacts {
         Self {
             matrices: [facts(&input.stiffness), facts(&input.mass)],
             files: input.digests.clone(),
+            faces: Vec::new(),
             notes: input.notes.iter().filter(|note| note.warning_code().is_none()).map(ToString::to_string).collect(),
             warnings: input.notes.iter().filter_map(warning).collect(),
         }

@@ -19,6 +19,7 @@ mod matrix_market;
 mod model_files;
 mod node_table;
 mod note;
+mod patch;
 mod source;
 mod table;
 
@@ -28,6 +29,7 @@ pub use facts::{InputFacts, MatrixFacts};
 pub use kind::{files, hdf5_file};
 pub use model_files::{Input, read, read_hdf5_parts, read_within, start_hdf5};
 pub use note::InputNote;
+pub use patch::{Cells, Patch, PatchFaces, Patches, has_mean_origin, patch_faces};
 
 use std::path::PathBuf;
 

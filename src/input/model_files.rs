@@ -9,7 +9,9 @@ use super::dof_map::{self, DirectionBase};
 use super::foreign::Wanted;
 use super::kind::{hdf5_location, is_hdf5_mesh};
 use super::matrix_market::{OrderSource, TextMatrix};
-use super::{InputNote, MatrixInput, empty_rows, foreign, matrix_market, node_table};
+#[cfg(feature = "hdf5")]
+use super::patch::Patches;
+use super::{Cells, InputNote, MatrixInput, empty_rows, foreign, matrix_market, node_table};
 use crate::dofs::{DofMap, FileRows, Nodes};
 use crate::error::{Error, Result};
 use crate::job::{Duplicates, ModelJob};
@@ -104,7 +106,7 @@ pub fn start_hdf5() -> Result<()> {
 ///
 /// # Errors
 /// A file that cannot be read or whose content is wrong.
-pub fn read_hdf5_parts(model: &ModelJob, allowance: &Allowance) -> Result<()> {
+pub fn read_hdf5_parts(model: &ModelJob, cells: Cells, allowance: &Allowance) -> Result<()> {
     let is_hdf5 = |path: &Path| hdf5_location(path).is_some();
     if is_hdf5(&model.stiffness) {
         read_matrix(model, Role::Stiffness, allowance)?;
@@ -112,8 +114,12 @@ pub fn read_hdf5_parts(model: &ModelJob, allowance: &Allowance) -> Result<()> {
     if is_hdf5(&model.mass) {
         read_matrix(model, Role::Mass, allowance)?;
     }
-    let nodes = model.nodes.as_deref().filter(|path| is_hdf5_mesh(path));
-    nodes.map_or(Ok(()), |path| read_nodes(path, allowance, &mut BTreeMap::new()).map(drop))
+    let Some(path) = model.nodes.as_deref().filter(|path| is_hdf5_mesh(path)) else { return Ok(()) };
+    let n_nodes = read_nodes(path, allowance, &mut BTreeMap::new())?.labels.len();
+    match cells {
+        Cells::Wanted => read_all_cells(path, n_nodes, allowance),
+        Cells::Unwanted => Ok(()),
+    }
 }
 
 /// A matrix from whichever kind of file.
@@ -195,6 +201,18 @@ fn read_hdf5_nodes(path: &Path, allowance: &Allowance, digests: &mut Digests) ->
     let (nodes, of_data) = super::hdf5::read_nodes_within(path, allowance)?;
     digests.extend(of_data.map(|digest| ("nodes_data", digest)));
     Ok(nodes)
+}
+
+/// Reads the cells of a mesh for no patch.
+#[cfg(feature = "hdf5")]
+fn read_all_cells(path: &Path, n_nodes: usize, allowance: &Allowance) -> Result<()> {
+    let patches = Patches { n_nodes, list: Vec::new() };
+    super::hdf5::read_faces(path, &patches, allowance).map(drop)
+}
+
+#[cfg(not(feature = "hdf5"))]
+fn read_all_cells(_: &Path, _: usize, _: &Allowance) -> Result<()> {
+    Ok(())
 }
 
 #[cfg(not(feature = "hdf5"))]

@@ -6,50 +6,9 @@
 use std::io::Read;
 use std::path::Path;
 
-use super::Job;
+use super::{Job, schema};
 use crate::error::{Error, Result};
 use crate::regular_file;
-
-/// The keys of a job by the table they belong to; `[]` stands for each element of a list.
-const KEYS: &[(&str, &[&str])] = &[
-    ("", &["model", "interface", "reduction", "scene", "run", "write"]),
-    (
-        "model",
-        &[
-            "stiffness",
-            "mass",
-            "dofs",
-            "nodes",
-            "symmetric",
-            "duplicates",
-            "drop_empty",
-            "units",
-            "held_rotations",
-            "expect",
-        ],
-    ),
-    ("model.expect", &["mass", "cg"]),
-    ("interface[]", &["name", "nodes", "coupling", "origin", "dofs"]),
-    ("interface[].nodes", &["within", "rows"]),
-    ("interface[].nodes.within", &["box", "plane", "cylinder", "sphere"]),
-    ("interface[].nodes.within.box", &["min", "max"]),
-    ("interface[].nodes.within.plane", &["point", "normal", "tolerance"]),
-    ("interface[].nodes.within.cylinder", &["from", "to", "radius", "inner_radius"]),
-    ("interface[].nodes.within.sphere", &["center", "radius"]),
-    ("reduction", &["method", "modes", "eigensolver"]),
-    ("reduction.modes", &["count", "up_to_hz"]),
-    ("scene", &["band_hz", "boundaries", "damping"]),
-    ("scene.damping", &["ratio"]),
-    ("run", &["certify", "memory_gib", "precision"]),
-    ("write", &["superelement", "report", "html", "junit", "recovery"]),
-    ("write.recovery", &["nodes", "precision"]),
-    ("write.recovery.nodes", &["within"]),
-    ("write.recovery.nodes.within", &["box", "plane", "cylinder", "sphere"]),
-    ("write.recovery.nodes.within.box", &["min", "max"]),
-    ("write.recovery.nodes.within.plane", &["point", "normal", "tolerance"]),
-    ("write.recovery.nodes.within.cylinder", &["from", "to", "radius", "inner_radius"]),
-    ("write.recovery.nodes.within.sphere", &["center", "radius"]),
-];
 
 /// Above this Jaro-Winkler similarity a known key is offered for an unknown one; below it the offer would be noise.
 const SIMILAR: f64 = 0.75;
@@ -157,29 +116,35 @@ fn json_tree(value: &serde_json::Value) -> Tree {
 }
 
 fn check_keys(tree: &Tree, path: &Path) -> Result<()> {
-    check_keys_below(tree, "", "", path)
+    Keys { schema: schema::schema(), path }.check(tree, "", "")
 }
 
-/// `pattern` is the place with `[]` for every list, `place` the same with element numbers.
-fn check_keys_below(tree: &Tree, pattern: &str, place: &str, path: &Path) -> Result<()> {
-    match tree {
-        Tree::Leaf => Ok(()),
-        Tree::List(items) => items.iter().enumerate().try_for_each(|(item_idx, item)| {
-            check_keys_below(item, &format!("{pattern}[]"), &format!("{place}[{item_idx}]"), path)
-        }),
-        Tree::Table(entries) => {
-            // A table where none belongs is a value of the wrong kind, which the deserialiser reports.
-            let Some((_, known)) = KEYS.iter().find(|(table, _)| *table == pattern) else {
-                return Ok(());
-            };
-            entries.iter().try_for_each(|entry| {
-                let here = join(place, &entry.key);
-                if !known.contains(&entry.key.as_str()) {
-                    let suggestion = nearest(&entry.key, known);
-                    return Err(Error::JobKey { path: path.to_owned(), line: entry.line, key: here, suggestion });
-                }
-                check_keys_below(&entry.value, &join(pattern, &entry.key), &here, path)
-            })
+/// The keys that the types of a job have.
+struct Keys<'a> {
+    schema: serde_json::Value,
+    path: &'a Path,
+}
+
+impl Keys<'_> {
+    /// `pattern` is the place with `[]` for every list, `place` the same with element numbers.
+    fn check(&self, tree: &Tree, pattern: &str, place: &str) -> Result<()> {
+        match tree {
+            Tree::Leaf => Ok(()),
+            Tree::List(items) => items.iter().enumerate().try_for_each(|(item_idx, item)| {
+                self.check(item, &format!("{pattern}[]"), &format!("{place}[{item_idx}]"))
+            }),
+            Tree::Table(entries) => {
+                // A table where none belongs is a value of the wrong kind, which the deserialiser reports.
+                let Some(known) = schema::keys(&self.schema, pattern) else { return Ok(()) };
+                entries.iter().try_for_each(|entry| {
+                    let here = join(place, &entry.key);
+                    if !known.contains(&entry.key) {
+                        let (path, suggestion) = (self.path.to_owned(), nearest(&entry.key, &known));
+                        return Err(Error::JobKey { path, line: entry.line, key: here, suggestion });
+                    }
+                    self.check(&entry.value, &join(pattern, &entry.key), &here)
+                })
+            }
         }
     }
 }
@@ -188,14 +153,14 @@ fn join(place: &str, key: &str) -> String {
     if place.is_empty() { key.to_owned() } else { format!("{place}.{key}") }
 }
 
-fn nearest(key: &str, known: &[&str]) -> Option<String> {
+fn nearest(key: &str, known: &[String]) -> Option<String> {
     let key = key.to_lowercase();
     known
         .iter()
         .map(|candidate| (strsim::jaro_winkler(&key, candidate), candidate))
         .filter(|(similarity, _)| *similarity >= SIMILAR)
         .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, candidate)| (*candidate).to_owned())
+        .map(|(_, candidate)| candidate.clone())
 }
 
 fn toml_failure(error: &toml::de::Error, text: &str, path: &Path) -> Error {
@@ -218,54 +183,4 @@ fn json_failure(error: &serde_json::Error, path: &Path) -> Error {
 
 fn line_at(text: &str, offset: usize) -> usize {
     text.bytes().take(offset).filter(|byte| *byte == b'\n').count() + 1
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Properties of the schema's table at `pattern`, following references and alternatives.
-    fn schema_keys(schema: &serde_json::Value, pattern: &str) -> Vec<String> {
-        let mut tables = vec![schema];
-        for step in pattern.split('.').filter(|step| !step.is_empty()) {
-            let (key, is_list) = step.strip_suffix("[]").map_or((step, false), |key| (key, true));
-            tables = tables
-                .iter()
-                .flat_map(|table| alternatives(schema, table))
-                .filter_map(|table| table.get("properties")?.get(key))
-                .flat_map(|value| alternatives(schema, value))
-                .filter_map(|value| if is_list { value.get("items") } else { Some(value) })
-                .collect();
-        }
-        let mut keys: Vec<String> = tables
-            .into_iter()
-            .flat_map(|table| alternatives(schema, table))
-            .filter_map(|table| table.get("properties")?.as_object())
-            .flat_map(|properties| properties.keys().cloned())
-            .collect();
-        keys.sort();
-        keys.dedup();
-        keys
-    }
-
-    fn alternatives<'a>(schema: &'a serde_json::Value, value: &'a serde_json::Value) -> Vec<&'a serde_json::Value> {
-        if let Some(reference) = value.get("$ref").and_then(serde_json::Value::as_str) {
-            let target = schema.pointer(reference.trim_start_matches('#'));
-            return alternatives(schema, target.unwrap_or_else(|| panic!("{reference} leads nowhere")));
-        }
-        match value.get("oneOf").and_then(serde_json::Value::as_array) {
-            Some(branches) => branches.iter().flat_map(|branch| alternatives(schema, branch)).collect(),
-            None => vec![value],
-        }
-    }
-
-    #[test]
-    fn the_table_of_keys_is_the_schema() {
-        let schema = serde_json::from_str(include_str!("../../schemas/job.schema.json")).expect("schema");
-        for (pattern, known) in KEYS {
-            let mut known: Vec<String> = known.iter().map(|key| (*key).to_owned()).collect();
-            known.sort();
-            assert_eq!(schema_keys(&schema, pattern), known, "keys of `{pattern}`");
-        }
-    }
 }

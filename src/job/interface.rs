@@ -1,14 +1,16 @@
 //! Interfaces of a job: which nodes, how they couple, where the interface node sits.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, de};
 
 use crate::dofs::Direction;
 
 /// One interface node of the superelement, or a set of nodes that all become interface nodes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InterfaceJob {
     /// Name, unique in the job.
+    #[schemars(regex(pattern = r"\S"))]
     pub name: String,
     /// Which nodes of the model.
     pub nodes: NodeSelection,
@@ -19,18 +21,20 @@ pub struct InterfaceJob {
     #[serde(default)]
     pub origin: Origin,
     /// Directions that belong to the interface; for `direct`, those of the six that the nodes have.
+    #[schemars(length(min = 1), extend("uniqueItems" = true))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dofs: Option<Vec<Direction>>,
 }
 
 /// Nodes by label, by group, by region, or rows by number where the model has no nodes.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
+#[schemars(deny_unknown_fields)]
 pub enum NodeSelection {
-    /// `"group:HUB"`, with its leading word; see [`NodeSelection::group_name`].
-    Group(String),
-    /// `[412, 413]`.
-    Labels(Vec<i64>),
+    /// `"group:HUB"`, the name of a group with its leading word.
+    Group(#[schemars(regex(pattern = "^group:.+"))] String),
+    /// `[412, 413]`, labels of nodes.
+    Labels(#[schemars(length(min = 1), extend("uniqueItems" = true))] Vec<i64>),
     /// `{ within = … }`.
     Region {
         /// The region that holds the nodes.
@@ -38,13 +42,14 @@ pub enum NodeSelection {
     },
     /// `{ rows = [0, 1, 2] }`, zero-based, for a model without nodes.
     Rows {
-        /// Row numbers of the matrices, from zero.
+        /// Rows of the files, from zero; those that `drop_empty` drops are counted.
+        #[schemars(length(min = 1), extend("uniqueItems" = true))]
         rows: Vec<usize>,
     },
 }
 
 /// A region of space; a node belongs to it when it is inside or on the border.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 pub enum Region {
     /// Axis-parallel box.
@@ -61,6 +66,7 @@ pub enum Region {
         /// Its normal, of any length.
         normal: [f64; 3],
         /// Half thickness.
+        #[schemars(range(min = 0))]
         tolerance: f64,
     },
     /// Finite cylinder, solid or (with an inner radius) a shell.
@@ -70,8 +76,10 @@ pub enum Region {
         /// Centre of the other end.
         to: [f64; 3],
         /// Outer radius.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         radius: f64,
         /// Inner radius.
+        #[schemars(range(min = 0))]
         #[serde(default)]
         inner_radius: f64,
     },
@@ -80,12 +88,13 @@ pub enum Region {
         /// Centre.
         center: [f64; 3],
         /// Radius.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         radius: f64,
     },
 }
 
 /// How nodes of the model couple to an interface.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Coupling {
     /// The nodes' own degrees of freedom.
@@ -96,12 +105,13 @@ pub enum Coupling {
 }
 
 /// Where the interface node of a rigid patch sits.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "expected \"centroid\" or [x, y, z]")]
 pub enum Origin {
     /// `"centroid"`: the mean of the patch's nodes.
     #[default]
     #[serde(with = "centroid")]
+    #[schemars(schema_with = "super::schema::centroid")]
     Centroid,
     /// `[x, y, z]`.
     Point([f64; 3]),

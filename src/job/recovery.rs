@@ -1,5 +1,6 @@
 //! Displacements inside the component: which nodes, and how many digits of their rows of the basis are kept.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::validation::selection;
@@ -7,10 +8,11 @@ use super::{Coupling, InterfaceJob, NodeSelection, Origin};
 use crate::error::Result;
 
 /// Nodes whose displacements the superelement recovers: their rows of the basis Ψ.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RecoveryJob {
     /// Which nodes of the model; rows have no name to be recovered by.
+    #[schemars(schema_with = "super::schema::nodes_by_name")]
     pub nodes: NodeSelection,
     /// How the rows are stored.
     #[serde(default)]
@@ -18,7 +20,7 @@ pub struct RecoveryJob {
 }
 
 /// How many bytes a number of the recovery takes in the file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum RecoveryPrecision {
     /// Eight.

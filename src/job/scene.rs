@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::InterfaceJob;
@@ -10,10 +11,11 @@ use crate::error::{Error, Result};
 
 /// What the simulation will ask of the component. Whatever is given here is compared, at any cost; what is absent is
 /// compared with defaults where that is cheap.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SceneJob {
     /// Lowest and highest frequency of interest, in Hz.
+    #[schemars(inner(range(min = 0)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub band_hz: Option<[f64; 2]>,
     /// Supports under which frequencies are compared; an empty list compares none.
@@ -25,10 +27,11 @@ pub struct SceneJob {
 }
 
 /// Damping of the component.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DampingJob {
     /// Share ζ of critical damping of every mode; the structural damping factor of K (1 + iη) is η = 2ζ.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1, "default" = 0.01))]
     pub ratio: f64,
 }
 
@@ -39,9 +42,11 @@ impl Default for DampingJob {
     }
 }
 
-/// How the component is supported while its frequencies are compared.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// How the component is supported while its frequencies are compared: `free`, `fix:NAME`, `mass:NAME` or `mass:NAME=2.5`, NAME being an
+/// interface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "String", into = "String")]
+#[schemars(extend("pattern" = "^(free|fix:.+|mass:[^=]+|mass:.+=[-+.0-9eE]+)$"))]
 pub enum Support {
     /// `free`: no interface held or loaded.
     Free,

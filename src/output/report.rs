@@ -6,13 +6,15 @@ use crate::basis::DynamicCoordinate;
 use crate::eigen::CLUSTER_GAP;
 use crate::error::Warning;
 use crate::input::MatrixFacts;
+use crate::input::PatchFaces;
 use crate::job::{Certify, Coupling, InterfaceJob, ModeSelection, Origin};
 use crate::model::RoundedCoordinates;
 use crate::modes::{Boundary, CountedInterval};
 use crate::partition::InterfaceNode;
+use crate::report::RigidBodySource;
 use crate::report::{
-    Completeness, DroppedCoordinate, Generator, InterfacePosition, InterfaceReport, MassProperties, MatrixReport,
-    ModeKind, ModeRow, ModelReport, PositionOrigin, ReductionReport, ReportBody, RigidBodyModes, RigidBodySource,
+    Completeness, DroppedCoordinate, FacesReport, Generator, InterfacePosition, InterfaceReport, MassProperties,
+    MatrixReport, ModeKind, ModeRow, ModelReport, PositionOrigin, ReductionReport, ReportBody, RigidBodyModes,
     TrustInterval,
 };
 use crate::rigid::{ILL_CONDITIONED, RigidSource};
@@ -110,7 +112,13 @@ fn interfaces(results: &Results<'_>) -> Vec<InterfaceReport> {
     for node in &partition.interface {
         let n_dofs = if node.directions.is_empty() { node.n_nodes } else { node.directions.len() };
         let origin = origin(node, &results.job.interfaces);
-        let at = node.position.map(|position| InterfacePosition { node: node.label, position, origin });
+        let faces = |position| faces((node, position), origin, &results.input.faces);
+        let at = node.position.map(|position| InterfacePosition {
+            node: node.label,
+            position,
+            origin,
+            faces: faces(position),
+        });
         match rows.last_mut().filter(|row| row.name == node.name) {
             Some(row) => {
                 row.n_nodes += node.n_nodes;
@@ -127,6 +135,17 @@ fn interfaces(results: &Results<'_>) -> Vec<InterfaceReport> {
         }
     }
     rows
+}
+
+/// How far the mean of a patch's nodes is from the centroid of its faces.
+fn faces(
+    (node, position): (&InterfaceNode, [f64; 3]),
+    origin: PositionOrigin,
+    known: &[PatchFaces],
+) -> Option<FacesReport> {
+    let faces = known.iter().find(|faces| origin == PositionOrigin::MeanOfNodes && faces.interface == node.name)?;
+    let offset = (0..3).map(|axis| (faces.centroid[axis] - position[axis]).powi(2)).sum::<f64>();
+    Some(FacesReport { count: faces.n_faces, centroid: faces.centroid, distance: offset.sqrt() })
 }
 
 /// Where the place of an interface node comes from.

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use super::region::contains;
 use crate::dofs::{Direction, Dof};
 use crate::error::{Error, Result};
+use crate::input::{Patch, Patches, has_mean_origin};
 use crate::job::{Coupling, InterfaceJob, NodeSelection, Origin, RecoveryJob};
 use crate::model::Model;
 
@@ -90,6 +91,21 @@ pub fn recovered_rows(model: &Model, recovery: Option<&RecoveryJob>) -> Result<V
         rows.extend(of_node.map(|(direction, row)| (*row, Dof { node, direction: *direction })));
     }
     Ok(rows)
+}
+
+/// The patches of several nodes whose origin is the mean of these. A selection that finds none is refused where it is resolved.
+pub fn patches(model: &Model, interfaces: &[InterfaceJob]) -> Patches {
+    let Some(nodes) = &model.nodes else { return Patches::default() };
+    let catalogue = Catalogue::new(model);
+    let indices: HashMap<i64, usize> = nodes.labels.iter().copied().zip(0..).collect();
+    let patch = |job: &InterfaceJob| {
+        let labels = catalogue.select(model, job).ok().filter(|labels| labels.len() > 1)?;
+        let nodes_of: Vec<usize> = labels.iter().map(|label| indices.get(label).copied()).collect::<Option<_>>()?;
+        let positions = nodes_of.iter().map(|node| nodes.coordinates[*node]).collect();
+        Some(Patch { interface: job.name.clone(), nodes: nodes_of, positions })
+    };
+    let list = interfaces.iter().filter(|job| has_mean_origin(job)).filter_map(patch).collect();
+    Patches { list, n_nodes: nodes.labels.len() }
 }
 
 /// Rows by number: interface nodes where the rows belong to nodes with coordinates, bare rows otherwise.

@@ -23,7 +23,7 @@ mod region;
 mod roundings;
 mod transformation;
 
-pub use interface::{InterfaceNode, recovered_rows};
+pub use interface::{InterfaceNode, patches, recovered_rows};
 pub use noise::CHANCE_OF_MORE;
 pub use partition::{LARGEST_INTERFACE, Partition};
 pub use problem::EntriesAt;

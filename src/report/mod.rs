@@ -213,6 +213,19 @@ pub struct InterfacePosition {
     pub position: [f64; 3],
     /// Where that comes from.
     pub origin: PositionOrigin,
+    /// The faces of a patch whose place is the mean of its nodes, where the mesh has faces.
+    pub faces: Option<FacesReport>,
+}
+
+/// The faces all of whose nodes belong to a patch.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct FacesReport {
+    /// How many.
+    pub count: usize,
+    /// Their area-weighted centroid, in the units of the model.
+    pub centroid: [f64; 3],
+    /// From the place of the interface node to that centroid.
+    pub distance: f64,
 }
 
 /// Where the place of an interface node comes from.

@@ -1,6 +1,6 @@
 //! The words and figures that the summary and the page have in common.
 
-use super::{InterfacePosition, InterfaceReport, ModeKind, PositionOrigin, ReductionReport};
+use super::{FacesReport, InterfacePosition, InterfaceReport, ModeKind, PositionOrigin, ReductionReport};
 use crate::job::{Coupling, Eigensolver, Method};
 use crate::number;
 use crate::verification::check::{ActiveLimit, Check, Verdict};
@@ -111,7 +111,10 @@ pub(super) fn positions(interface: &InterfaceReport) -> Option<String> {
         let place = format!("({})", at.position.map(shown).join(", "));
         match at.origin {
             PositionOrigin::Node => place,
-            PositionOrigin::MeanOfNodes => format!("{place}, the mean of its nodes"),
+            PositionOrigin::MeanOfNodes => {
+                let faces = at.faces.map(|faces| from_centroid(&faces, size)).unwrap_or_default();
+                format!("{place}, the mean of its nodes{faces}")
+            }
             PositionOrigin::Job => format!("{place}, as the job says"),
         }
     };
@@ -120,6 +123,17 @@ pub(super) fn positions(interface: &InterfaceReport) -> Option<String> {
         places.push(format!("… and {} more in the report", interface.at.len() - SHOWN));
     }
     (!places.is_empty()).then(|| format!("at {}", places.join(", ")))
+}
+
+/// How far the mean of nodes is from the centroid of their faces, among coordinates of a size.
+fn from_centroid(faces: &FacesReport, size: f64) -> String {
+    // A mean of coordinates is not known better than they are.
+    let distance = if faces.distance <= 1e-12 * size { 0.0 } else { faces.distance };
+    let faces = number::counted(faces.count, "face", "faces");
+    if distance == 0.0 {
+        return format!(" and the centroid of its {faces}");
+    }
+    format!(", {} from the centroid of its {faces}", number::quantity(distance, 3))
 }
 
 /// A check that is not met, in one line: what, where, found, expected.

@@ -5,7 +5,7 @@ use faer::{Mat, MatRef};
 use super::algebraic;
 use super::energy::{largest_residual, zero_energy};
 use super::rigid_body_modes::{RigidBodyModes, RigidEnergy, RigidSource};
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, whole_count};
 use crate::model::{Bodies, Frame, Site};
@@ -132,8 +132,6 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
 /// Whether motions that cost more than the digits of K explain are zero modes of K all the same: coordinates have digits too, and in a
 /// slender part those of coordinates cost more. The coordinates have been compared with K by the worst that its digits can do.
 fn is_free_to_k(partition: &Partition, energies: &[f64], noise: f64) -> Result<bool> {
-    /// Roundings of one sign, of coordinates and of entries.
-    const NOISE_FACTOR: f64 = 10.0;
     let is_near = energies.iter().all(|energy| *energy <= NOISE_FACTOR * noise);
     if !is_near || partition.model.n_bodies > 1 {
         return Ok(false);

@@ -1,11 +1,13 @@
 //! One triangle of a matrix taken for both, where the other is known to be incomplete.
 
+use clap::ValueEnum;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::sparse::SparseMatrix;
 
 /// The triangle of K and M that holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Triangle {
     /// On and below the diagonal.

@@ -11,7 +11,7 @@ use super::check::{Check, Limits};
 use super::evidence::Evidence;
 use super::limits::UNKNOWN;
 use super::residual::{AT_REST, Residuals, Rows, Worst};
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::{MassOrthogonality, ModeError, NOTICED_BAR, mass_orthogonality};
 use crate::modes::Boundary;
 use crate::sparse::Pencil;
@@ -19,9 +19,6 @@ use crate::sparse::panels;
 
 /// Residual of a solve beyond which the free modes are computed by another factor ([`crate::modes`] says why).
 const MAX_SOLVE_RESIDUAL: f64 = 1e-8;
-
-/// How far roundings of one sign may exceed their typical sum.
-const NOISE_FACTOR: f64 = 10.0;
 
 /// What was measured of all pairs.
 pub(super) struct Pairs {

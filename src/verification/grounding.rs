@@ -5,7 +5,7 @@ use faer::MatRef;
 use super::directions::Directions;
 use super::evidence::Evidence;
 use super::spectrum::{Spectrum, lowest_eigenpairs};
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::Equilibrated;
 use crate::error::Result;
 use crate::sparse::{product, product_and_terms};
@@ -42,9 +42,6 @@ pub enum Restraint {
 const GROUNDED_ABOVE: f64 = 1e-6;
 /// Energy ratio above which a support holds a motion: its frequency is a tenth of the first elastic one.
 const HELD_ABOVE: f64 = 1e-2;
-/// How far roundings of one sign may exceed their typical sum.
-const NOISE_FACTOR: f64 = 10.0;
-
 /// Largest ratio of the Rayleigh quotient of a motion to the eigenvalue of its number where the component moves as a whole. With
 /// the stiffness k_e on a spring k the quotient is k/m and the eigenvalue k k_e / ((k + k_e) m), so that the ratio is 1 + k/k_e:
 /// beyond two the component gives way more than what holds it, as a clamped one does whatever mass it carries.

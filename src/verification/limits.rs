@@ -4,9 +4,8 @@
 //! energies of rigid-body motions and of the reduced matrices are sums of the same entries of K.
 
 use super::check::Limits;
+use crate::dense::NOISE_FACTOR;
 
-/// How far the roundings of one motion may exceed those of another.
-const NOISE_FACTOR: f64 = 10.0;
 /// Energy of a rigid-body motion relative to that of the first elastic mode that practice accepts: a rigid-body frequency of 10⁻⁴
 /// of the first elastic one.
 const RIGID_ENERGY: f64 = 1e-8;
@@ -29,6 +28,8 @@ pub(crate) const UNKNOWN: f64 = 0.5;
 /// Relative difference of a frequency that reduced models are accepted with; one that is off by more is not preserved, whatever the
 /// reason.
 const NOT_PRESERVED: f64 = 1e-3;
+/// The most that rounding may excuse of numbers that should be equal: no file can declare itself beyond judgement.
+pub(crate) const LARGEST_EXCUSE: f64 = 1e-3;
 /// Relative difference of a frequency that no digits of the data excuse.
 const OPEN: f64 = 0.1;
 

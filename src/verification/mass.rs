@@ -5,7 +5,7 @@ use faer::MatRef;
 use super::check::{Check, Limits};
 use super::evidence::{Evidence, rigid_name};
 use super::rigid_body::mass_difference;
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::number::quantity;
 
 /// M-16: ÛᵀM̂Û against UᵀMU.
@@ -31,7 +31,6 @@ pub(super) fn preserved(evidence: &Evidence<'_>) -> Check {
 
 /// Rounding of ÛᵀM̂Û: an interface that is small compared with the component holds large masses on long levers, which cancel.
 fn rounding(evidence: &Evidence<'_>) -> f64 {
-    const NOISE_FACTOR: f64 = 10.0;
     let (m, u) = (&evidence.reduction.mass, &evidence.reduction.rigid_body_modes);
     let terms = |j: usize| {
         let of_row = |i: usize| (0..m.ncols()).map(|k| m[(i, k)].abs() * u[(k, j)].abs()).sum::<f64>();

@@ -8,7 +8,7 @@ use super::evidence::{Evidence, coordinate_name, data_noise, reduced_norms, shar
 use super::limits::{self, Judged};
 use super::rigid_motion::energy_limits;
 use super::spectrum::{Spectrum, zero_level};
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::{Modes, REPEATED_WITHIN};
 use crate::modes::Boundary;
 use crate::sparse::absolute_energy;
@@ -25,9 +25,6 @@ pub(super) struct Terms {
     /// max (|Ψ|ᵀ|M||Ψ|)_ii relative to the largest entry of M̂: modes that M nearly lets pass are of large terms.
     mass: f64,
 }
-
-/// Roundings of one sign may exceed their typical sum by this.
-const NOISE_FACTOR: f64 = 10.0;
 
 impl Terms {
     pub(super) fn of(evidence: &Evidence<'_>) -> Self {

@@ -8,11 +8,8 @@ use super::grounding::{Grounding, Restraint};
 use super::limits::{self, Judged, Known};
 use super::residual::Worst;
 use super::spectrum::{NOT_FREE, Spectrum, zero_level};
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::rigid::{noise_of_digits, scales};
-
-/// How far roundings of one sign may exceed their typical sum.
-pub(super) const NOISE_FACTOR: f64 = 10.0;
 
 /// M-05, energy. The value is shown and not judged where no elastic mode is known to compare it with.
 pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[Grounding]) -> Check {

@@ -325,3 +325,66 @@ fn penalties_are_mentioned() {
     let message = penalty["message"].as_str().expect("a text");
     assert!(message.contains("3 rows") && message.contains("at row ") && message.contains("e25 times"), "{message}");
 }
+
+/// The mean of the nodes of a patch counts each once; the faces of the mesh tell how far it is from the centroid.
+#[cfg(feature = "hdf5")]
+#[test]
+fn the_origin_of_a_patch_is_told_with_its_distance_from_the_faces() {
+    let place = Place::with_example();
+    let (job, page) = (place.text("job.toml"), place.text("x.html"));
+    let ended = supel(&["reduce", &job, "--html", &page]).expect(ExitCode::Done);
+    let report = place.report("bracket.report.json");
+    let interfaces = report["body"]["reduction"]["interfaces"].as_array().expect("interfaces");
+    let page = String::from_utf8(place.bytes("x.html")).expect("UTF-8");
+    for interface in interfaces {
+        let at = &interface["at"][0];
+        let vector = |value: &serde_json::Value| -> Vec<f64> {
+            value.as_array().expect("a vector").iter().map(|x| x.as_f64().expect("a number")).collect()
+        };
+        let (position, centroid) = (vector(&at["position"]), vector(&at["faces"]["centroid"]));
+        let distance = position.iter().zip(&centroid).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+        assert_eq!(at["faces"]["distance"].as_f64(), Some(distance));
+        let words = format!("its {} faces", at["faces"]["count"]);
+        let summary: String = ended.out.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(summary.contains(&words) && page.contains(&words), "{words}: {}", ended.out);
+    }
+    // A superelement is the same whatever the mesh says of its faces.
+    let told = place.bytes("bracket.supel");
+    let nodes = supel::input::hdf5::read_nodes(&place.path("bracket.med")).expect("a mesh");
+    let mut table = "node,x,y,z\n".to_owned();
+    for (label, [x, y, z]) in nodes.labels.iter().zip(&nodes.coordinates) {
+        writeln!(table, "{label},{x},{y},{z}").expect("written");
+    }
+    place.write("nodes.csv", table.as_bytes());
+    let text = String::from_utf8(place.bytes("job.toml")).expect("UTF-8").replace("bracket.med", "nodes.csv");
+    let labels =
+        |group: &str| format!("{:?}", nodes.groups[group].iter().map(|node| nodes.labels[*node]).collect::<Vec<_>>());
+    let text = text.replace("\"group:BASE\"", &labels("BASE")).replace("\"group:EYE\"", &labels("EYE"));
+    place.write("job.toml", text.as_bytes());
+    let ended = supel(&["reduce", &job]).expect(ExitCode::Done);
+    assert!(ended.out.contains("the mean of its nodes\n") && !ended.out.contains("centroid"), "{}", ended.out);
+    let report = place.report("bracket.report.json");
+    assert!(report["body"]["reduction"]["interfaces"][0]["at"][0]["faces"].is_null());
+    let (with, without) = (supel_runtime::Superelement::from_bytes(&told), place.superelement("bracket.supel"));
+    assert_eq!(with.expect("a superelement").tensors(), without.tensors());
+}
+
+/// Cells that refer to nodes that are not there are damage, not a matter of taste.
+#[cfg(feature = "hdf5")]
+#[test]
+fn damaged_cells_are_refused() {
+    let place = Place::with_example();
+    let file = hdf5_metno::File::open_rw(place.path("bracket.med")).expect("a mesh");
+    let mut kinds = Vec::new();
+    file.group("ENS_MAA").expect("meshes").groups().expect("meshes").iter().for_each(|mesh| {
+        kinds.extend(mesh.groups().expect("steps").iter().filter_map(|step| step.group("MAI").ok()));
+    });
+    let cells = kinds[0].groups().expect("kinds")[0].dataset("NOD").expect("cells");
+    let mut numbers: Vec<i64> = cells.read_raw().expect("numbers");
+    numbers[5] = 1_000_000;
+    cells.write_raw(&numbers).expect("written");
+    drop((cells, kinds, file));
+    let ended = supel(&["reduce", &place.text("job.toml")]);
+    assert_says(&ended, ExitCode::InputData, &["E-HDF5-INDEX", "entry 5 is 1000000"]);
+    assert!(!place.path("bracket.supel").exists());
+}

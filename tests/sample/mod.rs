@@ -9,6 +9,7 @@ use supel::error::Warning;
 use supel::forecast::Resources;
 use supel::job::{Coupling, Eigensolver, Job, Method};
 use supel::outcome::Outcome;
+use supel::report::FacesReport;
 use supel::report::{
     Completeness, DroppedCoordinate, Generator, InterfacePosition, InterfaceReport, MassProperties, MatrixReport,
     ModeKind, ModeRow, ModelReport, Observer, PositionOrigin, ReductionReport, Report, ReportBody, RigidBodyModes,
@@ -97,6 +98,7 @@ fn body() -> ReportBody {
                         node: None,
                         position: [0.25, 0.0, -1.5e-3],
                         origin: PositionOrigin::MeanOfNodes,
+                        faces: Some(FacesReport { count: 80, centroid: [0.25, 3e-3, -5.5e-3], distance: 5e-3 }),
                     }],
                 },
                 InterfaceReport {

@@ -4,14 +4,11 @@ use supel_runtime::{Coordinate, Superelement};
 
 use super::asked::AskedModes;
 use super::scaled::Scaled;
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::sparse::Precision;
 use crate::verification::check::{Check, Limits};
+use crate::verification::limits::LARGEST_EXCUSE;
 
-/// The most that rounding may excuse.
-const LARGEST_EXCUSE: f64 = 1e-3;
-/// Roundings of one sign may exceed their typical sum by this.
-const NOISE_FACTOR: f64 = 10.0;
 /// A difference this many times its bound is none of rounding.
 const FAR: f64 = 10.0;
 

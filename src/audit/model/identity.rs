@@ -1,13 +1,13 @@
 //! Whether file and job describe the same component: M-26, M-06.
 
-use supel_runtime::{Coordinate, Generator, RigidBodyModes, Superelement};
+use supel_runtime::{Coordinate, RigidBodyModes, Superelement};
 
 use super::asked::AskedModes;
 use super::columns::Named;
 use super::motions::KnownMotions;
 use super::projection::Projected;
 use crate::audit::jobs::differences;
-use crate::audit::kept_job::{band, is_of_this_version, kept_job};
+use crate::audit::kept_job::{band, kept_job};
 use crate::audit::record::flaw;
 use crate::dofs::Direction;
 use crate::input::InputFacts;
@@ -20,12 +20,7 @@ use crate::verification::check::{Check, Limits};
 pub(super) fn digests(superelement: &Superelement, facts: &InputFacts) -> Check {
     let recorded = &superelement.metadata().inputs;
     let known = facts.digests();
-    let is_matrix = |role: &str| matches!(role, "stiffness" | "mass");
-    // Files of earlier versions record the matrices alone.
-    let differs = |role: &str, digest: &str| match recorded.get(role) {
-        Some(recorded) => recorded != digest,
-        None => is_matrix(role) || is_of_this_version(superelement),
-    };
+    let differs = |role: &str, digest: &str| recorded.get(role).is_none_or(|recorded| recorded != digest);
     let others = known.iter().filter(|(role, digest)| differs(role, digest)).map(|(role, _)| *role);
     let unknown = recorded.keys().map(String::as_str).filter(|role| !known.contains_key(role));
     let others: Vec<&str> = others.chain(unknown).collect();
@@ -38,14 +33,6 @@ pub(super) fn digests(superelement: &Superelement, facts: &InputFacts) -> Check 
         fail_above: Check::NEVER,
         worst: (!others.is_empty()).then(|| others.join(", ")),
     }
-}
-
-/// M-26: the program that made it, as far as this one can speak for it.
-pub(super) fn generator(superelement: &Superelement) -> Check {
-    let Generator { name, version } = &superelement.metadata().generator;
-    let flaws = if is_of_this_version(superelement) { Vec::new() } else { vec![format!("made by {name} {version}")] };
-    let check = flaw("it was made by this version", "1 where another program or version is named, else 0", &flaws);
-    Check { fail_above: Check::NEVER, ..check }
 }
 
 /// M-26: interface coordinates, one by one.
@@ -186,7 +173,7 @@ pub(super) fn dropped(superelement: &Superelement, projected: &Projected, bounda
     /// A column keeps 1e-8 of its length at most; what its square tells of it ends at the root of ε.
     const LEFT: f64 = 1e-6;
     /// The most that rounding excuses: a column of which a hundredth is left is another one.
-    const LARGEST_EXCUSE: f64 = 1e-2;
+    const LARGEST_LEFT: f64 = 1e-2;
     let columns = &superelement.metadata().dropped;
     if columns.is_empty() {
         return None;
@@ -204,7 +191,7 @@ pub(super) fn dropped(superelement: &Superelement, projected: &Projected, bounda
             worst = (left, Some(format!("{named:?}").to_lowercase()));
         }
     }
-    let limits = Limits { engineering: LEFT, arithmetic: rounding.min(LARGEST_EXCUSE), data: 0.0 };
+    let limits = Limits { engineering: LEFT, arithmetic: rounding.min(LARGEST_LEFT), data: 0.0 };
     Some(Check {
         id: "M-06",
         name: "columns left out depend on those that were kept",

@@ -5,17 +5,14 @@ use faer::{Mat, MatRef};
 
 use super::full::Full;
 use super::scaled::Scaled;
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::rigid::{RigidBodyModes, RigidSource};
 use crate::sparse::diagonal;
 use crate::sparse::energies_of_terms;
 use crate::sparse::product_and_terms;
 use crate::verification::check::{Check, Limits};
+use crate::verification::limits::LARGEST_EXCUSE;
 
-/// Roundings of one sign may exceed their typical sum by this.
-const NOISE_FACTOR: f64 = 10.0;
-/// The most that rounding may excuse.
-const LARGEST_EXCUSE: f64 = 1e-3;
 /// The most that roundings of K excuse of its zero modes: one that may be any other motion is compared with nothing, and the file's are
 /// held to the coordinates instead.
 const LARGEST_TURN: f64 = 1.0;

@@ -10,7 +10,7 @@
 use faer::{Mat, MatRef};
 
 use super::columns::{Columns, Named};
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::partition::Partition;
 use crate::sparse::energies_of_terms;
 use crate::sparse::{SparseMatrix, panels, product, product_and_terms};
@@ -76,7 +76,6 @@ impl Projected {
 
     /// The error of a named column relative to its length in the mass, ten times over: it is no more than an estimate.
     pub(super) fn doubt(&self, column: usize) -> f64 {
-        const NOISE_FACTOR: f64 = 10.0;
         let at = self.n_probes() + column;
         let length = self.mass.matrix[(at, at)].max(f64::MIN_POSITIVE).sqrt();
         NOISE_FACTOR * self.mass.errors[at] / length
@@ -93,7 +92,6 @@ impl Projected {
 
     /// What rounding of products with M makes of that share: ε of the terms of each column, whose sum the square of the share is off by.
     pub(super) fn rounding_of_share(&self, column: usize, others: &[usize]) -> f64 {
-        const NOISE_FACTOR: f64 = 10.0;
         let square = |place: &usize| {
             let at = self.n_probes() + place;
             self.mass.terms[at].powi(2) / self.mass.matrix[(at, at)].max(f64::MIN_POSITIVE)

@@ -8,12 +8,9 @@ use crate::error::{Error, Result};
 
 /// Reads the one mesh of a MED file with its labels and its node and element groups.
 pub(super) fn read(root: &Group<'_>) -> Result<Mesh> {
-    let meshes = root.group("ENS_MAA")?;
-    let mesh = only(meshes.groups()?, &meshes, "mesh")?;
+    let mesh = mesh(root)?;
     let n_axes = dimension(&mesh)?;
-    // A mesh has a group for each of its computation steps; files of version 2 have none.
-    let step =
-        if mesh.member("NOE")? == Some(Member::Group) { mesh.group("")? } else { only(mesh.groups()?, &mesh, "step")? };
+    let step = step(&mesh)?;
     let nodes = step.group("NOE")?;
     let coordinates = nodes.dataset("COO")?;
     let values = coordinates.reals()?.values;
@@ -31,6 +28,17 @@ pub(super) fn read(root: &Group<'_>) -> Result<Mesh> {
     let groups = read_groups(root, &mesh, &step, n_nodes)?;
     let coordinates_by_node = points(&by_node(&values, n_nodes, n_axes), n_axes);
     Ok(Mesh { labels, coordinates: coordinates_by_node, source: coordinates.name().to_owned(), groups })
+}
+
+/// The one mesh of a file.
+pub(super) fn mesh<'a>(root: &Group<'a>) -> Result<Group<'a>> {
+    let meshes = root.group("ENS_MAA")?;
+    only(meshes.groups()?, &meshes, "mesh")
+}
+
+/// The one computation step of a mesh, each of which has a group; files of version 2 have none.
+pub(super) fn step<'a>(mesh: &Group<'a>) -> Result<Group<'a>> {
+    if mesh.member("NOE")? == Some(Member::Group) { mesh.group("") } else { only(mesh.groups()?, mesh, "step") }
 }
 
 /// The one group of a list.

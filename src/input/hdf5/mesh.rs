@@ -105,7 +105,7 @@ pub(super) fn points(values: &[f64], n_axes: usize) -> Vec<[f64; 3]> {
 }
 
 /// True if the first character that is not a blank opens a tag.
-fn is_xml(path: &Path) -> Result<bool> {
+pub(super) fn is_xml(path: &Path) -> Result<bool> {
     let read = |source| Error::Read { path: path.to_owned(), source };
     let mut head = Vec::new();
     regular_file::open(path)?.take(256).read_to_end(&mut head).map_err(read)?;

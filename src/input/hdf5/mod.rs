@@ -7,22 +7,28 @@
 //! the program therefore lets a child process read HDF5 input first.
 
 mod attribute;
+mod cells;
 mod compressed;
 mod convention;
 mod dataset;
+mod faces;
 mod file;
 mod hmf;
 mod med;
+mod med_cells;
 mod med_groups;
 mod mesh;
 mod moab;
+mod moab_cells;
 mod moab_sets;
 mod numbers;
 mod search;
 mod sparse;
 mod xdmf;
+mod xdmf_cells;
 mod xml_size;
 
+pub(crate) use cells::read_faces;
 pub(crate) use file::start;
 pub use mesh::read_nodes;
 pub(crate) use mesh::{read_nodes_within, referenced_files};

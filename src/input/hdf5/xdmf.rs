@@ -11,6 +11,7 @@ use super::mesh::{Mesh, points};
 use super::xml_size::refuse_many_names;
 use crate::error::{Error, Result};
 use crate::input::Allowance;
+use crate::input::allowance::Claim;
 use crate::regular_file::{self, digest, unchanged};
 
 /// Bytes of the document and of what is made of it for each of its bytes: the text itself, its tree, its numbers.
@@ -23,7 +24,7 @@ const QUOTED: usize = 13;
 /// Reads the one geometry of an XDMF file, and the digest of the file it refers to. Grids of a time series that refer to the same data count
 /// as one.
 pub(super) fn read(path: &Path, allowance: &Allowance) -> Result<(Mesh, Option<String>)> {
-    let text = text_of(path, allowance)?;
+    let text = text_of(path, &allowance.claim(path))?;
     let document = parse(&text, path)?;
     let mut seen: HashSet<Geometry<'_>> = HashSet::new();
     let mut geometries: Vec<Geometry<'_>> = Vec::new();
@@ -45,18 +46,18 @@ pub(super) fn read(path: &Path, allowance: &Allowance) -> Result<(Mesh, Option<S
 }
 
 /// The text of the document.
-fn text_of(path: &Path, allowance: &Allowance) -> Result<String> {
+pub(super) fn text_of(path: &Path, claim: &Claim<'_>) -> Result<String> {
     let failed = |source| Error::Read { path: path.to_owned(), source };
     let file = regular_file::open(path)?;
     let size = file.metadata().map_err(failed)?.len();
-    allowance.claim(path).set(size.saturating_mul(OF_TEXT))?;
+    claim.set(size.saturating_mul(OF_TEXT))?;
     let mut bytes = Vec::new();
     file.take(size).read_to_end(&mut bytes).map_err(failed)?;
     String::from_utf8(bytes)
         .map_err(|fault| Error::NotText { path: path.to_owned(), offset: fault.utf8_error().valid_up_to() })
 }
 
-fn parse<'a>(text: &'a str, path: &Path) -> Result<Document<'a>> {
+pub(super) fn parse<'a>(text: &'a str, path: &Path) -> Result<Document<'a>> {
     refuse_many_names(text, path)?;
     Document::parse(text).map_err(|source| Error::XdmfSyntax { path: path.to_owned(), source })
 }
@@ -66,7 +67,7 @@ pub(super) fn referenced_files(path: &Path) -> Vec<PathBuf> {
     if std::fs::metadata(path).is_ok_and(|file| file.len() > MAX_WITHOUT_DATA) {
         return Vec::new();
     }
-    let Ok(text) = text_of(path, &Allowance::of(None)) else { return Vec::new() };
+    let Ok(text) = text_of(path, &Allowance::of(None).claim(path)) else { return Vec::new() };
     let Ok(document) = parse(&text, path) else { return Vec::new() };
     let items = document.descendants().filter(|node| node.tag_name().name() == "DataItem");
     let mut files: Vec<PathBuf> = items.filter_map(|item| Some(inside_folder(path, item.text()?.trim())?.0)).collect();
@@ -166,7 +167,7 @@ impl<'a> Geometry<'a> {
 type Values = (Vec<f64>, String, Option<String>);
 
 /// The file and the path in it, if the reference is `file:/path` and the file lies in the folder of the XDMF or below.
-fn inside_folder<'a>(path: &Path, reference: &'a str) -> Option<(PathBuf, &'a str)> {
+pub(super) fn inside_folder<'a>(path: &Path, reference: &'a str) -> Option<(PathBuf, &'a str)> {
     let (file, object) = reference.rsplit_once(":/")?;
     let file = Path::new(file);
     let inside = file.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir));

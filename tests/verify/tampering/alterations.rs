@@ -602,7 +602,58 @@ pub(super) const ALTERATIONS: &[Alteration] = &[
         },
     },
     Alteration { field: "job", what: "of another version", alter: |_, m| job(m, "/future", 1.into()) },
+    Alteration {
+        field: "generator.version",
+        what: "another, and damping put in",
+        alter: |t, m| {
+            t.damping = Some(t.stiffness.clone());
+            of_other_version(m)
+        },
+    },
+    Alteration {
+        field: "generator.version",
+        what: "another, and the record of checks emptied",
+        alter: |_, m| {
+            m.verification.checks.clear();
+            of_other_version(m)
+        },
+    },
+    Alteration {
+        field: "generator.version",
+        what: "another, and a job of another version",
+        alter: |_, m| job(m, "/future", 1.into()) && of_other_version(m),
+    },
+    Alteration {
+        field: "generator.version",
+        what: "another, and all error bars set to 1e9",
+        alter: |_, m| bars(m, |_| Some(1e9)) && of_other_version(m),
+    },
+    Alteration {
+        field: "generator.version",
+        what: "another, and an inertia relief left out everywhere",
+        alter: |t, m| {
+            let is_relief = |coordinate: &Coordinate| matches!(coordinate, Coordinate::InertiaRelief { .. });
+            let kept: Vec<usize> = (0..m.coordinates.len()).filter(|at| !is_relief(&m.coordinates[*at])).collect();
+            let is_changed = kept.len() < m.coordinates.len();
+            keep(t, m, &kept);
+            is_changed && of_other_version(m)
+        },
+    },
+    Alteration {
+        field: "generator.version",
+        what: "another, and rigid-body modes declared algebraic",
+        alter: |_, m| {
+            let is_new = m.model.rigid_body_modes == RigidBodyModes::Geometric;
+            m.model.rigid_body_modes = RigidBodyModes::Algebraic;
+            is_new && of_other_version(m)
+        },
+    },
 ];
+
+fn of_other_version(metadata: &mut Metadata) -> bool {
+    metadata.generator.version = "99.0.0".to_owned();
+    true
+}
 
 /// The altered superelement; none where there is nothing to alter, an error where the format refuses it.
 pub(super) fn altered(original: &Superelement, alteration: &Alteration) -> Option<Result<Superelement, String>> {

@@ -1,0 +1,109 @@
+//! Cells of a mesh in one of the formats that live in HDF5, as far as the faces of patches need them.
+//!
+//! A mesh with cells of a kind that is not known here, polygons and polyhedra among them, tells nothing of outer faces: then no face
+//! is known. Neither is one of an `.hmf`, whose kinds of cells are texts of attributes, which are not read.
+
+use std::path::Path;
+
+use super::dataset::Dataset;
+use super::faces::{Cell, Gathered, Shape};
+use super::file::{Group, H5, Member, with_memory};
+use super::{med_cells, mesh, moab_cells, xdmf_cells};
+use crate::error::{Error, Result};
+use crate::input::Allowance;
+use crate::input::patch::{PatchFaces, Patches};
+
+/// What a format calls a kind of cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// One with faces.
+    Faced(Cell),
+    /// Points and lines, which have none.
+    Faceless,
+    /// Anything else.
+    Unknown,
+}
+
+/// Whether all cells of a mesh are of kinds that are known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Known {
+    All,
+    NotAll,
+}
+
+/// The faces of patches whose nodes are those of the mesh at `path`.
+///
+/// # Errors
+/// Cells that refer to nodes that are not there or do not fill their table, and everything that can be wrong with a file.
+pub(crate) fn read_faces(path: &Path, patches: &Patches, allowance: &Allowance) -> Result<Vec<PatchFaces>> {
+    let gathered = || Gathered::new(path, patches, allowance);
+    let (faces, known) = if mesh::is_xml(path)? {
+        let mut faces = gathered()?;
+        let known = xdmf_cells::read(path, allowance, &mut faces)?;
+        (faces, known)
+    } else {
+        with_memory(path, || {
+            let mut faces = gathered()?;
+            let h5 = H5::open(path, allowance)?;
+            let known = read_format(&h5, &mut faces)?;
+            Ok((faces, known))
+        })?
+    };
+    Ok(if known == Known::All { faces.into_centroids() } else { Vec::new() })
+}
+
+fn read_format(h5: &H5<'_>, faces: &mut Gathered<'_>) -> Result<Known> {
+    let root = h5.root()?;
+    if root.member("ENS_MAA")? == Some(Member::Group) {
+        return med_cells::read(&root, faces);
+    }
+    match root.member("tstt")? {
+        Some(Member::Group) => moab_cells::read(&root, faces),
+        _ => Ok(Known::NotAll),
+    }
+}
+
+/// The groups of `kinds` with what each of them holds by `kind_of` its name; none where one is unknown.
+pub(super) fn known_groups<'a>(
+    kinds: Option<Group<'a>>,
+    kind_of: fn(&str) -> Kind,
+) -> Result<Option<Vec<(Group<'a>, Cell)>>> {
+    let mut known = Vec::new();
+    for group in kinds.map(|kinds| kinds.groups()).transpose()?.unwrap_or_default() {
+        match kind_of(group.name().rsplit('/').next().unwrap_or_default()) {
+            Kind::Faced(cell) => known.push((group, cell)),
+            Kind::Faceless => {}
+            Kind::Unknown => return Ok(None),
+        }
+    }
+    Ok(Some(known))
+}
+
+/// The kind of a shape with so many nodes.
+pub(super) fn kind(shape: Shape, n_nodes: usize) -> Kind {
+    Cell::new(shape, n_nodes).map_or(Kind::Unknown, Kind::Faced)
+}
+
+/// Takes up cells from the numbers of their nodes; `position` tells where node k of cell c stands, `first` is the number of the first
+/// node.
+pub(super) fn add(
+    faces: &mut Gathered<'_>,
+    (dataset, numbers): (&Dataset<'_>, &[i64]),
+    cell: Cell,
+    (first, position): (i64, impl Fn(usize, usize) -> usize),
+) -> Result<()> {
+    let mut nodes = vec![0; cell.n_nodes()];
+    for at in 0..numbers.len() / cell.n_nodes() {
+        for (corner, node) in nodes.iter_mut().enumerate() {
+            let position = position(at, corner);
+            *node = dataset.checked_index(position, numbers[position], first, faces.n_nodes())?;
+        }
+        faces.add(cell, &nodes)?;
+    }
+    Ok(())
+}
+
+/// The error for numbers that do not fill cells.
+pub(super) fn unfilled(dataset: &Dataset<'_>, n_values: usize, cell: Cell) -> Error {
+    dataset.wrong_shape(format!("{n_values} values"), format!("{} for each cell", cell.n_nodes()))
+}

@@ -1,0 +1,148 @@
+//! Area and first moment of a face.
+//!
+//! ```text
+//! x(ξ, η) = Σ N_i x_i,    A = ∫ |x_ξ × x_η| dξ dη,    S = ∫ x |x_ξ × x_η| dξ dη
+//! ```
+//! by three Gauss points each way, which is exact for a plane face, its edges curved or not: there x_ξ × x_η has a constant direction,
+//! and x |x_ξ × x_η| degree 5 at most in each of ξ, η (degree 4 on a triangle, which is the square with one edge collapsed, and 5
+//! with the shrinking of its lines).
+
+/// A node's shape function and its two derivatives.
+type Shape = [f64; 3];
+
+/// Whether a face has nodes in the middles of its edges.
+#[derive(Clone, Copy, PartialEq)]
+enum Degree {
+    Linear,
+    Quadratic,
+}
+
+/// Area and first moment.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Moments {
+    pub(super) area: f64,
+    pub(super) first: [f64; 3],
+}
+
+impl Moments {
+    pub(super) fn plus(self, other: Self) -> Self {
+        let first = std::array::from_fn(|axis| self.first[axis] + other.first[axis]);
+        Self { area: self.area + other.area, first }
+    }
+}
+
+/// Of a face with its corners along the border, and behind them the nodes in the middles of its edges where it has any.
+pub(super) fn moments(corners: &[[f64; 3]], middles: &[[f64; 3]]) -> Moments {
+    /// √(3/5) and the weights 5/9, 8/9, 5/9.
+    const AT: [f64; 3] = [-0.774_596_669_241_483_4, 0.0, 0.774_596_669_241_483_4];
+    const WEIGHT: [f64; 3] = [5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0];
+    let degree = if middles.is_empty() { Degree::Linear } else { Degree::Quadratic };
+    let mut total = Moments::default();
+    for (xi, w_xi) in AT.into_iter().zip(WEIGHT) {
+        for (eta, w_eta) in AT.into_iter().zip(WEIGHT) {
+            let (shapes, weight) = if corners.len() == 3 {
+                let (a, b) = (0.5 * (1.0 + xi), 0.5 * (1.0 + eta));
+                (triangle(a, b * (1.0 - a), degree), 0.25 * (1.0 - a) * w_xi * w_eta)
+            } else {
+                (quadrilateral(xi, eta, degree), w_xi * w_eta)
+            };
+            let at = |part: usize| -> [f64; 3] {
+                let nodes = corners.iter().chain(middles).zip(&shapes);
+                nodes.fold([0.0; 3], |sum, (x, shape)| std::array::from_fn(|axis| sum[axis] + shape[part] * x[axis]))
+            };
+            let area = weight * length(cross(at(1), at(2)));
+            total = total.plus(Moments { area, first: at(0).map(|x| area * x) });
+        }
+    }
+    total
+}
+
+/// Shape functions of a triangle with corners (0, 0), (1, 0), (0, 1).
+fn triangle(x: f64, y: f64, degree: Degree) -> Vec<Shape> {
+    let linear: [Shape; 3] = [[1.0 - x - y, -1.0, -1.0], [x, 1.0, 0.0], [y, 0.0, 1.0]];
+    if degree == Degree::Linear {
+        return linear.into();
+    }
+    let corner = |[l, a, b]: Shape| [l * (2.0 * l - 1.0), (4.0 * l - 1.0) * a, (4.0 * l - 1.0) * b];
+    let middle = |[l, a, b]: Shape, [m, c, d]: Shape| [4.0 * l * m, 4.0 * (l * c + m * a), 4.0 * (l * d + m * b)];
+    let [p, q, r] = linear;
+    vec![corner(p), corner(q), corner(r), middle(p, q), middle(q, r), middle(r, p)]
+}
+
+/// Shape functions of a square with corners (−1, −1), (1, −1), (1, 1), (−1, 1).
+fn quadrilateral(x: f64, y: f64, degree: Degree) -> Vec<Shape> {
+    const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    let corner = |[a, b]: [f64; 2]| -> Shape {
+        let (u, v) = (1.0 + a * x, 1.0 + b * y);
+        if degree == Degree::Linear {
+            return [0.25 * u * v, 0.25 * a * v, 0.25 * b * u];
+        }
+        let w = a * x + b * y - 1.0;
+        [0.25 * u * v * w, 0.25 * a * v * (w + u), 0.25 * b * u * (w + v)]
+    };
+    let across =
+        |b: f64| -> Shape { [0.5 * (1.0 - x * x) * (1.0 + b * y), -x * (1.0 + b * y), 0.5 * b * (1.0 - x * x)] };
+    let along =
+        |a: f64| -> Shape { [0.5 * (1.0 - y * y) * (1.0 + a * x), 0.5 * a * (1.0 - y * y), -y * (1.0 + a * x)] };
+    let mut shapes: Vec<Shape> = CORNERS.map(corner).into();
+    if degree == Degree::Quadratic {
+        shapes.extend([across(-1.0), along(1.0), across(1.0), along(-1.0)]);
+    }
+    shapes
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn length(v: [f64; 3]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A sum of 27 products, each of a few roundings.
+    const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+    fn assert_is(found: Moments, area: f64, centroid: [f64; 2]) {
+        assert!((found.area / area - 1.0).abs() < ROUNDING, "{found:?}");
+        for (first, expected) in found.first.iter().zip(centroid) {
+            assert!((first / area - expected).abs() < ROUNDING, "{found:?}");
+        }
+        assert_eq!(found.first[2], 0.0);
+    }
+
+    #[test]
+    fn straight_plane_faces_have_their_polygon_s_centroid() {
+        let triangle = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 1.5, 0.0]];
+        assert_is(moments(&triangle, &[]), 2.25, [1.0, 0.5]);
+        // Two wide below and one above: 1.5 with its centre at 4/9.
+        let trapezium = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        assert_is(moments(&trapezium, &[]), 1.5, [7.0 / 9.0, 4.0 / 9.0]);
+        let middle = |corners: &[[f64; 3]], at: usize| -> [f64; 3] {
+            let next = corners[(at + 1) % corners.len()];
+            std::array::from_fn(|axis| 0.5 * (corners[at][axis] + next[axis]))
+        };
+        let of = |corners: &[[f64; 3]]| (0..corners.len()).map(|at| middle(corners, at)).collect::<Vec<_>>();
+        assert_is(moments(&triangle, &of(&triangle)), 2.25, [1.0, 0.5]);
+        assert_is(moments(&trapezium, &of(&trapezium)), 1.5, [7.0 / 9.0, 4.0 / 9.0]);
+    }
+
+    /// The parabola 4h x (1 − x) over an edge of length one adds 2h/3 at the height 2h/5.
+    #[test]
+    fn curved_edges_count() {
+        let h = 0.2;
+        let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        let middles = [[0.5, 0.0, 0.0], [1.0, 0.5, 0.0], [0.5, 1.0 + h, 0.0], [0.0, 0.5, 0.0]];
+        let area = 1.0 + 2.0 * h / 3.0;
+        let height = (0.5 + 2.0 * h / 3.0 * (1.0 + 0.4 * h)) / area;
+        assert_is(moments(&square, &middles), area, [0.5, height]);
+        let triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let middles = [[0.5, -h, 0.0], [0.5, 0.5, 0.0], [0.0, 0.5, 0.0]];
+        let area = 0.5 + 2.0 * h / 3.0;
+        let centroid = [(1.0 / 6.0 + 2.0 * h / 3.0 * 0.5) / area, (1.0 / 6.0 - 2.0 * h / 3.0 * 0.4 * h) / area];
+        assert_is(moments(&triangle, &middles), area, centroid);
+    }
+}

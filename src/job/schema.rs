@@ -1,0 +1,115 @@
+//! The JSON Schema of a job, made from its types: their fields, values, ranges and descriptions.
+
+use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde_json::{Map, Value};
+
+use super::{Job, NodeSelection};
+use crate::dofs::Direction;
+
+/// The schema of a job document.
+pub fn schema() -> Value {
+    let schema = SchemaSettings::draft2020_12().into_generator().into_root_schema_for::<Job>();
+    let mut schema = schema.to_value();
+    plain(&mut schema);
+    if let Value::Object(root) = &mut schema {
+        root.insert("title".to_owned(), "supel job".into());
+    }
+    schema
+}
+
+/// The keys of every table at a place of a job, by `interface[].nodes` for instance: `[]` stands for each element of a list. None
+/// where no table belongs.
+pub(super) fn keys(schema: &Value, place: &str) -> Option<Vec<String>> {
+    let mut tables = alternatives(schema, schema);
+    for step in place.split('.').filter(|step| !step.is_empty()) {
+        let (key, n_lists) = (step.trim_end_matches("[]"), step.matches("[]").count());
+        tables = tables.iter().filter_map(|table| table.get("properties")?.get(key)).collect();
+        tables = tables.iter().flat_map(|value| alternatives(schema, value)).collect();
+        for _ in 0..n_lists {
+            tables = tables.iter().filter_map(|list| list.get("items")).collect();
+            tables = tables.iter().flat_map(|value| alternatives(schema, value)).collect();
+        }
+    }
+    let objects = tables.iter().filter_map(|table| table.get("properties")?.as_object());
+    let mut keys: Vec<String> = objects.flat_map(Map::keys).cloned().collect();
+    keys.sort();
+    keys.dedup();
+    (!keys.is_empty()).then_some(keys)
+}
+
+/// What a part of the schema allows, references and choices followed.
+fn alternatives<'a>(schema: &'a Value, part: &'a Value) -> Vec<&'a Value> {
+    let target = part.get("$ref").and_then(Value::as_str).and_then(|to| schema.pointer(to.trim_start_matches('#')));
+    if let Some(target) = target {
+        return alternatives(schema, target);
+    }
+    let choices = ["oneOf", "anyOf"].into_iter().find_map(|key| part.get(key)?.as_array());
+    choices
+        .map_or_else(|| vec![part], |choices| choices.iter().flat_map(|choice| alternatives(schema, choice)).collect())
+}
+
+/// The directions that are rotations, each once.
+pub(super) fn rotations(_: &mut SchemaGenerator) -> Schema {
+    let names: Vec<String> =
+        Direction::ALL.iter().filter(|direction| direction.is_rotation()).map(ToString::to_string).collect();
+    json_schema!({ "type": "array", "items": { "enum": names }, "uniqueItems": true })
+}
+
+/// The word for the mean of a patch's nodes.
+pub(super) fn centroid(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({ "const": "centroid" })
+}
+
+/// Nodes, not rows.
+pub(super) fn nodes_by_name(generator: &mut SchemaGenerator) -> Schema {
+    let mut nodes = NodeSelection::json_schema(generator);
+    let has_rows = |choice: &Value| choice.pointer("/properties/rows").is_some();
+    if let Some(choices) = nodes.get_mut("anyOf").and_then(Value::as_array_mut) {
+        choices.retain(|choice| !has_rows(choice));
+    }
+    nodes
+}
+
+/// Leaves out what tells nothing of a document: sizes of numbers, and nothing in place of a value, which is a key left out. Descriptions
+/// are one line.
+fn plain(part: &mut Value) {
+    match part {
+        Value::Array(list) => list.iter_mut().for_each(plain),
+        Value::Object(fields) => {
+            if fields.get("format").is_some_and(Value::is_string) {
+                fields.remove("format");
+            }
+            if let Some(Value::String(description)) = fields.get_mut("description") {
+                *description = description.replace('\n', " ");
+            }
+            without_null(fields);
+            fields.values_mut().for_each(plain);
+        }
+        _ => {}
+    }
+}
+
+fn without_null(fields: &mut Map<String, Value>) {
+    if let Some(Value::Array(types)) = fields.get_mut("type") {
+        types.retain(|name| name != "null");
+        if let [only] = types.as_slice() {
+            let only = only.clone();
+            fields.insert("type".to_owned(), only);
+        }
+    }
+    let is_null = |choice: &Value| choice.get("type").is_some_and(|name| name == "null");
+    let Some(Value::Array(choices)) = fields.get_mut("anyOf") else { return };
+    if !choices.iter().any(is_null) {
+        return;
+    }
+    choices.retain(|choice| !is_null(choice));
+    if let [Value::Object(only)] = choices.as_mut_slice() {
+        let only = std::mem::take(only);
+        fields.remove("anyOf");
+        // What stands at the place itself says more than what is true of the type everywhere.
+        for (key, value) in only {
+            fields.entry(key).or_insert(value);
+        }
+    }
+}
