@@ -3,8 +3,8 @@
 use faer::{Mat, MatRef};
 use supel_runtime::{Coordinate, Matrix, Superelement};
 
-use super::kept_job::kept_job;
-use super::spectrum::eigenvalues;
+use super::pencil::eigenvalues;
+use super::version::kept_job;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::error::Result;
 use crate::job::Job;

@@ -5,22 +5,13 @@ use std::collections::BTreeSet;
 use supel_runtime::{Coordinate, Generator, Method as FileMethod, RigidBodyModes, Superelement};
 
 use super::content::Content;
-use super::record::{self, flaw};
+use super::flaw::flaw;
+use super::record;
 use super::rigid_motion::is_nearly_unit;
+use super::version::{applied, is_of_this_version};
 use crate::job::{Coupling, Job, Method, ModeSelection, NodeSelection, RecoveryPrecision};
 use crate::modes::Boundary;
 use crate::verification::check::{Check, Limits};
-
-/// The job kept in a file, where it is one of this version.
-pub fn kept_job(superelement: &Superelement) -> Option<Job> {
-    serde_json::from_value(superelement.metadata().job.clone()).ok()
-}
-
-/// Whether this program, in this version, made the file, as far as it says so.
-pub fn is_of_this_version(superelement: &Superelement) -> bool {
-    let Generator { name, version } = &superelement.metadata().generator;
-    name == env!("CARGO_PKG_NAME") && version == env!("CARGO_PKG_VERSION")
-}
 
 /// Method, units, interfaces, axes, band and recovery are those of the job kept in the file.
 pub(super) fn agrees(content: &Content<'_>) -> Check {
@@ -34,7 +25,7 @@ pub(super) fn agrees(content: &Content<'_>) -> Check {
     if tensors.interface_frames.iter().any(|frame| *frame != inertial) {
         flaws.push("turned axes of interface nodes".to_owned());
     }
-    flaws.extend(applied(content, made_by_none(content)));
+    flaws.extend(applied(content.superelement, made_by_none(content)));
     flaw("file is what its job asks for", "number of differences to the job kept in the file", &flaws)
 }
 
@@ -217,7 +208,7 @@ pub(super) fn accounts(content: &Content<'_>) -> Check {
     let is_method = matches!(metadata.method, FileMethod::CraigBampton | FileMethod::Herting);
     if is_method {
         flaws.extend(of_method(content).iter().map(ToString::to_string));
-        flaws.extend(applied(content, with_method(content)));
+        flaws.extend(applied(content.superelement, with_method(content)));
     }
     flaw("its parts belong together", "number of parts missing, surplus or of another method", &flaws)
 }
@@ -284,12 +275,6 @@ fn is_modal(content: &Content<'_>) -> bool {
 /// Whether the modes are those of the held interface.
 fn is_held(content: &Content<'_>) -> bool {
     content.superelement.metadata().method == FileMethod::CraigBampton && !is_modal(content)
-}
-
-/// What rules of this version find, where the file says that it is of this version. Otherwise [`other_version`] says that they were
-/// not held against it.
-pub(super) fn applied(content: &Content<'_>, found: Vec<String>) -> Vec<String> {
-    if is_of_this_version(content.superelement) { found } else { Vec::new() }
 }
 
 /// M-26: the program that made it, as far as this one can speak for it. What a file says of that is no reason to believe the rest of

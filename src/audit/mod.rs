@@ -9,6 +9,7 @@
 //! the interface nodes the rigid-body modes. The identifiers are those of the report.
 
 mod content;
+mod flaw;
 mod inertia_relief;
 mod jobs;
 mod kept_job;
@@ -16,11 +17,13 @@ mod mass;
 mod model;
 mod named_modes;
 mod notes;
+mod pencil;
 mod record;
 mod recovery;
 mod reproduction;
 mod rigid_motion;
 mod spectrum;
+mod version;
 
 use supel_runtime::Superelement;
 
@@ -30,11 +33,11 @@ use crate::verification::check::{Check, Verdict};
 use content::Content;
 use notes::Compared;
 
-pub use kept_job::{is_of_this_version, kept_job};
 pub use model::Reference;
 pub use notes::Unvouched;
 pub use record::rewritten;
 pub use reproduction::reproduced;
+pub use version::{is_of_this_version, kept_job};
 
 /// The result of an audit.
 #[derive(Clone, Debug, Default, PartialEq)]

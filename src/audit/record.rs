@@ -5,24 +5,12 @@ use std::collections::BTreeMap;
 use supel_runtime::{CheckSummary, Coordinate, Superelement, Verdict};
 
 use super::content::Content;
-use super::kept_job::applied;
 use super::spectrum::condition;
+use super::version::applied;
+use crate::audit::flaw::flaw;
 use crate::error::Result;
 use crate::job::Certify;
-use crate::verification::check::{Check, Limits};
-
-/// A check that counts flaws.
-pub(super) fn flaw(name: &'static str, equation: &'static str, flaws: &[String]) -> Check {
-    Check {
-        id: "M-26",
-        name,
-        equation,
-        value: flaws.len() as f64,
-        limits: Limits::default(),
-        fail_above: 0.0,
-        worst: (!flaws.is_empty()).then(|| flaws.join(", ")),
-    }
-}
+use crate::verification::check::Check;
 
 /// M-26: the bytes of the file are those that its content makes: nothing is hidden in it, the digest holds.
 pub fn rewritten(superelement: &Superelement, bytes: &[u8]) -> Check {
@@ -75,7 +63,7 @@ pub(super) fn consistent(content: &Content<'_>) -> Result<Check> {
         .collect();
     flaws.extend(bars(content, checks));
     flaws.extend(mass_condition(content, checks)?);
-    flaws.extend(applied(content, of_version(content)));
+    flaws.extend(applied(content.superelement, of_version(content)));
     Ok(flaw("the checks on record agree with the file", "number of records missing or contradicted", &flaws))
 }
 

@@ -6,9 +6,9 @@
 use serde_json::Value;
 use supel_runtime::{Matrix, Superelement, Tensors};
 
+use super::flaw::flaw;
 use super::jobs::differences;
-use super::kept_job::kept_job;
-use super::record::flaw;
+use super::version::kept_job;
 use crate::job::Job;
 use crate::verification::check::Check;
 

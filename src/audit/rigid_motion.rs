@@ -4,7 +4,7 @@ use faer::{Mat, Side};
 use supel_runtime::{Coordinate, RigidBodyModes};
 
 use super::content::Content;
-use super::record::flaw;
+use super::flaw::flaw;
 use crate::dense;
 use crate::dofs::Direction;
 use crate::eigen::{Equilibrated, zero};
@@ -152,7 +152,7 @@ pub(super) fn zero_modes(content: &Content<'_>) -> Result<Check> {
             Err(_) => is_independent = false,
         }
     }
-    let found = super::spectrum::eigenpairs(lifted.as_ref(), content.m.as_ref(), content.first)?;
+    let found = super::pencil::eigenpairs(lifted.as_ref(), content.m.as_ref(), content.first)?;
     let is_zero = |j: &usize| found.values[*j] <= zero_level(content, dense::column(found.vectors.as_ref(), *j));
     let n_more = (0..found.values.len()).filter(is_zero).count();
     let text = format!("{} zero modes, {n_r} rigid-body modes", n_r + n_more);

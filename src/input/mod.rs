@@ -20,6 +20,7 @@ mod model_files;
 mod node_table;
 mod note;
 mod patch;
+mod patch_faces;
 mod source;
 mod table;
 
@@ -29,7 +30,8 @@ pub use facts::{InputFacts, MatrixFacts};
 pub use kind::{files, hdf5_file};
 pub use model_files::{Input, read, read_hdf5_parts, read_within, start_hdf5};
 pub use note::InputNote;
-pub use patch::{Cells, Patch, PatchFaces, Patches, has_mean_origin, patch_faces};
+pub use patch::{Patch, PatchFaces, Patches};
+pub use patch_faces::{Cells, has_mean_origin, patch_faces};
 
 use std::path::PathBuf;
 

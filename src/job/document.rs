@@ -6,7 +6,8 @@
 use std::io::Read;
 use std::path::Path;
 
-use super::{Job, schema};
+use super::schema;
+use super::types::Job;
 use crate::error::{Error, Result};
 use crate::regular_file;
 

@@ -1,6 +1,6 @@
 //! Interfaces of a job: which nodes, how they couple, where the interface node sits.
 
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, de};
 
 use crate::dofs::Direction;
@@ -111,7 +111,7 @@ pub enum Origin {
     /// `"centroid"`: the mean of the patch's nodes.
     #[default]
     #[serde(with = "centroid")]
-    #[schemars(schema_with = "super::schema::centroid")]
+    #[schemars(schema_with = "centroid")]
     Centroid,
     /// `[x, y, z]`.
     Point([f64; 3]),
@@ -181,4 +181,9 @@ impl<'de> de::Visitor<'de> for SelectionVisitor {
             _ => Err(de::Error::custom("expected exactly one of `within` and `rows`")),
         }
     }
+}
+
+/// The word for the mean of a patch's nodes.
+fn centroid(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({ "const": "centroid" })
 }

@@ -1,10 +1,11 @@
 //! Displacements inside the component: which nodes, and how many digits of their rows of the basis are kept.
 
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
-use super::validation::selection;
-use super::{Coupling, InterfaceJob, NodeSelection, Origin};
+use super::interface::{Coupling, InterfaceJob, NodeSelection, Origin};
+use super::selection::selection;
 use crate::error::Result;
 
 /// Nodes whose displacements the superelement recovers: their rows of the basis Ψ.
@@ -12,7 +13,7 @@ use crate::error::Result;
 #[serde(deny_unknown_fields)]
 pub struct RecoveryJob {
     /// Which nodes of the model; rows have no name to be recovered by.
-    #[schemars(schema_with = "super::schema::nodes_by_name")]
+    #[schemars(schema_with = "nodes_by_name")]
     pub nodes: NodeSelection,
     /// How the rows are stored.
     #[serde(default)]
@@ -48,4 +49,14 @@ impl RecoveryJob {
 
 pub(super) fn validate(recovery: &RecoveryJob) -> Result<()> {
     selection(&recovery.selection(), KEY)
+}
+
+/// Nodes, not rows.
+fn nodes_by_name(generator: &mut SchemaGenerator) -> Schema {
+    let mut nodes = NodeSelection::json_schema(generator);
+    let has_rows = |choice: &Value| choice.pointer("/properties/rows").is_some();
+    if let Some(choices) = nodes.get_mut("anyOf").and_then(Value::as_array_mut) {
+        choices.retain(|choice| !has_rows(choice));
+    }
+    nodes
 }

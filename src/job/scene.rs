@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::InterfaceJob;
-use super::validation::{number, positive};
+use super::interface::InterfaceJob;
+use super::ranges::{number, positive};
 use crate::error::{Error, Result};
 
 /// What the simulation will ask of the component. Whatever is given here is compared, at any cost; what is absent is

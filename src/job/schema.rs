@@ -1,11 +1,9 @@
 //! The JSON Schema of a job, made from its types: their fields, values, ranges and descriptions.
 
 use schemars::generate::SchemaSettings;
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Map, Value};
 
-use super::{Job, NodeSelection};
-use crate::dofs::Direction;
+use super::types::Job;
 
 /// The schema of a job document.
 pub fn schema() -> Value {
@@ -47,28 +45,6 @@ fn alternatives<'a>(schema: &'a Value, part: &'a Value) -> Vec<&'a Value> {
     let choices = ["oneOf", "anyOf"].into_iter().find_map(|key| part.get(key)?.as_array());
     choices
         .map_or_else(|| vec![part], |choices| choices.iter().flat_map(|choice| alternatives(schema, choice)).collect())
-}
-
-/// The directions that are rotations, each once.
-pub(super) fn rotations(_: &mut SchemaGenerator) -> Schema {
-    let names: Vec<String> =
-        Direction::ALL.iter().filter(|direction| direction.is_rotation()).map(ToString::to_string).collect();
-    json_schema!({ "type": "array", "items": { "enum": names }, "uniqueItems": true })
-}
-
-/// The word for the mean of a patch's nodes.
-pub(super) fn centroid(_: &mut SchemaGenerator) -> Schema {
-    json_schema!({ "const": "centroid" })
-}
-
-/// Nodes, not rows.
-pub(super) fn nodes_by_name(generator: &mut SchemaGenerator) -> Schema {
-    let mut nodes = NodeSelection::json_schema(generator);
-    let has_rows = |choice: &Value| choice.pointer("/properties/rows").is_some();
-    if let Some(choices) = nodes.get_mut("anyOf").and_then(Value::as_array_mut) {
-        choices.retain(|choice| !has_rows(choice));
-    }
-    nodes
 }
 
 /// Leaves out what tells nothing of a document: sizes of numbers, and nothing in place of a value, which is a key left out. Descriptions

@@ -3,12 +3,13 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::{Coupling, InterfaceJob, Job, ModeSelection, NodeSelection, Origin, Region};
+use super::interface::{Coupling, InterfaceJob, NodeSelection, Origin};
+use super::ranges::{finite, number, positive};
+use super::selection::{first_repeated, selection};
+use super::types::{Job, ModeSelection};
 use crate::dofs::Direction;
 use crate::error::{Error, Result};
 
-const POSITIVE: &str = "a positive number";
-const FINITE: &str = "a finite number";
 /// The size of a coordinate whose moments of inertia stay within the range of double precision.
 const FARTHEST: f64 = 1e48;
 
@@ -71,29 +72,6 @@ fn interfaces(interfaces: &[InterfaceJob]) -> Result<()> {
         earlier.clone().try_for_each(|other| overlap(other, interface))?;
     }
     Ok(())
-}
-
-pub(super) fn selection(interface: &InterfaceJob, place: &str) -> Result<()> {
-    let key = format!("{place}.nodes");
-    let repeats = |what: Option<String>| match what {
-        Some(what) => Err(Error::InterfaceRepeats { interface: interface.name.clone(), what }),
-        None => Ok(()),
-    };
-    match &interface.nodes {
-        NodeSelection::Labels(labels) if labels.is_empty() => {
-            Err(Error::JobEmpty { key, expected: "the labels of one or more nodes" })
-        }
-        NodeSelection::Rows { rows } if rows.is_empty() => {
-            Err(Error::JobEmpty { key: key + ".rows", expected: "the numbers of one or more rows" })
-        }
-        NodeSelection::Labels(labels) => repeats(first_repeated(labels).map(|label| format!("node {label}"))),
-        NodeSelection::Rows { rows } => repeats(first_repeated(rows).map(|row| format!("row {row}"))),
-        NodeSelection::Region { within } => region(within, &format!("{key}.within")),
-        NodeSelection::Group(text) => match interface.nodes.group_name() {
-            Some(name) if !name.is_empty() => Ok(()),
-            _ => Err(Error::InterfaceNodes { interface: interface.name.clone(), text: text.clone() }),
-        },
-    }
 }
 
 fn directions(interface: &InterfaceJob, place: &str) -> Result<()> {
@@ -165,41 +143,6 @@ fn overlap(first: &InterfaceJob, second: &InterfaceJob) -> Result<()> {
     }
 }
 
-fn region(region: &Region, place: &str) -> Result<()> {
-    match region {
-        Region::Box { min, max } => {
-            finite(&format!("{place}.box.min"), min)?;
-            finite(&format!("{place}.box.max"), max)?;
-            match min.iter().zip(max).find(|(low, high)| low > high) {
-                Some((_, high)) => {
-                    Err(number(format!("{place}.box.max"), *high, "no coordinate smaller than that of `min`"))
-                }
-                None => Ok(()),
-            }
-        }
-        Region::Plane { point, normal, tolerance } => {
-            finite(&format!("{place}.plane.point"), point)?;
-            direction(&format!("{place}.plane.normal"), normal)?;
-            not_negative(&format!("{place}.plane.tolerance"), *tolerance)
-        }
-        Region::Cylinder { from, to, radius, inner_radius } => {
-            finite(&format!("{place}.cylinder.from"), from)?;
-            finite(&format!("{place}.cylinder.to"), to)?;
-            direction(&format!("{place}.cylinder.to"), &std::array::from_fn(|axis| to[axis] - from[axis]))?;
-            positive(&format!("{place}.cylinder.radius"), *radius)?;
-            not_negative(&format!("{place}.cylinder.inner_radius"), *inner_radius)?;
-            if inner_radius > radius {
-                return Err(number(format!("{place}.cylinder.inner_radius"), *inner_radius, "at most `radius`"));
-            }
-            Ok(())
-        }
-        Region::Sphere { center, radius } => {
-            finite(&format!("{place}.sphere.center"), center)?;
-            positive(&format!("{place}.sphere.radius"), *radius)
-        }
-    }
-}
-
 fn output(key: &'static str, path: &Path, expected: &'static str) -> Result<()> {
     // `name.supel`, not a bare `.supel`, which would be a hidden file without a name.
     let is_named = path
@@ -207,34 +150,6 @@ fn output(key: &'static str, path: &Path, expected: &'static str) -> Result<()> 
         .and_then(|name| name.to_str())
         .is_some_and(|name| name.strip_suffix(expected).is_some_and(|stem| !stem.is_empty()));
     if is_named { Ok(()) } else { Err(Error::OutputName { key, path: path.to_owned(), expected }) }
-}
-
-pub(super) fn positive(key: &str, value: f64) -> Result<()> {
-    if value.is_finite() && value > 0.0 { Ok(()) } else { Err(number(key.to_owned(), value, POSITIVE)) }
-}
-
-fn not_negative(key: &str, value: f64) -> Result<()> {
-    if value.is_finite() && value >= 0.0 { Ok(()) } else { Err(number(key.to_owned(), value, "zero or more")) }
-}
-
-fn finite(key: &str, values: &[f64; 3]) -> Result<()> {
-    match values.iter().find(|value| !value.is_finite()) {
-        Some(value) => Err(number(key.to_owned(), *value, FINITE)),
-        None => Ok(()),
-    }
-}
-
-/// A vector with a direction: finite and not zero.
-fn direction(key: &str, vector: &[f64; 3]) -> Result<()> {
-    finite(key, vector)?;
-    if vector.iter().all(|component| *component == 0.0) {
-        return Err(number(key.to_owned(), 0.0, "a vector with a direction"));
-    }
-    Ok(())
-}
-
-pub(super) fn number(key: String, value: f64, expected: &'static str) -> Error {
-    Error::JobNumber { key, value, expected }
 }
 
 /// The word a job uses for a direction.
@@ -247,11 +162,6 @@ fn direction_name(direction: Direction) -> &'static str {
         Direction::Ry => "ry",
         Direction::Rz => "rz",
     }
-}
-
-fn first_repeated<T: Ord + Copy>(items: &[T]) -> Option<T> {
-    let mut seen = BTreeSet::new();
-    items.iter().copied().find(|item| !seen.insert(*item))
 }
 
 fn first_shared<T: Ord + Copy>(a: &[T], b: &[T]) -> Option<T> {

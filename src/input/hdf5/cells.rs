@@ -3,15 +3,10 @@
 //! A mesh with cells of a kind that is not known here, polygons and polyhedra among them, tells nothing of outer faces: then no face
 //! is known. Neither is one of an `.hmf`, whose kinds of cells are texts of attributes, which are not read.
 
-use std::path::Path;
-
 use super::dataset::Dataset;
 use super::faces::{Cell, Gathered, Shape};
-use super::file::{Group, H5, Member, with_memory};
-use super::{med_cells, mesh, moab_cells, xdmf_cells};
+use super::group::Group;
 use crate::error::{Error, Result};
-use crate::input::Allowance;
-use crate::input::patch::{PatchFaces, Patches};
 
 /// What a format calls a kind of cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,38 +24,6 @@ pub(super) enum Kind {
 pub(super) enum Known {
     All,
     NotAll,
-}
-
-/// The faces of patches whose nodes are those of the mesh at `path`.
-///
-/// # Errors
-/// Cells that refer to nodes that are not there or do not fill their table, and everything that can be wrong with a file.
-pub(crate) fn read_faces(path: &Path, patches: &Patches, allowance: &Allowance) -> Result<Vec<PatchFaces>> {
-    let gathered = || Gathered::new(path, patches, allowance);
-    let (faces, known) = if mesh::is_xml(path)? {
-        let mut faces = gathered()?;
-        let known = xdmf_cells::read(path, allowance, &mut faces)?;
-        (faces, known)
-    } else {
-        with_memory(path, || {
-            let mut faces = gathered()?;
-            let h5 = H5::open(path, allowance)?;
-            let known = read_format(&h5, &mut faces)?;
-            Ok((faces, known))
-        })?
-    };
-    Ok(if known == Known::All { faces.into_centroids() } else { Vec::new() })
-}
-
-fn read_format(h5: &H5<'_>, faces: &mut Gathered<'_>) -> Result<Known> {
-    let root = h5.root()?;
-    if root.member("ENS_MAA")? == Some(Member::Group) {
-        return med_cells::read(&root, faces);
-    }
-    match root.member("tstt")? {
-        Some(Member::Group) => moab_cells::read(&root, faces),
-        _ => Ok(Known::NotAll),
-    }
 }
 
 /// The groups of `kinds` with what each of them holds by `kind_of` its name; none where one is unknown.

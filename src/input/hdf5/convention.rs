@@ -2,7 +2,7 @@
 
 use super::attribute;
 use super::compressed::{Compressed, Major};
-use super::file::{Group, Member};
+use super::group::{Group, Member};
 use crate::error::{Error, Result};
 
 /// How a group stores a sparse matrix.

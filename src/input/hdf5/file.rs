@@ -1,4 +1,4 @@
-//! An HDF5 file opened for reading, and a walk through its groups that never leaves the file.
+//! An HDF5 file opened for reading.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, HashMap};
@@ -6,50 +6,28 @@ use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use hdf5_metno::{IndexType, IterationOrder, LinkType, LocationType, MajorErrorCode, MinorErrorCode};
+use hdf5_metno::{LinkType, MajorErrorCode, MinorErrorCode};
 
-use super::dataset::Dataset;
 use crate::error::{Error, Result};
 use crate::heap;
 use crate::input::allowance::{Allowance, Claim};
 use crate::regular_file;
 
-/// More links than any group of a real file has; the library itself would follow a damaged index for ever.
-const MAX_LINKS: usize = 1_000_000;
-
 /// The first bytes of every HDF5 superblock.
 const SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
 
 /// The links of a group by their names.
-type Links = BTreeMap<String, LinkType>;
+pub(super) type Links = BTreeMap<String, LinkType>;
 
 /// An open HDF5 file.
 pub(super) struct H5<'a> {
-    file: hdf5_metno::File,
-    path: PathBuf,
+    pub(super) file: hdf5_metno::File,
+    pub(super) path: PathBuf,
     n_bytes: u64,
     /// What was read takes so much.
     claim: Claim<'a>,
     /// Links of the groups that were looked into, by path: the library looks from the first link on for every name.
-    links: RefCell<HashMap<String, Rc<Links>>>,
-}
-
-/// A group of an open file, with its path in it.
-pub(super) struct Group<'a> {
-    h5: &'a H5<'a>,
-    group: hdf5_metno::Group,
-    name: String,
-}
-
-/// What a name in a group leads to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Member {
-    Group,
-    Dataset,
-    /// A soft, external or user-defined link.
-    Link,
-    /// A committed datatype, or an object the library cannot describe.
-    Other,
+    pub(super) links: RefCell<HashMap<String, Rc<Links>>>,
 }
 
 impl<'a> H5<'a> {
@@ -79,11 +57,6 @@ impl<'a> H5<'a> {
 
     pub(super) fn n_bytes(&self) -> u64 {
         self.n_bytes
-    }
-
-    pub(super) fn root(&self) -> Result<Group<'_>> {
-        let group = self.file.group("/").map_err(|e| self.read_error("/", &e))?;
-        Ok(Group { h5: self, group, name: String::from("/") })
     }
 
     pub(super) fn read_error(&self, object: &str, error: &hdf5_metno::Error) -> Error {
@@ -138,146 +111,6 @@ pub(super) fn with_memory<T>(path: &Path, read: impl Fn() -> Result<T>) -> Resul
         return Err(Error::Hdf5Open { path: path.to_owned(), reason });
     }
     second
-}
-
-impl<'a> Group<'a> {
-    pub(super) fn name(&self) -> &str {
-        &self.name
-    }
-
-    pub(super) fn h5(&self) -> &'a H5<'a> {
-        self.h5
-    }
-
-    pub(super) fn location(&self) -> &hdf5_metno::Location {
-        &self.group
-    }
-
-    /// Path in the file of a member of this group.
-    pub(super) fn child_name(&self, member: &str) -> String {
-        format!("{}/{member}", self.name.trim_end_matches('/'))
-    }
-
-    /// Names and kinds of all members, sorted by name.
-    pub(super) fn members(&self) -> Result<Vec<(String, Member)>> {
-        let links = self.links()?;
-        Ok(links.iter().map(|(name, link)| (name.clone(), self.classify(name, *link))).collect())
-    }
-
-    /// What `member` is; `None` if there is nothing of that name.
-    pub(super) fn member(&self, member: &str) -> Result<Option<Member>> {
-        Ok(self.links()?.get(member).map(|link| self.classify(member, *link)))
-    }
-
-    /// All links, listed once.
-    fn links(&self) -> Result<Rc<Links>> {
-        if let Some(links) = self.h5.links.borrow().get(&self.name) {
-            return Ok(Rc::clone(links));
-        }
-        let mut links = Links::new();
-        let mut too_many = false;
-        let visited = self.group.iter_visit(IndexType::Name, IterationOrder::Native, |name, info| {
-            too_many = links.len() >= MAX_LINKS;
-            if too_many {
-                return Err("too many links".into());
-            }
-            links.insert(name.to_owned(), info.link_type);
-            Ok(())
-        });
-        if too_many {
-            let path = self.h5.path.clone();
-            return Err(Error::Hdf5Depth { path, object: self.name.clone(), limit: MAX_LINKS, counted: "members" });
-        }
-        visited.map_err(|e| self.h5.read_error(&self.name, &e))?;
-        let links = Rc::new(links);
-        self.h5.links.borrow_mut().insert(self.name.clone(), Rc::clone(&links));
-        Ok(links)
-    }
-
-    /// The group at `path` below this one, which may have several components.
-    pub(super) fn group(&self, path: &str) -> Result<Group<'a>> {
-        self.find_group(path)?.ok_or_else(|| self.missing(path, "group"))
-    }
-
-    /// The group at `path` below this one, `None` where a component of the path does not exist.
-    pub(super) fn find_group(&self, path: &str) -> Result<Option<Group<'a>>> {
-        let mut here = Group { h5: self.h5, group: self.group.clone(), name: self.name.clone() };
-        for component in path.split('/').filter(|c| !c.is_empty() && *c != ".") {
-            match here.member(component)? {
-                None => return Ok(None),
-                Some(Member::Group) => here = here.child_group(component)?,
-                Some(Member::Link) => return Err(here.link(component)),
-                Some(other) => return Err(here.wrong_kind(component, other, "a group")),
-            }
-        }
-        Ok(Some(here))
-    }
-
-    /// The groups among the members, sorted by name.
-    pub(super) fn groups(&self) -> Result<Vec<Group<'a>>> {
-        let members = self.members()?;
-        members.iter().filter(|(_, member)| *member == Member::Group).map(|(name, _)| self.child_group(name)).collect()
-    }
-
-    /// The dataset at `path` below this group.
-    pub(super) fn dataset(&self, path: &str) -> Result<Dataset<'a>> {
-        self.find_dataset(path)?.ok_or_else(|| self.missing(path, "dataset"))
-    }
-
-    /// The dataset at `path` below this group, `None` where it does not exist.
-    pub(super) fn find_dataset(&self, path: &str) -> Result<Option<Dataset<'a>>> {
-        let (folder, member) = path.rsplit_once('/').unwrap_or(("", path));
-        let Some(group) = self.find_group(folder)? else {
-            return Ok(None);
-        };
-        match group.member(member)? {
-            None => Ok(None),
-            Some(Member::Dataset) => {
-                let name = group.child_name(member);
-                let dataset = group.group.dataset(member).map_err(|e| self.h5.read_error(&name, &e))?;
-                Ok(Some(Dataset::new(self.h5, dataset, name)))
-            }
-            Some(Member::Link) => Err(group.link(member)),
-            Some(other) => Err(group.wrong_kind(member, other, "a dataset")),
-        }
-    }
-
-    /// The group of that name among the members.
-    pub(super) fn child_group(&self, member: &str) -> Result<Group<'a>> {
-        let name = self.child_name(member);
-        let group = self.group.group(member).map_err(|e| self.h5.read_error(&name, &e))?;
-        Ok(Group { h5: self.h5, group, name })
-    }
-
-    fn classify(&self, member: &str, link: LinkType) -> Member {
-        if link != LinkType::Hard {
-            return Member::Link;
-        }
-        match self.group.loc_type_by_name(member) {
-            Ok(LocationType::Group) => Member::Group,
-            Ok(LocationType::Dataset) => Member::Dataset,
-            _ => Member::Other,
-        }
-    }
-
-    fn missing(&self, path: &str, kind: &'static str) -> Error {
-        Error::Hdf5Missing { path: self.h5.path.clone(), object: self.child_name(path.trim_start_matches('/')), kind }
-    }
-
-    fn link(&self, member: &str) -> Error {
-        Error::Hdf5Link { path: self.h5.path.clone(), object: self.child_name(member) }
-    }
-
-    fn wrong_kind(&self, member: &str, found: Member, expected: &'static str) -> Error {
-        let found = match found {
-            Member::Group => "a group",
-            Member::Dataset => "a dataset",
-            Member::Link => "a link",
-            Member::Other => "neither group nor dataset",
-        };
-        let path = self.h5.path.clone();
-        Error::Hdf5Type { path, object: self.child_name(member), found: found.to_owned(), expected }
-    }
 }
 
 /// Length of a file that carries the HDF5 signature at 0, 512, 1024, 2048 and so on (MATLAB writes 512 bytes before it).

@@ -1,7 +1,7 @@
 //! `.hmf`: XDMF's model written into HDF5 itself, the self-contained format of meshio.
 
 use super::dataset::Dataset;
-use super::file::{Group, Member};
+use super::group::{Group, Member};
 use super::mesh::{Mesh, points_of_rows};
 use crate::error::Result;
 

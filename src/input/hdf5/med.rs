@@ -1,7 +1,7 @@
 //! `.med`: the format of Code_Aster and Salome.
 
 use super::attribute;
-use super::file::{Group, Member};
+use super::group::{Group, Member};
 use super::med_groups::read_groups;
 use super::mesh::{Mesh, points};
 use crate::error::{Error, Result};

@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::attribute;
 use super::dataset::Dataset;
-use super::file::{Group, H5};
+use super::file::H5;
+use super::group::Group;
 use crate::error::{Error, Result};
 
 /// Names of the groups of each family number.

@@ -1,53 +1,11 @@
-//! Nodes of a mesh in one of the formats that live in HDF5; the content tells which.
+//! Nodes as the reader of a format leaves them.
 
 use std::collections::BTreeMap;
-use std::io::Read;
 use std::path::Path;
 
 use super::dataset::Dataset;
-use super::file::{H5, Member, with_memory};
-use super::{hmf, med, moab, xdmf};
 use crate::dofs::Nodes;
 use crate::error::{Error, Result};
-use crate::input::Allowance;
-use crate::input::foreign::{self, Wanted};
-use crate::regular_file;
-
-/// Bytes of a node: position, label, and the labels once more while they are compared.
-const NODE: u64 = 40;
-
-/// Reads the nodes of a mesh: `.hmf`, XDMF with its `.h5`, `.med` with its node and element groups, `.h5m` (MOAB).
-///
-/// Labels are those of the file, or 1 to N where the format has none. Missing coordinates of a mesh in the plane or on a
-/// line are zero. A group of elements becomes the group of their nodes; where a group of nodes has the same name and
-/// other nodes, the element group is called `NAME (elements)`.
-///
-/// # Errors
-///
-/// The file cannot be read, holds no mesh of these formats or several, refers to data outside its folder, or has
-/// coordinates, labels or node numbers that cannot be right.
-pub fn read_nodes(path: &Path) -> Result<Nodes> {
-    read_nodes_within(path, &Allowance::of(None)).map(|(nodes, _)| nodes)
-}
-
-/// [`read_nodes`] in the memory that is allowed, and the digest of the file that an XDMF refers to.
-///
-/// # Errors
-///
-/// [`Error::MemoryRead`] and those of [`read_nodes`].
-pub(crate) fn read_nodes_within(path: &Path, allowance: &Allowance) -> Result<(Nodes, Option<String>)> {
-    let (mesh, digest) = if is_xml(path)? {
-        xdmf::read(path, allowance)?
-    } else {
-        (with_memory(path, || read_hdf5(path, allowance))?, None)
-    };
-    Ok((mesh.into_nodes(path)?, digest))
-}
-
-/// The files that a mesh in XML refers to, where they can be told.
-pub(crate) fn referenced_files(path: &Path) -> Vec<std::path::PathBuf> {
-    if is_xml(path).unwrap_or(false) { xdmf::referenced_files(path) } else { Vec::new() }
-}
 
 /// Nodes as a format's reader leaves them.
 pub(super) struct Mesh {
@@ -66,7 +24,7 @@ impl Mesh {
     }
 
     /// Checks what every format has in common.
-    fn into_nodes(self, path: &Path) -> Result<Nodes> {
+    pub(super) fn into_nodes(self, path: &Path) -> Result<Nodes> {
         let n_nodes = self.coordinates.len();
         let (labels, label_source) =
             self.labels.unwrap_or_else(|| ((1..=n_nodes as i64).collect(), self.source.clone()));
@@ -102,36 +60,4 @@ pub(super) fn points_of_rows(dataset: &Dataset<'_>) -> Result<Vec<[f64; 3]>> {
 /// Points from numbers in which those of one node are neighbours; axes that are missing are zero.
 pub(super) fn points(values: &[f64], n_axes: usize) -> Vec<[f64; 3]> {
     values.chunks_exact(n_axes).map(|p| std::array::from_fn(|axis| p.get(axis).copied().unwrap_or(0.0))).collect()
-}
-
-/// True if the first character that is not a blank opens a tag.
-pub(super) fn is_xml(path: &Path) -> Result<bool> {
-    let read = |source| Error::Read { path: path.to_owned(), source };
-    let mut head = Vec::new();
-    regular_file::open(path)?.take(256).read_to_end(&mut head).map_err(read)?;
-    let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&head);
-    Ok(text.trim_ascii_start().starts_with(b"<"))
-}
-
-fn read_hdf5(path: &Path, allowance: &Allowance) -> Result<Mesh> {
-    foreign::refuse(path, Wanted::Table)?;
-    let h5 = H5::open(path, allowance)?;
-    let mesh = read_format(&h5)?;
-    h5.hold(NODE * mesh.coordinates.len() as u64)?;
-    Ok(mesh)
-}
-
-fn read_format(h5: &H5<'_>) -> Result<Mesh> {
-    let root = h5.root()?;
-    if root.member("ENS_MAA")? == Some(Member::Group) {
-        return med::read(&root);
-    }
-    if root.member("tstt")? == Some(Member::Group) {
-        return moab::read(&root);
-    }
-    if let Some(geometry) = hmf::find(&root)? {
-        return hmf::read(&geometry);
-    }
-    let holds = root.members()?.into_iter().map(|(name, _)| root.child_name(&name)).collect();
-    Err(Error::MeshUnknown { path: h5.path().to_owned(), holds })
 }

@@ -1,6 +1,6 @@
 //! `.h5m`: the format of MOAB. Nodes, elements and sets share one numbering, the file ids.
 
-use super::file::{Group, Member};
+use super::group::{Group, Member};
 use super::mesh::{Mesh, points_of_rows};
 use super::moab_sets::read_sets;
 use crate::error::{Error, Result};

@@ -2,7 +2,7 @@
 
 use super::cells::{Kind, Known, add, kind, known_groups, unfilled};
 use super::faces::{Gathered, Shape};
-use super::file::Group;
+use super::group::Group;
 use crate::error::Result;
 
 pub(super) fn read(root: &Group<'_>, faces: &mut Gathered<'_>) -> Result<Known> {

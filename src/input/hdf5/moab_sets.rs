@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-use super::file::Group;
+use super::group::Group;
 use crate::error::{Error, Result};
 
 /// Tags whose value is the number of a set that a user gave.

@@ -1,7 +1,7 @@
 //! Which sparse group of a file is the stiffness and which the mass.
 
 use super::convention::Convention;
-use super::file::{Group, Member};
+use super::group::{Group, Member};
 use crate::error::{Error, Result};
 
 /// Deeper than any real file is nested.

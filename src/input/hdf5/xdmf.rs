@@ -7,6 +7,7 @@ use std::path::{Component, Path, PathBuf};
 use roxmltree::{Document, Node};
 
 use super::file::{H5, with_memory};
+use super::group::Group;
 use super::mesh::{Mesh, points};
 use super::xml_size::refuse_many_names;
 use crate::error::{Error, Result};
@@ -143,7 +144,10 @@ impl<'a> Geometry<'a> {
         let Some((file, object)) = inside_folder(path, self.content) else {
             return Err(Error::XdmfReference { path: path.to_owned(), reference: self.content.to_owned() });
         };
-        let read = || H5::open(&file, allowance)?.root()?.dataset(object)?.reals();
+        let read = || {
+            let h5 = H5::open(&file, allowance)?;
+            Group::root(&h5)?.dataset(object)?.reals()
+        };
         let (reals, digest) = unchanged(&file, || Ok((with_memory(&file, read)?, digest(&file)?)))?;
         Ok((reals.values, self.content.to_owned(), Some(digest)))
     }

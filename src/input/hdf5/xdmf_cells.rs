@@ -12,6 +12,7 @@ use super::xdmf::{inside_folder, parse, text_of};
 use crate::error::{Error, Result};
 use crate::input::Allowance;
 use crate::input::allowance::Claim;
+use crate::input::hdf5::group::Group;
 use crate::regular_file::unchanged;
 
 /// Bytes of a number.
@@ -99,7 +100,7 @@ impl<'a> Topology<'a> {
             let Some((file, object)) = inside_folder(path, self.content) else { return Ok(None) };
             let read = || {
                 let h5 = H5::open(&file, allowance)?;
-                let numbers = h5.root()?.dataset(object)?.integers()?;
+                let numbers = Group::root(&h5)?.dataset(object)?.integers()?;
                 h5.keep(0)?;
                 claim.set(NUMBER * numbers.len() as u64)?;
                 Ok(numbers)

@@ -1,0 +1,44 @@
+//! The faces of patches from the cells of a mesh; the content tells the format.
+
+use std::path::Path;
+
+use super::cells::Known;
+use super::faces::Gathered;
+use super::file::{H5, with_memory};
+use super::group::{Group, Member};
+use super::{med_cells, moab_cells, nodes, xdmf_cells};
+use crate::error::Result;
+use crate::input::Allowance;
+use crate::input::patch::{PatchFaces, Patches};
+
+/// The faces of patches whose nodes are those of the mesh at `path`.
+///
+/// # Errors
+/// Cells that refer to nodes that are not there or do not fill their table, and everything that can be wrong with a file.
+pub(crate) fn read_faces(path: &Path, patches: &Patches, allowance: &Allowance) -> Result<Vec<PatchFaces>> {
+    let gathered = || Gathered::new(path, patches, allowance);
+    let (faces, known) = if nodes::is_xml(path)? {
+        let mut faces = gathered()?;
+        let known = xdmf_cells::read(path, allowance, &mut faces)?;
+        (faces, known)
+    } else {
+        with_memory(path, || {
+            let mut faces = gathered()?;
+            let h5 = H5::open(path, allowance)?;
+            let known = read_format(&h5, &mut faces)?;
+            Ok((faces, known))
+        })?
+    };
+    Ok(if known == Known::All { faces.into_centroids() } else { Vec::new() })
+}
+
+fn read_format(h5: &H5<'_>, faces: &mut Gathered<'_>) -> Result<Known> {
+    let root = Group::root(h5)?;
+    if root.member("ENS_MAA")? == Some(Member::Group) {
+        return med_cells::read(&root, faces);
+    }
+    match root.member("tstt")? {
+        Some(Member::Group) => moab_cells::read(&root, faces),
+        _ => Ok(Known::NotAll),
+    }
+}

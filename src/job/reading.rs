@@ -1,0 +1,59 @@
+//! A job from its document: read, checked, its paths resolved.
+
+use std::path::{Path, PathBuf};
+
+use super::types::Job;
+use super::{document, validation};
+use crate::error::{Error, Result};
+
+impl Job {
+    /// The job in the document at `path`, checked, its paths made absolute.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Read`] where there is no such file, [`Error::NotAFile`] for a folder or a pipe, and everything that [`Job::parse`] and [`Job::validate`] find.
+    pub fn read(path: &Path) -> Result<Self> {
+        let job = Self::parse(&document::text_of(path)?, path)?;
+        job.validate()?;
+        job.resolve(path.parent().unwrap_or(Path::new("")))
+    }
+
+    /// The job written in `text`; `path` decides between TOML and JSON and appears in messages.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::JobKey`] for a key that no job has, [`Error::JobSyntax`] for anything else that is not a job.
+    pub fn parse(text: &str, path: &Path) -> Result<Self> {
+        document::parse(text, path)
+    }
+
+    /// Checks the values: ranges, names, selections, names of outputs.
+    ///
+    /// # Errors
+    ///
+    /// The first mistake found, in the order of the document.
+    pub fn validate(&self) -> Result<()> {
+        validation::validate(self)
+    }
+
+    /// This job with paths relative to `folder` made absolute.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Read`] where the current directory cannot be determined.
+    pub fn resolve(mut self, folder: &Path) -> Result<Self> {
+        for path in self.paths_mut() {
+            let joined = folder.join(&*path);
+            *path = std::path::absolute(&joined).map_err(|source| Error::Read { path: joined, source })?;
+        }
+        Ok(self)
+    }
+
+    fn paths_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
+        let model = &mut self.model;
+        let inputs = [Some(&mut model.stiffness), Some(&mut model.mass), model.dofs.as_mut(), model.nodes.as_mut()];
+        let write = &mut self.write;
+        let outputs = [Some(&mut write.superelement), write.report.as_mut(), write.html.as_mut(), write.junit.as_mut()];
+        inputs.into_iter().chain(outputs).flatten()
+    }
+}

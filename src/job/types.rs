@@ -1,0 +1,268 @@
+//! The parts of a job document.
+
+use crate::dofs::Direction;
+use crate::sparse::Triangle;
+use clap::ValueEnum;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Deserializer, Serialize};
+use std::path::PathBuf;
+
+use super::interface::InterfaceJob;
+use super::recovery::RecoveryJob;
+use super::scene::SceneJob;
+use crate::eigen::Eigensolver;
+
+/// What to read, how to reduce and what to write. Paths are relative to the folder of the document.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Job {
+    /// The finite element model.
+    pub model: ModelJob,
+    /// The interface nodes, in the order of the reduced coordinates.
+    #[serde(default, rename = "interface", skip_serializing_if = "Vec::is_empty")]
+    pub interfaces: Vec<InterfaceJob>,
+    /// Method and modes.
+    pub reduction: ReductionJob,
+    /// What the simulation will ask of the component.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scene: Option<SceneJob>,
+    /// How the run is done; changes no result.
+    #[serde(default)]
+    pub run: RunJob,
+    /// What is written and where.
+    pub write: WriteJob,
+}
+
+/// Where the matrices, the meaning of their rows and the nodes come from.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ModelJob {
+    /// File of K; inside an HDF5 file a group follows the colon: `model.h5:/K`.
+    #[schemars(length(min = 1))]
+    pub stiffness: PathBuf,
+    /// File of M.
+    #[schemars(length(min = 1))]
+    pub mass: PathBuf,
+    /// File that says which node and direction each row is.
+    #[schemars(length(min = 1))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dofs: Option<PathBuf>,
+    /// File of the nodes: a table or a mesh.
+    #[schemars(length(min = 1))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nodes: Option<PathBuf>,
+    /// The triangle of K and M that holds, where the other is incomplete.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub symmetric: Option<Triangle>,
+    /// What becomes of entries that repeat a position.
+    #[serde(default, skip_serializing_if = "Duplicates::are_added")]
+    #[schemars(extend("default" = "add"))]
+    pub duplicates: Duplicates,
+    /// Whether rows without stiffness and mass are dropped; they are an error otherwise.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub drop_empty: bool,
+    /// Label of the unit system, copied to the superelement; no number is converted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub units: Option<String>,
+    /// Rotations that supports hold although they hold no translation; any other that costs energy then is an error.
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "rotations")]
+    #[schemars(schema_with = "rotations_schema")]
+    pub held_rotations: Vec<Direction>,
+    /// What the user knows of the component, to be compared with what the matrices say.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub expect: Option<Expectation>,
+}
+
+/// Directions of which each is a rotation.
+fn rotations<'de, D: serde::Deserializer<'de>>(deserializer: D) -> std::result::Result<Vec<Direction>, D::Error> {
+    let directions = Vec::<Direction>::deserialize(deserializer)?;
+    match directions.iter().find(|direction| !direction.is_rotation()) {
+        Some(other) => Err(serde::de::Error::custom(format!("`{other}` is no rotation, expected rx, ry or rz"))),
+        None => Ok(directions),
+    }
+}
+
+/// What becomes of entries of a matrix that repeat a position.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Duplicates {
+    /// They are added, which is the rule of assembled formats; the report counts them.
+    #[default]
+    Add,
+    /// They are an error.
+    Refuse,
+}
+
+impl Duplicates {
+    fn are_added(&self) -> bool {
+        *self == Self::Add
+    }
+}
+
+/// Mass properties known from elsewhere.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Expectation {
+    /// Total mass.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mass: Option<f64>,
+    /// Centre of mass.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cg: Option<[f64; 3]>,
+}
+
+/// Method and modes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ReductionJob {
+    /// The method.
+    pub method: Method,
+    /// How many elastic modes.
+    pub modes: ModeSelection,
+    /// Which eigensolver finds them.
+    #[serde(default)]
+    pub eigensolver: Eigensolver,
+}
+
+/// The reduction method: which modes fill the dynamic mode matrix.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Constraint modes and fixed-interface normal modes.
+    CraigBampton,
+    /// Constraint modes, inertia-relief modes and mode-accelerated free-free modes.
+    Herting,
+}
+
+/// How many elastic modes are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+#[schemars(deny_unknown_fields)]
+pub enum ModeSelection {
+    /// `{ count = 40 }`, extended to complete clusters.
+    Count {
+        /// The number.
+        count: usize,
+    },
+    /// `{ up_to_hz = 1000 }`.
+    UpTo {
+        /// The highest frequency.
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        up_to_hz: f64,
+    },
+}
+
+// A derived untagged enum would answer every mistake with "did not match any variant".
+impl<'de> Deserialize<'de> for ModeSelection {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
+        ModeTable::deserialize(deserializer)?.try_into().map_err(serde::de::Error::custom)
+    }
+}
+
+/// The keys of `modes`; exactly one of them is there.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ModeTable {
+    count: Option<usize>,
+    up_to_hz: Option<f64>,
+}
+
+impl TryFrom<ModeTable> for ModeSelection {
+    type Error = &'static str;
+
+    fn try_from(table: ModeTable) -> std::result::Result<Self, Self::Error> {
+        match table {
+            ModeTable { count: Some(count), up_to_hz: None } => Ok(Self::Count { count }),
+            ModeTable { count: None, up_to_hz: Some(up_to_hz) } => Ok(Self::UpTo { up_to_hz }),
+            _ => Err("expected exactly one of `count` and `up_to_hz`"),
+        }
+    }
+}
+
+/// How completeness of the modes is certified.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Certify {
+    /// Not at all; the report says so.
+    None,
+    /// By a Sturm count above the highest mode.
+    #[default]
+    Count,
+    /// By a count that is proved against rounding, with an interval around every eigenvalue that is proved to hold it.
+    Full,
+}
+
+/// How the entries of the factor are kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Precision {
+    /// In double precision.
+    #[default]
+    Double,
+    /// In single precision, half the memory; conjugate gradients bring every solve to double precision.
+    Mixed,
+    /// In double precision where it fits into the memory, in single where it does not, with a warning.
+    Auto,
+}
+
+impl Precision {
+    fn is_double(&self) -> bool {
+        *self == Self::Double
+    }
+}
+
+/// How the run is done.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RunJob {
+    /// Certificate of completeness.
+    #[serde(default)]
+    pub certify: Certify,
+    /// Memory the run may use, in GiB; what the machine has free where absent.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub memory_gib: Option<f64>,
+    /// How the factor is kept.
+    #[serde(default, skip_serializing_if = "Precision::is_double")]
+    #[schemars(extend("default" = "double"))]
+    pub precision: Precision,
+}
+
+/// What is written and where.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WriteJob {
+    /// The superelement file.
+    #[schemars(regex(pattern = r"[^/]\.supel$"))]
+    pub superelement: PathBuf,
+    /// The report; next to the superelement as `name.report.json` where absent.
+    #[schemars(regex(pattern = r"[^/]\.json$"))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub report: Option<PathBuf>,
+    /// The report as a page for people, where it is wanted.
+    #[schemars(regex(pattern = r"[^/]\.html$"))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub html: Option<PathBuf>,
+    /// The checks as JUnit XML, where they are wanted.
+    #[schemars(regex(pattern = r"[^/]\.xml$"))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub junit: Option<PathBuf>,
+    /// Displacements inside the component that the superelement can recover, where they are wanted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub recovery: Option<RecoveryJob>,
+}
+
+impl WriteJob {
+    /// Where the report goes: as asked, or next to the superelement as `name.report.json`.
+    pub fn report_path(&self) -> PathBuf {
+        self.report.clone().unwrap_or_else(|| self.superelement.with_extension("report.json"))
+    }
+}
+
+/// The directions that are rotations, each once.
+fn rotations_schema(_: &mut SchemaGenerator) -> Schema {
+    let names: Vec<String> =
+        Direction::ALL.iter().filter(|direction| direction.is_rotation()).map(ToString::to_string).collect();
+    json_schema!({ "type": "array", "items": { "enum": names }, "uniqueItems": true })
+}
