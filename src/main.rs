@@ -9,5 +9,5 @@ fn main() -> std::process::ExitCode {
     // An allocator that refuses is slower, no less right.
     supel::heap::keep_large_blocks();
     supel::heap::end_once();
-    supel::cli::main(supel::reduce, stdout::state())
+    supel::cli::main(supel::cli::Pipeline { reduce: supel::reduce, verify: supel::verify }, stdout::state())
 }

@@ -5,7 +5,7 @@ mod sample;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use supel::cli::{ExitCode, Pipeline, Terminal, run};
+use supel::cli::{ExitCode, Pipeline, Reduce, Terminal, run};
 use supel::error::{Error, Result};
 use supel::forecast::Resources;
 use supel::job::{Coupling, Job, Method, ModeSelection, NodeSelection, Precision};
@@ -20,10 +20,10 @@ struct Ended {
     err: String,
 }
 
-fn supel_with(pipeline: Pipeline, args: &[&str]) -> Ended {
+fn supel_with(reduce: Reduce, args: &[&str]) -> Ended {
     let (mut out, mut err) = (Vec::new(), Vec::new());
     let args = std::iter::once("supel").chain(args.iter().copied()).map(OsString::from);
-    let code = run(args, pipeline, &mut Terminal::plain(&mut out, &mut err));
+    let code = run(args, Pipeline { reduce, verify: supel::verify }, &mut Terminal::plain(&mut out, &mut err));
     let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
     Ended { code, out: text(out), err: text(err) }
 }
@@ -282,7 +282,7 @@ fn an_error_is_a_document_too() {
     let job = place.job();
     let with_spaces = |args: &[&str]| args.join(" ");
     for (pipeline, args, code, exit_code) in [
-        (sample::pipeline as Pipeline, ["reduce", &job, "--json", "--up-to-hz=-3"], "E-ARG", 2),
+        (sample::pipeline as Reduce, ["reduce", &job, "--json", "--up-to-hz=-3"], "E-ARG", 2),
         (sample::pipeline, ["reduce", &job, "--json", "--metod"], "E-USAGE", 2),
         (sample::pipeline, ["reduce", "no/such/job.toml", "--json", "--strict"], "E-READ", 7),
         (panicking, ["reduce", &job, "--json", "--strict"], "E-INTERNAL", 70),

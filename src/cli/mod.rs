@@ -42,7 +42,7 @@ use refusal::{Form, Refusal};
 
 pub use answer::{Stdout, Terminal};
 pub use exit_code::ExitCode;
-pub use pipeline::Pipeline;
+pub use pipeline::{Pipeline, Reduce, Verify};
 
 /// Runs one command line, `args` with the program's name first, and says how it went.
 ///

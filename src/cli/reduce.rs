@@ -40,7 +40,7 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     let threads = process::threads(command.threads.used)?;
     let mut stage_line = StageLine::new(terminal.progress);
     let mut clock = StageClock::new(&mut stage_line);
-    let outcome = threads.install(|| pipeline(&command.job, resources, &mut clock));
+    let outcome = threads.install(|| (pipeline.reduce)(&command.job, resources, &mut clock));
     let Outcome { superelement, mut report } = outcome.map_err(|error| rehearsed.judge(error))?;
     clock.stage("write");
     report.run.n_threads = command.threads.used;

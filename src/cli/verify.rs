@@ -44,13 +44,13 @@ pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Te
     }
     let threads = process::threads(command.threads.used)?;
     let mut stage_line = StageLine::new(terminal.progress);
-    let verify = || crate::verify(&superelement, command.job.as_ref(), resources, &mut stage_line);
+    let verify = || (pipeline.verify)(&superelement, command.job.as_ref(), resources, &mut stage_line);
     let mut audit = threads.install(verify).map_err(|error| rehearsed.judge(error))?;
     audit.checks.push(audit::rewritten(&superelement, &bytes));
     let digest = superelement.to_bytes().map_err(failed)?.digest;
     audit.checks.extend(accompanying::check(&command.file, &superelement, &digest));
     if let Some(job) = &rerun {
-        let again = threads.install(|| pipeline(job, resources, &mut stage_line))?.superelement;
+        let again = threads.install(|| (pipeline.reduce)(job, resources, &mut stage_line))?.superelement;
         audit = reproduced(audit, &superelement, (&again, job));
     }
     drop(stage_line);

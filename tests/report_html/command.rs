@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::path::Path;
 
-use supel::cli::{ExitCode, Pipeline, Terminal, run};
+use supel::cli::{ExitCode, Pipeline, Reduce, Terminal, run};
 use supel::error::Result;
 use supel::forecast::Resources;
 use supel::job::Job;
@@ -28,12 +28,12 @@ const FLAGS: [&str; 12] = [
 ];
 
 /// Runs `supel reduce` with outputs `x.supel` and those of `rest`, all in `folder`.
-fn reduce(pipeline: Pipeline, folder: &Path, rest: &[(&str, &str)]) -> (ExitCode, String) {
+fn reduce(reduce: Reduce, folder: &Path, rest: &[(&str, &str)]) -> (ExitCode, String) {
     let (mut out, mut err) = (Vec::new(), Vec::new());
     let outputs = [("--output", "x.supel")].iter().chain(rest);
     let outputs = outputs.flat_map(|(flag, name)| [OsString::from(flag), folder.join(name).into_os_string()]);
     let args = FLAGS.into_iter().map(OsString::from).chain(outputs).chain(["--quiet".into()]);
-    let code = run(args, pipeline, &mut Terminal::plain(&mut out, &mut err));
+    let code = run(args, Pipeline { reduce, verify: supel::verify }, &mut Terminal::plain(&mut out, &mut err));
     (code, String::from_utf8(err).expect("UTF-8"))
 }
 
