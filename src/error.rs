@@ -13,7 +13,7 @@ use supel_runtime::FileError;
 
 use crate::number::{bytes, quantity};
 
-pub use code::{ErrorClass, INTERNAL_CODE, USAGE_CODE};
+pub use code::{ErrorClass, ErrorEntry, INTERNAL_CODE, USAGE_CODE};
 pub use warning::Warning;
 
 /// The result of every fallible call of this crate.

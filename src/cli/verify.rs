@@ -34,7 +34,7 @@ pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Te
     let to_read = command.job.as_ref().or(rerun.as_ref());
     let rehearsed = match to_read.filter(|_| terminal.program == Program::Supel) {
         Some(job) => {
-            let cells = if rerun.is_some() { Cells::of(job) } else { Cells::Unwanted };
+            let cells = if rerun.is_some() { Cells::of(job) } else { Cells::of(job) };
             rehearsal::rehearse(&job.model, cells, resources.allowed(job))?
         }
         None => Rehearsed::Nothing,

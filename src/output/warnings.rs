@@ -7,6 +7,7 @@ use crate::factor::Refinement;
 use crate::job::Precision;
 use crate::modes::Boundary;
 use crate::rigid::RigidSource;
+use crate::verification::check::Verdict;
 use crate::verification::{LARGEST_OF_MESHES, Penalties};
 
 /// Relative error bar of a frequency above which a warning names the digits of the data: what a modal test resolves, the
@@ -91,9 +92,12 @@ pub(super) fn mixed_precision(results: &Results<'_>) -> Option<Warning> {
     })
 }
 
-/// Stiff rows that take the digits, where the model has not named them for their size alone.
+/// Stiff rows that take the digits, where a check is not passed and the model has not named them for their size alone: what costs digits
+/// that nothing misses needs no word.
 pub(super) fn penalties(results: &Results<'_>) -> Option<Warning> {
-    let named = results.evidence.partition.model.findings.iter().any(|finding| finding.warning() == Some("W-PENALTY"));
+    let is_missed = results.checks().iter().any(|check| check.verdict() != Verdict::Pass);
+    let findings = &results.evidence.partition.model.findings;
+    let named = !is_missed || findings.iter().any(|finding| finding.warning() == Some("W-PENALTY"));
     let Penalties { n_rows, stiffest, ratio, noise, asked, noise_without } =
         results.findings.penalties.as_ref().filter(|_| !named)?;
     Some(Warning {

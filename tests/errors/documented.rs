@@ -32,20 +32,45 @@ fn rows(start: &str) -> Vec<(Option<u8>, Vec<String>)> {
     rows.filter(|(_, cells)| cells[0].starts_with(start)).collect()
 }
 
-/// One line for each error, in the section of its exit code and there in the order of the enum, with what is wrong and
-/// what to do. Sections follow each other by exit code.
+/// The document with the tables of errors made anew: in the section of each exit code the errors of that class, in the order of the
+/// enum. What is no error of the enum, a command line that cannot be read and a defect of the program, stays as it is.
+fn page_of_errors(page: &str) -> String {
+    let (mut made, mut exit_code) = (String::new(), None);
+    let mut lines = page.lines().peekable();
+    while let Some(line) = lines.next() {
+        if line.starts_with('#') {
+            exit_code = line.split_once(": exit code ").map(|(_, code)| code.parse::<u8>().expect("an exit code"));
+        }
+        if !line.starts_with("| `E-")
+            || [USAGE_CODE, INTERNAL_CODE].iter().any(|code| line.contains(&format!("`{code}`")))
+        {
+            made += line;
+            made.push('\n');
+        }
+        let is_table = line.starts_with("|---") && lines.peek().is_some_and(|next| next.starts_with("| `E-"));
+        if let Some(exit_code) = exit_code.filter(|_| is_table) {
+            for entry in Error::CODES.iter().filter(|entry| entry.class as u8 == exit_code) {
+                made += &format!("| `{}` | {} | {} |\n", entry.code, entry.what, entry.remedy);
+            }
+        }
+    }
+    made
+}
+
+/// The document is made from the entries of the enum: `SUPEL_UPDATE_DOCS=1 cargo test --test errors documented` writes it.
 #[test]
 fn every_error_has_its_line() {
-    let found: Vec<(u8, String)> = rows("E-")
-        .into_iter()
-        .map(|(exit, row)| (exit.expect("a section with an exit code"), row[0].clone()))
-        .collect();
-    let of_enum = Error::CODES.iter().map(|(_, code, class)| (*class as u8, code.to_string()));
-    let others = [(2, USAGE_CODE), (70, INTERNAL_CODE)].map(|(exit, code)| (exit, code.to_owned()));
-    let mut expected: Vec<(u8, String)> = of_enum.chain(others).collect();
-    // A stable sort keeps the order of the enum inside a class.
-    expected.sort_by_key(|(exit, _)| *exit);
-    assert_eq!(found, expected);
+    let path = root().join("docs/errors.md");
+    let page = std::fs::read_to_string(&path).expect("the document");
+    let made = page_of_errors(&page);
+    if std::env::var_os("SUPEL_UPDATE_DOCS").is_some() {
+        std::fs::write(&path, &made).expect("the document can be written");
+    } else {
+        assert_eq!(page, made, "docs/errors.md is not what the enum says: see above how it is written");
+    }
+    let exit_codes: Vec<u8> =
+        rows("E-").into_iter().map(|(exit, _)| exit.expect("a section with an exit code")).collect();
+    assert!(exit_codes.is_sorted() && exit_codes.len() == Error::CODES.len() + 2, "{} rows", exit_codes.len());
     for (_, row) in rows("E-").into_iter().chain(rows("W-")) {
         assert_eq!(row.len(), 3, "{row:?}");
         assert!(row.iter().skip(1).all(|cell| cell.contains(' ')), "{row:?}");
@@ -54,7 +79,7 @@ fn every_error_has_its_line() {
 
 #[test]
 fn codes_are_unique_and_say_what_they_are() {
-    let codes: BTreeSet<&str> = Error::CODES.iter().map(|(_, code, _)| *code).collect();
+    let codes: BTreeSet<&str> = Error::CODES.iter().map(|entry| entry.code).collect();
     assert_eq!(codes.len(), Error::CODES.len());
     for code in codes {
         let words = code.strip_prefix("E-").unwrap_or_default().split('-');

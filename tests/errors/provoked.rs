@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use supel::error::Error;
+use supel::error::{Error, ErrorEntry};
 
 /// Warnings that no test provokes: no model is known whose pivots grow that far.
 const UNPROVOKED: [&str; 1] = ["W-COUNT-LIKELY"];
@@ -52,7 +52,7 @@ fn every_error_is_provoked() {
     let tests: Vec<TestFunction> = ["tests", "src"].into_iter().flat_map(tests_below).collect();
     assert!(tests.len() > 300, "only {} tests were found", tests.len());
     let mut unprovoked = Vec::new();
-    for (variant, code, _) in Error::CODES {
+    for ErrorEntry { variant, code, .. } in Error::CODES {
         let is_expected =
             |test: &&TestFunction| mentions(&test.body, code) || mentions(&test.body, &format!("Error::{variant}"));
         match tests.iter().find(is_expected) {

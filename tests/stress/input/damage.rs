@@ -46,7 +46,7 @@ fn assert_named(ended: &Ended, case: &str) {
     }
     let said = ended.err.strip_prefix("supel: error[").and_then(|said| said.split_once("]: "));
     let (code, message) = said.unwrap_or_else(|| panic!("{case}: {:?} {}", ended.code, ended.err));
-    let known = code == "E-USAGE" || Error::CODES.iter().any(|row| row.1 == code);
+    let known = code == "E-USAGE" || Error::CODES.iter().any(|entry| entry.code == code);
     assert!(known && ended.code != ExitCode::InternalError, "{case}: {:?} {}", ended.code, ended.err);
     assert!(message.trim().len() > 10, "{case}: {}", ended.err);
 }

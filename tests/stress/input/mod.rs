@@ -64,8 +64,8 @@ fn assert_refused(place: &Place, ended: &Ended, code: &str, parts: &[&str]) {
     let said = said.unwrap_or_else(|| panic!("no {code}: {:?} {}{}", ended.code, ended.out, ended.err));
     parts.iter().for_each(|part| assert!(said.contains(part), "{part:?} is not in {said:?}"));
     assert!(!place.path("x.supel").exists() && !place.path("x.report.json").exists(), "a refused run left files");
-    let (.., class) = supel::error::Error::CODES.iter().find(|row| row.1 == code).expect("a code of the enum");
-    assert_eq!(ended.code, ExitCode::from(*class));
+    let class = supel::error::Error::CODES.iter().find(|entry| entry.code == code).expect("a code of the enum").class;
+    assert_eq!(ended.code, ExitCode::from(class));
 }
 
 /// Asserts that the run passed with every check, with these warnings and no other.

@@ -144,7 +144,7 @@ superelement = "x.supel"
         let ended = ended.unwrap_or_else(|_| panic!("case {case} panicked"));
         if let Err(error) = &ended {
             assert!(
-                Error::CODES.iter().any(|row| row.1 == error.code()) && error.to_string().len() > 10,
+                Error::CODES.iter().any(|entry| entry.code == error.code()) && error.to_string().len() > 10,
                 "case {case}: {error}"
             );
         }
