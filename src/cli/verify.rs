@@ -33,10 +33,7 @@ pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Te
     let resources = Resources { memory_bytes: memory::available_bytes() };
     let to_read = command.job.as_ref().or(rerun.as_ref());
     let rehearsed = match to_read.filter(|_| terminal.program == Program::Supel) {
-        Some(job) => {
-            let cells = if rerun.is_some() { Cells::of(job) } else { Cells::of(job) };
-            rehearsal::rehearse(&job.model, cells, resources.allowed(job))?
-        }
+        Some(job) => rehearsal::rehearse(&job.model, Cells::of(job), resources.allowed(job))?,
         None => Rehearsed::Nothing,
     };
     if command.answer != Answer::Nothing {
