@@ -131,7 +131,7 @@ use error::Result;
 use forecast::Resources;
 use input::Allowance;
 use input::InputFacts;
-use job::{Coupling, Job};
+use job::Job;
 use model::Model;
 use modes::{Component, ModeSource, Retained, Search};
 use outcome::Outcome;
@@ -234,7 +234,7 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     let model = Model::new(read)?;
 
     observer.stage("coordinates");
-    let is_tied = job.interfaces.iter().any(|interface| interface.coupling == Coupling::Rigid);
+    let is_tied = job.interfaces.iter().any(|interface| interface.coupling.is_patch());
     let levers = if is_tied { Levers::Used } else { Levers::Unused };
     let model = coordinates::compared(model, &job.model.held_rotations, levers)?;
 

@@ -9,7 +9,7 @@ use super::flaw::flaw;
 use super::record;
 use super::rigid_motion::is_nearly_unit;
 use super::version::{applied, is_of_this_version};
-use crate::job::{Coupling, Job, Method, ModeSelection, NodeSelection, RecoveryPrecision};
+use crate::job::{Coupling, Job, ModeSelection, NodeSelection, RecoveryPrecision};
 use crate::modes::Boundary;
 use crate::verification::check::{Check, Limits};
 
@@ -52,10 +52,7 @@ fn by_job(content: &Content<'_>, job: &Job) -> Vec<&'static str> {
             flaws.push(what);
         }
     };
-    let method = match job.reduction.method {
-        Method::CraigBampton => FileMethod::CraigBampton,
-        Method::Herting => FileMethod::Herting,
-    };
+    let method = job.reduction.method.in_file();
     expect(metadata.method == method, "another method");
     expect(metadata.units == job.model.units, "other units");
     let asked: BTreeSet<&str> = job.interfaces.iter().map(|interface| interface.name.as_str()).collect();
@@ -87,7 +84,7 @@ fn by_job(content: &Content<'_>, job: &Job) -> Vec<&'static str> {
 
 /// Whether an interface is a rigid patch: one node that the model does not have.
 fn is_patch(job: &Job, name: &str) -> bool {
-    job.interfaces.iter().any(|interface| interface.name == name && interface.coupling == Coupling::Rigid)
+    job.interfaces.iter().any(|interface| interface.name == name && interface.coupling.is_patch())
 }
 
 /// Labels of the interface nodes whose interface lists them.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::Allowance;
 use super::patch::{PatchFaces, Patches};
 use crate::error::Result;
-use crate::job::{Coupling, InterfaceJob, Job, ModelJob, NodeSelection, Origin};
+use crate::job::{InterfaceJob, Job, ModelJob, NodeSelection, Origin};
 
 /// Whether the cells of a mesh are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -27,7 +27,7 @@ impl Cells {
 /// Whether the origin of an interface is the mean of several nodes.
 pub fn has_mean_origin(interface: &InterfaceJob) -> bool {
     let is_one = matches!(&interface.nodes, NodeSelection::Labels(labels) if labels.len() < 2);
-    interface.coupling == Coupling::Rigid && interface.origin == Origin::Centroid && !is_one
+    interface.coupling.is_patch() && interface.origin == Origin::Centroid && !is_one
 }
 
 /// The faces of each patch, as far as the file of the nodes has cells; patches without faces are left out.

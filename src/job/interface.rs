@@ -104,6 +104,13 @@ pub enum Coupling {
     Rigid,
 }
 
+impl Coupling {
+    /// Whether the nodes of the interface are tied to one node of their own.
+    pub fn is_patch(self) -> bool {
+        self == Self::Rigid
+    }
+}
+
 /// Where the interface node of a rigid patch sits.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "expected \"centroid\" or [x, y, z]")]

@@ -135,6 +135,16 @@ pub enum Method {
     Herting,
 }
 
+impl Method {
+    /// What a superelement file calls it.
+    pub fn in_file(self) -> supel_runtime::Method {
+        match self {
+            Self::CraigBampton => supel_runtime::Method::CraigBampton,
+            Self::Herting => supel_runtime::Method::Herting,
+        }
+    }
+}
+
 /// How many elastic modes are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]

@@ -10,7 +10,7 @@ use super::recovery::{direction_of, recovery};
 use super::results::Results;
 use crate::basis::DynamicCoordinate;
 use crate::error::{Error, Result};
-use crate::job::{Job, Method, ModeSelection};
+use crate::job::{Job, ModeSelection};
 use crate::modes::Boundary;
 use crate::partition::DofOrigin;
 use crate::verification::check::{Check, Verdict};
@@ -129,10 +129,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
     let digests = results.input.digests();
     Metadata {
         generator: file::Generator { name: env!("CARGO_PKG_NAME").into(), version: env!("CARGO_PKG_VERSION").into() },
-        method: match results.job.reduction.method {
-            Method::CraigBampton => file::Method::CraigBampton,
-            Method::Herting => file::Method::Herting,
-        },
+        method: results.job.reduction.method.in_file(),
         units: results.job.model.units.clone(),
         interface_nodes,
         coordinates,

@@ -95,7 +95,7 @@ pub(super) fn mixed_precision(results: &Results<'_>) -> Option<Warning> {
 /// Stiff rows that take the digits, where a check is not passed and the model has not named them for their size alone: what costs digits
 /// that nothing misses needs no word.
 pub(super) fn penalties(results: &Results<'_>) -> Option<Warning> {
-    let is_missed = results.checks().iter().any(|check| check.verdict() != Verdict::Pass);
+    let is_missed = results.checks().iter().any(|check| matches!(check.verdict(), Verdict::Warn | Verdict::Fail));
     let findings = &results.evidence.partition.model.findings;
     let named = !is_missed || findings.iter().any(|finding| finding.warning() == Some("W-PENALTY"));
     let Penalties { n_rows, stiffest, ratio, noise, asked, noise_without } =

@@ -3,7 +3,6 @@
 use faer::{Mat, MatRef};
 
 use crate::dense;
-use crate::job::Coupling;
 use crate::partition::{InterfaceNode, Partition};
 use crate::sparse::{SparseMatrix, product};
 
@@ -62,7 +61,7 @@ impl RigidBodyModes {
     /// whose nodes K ties as it knows them.
     pub fn are_unit_motions(&self, partition: &Partition) -> bool {
         let is_of_patches = || {
-            let is_patch = |node: &InterfaceNode| node.coupling == Coupling::Rigid;
+            let is_patch = |node: &InterfaceNode| node.coupling.is_patch();
             partition.fit.rounded().is_some()
                 && !partition.interface.is_empty()
                 && partition.interface.iter().all(is_patch)

@@ -12,7 +12,7 @@ use crate::audit::kept_job::band;
 use crate::audit::version::kept_job;
 use crate::dofs::Direction;
 use crate::input::InputFacts;
-use crate::job::{Job, Method, RecoveryPrecision};
+use crate::job::{Job, RecoveryPrecision};
 use crate::modes::Boundary;
 use crate::partition::{DofOrigin, InterfaceNode, Partition, ReducedDof};
 use crate::verification::check::{Check, Limits};
@@ -217,10 +217,7 @@ pub(super) fn statements(
             flaws.push(what.to_owned());
         }
     };
-    let method = match job.reduction.method {
-        Method::CraigBampton => supel_runtime::Method::CraigBampton,
-        Method::Herting => supel_runtime::Method::Herting,
-    };
+    let method = job.reduction.method.in_file();
     expect(metadata.method == method, "another method");
     expect(metadata.units == job.model.units, "other units");
     expect(metadata.model.n_dofs == partition.model.n_dofs as u64, "another number of degrees of freedom");
