@@ -17,7 +17,7 @@ pub(super) fn rigid_body_mass(content: &Content<'_>) -> Option<Check> {
     let mut worst = (0.0, None);
     for j in 0..content.n_rigid() {
         for i in 0..content.n_rigid() {
-            let size = (content.m_f[(i, i)] * content.m_f[(j, j)]).sqrt();
+            let size = content.m_f[(i, i)].sqrt() * content.m_f[(j, j)].sqrt();
             let error = (reduced[(i, j)] - content.m_f[(i, j)]).abs() / size;
             if dense::worse(error, worst.0) {
                 worst = (error, Some(format!("rigid-body modes {} and {}", i + 1, j + 1)));

@@ -13,11 +13,11 @@ use crate::model::Site;
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::Judged;
 
-/// How far Û is from the six unit motions of the interface nodes, relative to the largest displacement, and where; none where
-/// there are no nodes or not six motions.
+/// How far the first six columns of Û, behind which mechanisms come, are from the unit motions of the interface nodes, relative to the
+/// largest displacement, and where; none where there are no nodes or fewer motions.
 fn distance_to_unit_motions(content: &Content<'_>) -> Option<(f64, Option<String>)> {
     let metadata = content.superelement.metadata();
-    if content.n_rigid() != 6 || metadata.interface_nodes.is_empty() {
+    if content.n_rigid() < 6 || metadata.interface_nodes.is_empty() {
         return None;
     }
     let positions = &content.superelement.tensors().interface_positions;
@@ -70,7 +70,8 @@ pub(super) fn is_nearly_unit(content: &Content<'_>) -> bool {
 
 /// M-26: rigid-body modes that are said to have no geometric meaning have none.
 pub(super) fn declaration(content: &Content<'_>) -> Option<Check> {
-    if content.superelement.metadata().model.rigid_body_modes != RigidBodyModes::Algebraic {
+    let has_mechanisms = content.n_rigid() > 6;
+    if content.superelement.metadata().model.rigid_body_modes != RigidBodyModes::Algebraic || has_mechanisms {
         return None;
     }
     let (distance, _) = distance_to_unit_motions(content)?;

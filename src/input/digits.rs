@@ -10,7 +10,8 @@
 //!   unless the values are all single precision numbers: 7.
 //! - d from 7 to 15 is taken as the precision of the source. Values that are exact by design and need so many digits
 //!   in *every* entry are taken for rounded; for this there must be three different ones.
-//! - d up to 6 is a source of that few digits only if the values look rounded *relative to their size*: many different
+//! - A text in a fixed scientific format shows its d, see [`written_digits`].
+//! - d up to 6 is otherwise a source of that few digits only if the values look rounded *relative to their size*: many different
 //!   ones, over more than a decade, where those of the lower decades need d digits as often as those of the highest.
 //!   Integers and short decimal fractions (springs of 2 and −1, lumped masses of 0.25) fail this and are exact: 17.
 
@@ -50,6 +51,39 @@ pub fn significant_digits(values: &[f64]) -> u32 {
     }
     let is_from_text = if is_short { is_rounded(&distinct, digits) } else { n_mantissas(&distinct) >= MIN_DISTINCT };
     if is_from_text { digits } else { DOUBLE_DIGITS }
+}
+
+/// Digits that a fixed format wrote of every number: of `1.31e-02` three, where all of the first lines have as many, trailing zeros
+/// counted, and several different numbers use them all. Few different numbers show no pattern in their values, this shows in the text.
+///
+/// Numbers that need fewer digits than their format writes, those of springs and lumped masses, are exact.
+pub(super) fn written_digits(text: &[u8]) -> Option<u32> {
+    let mut full = BTreeSet::new();
+    let mut n_digits = None;
+    for line in text.split(|byte| *byte == b'\n').take(SAMPLE) {
+        let number = line.trim_ascii().rsplit(u8::is_ascii_whitespace).next().unwrap_or_default();
+        let Some(end) = number.iter().position(|byte| b"eEdD".contains(byte)) else {
+            // Comments and blank lines tell nothing, a number in another format does.
+            if number.first().is_some_and(u8::is_ascii_digit) {
+                return None;
+            }
+            continue;
+        };
+        let digits: Vec<u8> = number[..end].iter().copied().filter(u8::is_ascii_digit).collect();
+        // Some formats begin with a zero before the point, which is none of the digits.
+        let digits = if number.contains(&b'.') { digits.strip_prefix(b"0").unwrap_or(&digits) } else { &digits };
+        if digits.iter().all(|digit| *digit == b'0') {
+            continue;
+        }
+        if *n_digits.get_or_insert(digits.len()) != digits.len() {
+            return None;
+        }
+        if digits.last() != Some(&b'0') {
+            full.insert(digits.to_vec());
+        }
+    }
+    let n_digits = u32::try_from(n_digits?).ok()?;
+    (n_digits <= MAX_DECIMAL_DIGITS && full.len() >= MIN_DISTINCT).then_some(n_digits)
 }
 
 /// Equally spaced values from the first to near the last.
@@ -110,6 +144,23 @@ mod tests {
     fn printed(values: &[f64], n_digits: usize) -> Vec<f64> {
         let rounded = |value: &f64| format!("{value:.*e}", n_digits - 1).parse().expect("a number");
         values.iter().map(rounded).collect()
+    }
+
+    #[test]
+    fn a_fixed_format_shows_however_few_numbers_there_are() {
+        let text = b"1 1 1.31e-02\n2 2 6.54e-03\n2 1 -3.27e-03\n3 3 0.00e+00\n";
+        assert_eq!(written_digits(text), Some(3));
+        // As Fortran writes it.
+        assert_eq!(written_digits(b"1 1  0.1312E-01\n2 2  0.6543E+02\n3 3  0.9999D+00\n"), Some(4));
+        // Exact numbers in a format with room to spare, too few numbers, numbers as short as they can be, and all their digits.
+        assert_eq!(written_digits(b"1 1 2.5000e+00\n2 2 1.2500e-01\n3 3 -1.0000e+00\n4 4 7.5000e+01\n"), None);
+        assert_eq!(written_digits(b"1 1 1.31e-02\n2 2 6.54e-03\n"), None);
+        assert_eq!(written_digits(b"1 1 1.31e-02\n2 2 6.5e-03\n3 3 2.27e-01\n"), None);
+        assert_eq!(
+            written_digits(b"1 1 1.3100000000000001e-02\n2 2 6.5400000000000003e-03\n3 3 2.2700000000000001e-01\n"),
+            None
+        );
+        assert_eq!(written_digits(b"1 1 0.0131\n2 2 0.0654\n3 3 0.0227\n"), None);
     }
 
     #[test]

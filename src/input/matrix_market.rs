@@ -11,7 +11,7 @@ use super::MatrixInput;
 use super::allowance::{Allowance, Claim};
 use super::banner::{Head, HeadReader, square_order};
 use super::blocks::{BLOCK_BYTES, LastLine, for_each_batch};
-use super::digits::significant_digits;
+use super::digits::{significant_digits, written_digits};
 use super::entries::{Entries, Fault, MIN_LINE_BYTES, parse_entries};
 use super::gathering::{Gathered, Gathering};
 use crate::error::{Error, Result};
@@ -68,13 +68,14 @@ fn read_in_blocks(
         head: None,
         entries: Gathering::new(),
         claim: allowance.claim(path),
+        digits_as_written: None,
         n_lines: 0,
     };
     let ending = for_each_batch(path, block_bytes, |batch| reading.take(batch))?;
     let Some(head) = reading.head else {
         return Err(reading.head_reader.ended_early());
     };
-    let Reading { entries, claim, .. } = reading;
+    let Reading { entries, claim, digits_as_written, .. } = reading;
     let n_read = entries.n_entries();
     let (n, declared, order, Gathered { triplets, n_merged }) = match head {
         Head::Coordinate { n, n_entries, declared } => {
@@ -93,7 +94,7 @@ fn read_in_blocks(
     notes.mirrored &= declared == Declared::General;
     notes.n_duplicates += n_merged;
     claim.set(ENTRY * matrix.nnz() as u64 + ROW * u64::from(n))?;
-    let digits = significant_digits(matrix.data());
+    let digits = significant_digits(matrix.data()).min(digits_as_written.unwrap_or(u32::MAX));
     let input = MatrixInput { matrix, notes, digits, path: path.to_owned(), digest: ending.digest };
     Ok(TextMatrix { input, order, last_line: ending.last_line })
 }
@@ -105,6 +106,8 @@ struct Reading<'a> {
     head: Option<Head>,
     entries: Gathering,
     claim: Claim<'a>,
+    /// Digits that a fixed format wrote of every number, by the first lines of entries.
+    digits_as_written: Option<u32>,
     /// Lines taken, of the head and of entries.
     n_lines: u64,
 }
@@ -136,6 +139,9 @@ impl Reading<'_> {
                 self.expect_entries();
             }
             texts.push(text);
+        }
+        if self.entries.n_entries() == 0 {
+            self.digits_as_written = texts.first().and_then(|text| written_digits(text));
         }
         let (n, declared) = match self.head {
             None => return Ok(()),

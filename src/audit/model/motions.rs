@@ -79,7 +79,7 @@ impl KnownMotions {
             n_zero,
             zero: full.zero.orthonormal.as_ref().subrows(n_i, n_b).to_owned(),
             unit,
-            meaning: match (given.are_unit_motions(partition), given.is_classical) {
+            meaning: match (given.count() == n_zero && given.are_unit_motions(partition), given.is_classical) {
                 (true, _) => Meaning::Unit,
                 (false, true) => Meaning::Classical,
                 (false, false) => Meaning::Zero,
