@@ -21,6 +21,24 @@ fn one_triangle_stands_for_both() {
     assert!(input.dofs.is_none() && input.nodes.is_none());
 }
 
+/// Of a regular mesh or a uniform beam: a handful of different numbers, which show no pattern.
+#[test]
+fn few_numbers_in_a_fixed_format_have_its_digits() {
+    let text = |values: [&str; 3]| {
+        let [a, b, c] = values;
+        format!("%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 {a}\n2 2 {b}\n3 3 {c}\n2 1 {b}\n3 2 {c}\n")
+    };
+    for (values, digits) in [
+        (["1.31e-02", "6.54e-03", "-3.27e-03"], 3),
+        (["1.5700e-01", "1.7494e-01", "2.0171e+03"], 17),
+        (["1.5703e-01", "1.7494e-01", "2.0171e+03"], 5),
+        (["2.50e+00", "1.20e+01", "4.00e+00"], 17),
+        (["2.5", "1.25", "4"], 17),
+    ] {
+        assert_eq!(read_text(text(values)).expect("a matrix").stiffness.digits, digits, "{values:?}");
+    }
+}
+
 #[test]
 fn writing_habits_do_not_matter() {
     let habits = [

@@ -1,6 +1,7 @@
 //! Files as the program writes them pass every check, with warnings counted as failures.
 
 use supel::cli::ExitCode;
+use supel_models::transform::{join, translated};
 use supel_models::{Ends, Material, brick, spring};
 
 use crate::place::{Place, supel};
@@ -97,6 +98,24 @@ fn modes_that_are_nearly_one_are_verified_with_the_job() {
             let rest = format!("--rigid-interface foot=1,8,15,22,29,36,43,50,57 --method {method} --modes 8");
             place.reduce(&place.model_flags(), &rest).expect(ExitCode::Done);
             passes(&place, &format!("off by {off:e}, {method}"));
+        }
+    }
+}
+
+/// Mechanisms are zero modes behind the six motions of the body, whose mass the file states all the same.
+#[test]
+fn two_bodies_with_a_hinge_or_a_ball_joint() {
+    let beam = brick([2, 1, 1], [2.0, 1.0, 1.0], &Material::UNIT);
+    let hinged = join(&beam, &translated(&beam, [2.0, 1.0, 0.0]), &[(6, 1), (12, 7)]);
+    let block = brick([2, 1, 1], [2.0, 1.0, 1.0], &Material::UNIT);
+    let ball_jointed = join(&block, &translated(&block, [2.0, 1.0, 1.0]), &[(12, 1)]);
+    for (model, there) in [(hinged, "15,18,21"), (ball_jointed, "17,20,23")] {
+        let place = Place::with(&model);
+        for method in ["herting", "craig-bampton"] {
+            let rest = format!("--interface here=1,2,4,7 --interface there={there} --method {method} --modes 4");
+            let ended = place.reduce(&place.model_flags(), &rest).expect(ExitCode::Done);
+            assert!(ended.out.contains("W-MECHANISM"), "{}", ended.out);
+            passes(&place, &rest);
         }
     }
 }
