@@ -119,3 +119,11 @@ fn two_bodies_with_a_hinge_or_a_ball_joint() {
         }
     }
 }
+
+/// Dense matrices of this order are divided to be decomposed; in SI units their entries may be tiny.
+#[test]
+fn many_modes_of_a_component_without_interface() {
+    let place = Place::with(&brick([4, 2, 2], [0.04, 0.02, 0.02], &Material::STEEL_SI));
+    place.reduce(&place.model_flags(), "--method craig-bampton --modes 129").expect(ExitCode::Done);
+    passes(&place, "129 modes");
+}
