@@ -29,6 +29,10 @@ const MAX_EXACT_DIGITS: u32 = 6;
 const SAMPLE: usize = 2000;
 /// Different values that data of many digits must have to be taken for rounded.
 const MIN_DISTINCT: usize = 3;
+/// Different values of a fixed format that never ends with a zero: the chance that none of so many does is one in two.
+const MIN_DISTINCT_WITHOUT_ZEROS: usize = 6;
+/// The fewest digits of a fixed format.
+const MIN_FIXED_DIGITS: u32 = 3;
 /// Different values, in the lower decades, that data of few digits must have to be taken for rounded.
 const MIN_DISTINCT_SHORT: usize = 20;
 
@@ -56,9 +60,10 @@ pub fn significant_digits(values: &[f64]) -> u32 {
 /// Digits that a fixed format wrote of every number: of `1.31e-02` three, where all of the first lines have as many, trailing zeros
 /// counted, and several different numbers use them all. Few different numbers show no pattern in their values, this shows in the text.
 ///
-/// Numbers that need fewer digits than their format writes, those of springs and lumped masses, are exact.
+/// Numbers that need fewer digits than their format writes, those of springs and lumped masses, are exact. Numbers that are written as
+/// short as they can be have no zeros at their end, and a format without any is believed where there are many numbers.
 pub(super) fn written_digits(text: &[u8]) -> Option<u32> {
-    let mut full = BTreeSet::new();
+    let (mut full, mut n_with_zeros) = (BTreeSet::new(), 0);
     let mut n_digits = None;
     for line in text.split(|byte| *byte == b'\n').take(SAMPLE) {
         let number = line.trim_ascii().rsplit(u8::is_ascii_whitespace).next().unwrap_or_default();
@@ -73,17 +78,22 @@ pub(super) fn written_digits(text: &[u8]) -> Option<u32> {
         // Some formats begin with a zero before the point, which is none of the digits.
         let digits = if number.contains(&b'.') { digits.strip_prefix(b"0").unwrap_or(&digits) } else { &digits };
         if digits.iter().all(|digit| *digit == b'0') {
+            n_with_zeros += usize::from(digits.len() > 1);
             continue;
         }
         if *n_digits.get_or_insert(digits.len()) != digits.len() {
             return None;
         }
-        if digits.last() != Some(&b'0') {
+        if digits.last() == Some(&b'0') {
+            n_with_zeros += 1;
+        } else {
             full.insert(digits.to_vec());
         }
     }
     let n_digits = u32::try_from(n_digits?).ok()?;
-    (n_digits <= MAX_DECIMAL_DIGITS && full.len() >= MIN_DISTINCT).then_some(n_digits)
+    let n_needed = if n_with_zeros > 0 { MIN_DISTINCT } else { MIN_DISTINCT_WITHOUT_ZEROS };
+    let is_fixed = (MIN_FIXED_DIGITS..=MAX_DECIMAL_DIGITS).contains(&n_digits) && full.len() >= n_needed;
+    is_fixed.then_some(n_digits)
 }
 
 /// Equally spaced values from the first to near the last.
@@ -151,7 +161,7 @@ mod tests {
         let text = b"1 1 1.31e-02\n2 2 6.54e-03\n2 1 -3.27e-03\n3 3 0.00e+00\n";
         assert_eq!(written_digits(text), Some(3));
         // As Fortran writes it.
-        assert_eq!(written_digits(b"1 1  0.1312E-01\n2 2  0.6543E+02\n3 3  0.9999D+00\n"), Some(4));
+        assert_eq!(written_digits(b"1 1  0.1312E-01\n2 2  0.6543E+02\n3 3  0.9999D+00\n2 1 0.2500E+01\n"), Some(4));
         // Exact numbers in a format with room to spare, too few numbers, numbers as short as they can be, and all their digits.
         assert_eq!(written_digits(b"1 1 2.5000e+00\n2 2 1.2500e-01\n3 3 -1.0000e+00\n4 4 7.5000e+01\n"), None);
         assert_eq!(written_digits(b"1 1 1.31e-02\n2 2 6.54e-03\n"), None);
@@ -160,6 +170,8 @@ mod tests {
             written_digits(b"1 1 1.3100000000000001e-02\n2 2 6.5400000000000003e-03\n3 3 2.2700000000000001e-01\n"),
             None
         );
+        assert_eq!(written_digits(b"1 1 1.25e0\n2 2 3.75e0\n3 3 6.25e1\n"), None);
+        assert_eq!(written_digits(b"1 1 1e0\n2 2 2e0\n3 3 5e-1\n2 1 -4e0\n"), None);
         assert_eq!(written_digits(b"1 1 0.0131\n2 2 0.0654\n3 3 0.0227\n"), None);
     }
 

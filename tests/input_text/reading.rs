@@ -24,16 +24,17 @@ fn one_triangle_stands_for_both() {
 /// Of a regular mesh or a uniform beam: a handful of different numbers, which show no pattern.
 #[test]
 fn few_numbers_in_a_fixed_format_have_its_digits() {
-    let text = |values: [&str; 3]| {
-        let [a, b, c] = values;
-        format!("%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 {a}\n2 2 {b}\n3 3 {c}\n2 1 {b}\n3 2 {c}\n")
+    let text = |values: [&str; 4]| {
+        let [a, b, c, d] = values;
+        format!("%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 {a}\n2 2 {b}\n3 3 {c}\n2 1 {b}\n3 2 {d}\n")
     };
     for (values, digits) in [
-        (["1.31e-02", "6.54e-03", "-3.27e-03"], 3),
-        (["1.5700e-01", "1.7494e-01", "2.0171e+03"], 17),
-        (["1.5703e-01", "1.7494e-01", "2.0171e+03"], 5),
-        (["2.50e+00", "1.20e+01", "4.00e+00"], 17),
-        (["2.5", "1.25", "4"], 17),
+        (["1.31e-02", "6.54e-03", "-3.27e-03", "1.50e-03"], 3),
+        (["1.5703e-01", "1.7494e-01", "2.0171e+03", "0.0000e+00"], 5),
+        (["1.5700e-01", "1.7494e-01", "2.0171e+03", "1.5000e+00"], 17),
+        (["2.50e+00", "1.20e+01", "4.00e+00", "1.25e+00"], 17),
+        (["2.5", "1.25", "4", "3.75"], 17),
+        (["1e0", "2e0", "-5e-1", "4e0"], 17),
     ] {
         assert_eq!(read_text(text(values)).expect("a matrix").stiffness.digits, digits, "{values:?}");
     }
