@@ -20,6 +20,13 @@ struct Module {
     handed_on: BTreeMap<String, Vec<String>>,
 }
 
+/// Who sees what a `use` names.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Seen {
+    Here,
+    ByOthers,
+}
+
 /// One file naming something that another one defines.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Import {
@@ -112,7 +119,7 @@ impl Module {
     /// Walks over the tokens of one level; what stands under `#[cfg(test)]` is left out.
     fn read(&mut self, tokens: &[TokenTree]) {
         let mut i = 0;
-        let mut is_public = false;
+        let mut seen = Seen::Here;
         while i < tokens.len() {
             match &tokens[i] {
                 TokenTree::Punct(hash) if hash.as_char() == '#' && is_for_tests(tokens.get(i + 1)) => {
@@ -121,16 +128,16 @@ impl Module {
                 }
                 TokenTree::Group(group) => self.read(&group.stream().into_iter().collect::<Vec<_>>()),
                 TokenTree::Ident(word) if *word == "pub" => {
-                    is_public = true;
+                    seen = Seen::ByOthers;
                     // The group of `pub(crate)` says nothing more.
                     i += 1 + usize::from(is_group(tokens.get(i + 1), Delimiter::Parenthesis));
                     continue;
                 }
                 TokenTree::Ident(word) if *word == "use" => {
                     let end = end_of_item(tokens, i);
-                    self.read_use(&tokens[i + 1..end.saturating_sub(1)], &[], is_public);
+                    self.read_use(&tokens[i + 1..end.saturating_sub(1)], &[], seen);
                     i = end;
-                    is_public = false;
+                    seen = Seen::Here;
                     continue;
                 }
                 TokenTree::Ident(_) if !is_after_separator(tokens, i) => {
@@ -139,7 +146,7 @@ impl Module {
                         self.named.push(path);
                     }
                     i = next;
-                    is_public = false;
+                    seen = Seen::Here;
                     continue;
                 }
                 _ => {}
@@ -149,26 +156,26 @@ impl Module {
     }
 
     /// One tree of a `use`, below a prefix.
-    fn read_use(&mut self, tokens: &[TokenTree], prefix: &[String], is_public: bool) {
+    fn read_use(&mut self, tokens: &[TokenTree], prefix: &[String], seen: Seen) {
         for tree in tokens.split(|token| matches!(token, TokenTree::Punct(punct) if punct.as_char() == ',')) {
             let (path, next) = path_at(tree, 0);
             let whole: Vec<String> = prefix.iter().cloned().chain(path).collect();
             match tree.get(next) {
                 Some(TokenTree::Group(group)) => {
-                    self.read_use(&group.stream().into_iter().collect::<Vec<_>>(), &whole, is_public);
+                    self.read_use(&group.stream().into_iter().collect::<Vec<_>>(), &whole, seen);
                 }
                 // `use a::b as c`
-                Some(TokenTree::Ident(_)) => self.take_use(&whole, tree.last().map(ToString::to_string), is_public),
+                Some(TokenTree::Ident(_)) => self.take_use(&whole, tree.last().map(ToString::to_string), seen),
                 _ if whole.is_empty() => {}
-                _ => self.take_use(&whole, whole.last().cloned(), is_public),
+                _ => self.take_use(&whole, whole.last().cloned(), seen),
             }
         }
     }
 
-    fn take_use(&mut self, path: &[String], name: Option<String>, is_public: bool) {
+    fn take_use(&mut self, path: &[String], name: Option<String>, seen: Seen) {
         let is_self = path.len() > 1 && path.last().is_some_and(|last| last == "self");
         let path = if is_self { &path[..path.len() - 1] } else { path };
-        match name.filter(|_| is_public) {
+        match name.filter(|_| seen == Seen::ByOthers) {
             // What is handed on is an import of whoever takes it.
             Some(name) => drop(self.handed_on.insert(name, path.to_vec())),
             None => self.named.push(path.to_vec()),

@@ -68,7 +68,7 @@ fn read_hdf5(path: &Path, allowance: &Allowance) -> Result<Mesh> {
 }
 
 fn read_format(h5: &H5<'_>) -> Result<Mesh> {
-    let root = Group::root(&h5)?;
+    let root = Group::root(h5)?;
     if root.member("ENS_MAA")? == Some(Member::Group) {
         return med::read(&root);
     }
