@@ -153,7 +153,7 @@ pub fn worse(error: f64, worst: f64) -> bool {
 }
 
 /// [A B].
-pub fn beside(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
+pub fn side_by_side(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     concatenated(a.nrows(), [a, b])
 }
 

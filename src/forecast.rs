@@ -150,19 +150,19 @@ impl Forecast {
             false => (0, 5 * n_modes + 64),
         };
         // A count keeps the pivots alone.
-        let (n_beside, n_copies) = match certify {
+        let (n_other, n_copies) = match certify {
             // Those of K − σM and of the proof that it is definite.
             Certify::Full => (in_slices.max(2), 3),
             Certify::None | Certify::Count => (in_slices, 2),
         };
-        let (n_beside, refinement) = match storage {
-            Storage::Double => (n_beside, 0),
+        let (n_other, refinement) = match storage {
+            Storage::Double => (n_other, 0),
             // All but the factor of K_II are in double precision; without an interface its modes come from one of those.
-            Storage::Single => (n_beside + u64::from(partition.n_interface() == 0), REFINEMENT),
+            Storage::Single => (n_other + u64::from(partition.n_interface() == 0), REFINEMENT),
         };
-        let beside = analysis.factor_bytes(Storage::Double).saturating_mul(n_beside);
+        let others = analysis.factor_bytes(Storage::Double).saturating_mul(n_other);
         let stacks = analysis.stack_bytes().saturating_mul(in_slices.max(1));
-        let factors = analysis.factor_bytes(storage).saturating_add(beside).saturating_add(stacks);
+        let factors = analysis.factor_bytes(storage).saturating_add(others).saturating_add(stacks);
         let vectors = 2 * partition.n_interface() as u64 + of_solver.max(BLOCKS_OF_MODES * n_modes) + refinement;
         let recovery = COPIES * partition.recovered.len() as u64 * (partition.n_interface() as u64 + n_modes);
         Self { factors, matrices: n_copies * ENTRY * entries, vectors: DOUBLE * (n * vectors + recovery) }

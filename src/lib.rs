@@ -129,8 +129,7 @@ use constraint::Constrained;
 use coordinates::Levers;
 use error::Result;
 use forecast::Resources;
-use input::Allowance;
-use input::InputFacts;
+use input::{Allowance, InputFacts};
 use job::Job;
 use model::Model;
 use modes::{Component, ModeSource, Retained, Search};
@@ -206,7 +205,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     observer.stage("preservation");
     let preserved = verification::preservation(&evidence, &analysis, job)?;
 
-    let n_beside = n_extra + usize::from(search.edge().is_some());
+    let n_other_factors = n_extra + usize::from(search.edge().is_some());
     let (superelement, report) = output::output(&Results {
         job,
         input: &facts,
@@ -215,7 +214,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         findings: &findings,
         preserved: &preserved,
         analysis: &analysis,
-        n_beside,
+        n_other_factors,
     })?;
     Ok(Outcome { superelement, report })
 }

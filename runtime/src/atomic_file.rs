@@ -37,7 +37,7 @@ impl StagedFile {
             return Err(FileError::NotAFile { path: target.to_owned() });
         }
         let failed = |source| FileError::Write { path: target.to_owned(), source };
-        let (mut file, temporary) = create_beside(target, name).map_err(failed)?;
+        let (mut file, temporary) = create_next_to(target, name).map_err(failed)?;
         // From here on the temporary file is removed on every way out.
         let staged = Self { target: target.to_owned(), temporary, committed: false };
         file.write_all(bytes).and_then(|()| file.sync_all()).map_err(failed)?;
@@ -163,7 +163,7 @@ impl Replaced {
         let linked = under_a_free_name(target, name, |path| fs::hard_link(target, path));
         let kept = match linked {
             Ok(((), path)) => path,
-            Err(_) => copied_beside(target, name).map_err(failed)?,
+            Err(_) => copied_next_to(target, name).map_err(failed)?,
         };
         Ok(Self { kept: Some(kept) })
     }
@@ -177,8 +177,8 @@ impl Replaced {
 }
 
 /// A synced copy of a file, in its folder.
-fn copied_beside(target: &Path, name: &std::ffi::OsStr) -> io::Result<PathBuf> {
-    let (mut copy, path) = create_beside(target, name)?;
+fn copied_next_to(target: &Path, name: &std::ffi::OsStr) -> io::Result<PathBuf> {
+    let (mut copy, path) = create_next_to(target, name)?;
     let copied = File::open(target).and_then(|mut old| io::copy(&mut old, &mut copy)).and_then(|_| copy.sync_all());
     match copied {
         Ok(()) => Ok(path),
@@ -229,7 +229,7 @@ fn part_prefix(name: &std::ffi::OsStr) -> OsString {
 }
 
 /// Creates a file that did not exist, in the folder of `target` so that renaming never crosses file systems.
-fn create_beside(target: &Path, name: &std::ffi::OsStr) -> io::Result<(File, PathBuf)> {
+fn create_next_to(target: &Path, name: &std::ffi::OsStr) -> io::Result<(File, PathBuf)> {
     under_a_free_name(target, name, |path| OpenOptions::new().write(true).create_new(true).open(path))
 }
 

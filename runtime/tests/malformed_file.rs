@@ -140,7 +140,7 @@ fn no_metadata() {
 }
 
 #[test]
-fn foreign_key_beside_ours() {
+fn foreign_key_next_to_ours() {
     let parts = good();
     let metadata = json!({ "supel": parts.document.to_string(), "format": "pt" });
     let error = Superelement::from_bytes(&unsealed(&parts, &metadata)).unwrap_err();

@@ -17,7 +17,7 @@ fn names_in(folder: &Path) -> Vec<String> {
 }
 
 #[test]
-fn written_file_is_read_back_and_leaves_nothing_beside_it() {
+fn written_file_is_read_back_and_leaves_nothing_next_to_it() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("part ü.supel");
     let superelement = sample::complete();

@@ -43,9 +43,9 @@ pub(super) struct Content<'a> {
 /// Rounding in an energy, by whose error bars it is known.
 #[derive(Clone, Copy, Debug)]
 enum Noise {
-    /// Those of modes that were found anew.
+    /// By the error bars of modes that were found anew.
     OfModel(f64),
-    /// Those that the file states.
+    /// By the error bars that the file states.
     OfFile(f64),
 }
 

@@ -15,8 +15,8 @@ pub fn is_of_this_version(superelement: &Superelement) -> bool {
     name == env!("CARGO_PKG_NAME") && version == env!("CARGO_PKG_VERSION")
 }
 
-/// What rules of this version find, where the file says that it is of this version. Otherwise M-26 *it was made by this version* says that they were
-/// not held against it.
+/// What rules of this version find, where the file says that it is of this version. Otherwise M-26 *it was made by this
+/// version* says that they were not held against it.
 pub(super) fn applied(superelement: &Superelement, found: Vec<String>) -> Vec<String> {
     if is_of_this_version(superelement) { found } else { Vec::new() }
 }

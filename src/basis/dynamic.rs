@@ -61,7 +61,7 @@ pub fn fixed_interface_columns(modes: &Modes) -> DynamicColumns {
 
 /// Without an interface: the rigid-body modes and the elastic modes themselves, V = \[U X\] of (22).
 pub fn modal_columns(rigid: &RigidBodyModes, modes: &Modes) -> DynamicColumns {
-    let columns = dense::beside(rigid.modes.as_ref(), modes.shapes.as_ref());
+    let columns = dense::side_by_side(rigid.modes.as_ref(), modes.shapes.as_ref());
     let zero = (0..rigid.count()).map(DynamicCoordinate::RigidBody);
     DynamicColumns { columns, coordinates: zero.chain((0..modes.count()).map(DynamicCoordinate::FreeFree)).collect() }
 }

@@ -225,7 +225,7 @@ fn joined(partition: &Partition, rigid: RigidBodyModes, mechanisms: MatRef<'_, f
     let mut energy = rigid.energy;
     energy.largest_residual = energy.largest_residual.max(largest_residual(&partition.stiffness, mechanisms));
     RigidBodyModes {
-        modes: dense::beside(rigid.modes.as_ref(), mechanisms),
+        modes: dense::side_by_side(rigid.modes.as_ref(), mechanisms),
         mass_orthonormal: product(&partition.mass, orthonormal.as_ref()),
         orthonormal,
         n_mechanisms: rigid.n_mechanisms + mechanisms.ncols(),

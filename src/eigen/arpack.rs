@@ -249,8 +249,8 @@ impl<'a> Search<'a> {
         let mut vectors = vectors.to_owned();
         self.remaining().deflate(vectors.as_mut());
         self.mass_taken =
-            dense::beside(self.mass_taken.as_ref(), product(self.problem.mass, vectors.as_ref()).as_ref());
-        self.taken = dense::beside(self.taken.as_ref(), vectors.as_ref());
+            dense::side_by_side(self.mass_taken.as_ref(), product(self.problem.mass, vectors.as_ref()).as_ref());
+        self.taken = dense::side_by_side(self.taken.as_ref(), vectors.as_ref());
         self.theta.extend_from_slice(theta);
     }
 

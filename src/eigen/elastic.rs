@@ -49,6 +49,7 @@ const SETTLED: f64 = 1e-12;
 pub(crate) const CARRIES_NOTHING: f64 = 1e-14;
 /// Share of λ that the residual of such a mode may leave in doubt, a tenth of what M-24 looks at.
 const SETTLED_BAR: f64 = 1e-10;
+
 /// Finds elastic modes with a shift-invert operator.
 ///
 /// Where few soft motions spread the spectrum over many powers of ten, a search leaves the modes far above them with few
@@ -62,8 +63,8 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
     let mut known = Modes::none(n);
     loop {
         let momenta = product(problem.mass, known.shapes.as_ref());
-        let beside = [dense::beside(q, known.shapes.as_ref()), dense::beside(mass_q, momenta.as_ref())];
-        let deflated = [beside[0].as_ref(), beside[1].as_ref()];
+        let with_known = [dense::side_by_side(q, known.shapes.as_ref()), dense::side_by_side(mass_q, momenta.as_ref())];
+        let deflated = [with_known[0].as_ref(), with_known[1].as_ref()];
         let wanted = match request.wanted {
             Wanted::Count(count) => Wanted::Count(count.saturating_sub(known.count()).max(usize::from(count > 0))),
             Wanted::UpTo(limit) => Wanted::UpTo(limit),

@@ -76,7 +76,7 @@ fn run(problem: Problem<'_>, goal: Goal, seed: u64) -> Result<Eigenpairs> {
                 if matches!(goal, Goal::Between(_)) || !basis.may_lack_copies(&ritz, taken.len()) {
                     return Ok(basis.extract(&ritz, &taken));
                 }
-                basis.start_again_beside(&ritz, taken.len());
+                basis.start_again_without(&ritz, taken.len());
             }
             if basis.is_exhausted() {
                 return basis.everything(goal);
@@ -255,7 +255,7 @@ impl<'a> KrylovBasis<'a> {
 
     /// Locks the wanted pairs and starts a new block in the space M-orthogonal to them, where missing copies come first
     /// and the pair beyond the wanted ones follows.
-    fn start_again_beside(&mut self, ritz: &Ritz, count: usize) {
+    fn start_again_without(&mut self, ritz: &Ritz, count: usize) {
         let block = self.n_next();
         combine_in_place(self.vectors.as_mut(), self.size, ritz.s.as_ref().subcols(0, count));
         self.size = count;

@@ -185,7 +185,7 @@ mod tests {
 
     /// What practice takes for a rigid-body mode is one on either side of zero.
     #[test]
-    fn a_negative_eigenvalue_that_is_nothing_beside_the_first_elastic_one_is_a_zero_mode() {
+    fn a_negative_eigenvalue_far_below_the_first_elastic_one_is_a_zero_mode() {
         let mut stiffnesses: Vec<f64> = (0..30).map(f64::from).collect();
         stiffnesses[0] = -1e-9;
         let mass = diagonal_matrix(&[1.0; 30]);

@@ -54,7 +54,7 @@ mod tests {
     }
 
     #[test]
-    fn negative_energy_is_negligible_beside_an_elastic_mode_only() {
+    fn negative_energy_is_negligible_against_an_elastic_mode_only() {
         assert!(is_negligible(-1e-9, Some(1.0)) && !is_negligible(-1e-7, Some(1.0)));
         assert!(!is_negligible(-1e-30, None) && is_negligible(0.0, None));
     }

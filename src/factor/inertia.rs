@@ -241,8 +241,8 @@ impl Schur {
         let scaled_by = |scale: &[f64]| Mat::from_fn(n_b, n_b, |i, j| schur[(i, j)] * scale[i] * scale[j]);
         let (eigenvalues, vectors) = dense::symmetric_eigen(scaled_by(&scale).as_ref())?;
         let before: Vec<f64> = uncondensed.iter().map(|term| dense::power_of_two_root(*term)).collect();
-        let (beside_terms, _) = dense::symmetric_eigen(scaled_by(&before).as_ref())?;
-        let condensed_gap = beside_terms.iter().fold(1.0, |least: f64, value| least.min(value.abs()));
+        let (sizes, _) = dense::symmetric_eigen(scaled_by(&before).as_ref())?;
+        let condensed_gap = sizes.iter().fold(1.0, |least: f64, value| least.min(value.abs()));
         Ok(Self { scale, eigenvalues, vectors, condensed_gap })
     }
 

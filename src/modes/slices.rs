@@ -273,8 +273,8 @@ pub(super) fn search_between(
     let modal = problem.modal();
     // Modes beyond the ends are orthogonalised away at the end: deflating them takes longer than finding them again.
     let near = known.shapes_between(interval.from, interval.to);
-    let q = dense::beside(modal.deflated[0], near.as_ref());
-    let mass_q = dense::beside(modal.deflated[1], product(modal.mass, near.as_ref()).as_ref());
+    let q = dense::side_by_side(modal.deflated[0], near.as_ref());
+    let mass_q = dense::side_by_side(modal.deflated[1], product(modal.mass, near.as_ref()).as_ref());
     let (modes, n_factorisations) = problem.with_operator_inside(interval, |operator| {
         let deflated = [q.as_ref(), mass_q.as_ref()];
         let pairs = pairs_between(Problem { operator, mass: modal.mass, deflated }, interval, solver)?;

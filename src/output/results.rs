@@ -26,7 +26,7 @@ pub struct Results<'a> {
     /// The symbolic factorisation of K_II.
     pub analysis: &'a Analysis,
     /// Factorisations in addition to that of K_II: those of the modes, the certificate and the enclosures.
-    pub n_beside: usize,
+    pub n_other_factors: usize,
 }
 
 impl Results<'_> {
@@ -56,7 +56,7 @@ impl Results<'_> {
         let work = &retained.modes.work;
         WorkCounters {
             n_factorisations: 1
-                + self.n_beside
+                + self.n_other_factors
                 + work.factorisations
                 + certificate.map_or(0, |certificate| certificate.n_factorisations)
                 + enclosures.map_or(0, |enclosures| enclosures.n_factorisations),

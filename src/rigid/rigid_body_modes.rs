@@ -83,7 +83,7 @@ impl RigidBodyModes {
     pub(crate) fn without_mechanisms(&self) -> Self {
         let n = self.count() - self.n_mechanisms;
         let massive = self.massive().subcols(0, n - self.n_massless);
-        let orthonormal = dense::beside(massive, self.massless());
+        let orthonormal = dense::side_by_side(massive, self.massless());
         Self { modes: self.modes.as_ref().subcols(0, n).to_owned(), orthonormal, n_mechanisms: 0, ..self.clone() }
     }
 

@@ -152,7 +152,7 @@ pub(super) fn orthogonality(evidence: &Evidence<'_>) -> Check {
         Boundary::FreeInterface => {
             // Motions without mass have no length in it.
             let rigid = evidence.rigid.massive();
-            (Some(dense::beside(rigid, shapes)), rigid.ncols())
+            (Some(dense::side_by_side(rigid, shapes)), rigid.ncols())
         }
     };
     let all = joined.as_ref().map_or(shapes, Mat::as_ref);

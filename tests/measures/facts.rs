@@ -55,7 +55,7 @@ fn what_the_mass_hardly_sees_is_no_part_of_a_mode() {
 /// Rows with next to no mass follow the others, and an iteration that sees vectors by their mass alone carries along what it does
 /// not see there. A step of inverse iteration leaves nothing of it.
 #[test]
-fn modes_beside_rows_of_next_to_no_mass_lose_no_digits() {
+fn modes_among_rows_of_next_to_no_mass_lose_no_digits() {
     let model = brick([10, 2, 2], [10.0, 1.1, 0.9], &Material::UNIT);
     // Every tenth node is heavy.
     let mass = (0..model.n as u32).map(|row| (row, row, if (row / 3) % 9 == 0 { 1.0 } else { 1e-12 }));

@@ -51,7 +51,7 @@ fn failing(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Resu
 }
 
 #[test]
-fn page_and_junit_are_written_beside_the_superelement() {
+fn page_and_junit_are_written_next_to_the_superelement() {
     let folder = tempfile::tempdir().expect("folder");
     let (code, err) = reduce(sample::pipeline, folder.path(), &[("--html", "x.html"), ("--junit", "x.xml")]);
     assert_eq!(code, ExitCode::Done, "{err}");

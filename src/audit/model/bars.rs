@@ -50,7 +50,7 @@ pub(super) fn error_bars(superelement: &Superelement, asked: &AskedModes) -> Che
     const SAME_SHAPES: f64 = 1e-6;
     /// Relative difference of a bar that no turn of a shape excuses.
     const LARGEST_TURN: f64 = 0.1;
-    /// The same that fails in any case: a bar of nothing is off by one.
+    /// Relative difference of a bar that fails in any case: a bar of zero is off by one.
     const NO_BAR: f64 = 0.5;
     let metadata = superelement.metadata();
     // Shapes turn by rounding, and where two eigenvalues are nearly one they turn far, and their bars with them.

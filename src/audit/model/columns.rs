@@ -120,7 +120,7 @@ impl Columns {
         let size = |j: usize| if j < n_r { asked.lambda().first() } else { asked.lambda().get(j - n_r) };
         let omega = |j: usize| size(j).copied().unwrap_or(1.0).sqrt();
         Self {
-            shapes: dense::beside(motions.orthonormal.as_ref(), asked.modes.shapes.as_ref()),
+            shapes: dense::side_by_side(motions.orthonormal.as_ref(), asked.modes.shapes.as_ref()),
             probes: Mat::zeros(0, 0),
             named: (0..n_r).map(Named::Rigid).chain((0..n_modes).map(Named::Mode)).collect(),
             energy_errors: (0..n_r + n_modes).map(|j| rounding(j) * omega(j)).collect(),

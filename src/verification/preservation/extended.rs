@@ -212,7 +212,7 @@ impl<'a> Extended<'a> {
         padded.as_mut().subrows_mut(0, n_i).copy_from(&fresh);
         let force = product(&partition.stiffness, padded.as_ref());
         let momentum = product(&partition.mass, padded.as_ref());
-        self.basis = dense::beside(self.basis.as_ref(), padded.as_ref());
+        self.basis = dense::side_by_side(self.basis.as_ref(), padded.as_ref());
         for (projected, images, image) in
             [(&mut self.stiffness, &mut self.forces, &force), (&mut self.mass, &mut self.momenta, &momentum)]
         {
@@ -224,7 +224,7 @@ impl<'a> Extended<'a> {
                 (false, true) => columns[(j, i - old)],
             });
             dense::symmetrise(projected);
-            *images = dense::beside(images.as_ref(), image.as_ref());
+            *images = dense::side_by_side(images.as_ref(), image.as_ref());
         }
         self.spectral = Spectral::of(self.stiffness.as_ref(), self.mass.as_ref(), shift(self.evidence))?;
         Ok(true)

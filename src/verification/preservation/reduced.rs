@@ -46,24 +46,24 @@ pub(super) fn quotients(
 ) -> Result<Vec<Quotient>> {
     let supported = Supported::new(evidence, reference, k, m);
     let mut found: Vec<Quotient> = Vec::new();
-    let mut beside = reference.passing_coordinates(supported.kept.len());
+    let mut taken = reference.passing_coordinates(supported.kept.len());
     while let Some(first) = reference.lambda.get(found.len()) {
-        let mass_beside = dense::product(supported.mass.as_ref(), beside.as_ref());
-        let stiffness = without(&supported.stiffness, &beside, &mass_beside);
+        let mass_taken = dense::product(supported.mass.as_ref(), taken.as_ref());
+        let stiffness = without(&supported.stiffness, &taken, &mass_taken);
         let spectral = Spectral::of(stiffness.as_ref(), supported.mass.as_ref(), *first)?;
-        let lambda = spectral.eigenvalues().split_off(beside.ncols().min(spectral.eigenvalues().len()));
+        let lambda = spectral.eigenvalues().split_off(taken.ncols().min(spectral.eigenvalues().len()));
         // Rounding may leave the first one of a near-mechanism below zero.
         let n_new = lambda.iter().take_while(|value| **value <= SPREAD * lambda[0].abs()).count();
         let n_new = n_new.min(reference.lambda.len() - found.len());
         if n_new == 0 {
             break;
         }
-        let vectors: Vec<Vec<f64>> = (0..n_new).map(|j| spectral.eigenvector(beside.ncols() + j)).collect();
+        let vectors: Vec<Vec<f64>> = (0..n_new).map(|j| spectral.eigenvector(taken.ncols() + j)).collect();
         let mut x = Mat::from_fn(supported.kept.len(), n_new, |i, j| vectors[j][i]);
-        let along = dense::gram(mass_beside.as_ref(), x.as_ref());
-        dense::add_product(x.as_mut(), -1.0, beside.as_ref(), along.as_ref());
+        let along = dense::gram(mass_taken.as_ref(), x.as_ref());
+        dense::add_product(x.as_mut(), -1.0, taken.as_ref(), along.as_ref());
         found.extend(supported.quotients(evidence, &mut x));
-        beside = dense::beside(beside.as_ref(), x.as_ref());
+        taken = dense::side_by_side(taken.as_ref(), x.as_ref());
     }
     found.sort_by(|a, b| a.lambda.total_cmp(&b.lambda));
     Ok(found)
