@@ -10,6 +10,7 @@ use super::version::applied;
 use crate::audit::flaw::flaw;
 use crate::error::Result;
 use crate::job::Certify;
+use crate::verification::catalogue::{CATALOGUE, Entry, Recorded, entry};
 use crate::verification::check::Check;
 
 /// M-26: the bytes of the file are those that its content makes: nothing is hidden in it, the digest holds.
@@ -29,26 +30,6 @@ pub(super) fn verdicts(content: &Content<'_>) -> Check {
     }
     flaw("no check failed when it was made", "number of failed checks on record", &flaws)
 }
-
-/// Checks that every reduction records, some of them more than once.
-const RECORDED: [(&str, usize); 15] = [
-    ("M-01", 1),
-    ("M-02", 1),
-    ("M-03", 1),
-    ("M-04", 1),
-    ("M-05", 1),
-    ("M-09", 1),
-    ("M-10", 1),
-    ("M-12", 2),
-    ("M-13", 1),
-    ("M-14", 2),
-    ("M-16", 1),
-    ("M-23", 2),
-    ("M-25", 2),
-    // Where a job asks for the count, or for its proof.
-    ("M-06", 0),
-    ("M-11", 0),
-];
 
 /// M-26: the record is one of a reduction, its verdicts follow from its values, and the values that the file gives again are those.
 ///
@@ -90,21 +71,21 @@ pub(super) fn of_version(content: &Content<'_>) -> Vec<String> {
 fn missing(content: &Content<'_>, checks: &[CheckSummary]) -> Vec<String> {
     let mut found: BTreeMap<&str, usize> = BTreeMap::new();
     checks.iter().for_each(|check| *found.entry(&check.id).or_default() += 1);
-    let certify = content.job.as_ref().map(|job| job.run.certify);
-    let more = |id: &str| match id {
-        "M-06" => usize::from(matches!(certify, Some(Certify::Count | Certify::Full))),
-        "M-11" => usize::from(content.n_b > 0),
-        _ => 0,
-    };
-    let needed = RECORDED.iter().map(|(id, n)| (*id, n + more(id)));
-    let lacking = needed.filter(|(id, n)| found.get(id).copied().unwrap_or(0) < *n);
-    let mut flaws: Vec<String> = lacking.map(|(id, _)| format!("{id} is missing")).collect();
-    let is_known = |id: &str| {
-        let number = id.strip_prefix("M-").filter(|number| number.len() == 2).and_then(|number| number.parse().ok());
-        number.is_some_and(|number: u32| (1..=26).contains(&number))
-    };
-    flaws.extend(found.keys().filter(|id| !is_known(id)).map(|id| format!("{id} is no check")));
+    let lacking = CATALOGUE.iter().filter(|entry| found.get(entry.id).copied().unwrap_or(0) < least(content, entry));
+    let mut flaws: Vec<String> = lacking.map(|entry| format!("{} is missing", entry.id)).collect();
+    flaws.extend(found.keys().filter(|id| entry(id).is_none()).map(|id| format!("{id} is no check")));
     flaws
+}
+
+/// How often a reduction like that of the file records a check at least.
+fn least(content: &Content<'_>, entry: &Entry) -> usize {
+    let certify = content.job.as_ref().map(|job| job.run.certify);
+    match entry.recorded {
+        Recorded::Always(count) => count,
+        Recorded::WithInterface => usize::from(content.n_b > 0),
+        Recorded::WithCount => usize::from(matches!(certify, Some(Certify::Count | Certify::Full))),
+        Recorded::Sometimes => 0,
+    }
 }
 
 /// M-09 is the largest share that the digits of the data have in an error bar, relative to its frequency.

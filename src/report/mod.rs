@@ -4,7 +4,6 @@
 //! and in any folder. Times, memory, threads and paths are facts of the run and are kept apart from it.
 
 mod conclusion;
-mod explanation;
 mod html;
 mod inspection;
 mod json;
@@ -31,7 +30,6 @@ use crate::number;
 use crate::verification::check::{Check, Verdict};
 use crate::verification::preservation::Preservation;
 
-pub use explanation::{EXPLANATIONS, Explanation, Proof, explanation};
 pub use html::html;
 pub use inspection::inspection;
 pub use junit::{JunitWarnings, junit};

@@ -1,7 +1,11 @@
 //! What the page says.
 
+use std::collections::BTreeSet;
+use std::path::Path;
+
 use supel::error::Warning;
-use supel::report::{Completeness, EXPLANATIONS, Proof, RigidBodyEvidence, html};
+use supel::report::{Completeness, RigidBodyEvidence, html};
+use supel::verification::catalogue::{CATALOGUE, Proof};
 use supel::verification::check::Verdict;
 use supel::verification::preservation::Preservation;
 
@@ -140,38 +144,62 @@ fn every_check_is_explained_and_advice_follows_what_is_past_its_limit() {
     let report = report_of_all_checks();
     let page = html(&report);
     let page = parse(&page);
-    for (explanation, check) in EXPLANATIONS.iter().zip(&report.body.checks) {
-        let told = text(by_id(&page, &format!("check-{}", explanation.id)));
-        assert!(told.contains(explanation.meaning), "{told}");
-        assert!(told.to_lowercase().contains(&format!(" {}.", explanation.proof.word())), "{told}");
+    for (entry, check) in CATALOGUE.iter().zip(&report.body.checks) {
+        let told = text(by_id(&page, &format!("check-{}", entry.id)));
+        assert!(told.contains(entry.meaning), "{told}");
+        assert!(told.to_lowercase().contains(&format!(" {}.", entry.proof.word())), "{told}");
         assert!(told.contains("; node 12 uz"), "{told}");
-        assert_eq!(told.contains(explanation.remedy), check.verdict() != Verdict::Pass, "{told}");
+        assert_eq!(told.contains(entry.remedy), check.verdict() != Verdict::Pass, "{told}");
     }
 }
 
 #[test]
-fn explanations_cover_every_number_in_use_in_order() {
-    let ids: Vec<String> = EXPLANATIONS.iter().map(|explanation| explanation.id.to_owned()).collect();
-    let expected: Vec<String> =
-        (1..=26).filter(|number| *number != 22).map(|number| format!("M-{number:02}")).collect();
-    assert_eq!(ids, expected);
+fn the_catalogue_has_each_check_once_in_order() {
+    assert!(CATALOGUE.windows(2).all(|pair| pair[0].id < pair[1].id));
+    let sources = source_files(Path::new(env!("CARGO_MANIFEST_DIR")).join("src").as_path());
+    let made: BTreeSet<String> = sources.iter().flat_map(|source| identifiers(source)).collect();
+    let known: BTreeSet<String> = CATALOGUE.iter().map(|entry| entry.id.to_owned()).collect();
+    assert_eq!(made, known, "checks that the source names, and those of the catalogue");
 }
 
-/// The page of the documentation has the same words: no second table that could drift.
+/// The text of all sources but the catalogue, which would name each check in any case.
+fn source_files(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).expect("sources").map(|entry| entry.expect("entry").path());
+    let (folders, files): (Vec<_>, Vec<_>) = entries.partition(|path| path.is_dir());
+    let of_this = files.iter().filter(|file| file.file_name().is_some_and(|name| name != "catalogue.rs"));
+    let mut texts: Vec<String> = of_this.map(|file| std::fs::read_to_string(file).expect("text")).collect();
+    texts.extend(folders.iter().flat_map(|folder| source_files(folder)));
+    texts
+}
+
+/// Every `"M-05"` of a source, which is how code names a check.
+fn identifiers(source: &str) -> Vec<String> {
+    let starts = source.match_indices("\"M-").map(|(place, _)| &source[place + 1..]);
+    starts.filter(|rest| rest.as_bytes().get(4) == Some(&b'"')).map(|rest| rest[..4].to_owned()).collect()
+}
+
+/// The table of the documentation is made from the catalogue: `SUPEL_UPDATE_DOCS=1 cargo test --test report_html documentation`
+/// writes it.
 #[test]
-fn documentation_explains_the_checks_in_the_same_words() {
-    let document = include_str!("../../docs/what-the-report-proves.md");
-    let document = document.replace('`', "");
-    let document = document.split_whitespace().collect::<Vec<_>>().join(" ");
-    for explanation in &EXPLANATIONS {
-        let row = format!("| {} | {} | {} |", explanation.id, explanation.proof.word(), explanation.meaning);
-        assert!(document.contains(&row), "not in the documentation:\n{row}");
+fn documentation_has_the_table_of_the_catalogue() {
+    const HEAD: &str = "| check | answer | what is measured and why |\n|---|---|---|\n";
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/what-the-report-proves.md");
+    let document = std::fs::read_to_string(&path).expect("document");
+    let (before, rest) = document.split_once(HEAD).expect("head of the table");
+    let (_, after) = rest.split_once("\n\n").expect("end of the table");
+    let rows = CATALOGUE.iter().map(|entry| format!("| {} | {} | {} |", entry.id, entry.proof.word(), entry.meaning));
+    let made = format!("{before}{HEAD}{}\n\n{after}", rows.collect::<Vec<_>>().join("\n"));
+    if std::env::var_os("SUPEL_UPDATE_DOCS").is_some() {
+        std::fs::write(&path, &made).expect("written");
+    } else {
+        assert!(document == made, "the table is another: SUPEL_UPDATE_DOCS=1 writes it");
     }
+    let words = made.replace('`', "").split_whitespace().collect::<Vec<_>>().join(" ");
     for proof in [Proof::Certified, Proof::Measured, Proof::Estimated, Proof::Shown] {
         let definition = format!("**{}**: {}", proof.word(), proof.meaning());
-        assert!(document.contains(&definition), "not in the documentation: {definition}");
+        assert!(words.contains(&definition), "not in the documentation: {definition}");
     }
-    assert!(document.contains(SCOPE));
+    assert!(words.contains(SCOPE));
 }
 
 #[test]

@@ -10,17 +10,18 @@ mod sample;
 mod structure;
 
 use roxmltree::{Document, Node};
-use supel::report::{EXPLANATIONS, Report};
+use supel::report::Report;
+use supel::verification::catalogue::CATALOGUE;
 use supel::verification::check::{Check, Limits};
 
 /// A report with a check for every identifier, some of them past their limits.
 fn report_of_all_checks() -> Report {
     let mut report = sample::full_report();
-    report.body.checks = EXPLANATIONS
+    report.body.checks = CATALOGUE
         .iter()
         .enumerate()
-        .map(|(place, explanation)| Check {
-            id: explanation.id,
+        .map(|(place, entry)| Check {
+            id: entry.id,
             name: "a measure of the reduction",
             equation: "|a − b| / |b|",
             value: match place % 9 {

@@ -3,8 +3,8 @@
 use super::front::{in_words, sentence};
 use super::markup::{Cell, Markup, Table};
 use crate::number::scientific;
-use crate::report::explanation::{Proof, explanation};
 use crate::report::words;
+use crate::verification::catalogue::{Proof, entry};
 use crate::verification::check::{Check, Verdict};
 
 pub(super) fn checks(page: &mut Markup, checks: &[Check]) {
@@ -48,12 +48,12 @@ fn row(check: &Check) -> Vec<Cell> {
     ]
 }
 
-/// The explanation of one identifier and what each of its checks found.
+/// What one identifier means and what each of its checks found.
 fn tell(page: &mut Markup, id: &str, group: &[&Check]) {
     let names: Vec<&str> = group.iter().map(|check| check.name).collect();
     page.raw(&format!("<div class=\"check\" id=\"check-{id}\">\n"));
     page.element("h4", &format!("{id}: {}", names.join("; ")));
-    let known = explanation(id);
+    let known = entry(id);
     if let Some(known) = known {
         page.paragraph(&format!("{} {}", known.meaning, sentence(known.proof.word())));
     }

@@ -1,4 +1,5 @@
-//! What each check means, in the words of a structural engineer: one table for the page, the documentation and tests.
+//! The catalogue of checks: identifier, proof, meaning and remedy of each, and when a reduction records it. The page, the
+//! documentation and the rules for the record in a file are made from it.
 
 /// How firm the answer of a check is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,33 +40,55 @@ impl Proof {
     }
 }
 
-/// A check in words.
+/// When a reduction records a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Explanation {
+pub enum Recorded {
+    /// By every reduction, this many times at least.
+    Always(usize),
+    /// Where the reduction has an interface.
+    WithInterface,
+    /// Where the job asks for the count of modes or for their enclosure.
+    WithCount,
+    /// Where there is something to measure it on.
+    Sometimes,
+}
+
+/// One check of the catalogue, in words of a structural engineer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Entry {
     /// Identifier of the check, `M-05`.
     pub id: &'static str,
     /// How firm its answer is.
     pub proof: Proof,
+    /// When a reduction records it.
+    pub recorded: Recorded,
     /// What is measured and why it matters.
     pub meaning: &'static str,
     /// What to look at where it is past its limit.
     pub remedy: &'static str,
 }
 
-/// The explanation of the check `id`.
-pub fn explanation(id: &str) -> Option<&'static Explanation> {
-    EXPLANATIONS.iter().find(|explanation| explanation.id == id)
+/// The entry of the check `id`; none where no check has this identifier.
+pub fn entry(id: &str) -> Option<&'static Entry> {
+    CATALOGUE.iter().find(|entry| entry.id == id)
 }
 
-const fn line(id: &'static str, proof: Proof, meaning: &'static str, remedy: &'static str) -> Explanation {
-    Explanation { id, proof, meaning, remedy }
+const fn line(
+    id: &'static str,
+    proof: Proof,
+    recorded: Recorded,
+    meaning: &'static str,
+    remedy: &'static str,
+) -> Entry {
+    Entry { id, proof, recorded, meaning, remedy }
 }
 
 /// Every check, in the order of the identifiers.
-pub const EXPLANATIONS: [Explanation; 25] = [
+pub const CATALOGUE: &[Entry] = &[
     line(
         "M-01",
         Proof::Measured,
+        Recorded::Always(1),
         "Each mode and its frequency are put back into the full equation K x = λ M x; the value is the force that is left \
          over, relative to the matrices. It says how far the mode is from being an exact mode of the supplied matrices.",
         "The iteration has not converged on this mode: compare with --eigensolver arpack and look at the mode named.",
@@ -73,6 +96,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-02",
         Proof::Measured,
+        Recorded::Always(1),
         "The same left-over force, taken at every degree of freedom by itself and relative to the forces that cancel there: \
          no soft corner of the model hides behind a stiff one.",
         "Look at the degree of freedom named: it is often held by very soft or very stiff elements.",
@@ -80,18 +104,21 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-03",
         Proof::Measured,
+        Recorded::Always(1),
         "Modal masses are one and modes do not couple through the mass. If they did, one vibration would be counted twice.",
         "Two modes named together describe the same motion: ask for a few modes more, so that their group is whole.",
     ),
     line(
         "M-04",
         Proof::Measured,
+        Recorded::Always(1),
         "Modes do not couple through the stiffness, so that modal stiffness is the square of the frequency and nothing else.",
         "As for M-03.",
     ),
     line(
         "M-05",
         Proof::Measured,
+        Recorded::Always(1),
         "The component is moved and turned as a rigid body. It must store no energy and show no force: otherwise something \
          ties it to the ground, or the coordinates do not belong to the stiffness.",
         "Look at the node named: a spring to ground, a support left in, a multi-point constraint that does not let \
@@ -100,6 +127,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-06",
         Proof::Certified,
+        Recorded::WithCount,
         "How many frequencies lie in the interval is counted from the signs of a factorisation, without computing a single \
          mode, and compared with the modes found. Equal counts prove that none was missed. One more factorisation counts the \
          modes under every other boundary that is compared.",
@@ -108,6 +136,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-07",
         Proof::Certified,
+        Recorded::Sometimes,
         "Each frequency is enclosed between two bounds, relative to its size; an exact frequency of the full matrices lies \
          between them.",
         "The model asks more than double precision gives, which is usual for very thin or slender parts; see M-23.",
@@ -115,6 +144,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-08",
         Proof::Estimated,
+        Recorded::Sometimes,
         "Angle between each computed shape and the exact one, from the left-over force and the distance to the next \
          frequency. Near neighbours make shapes uncertain although their frequencies are not.",
         "Judge the group of neighbouring modes together: the plane they span is certain, the shapes in it are not.",
@@ -122,6 +152,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-09",
         Proof::Estimated,
+        Recorded::Always(1),
         "How far the digits of the input file let each frequency move. Thin and slender parts cancel large element \
          stiffnesses, so that a text file of few digits changes their frequencies although nothing in it looks wrong.",
         "Export the matrices with more digits, or in a binary format.",
@@ -129,6 +160,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-10",
         Proof::Estimated,
+        Recorded::Always(1),
         "The static solutions under unit displacements of the interface are put back into the full stiffness, on all of \
          them or on random combinations of them.",
         "The stiffness of the interior is nearly singular: look for a mechanism or for a huge ratio of stiffnesses.",
@@ -136,6 +168,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-11",
         Proof::Measured,
+        Recorded::WithInterface,
         "Moving the interface as a rigid body carries the whole component along as a rigid body: the constraint modes add \
          up to rigid-body motion (24).",
         "The interface hardly holds the component against one rigid-body motion: add an interface node away from it.",
@@ -143,6 +176,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-12",
         Proof::Measured,
+        Recorded::Always(2),
         "The reduced stiffness gives no force under rigid-body motion and has no other motion without force: in the \
          simulation the component neither sticks to the ground nor falls apart.",
         "Too many zero modes mean a mechanism in the model, too few mean grounding; see M-05.",
@@ -150,6 +184,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-13",
         Proof::Measured,
+        Recorded::Always(1),
         "Interface coordinates and modal amplitudes do not couple in the reduced stiffness, as (29) demands; what is left of \
          that coupling is rounding.",
         "The static solutions are poor; see M-10.",
@@ -157,6 +192,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-14",
         Proof::Measured,
+        Recorded::Always(2),
         "Each retained mode is put into the reduced equation, with the boundary it was computed for: the reduced model has \
          the same frequency and the same shape (34), (35).",
         "The superelement does not reproduce its own modes and is not to be used; see M-11 and M-13 for the cause.",
@@ -164,6 +200,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-15",
         Proof::Measured,
+        Recorded::Sometimes,
         "Shapes of the full and of the reduced model are compared by the modal assurance criterion with the mass as weight: \
          1 is the same shape. Repeated frequencies are compared as a group.",
         "Shapes mix where modes are missing: keep more modes.",
@@ -171,6 +208,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-16",
         Proof::Measured,
+        Recorded::Always(1),
         "Mass, centre of mass and inertia of the reduced model are those of the full one; where the job names the expected \
          ones, they are compared as well.",
         "Reduced against full: see M-11. Against the job: units, a missing part, density, or coordinates in other units.",
@@ -178,6 +216,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-17",
         Proof::Measured,
+        Recorded::Sometimes,
         "Each interface is displaced while the others are held, in the full and in the reduced model. The reduced static \
          stiffness must be that of the full model, whatever the number of modes.",
         "The static solutions are poor; see M-10.",
@@ -185,6 +224,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-18",
         Proof::Measured,
+        Recorded::Sometimes,
         "Deflection under unit accelerations, in both models. Inertia-relief modes make it exact; without them it depends on \
          how many modes are kept.",
         "Use --method herting, or keep more modes.",
@@ -192,6 +232,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-19",
         Proof::Shown,
+        Recorded::Sometimes,
         "Share of the mass that the retained modes set in motion along each rigid-body direction. What is missing is moved \
          by modes above the cut-off.",
         "Keep modes to a higher frequency where the component is shaken in that direction.",
@@ -199,6 +240,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-20",
         Proof::Measured,
+        Recorded::Sometimes,
         "Frequency response between interface degrees of freedom, the full model solved anew at each sample and compared \
          with the reduced one: what the simulation will feel, at worst.",
         "Keep more modes; the size–error curve says how many would give which error.",
@@ -206,6 +248,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-21",
         Proof::Estimated,
+        Recorded::Sometimes,
         "How well the full model's response itself is known at each sample: a bound from what the iteration left over, \
          relative to the response. A small value says that the difference of M-20 is that of the reduction and not of the \
          solution it is compared with.",
@@ -214,6 +257,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-23",
         Proof::Estimated,
+        Recorded::Always(2),
         "How much the arithmetic amplifies rounding: by the interface that holds the rigid-body motions, by the stiffness of \
          the interior, by the reduced matrices.",
         "Spread the interface nodes, and avoid stiffness ratios that no real part has.",
@@ -221,6 +265,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-24",
         Proof::Measured,
+        Recorded::Sometimes,
         "A reduced model is the full one with constraints added, so that no reduced frequency can lie below the full one of \
          the same number.",
         "This cannot happen but by a defect or by a missed mode. Do not use the result; please report it.",
@@ -228,6 +273,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-25",
         Proof::Certified,
+        Recorded::Always(2),
         "The projections are symmetric up to rounding, which is then removed; every motion has positive mass and no \
          negative stiffness.",
         "A column depends on the others, or the full matrices are not definite; see the notes of the model.",
@@ -235,6 +281,7 @@ pub const EXPLANATIONS: [Explanation; 25] = [
     line(
         "M-26",
         Proof::Certified,
+        Recorded::Sometimes,
         "The written file was read back: its digest is right and it holds what was computed, to the last bit.",
         "The disk or the file system changed the file: write it elsewhere.",
     ),
