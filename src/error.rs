@@ -997,7 +997,7 @@ pub enum Error {
         /// Name of the interface.
         interface: String,
         /// The key.
-        key: &'static str,
+        key: String,
         /// What it does not go with.
         situation: &'static str,
         /// Another way out, with its leading word, or nothing.

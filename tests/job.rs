@@ -419,6 +419,27 @@ fn the_schema_is_that_of_the_types() {
     );
 }
 
+/// Where the schema of the report repeats words of the job, it has those of the job; `SUPEL_UPDATE_DOCS=1` writes them.
+#[test]
+fn the_report_knows_the_words_of_the_job() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("schemas/report.schema.json");
+    let text = std::fs::read_to_string(&path).expect("the schema");
+    let schema = supel::job::schema();
+    let mut made = text.clone();
+    for (key, definition) in [("method", "Method"), ("eigensolver", "Eigensolver"), ("coupling", "Coupling")] {
+        let variants = schema["$defs"][definition]["oneOf"].as_array().expect("variants").iter();
+        let words: Vec<String> = variants.map(|variant| variant["const"].to_string()).collect();
+        let (before, after) = made.split_once(&format!("\"{key}\": {{ \"enum\": [")).expect("the key");
+        let (_, after) = after.split_once(']').expect("the end of its words");
+        made = format!("{before}\"{key}\": {{ \"enum\": [{}]{after}", words.join(", "));
+    }
+    if std::env::var_os("SUPEL_UPDATE_DOCS").is_some() {
+        std::fs::write(&path, made).expect("written");
+        return;
+    }
+    assert!(text == made, "schemas/report.schema.json has other words than the job");
+}
+
 /// Every value that a job may have is said what it is for.
 #[test]
 fn every_key_is_described() {

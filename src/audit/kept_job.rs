@@ -9,7 +9,7 @@ use super::flaw::flaw;
 use super::record;
 use super::rigid_motion::is_nearly_unit;
 use super::version::{applied, is_of_this_version};
-use crate::job::{Coupling, Job, ModeSelection, NodeSelection, RecoveryPrecision};
+use crate::job::{Job, ModeSelection, NodeSelection, RecoveryPrecision};
 use crate::modes::Boundary;
 use crate::verification::check::{Check, Limits};
 
@@ -102,7 +102,7 @@ fn labels(content: &Content<'_>) -> Vec<i64> {
 
 /// Labels that the interfaces list, those of patches left out: a patch is one node without a label.
 fn labels_asked(job: &Job) -> Vec<i64> {
-    let direct = job.interfaces.iter().filter(|interface| interface.coupling == Coupling::Direct);
+    let direct = job.interfaces.iter().filter(|interface| !interface.coupling.is_patch());
     let listed = direct.filter_map(|interface| match &interface.nodes {
         NodeSelection::Labels(labels) => Some(labels.clone()),
         _ => None,

@@ -105,6 +105,14 @@ pub enum Coupling {
 }
 
 impl Coupling {
+    /// Its name in jobs and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Direct => "direct",
+            Self::Rigid => "rigid",
+        }
+    }
+
     /// Whether the nodes of the interface are tied to one node of their own.
     pub fn is_patch(self) -> bool {
         self == Self::Rigid

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::interface::{Coupling, InterfaceJob, NodeSelection, Origin};
+use super::interface::{InterfaceJob, NodeSelection, Origin};
 use super::ranges::{finite, number, positive};
 use super::selection::{first_repeated, selection};
 use super::types::{Job, ModeSelection};
@@ -94,34 +94,37 @@ fn directions(interface: &InterfaceJob, place: &str) -> Result<()> {
 }
 
 fn coupling(interface: &InterfaceJob, place: &str) -> Result<()> {
-    let conflict = |key, situation, remedy| {
-        Err(Error::InterfaceConflict { interface: interface.name.clone(), key, situation, remedy })
+    let conflict = |key: &str, situation, remedy| {
+        let (interface, key) = (interface.name.clone(), key.to_owned());
+        Err(Error::InterfaceConflict { interface, key, situation, remedy })
     };
     let is_rows = matches!(interface.nodes, NodeSelection::Rows { .. });
-    match (&interface.origin, interface.coupling) {
-        (_, Coupling::Rigid) if is_rows => {
-            conflict("coupling = \"rigid\"", "rows, which have no position", ", or give nodes")
+    let is_patch = interface.coupling.is_patch();
+    match &interface.origin {
+        _ if is_rows && is_patch => {
+            let key = format!("coupling = \"{}\"", interface.coupling.name());
+            conflict(&key, "rows, which have no position", ", or give nodes")
         }
-        (_, Coupling::Direct) if is_rows && interface.dofs.is_some() => {
+        _ if is_rows && interface.dofs.is_some() => {
             conflict("dofs", "rows, each of which is one degree of freedom", "")
         }
-        (Origin::Point(_), Coupling::Direct) => {
+        Origin::Point(_) if !is_patch => {
             conflict("origin", "a direct coupling, whose nodes stay where they are", ", or set coupling = \"rigid\"")
         }
-        (Origin::Point(point), Coupling::Rigid) => {
+        Origin::Point(point) => {
             finite(&format!("{place}.origin"), point)?;
             match point.iter().find(|coordinate| coordinate.abs() > FARTHEST) {
                 Some(value) => Err(number(format!("{place}.origin"), *value, "coordinates of at most 1e48 in size")),
                 None => Ok(()),
             }
         }
-        (Origin::Centroid, _) => Ok(()),
+        Origin::Centroid => Ok(()),
     }
 }
 
 /// Two interfaces may share a node only where both couple directly and claim different directions of it.
 fn overlap(first: &InterfaceJob, second: &InterfaceJob) -> Result<()> {
-    let direct = first.coupling == Coupling::Direct && second.coupling == Coupling::Direct;
+    let direct = !first.coupling.is_patch() && !second.coupling.is_patch();
     let claims = |interface: &InterfaceJob, direction| match &interface.dofs {
         Some(directions) => directions.contains(&direction),
         None => true,

@@ -7,7 +7,7 @@ use crate::eigen::CLUSTER_GAP;
 use crate::error::Warning;
 use crate::input::MatrixFacts;
 use crate::input::PatchFaces;
-use crate::job::{Certify, Coupling, InterfaceJob, ModeSelection, Origin};
+use crate::job::{Certify, InterfaceJob, ModeSelection, Origin};
 use crate::model::RoundedCoordinates;
 use crate::modes::{Boundary, CountedInterval};
 use crate::partition::InterfaceNode;
@@ -151,10 +151,10 @@ fn faces(
 /// Where the place of an interface node comes from.
 fn origin(node: &InterfaceNode, jobs: &[InterfaceJob]) -> PositionOrigin {
     let job = jobs.iter().find(|job| job.name == node.name);
-    match (node.coupling, job.map(|job| &job.origin)) {
-        (Coupling::Direct, _) => PositionOrigin::Node,
-        (Coupling::Rigid, Some(Origin::Point(_))) => PositionOrigin::Job,
-        (Coupling::Rigid, Some(Origin::Centroid) | None) => PositionOrigin::MeanOfNodes,
+    match job.map(|job| &job.origin) {
+        _ if !node.coupling.is_patch() => PositionOrigin::Node,
+        Some(Origin::Point(_)) => PositionOrigin::Job,
+        Some(Origin::Centroid) | None => PositionOrigin::MeanOfNodes,
     }
 }
 

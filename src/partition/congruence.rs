@@ -33,21 +33,21 @@ pub(super) fn congruence(matrix: &SparseMatrix, transformation: &Transformation)
 /// The rows of A that move with each dof.
 struct Moved<'a> {
     transformation: &'a Transformation,
-    /// Rows of A and factors for the dofs of rigid nodes; any other dof has one row, factor one.
-    by_rigid_nodes: BTreeMap<usize, Vec<(u32, f64)>>,
+    /// Rows of A and factors for the dofs of patches; any other dof has one row, factor one.
+    by_patch_nodes: BTreeMap<usize, Vec<(u32, f64)>>,
 }
 
 impl<'a> Moved<'a> {
     fn by(transformation: &'a Transformation) -> Self {
-        let mut by_rigid_nodes: BTreeMap<usize, Vec<(u32, f64)>> = BTreeMap::new();
+        let mut by_patch_nodes: BTreeMap<usize, Vec<(u32, f64)>> = BTreeMap::new();
         for (row, entries) in transformation.rows.iter().enumerate() {
-            if let TransformationRow::Rigid(entries) = entries {
+            if let TransformationRow::Tied(entries) = entries {
                 for (dof, factor) in entries {
-                    by_rigid_nodes.entry(*dof as usize).or_default().push((row as u32, *factor));
+                    by_patch_nodes.entry(*dof as usize).or_default().push((row as u32, *factor));
                 }
             }
         }
-        Self { transformation, by_rigid_nodes }
+        Self { transformation, by_patch_nodes }
     }
 
     /// Entries of a dof's row where it is a row of A with its columns in other places, each to itself.
@@ -61,9 +61,9 @@ impl<'a> Moved<'a> {
     fn with(&self, dof: usize) -> impl Iterator<Item = (usize, f64)> {
         let own = match self.transformation.dofs[dof].origin {
             DofOrigin::Row(row) => Some((row, 1.0)),
-            DofOrigin::RigidNode(..) => None,
+            DofOrigin::PatchNode(..) => None,
         };
-        let several = self.by_rigid_nodes.get(&dof).into_iter().flatten();
+        let several = self.by_patch_nodes.get(&dof).into_iter().flatten();
         own.into_iter().chain(several.map(|(row, factor)| (*row as usize, *factor)))
     }
 }
@@ -103,10 +103,10 @@ impl Row {
     }
 }
 
-/// Replaces the entries of rigid nodes by the mean of the two sides of the diagonal: their sums are taken in different orders
+/// Replaces the entries of patches' nodes by the mean of the two sides of the diagonal: their sums are taken in different orders
 /// there. All other entries are single terms.
 fn symmetrise(RowStorage { pointers, indices, values }: &mut RowStorage, moved: &Moved<'_>) {
-    for dof in moved.by_rigid_nodes.keys() {
+    for dof in moved.by_patch_nodes.keys() {
         for at in pointers[*dof]..pointers[dof + 1] {
             let other = indices[at] as usize;
             let row = pointers[other]..pointers[other + 1];
@@ -118,17 +118,17 @@ fn symmetrise(RowStorage { pointers, indices, values }: &mut RowStorage, moved: 
     }
 }
 
-/// The largest (|T|ᵀ|A||T|)_ii / (TᵀAT)_ii: how much larger the terms of a rigid node's stiffness are than their sum.
+/// The largest (|T|ᵀ|A||T|)_ii / (TᵀAT)_ii: how much larger the terms of the stiffness of a patch's node are than their sum.
 /// Rounding of the data reaches the node's row enlarged by this factor.
 pub(super) fn cancellation(matrix: &SparseMatrix, product: &SparseMatrix, transformation: &Transformation) -> f64 {
     let mut sums: BTreeMap<u32, f64> = BTreeMap::new();
     for (row, entries) in transformation.rows.iter().enumerate() {
-        let TransformationRow::Rigid(entries) = entries else {
+        let TransformationRow::Tied(entries) = entries else {
             continue;
         };
         let Some(view) = matrix.outer_view(row) else { continue };
         for (col, value) in view.iter() {
-            let TransformationRow::Rigid(others) = &transformation.rows[col] else {
+            let TransformationRow::Tied(others) = &transformation.rows[col] else {
                 continue;
             };
             for (dof, factor) in entries {
@@ -151,7 +151,7 @@ mod tests {
     use crate::model::Site;
     use crate::partition::ReducedDof;
 
-    /// A chain of rows, the first and the last few of which move with two rigid nodes by levers that no sum of keeps exact.
+    /// A chain of rows, the first and the last few of which move with the nodes of two patches by levers that no sum of keeps exact.
     fn two_patches(n: usize) -> (SparseMatrix, Transformation) {
         let mut triplets = crate::sparse::Triplets::default();
         for row in 0..n as u32 {
@@ -165,11 +165,11 @@ mod tests {
         let dof = |origin, is_interface| ReducedDof { origin, is_interface, site, node: 0, dof: None };
         let mut dofs: Vec<ReducedDof> = (20..n - 20).map(|row| dof(DofOrigin::Row(row), false)).collect();
         for node in 0..2 {
-            dofs.extend(Direction::ALL.map(|direction| dof(DofOrigin::RigidNode(node, direction), true)));
+            dofs.extend(Direction::ALL.map(|direction| dof(DofOrigin::PatchNode(node, direction), true)));
         }
         let patch = |node: usize, row: usize| {
             let entry = |k: usize| ((n_internal + 6 * node + k) as u32, ((row + k) as f64).sin());
-            TransformationRow::Rigid((0..6).map(entry).collect())
+            TransformationRow::Tied((0..6).map(entry).collect())
         };
         let rows = (0..n).map(|row| match row {
             0..20 => patch(0, row),

@@ -3,12 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::dofs::Direction;
-use crate::job::Coupling;
 use crate::model::{Finding, Model};
 
 use super::interface::{Interfaces, Resolved, Rows};
 
-/// One finding for each interface node, or node of a rigid patch, that is held in a direction.
+/// One finding for each interface node, or node of a patch, that is held in a direction.
 ///
 /// A node counts as held where it has one translation and lacks another that most nodes with translations have, and the
 /// same for rotations: solids among shells have no rotations at all and are none the worse for it.
@@ -30,9 +29,8 @@ pub(super) fn constrained_nodes(model: &Model, interfaces: &Interfaces) -> Vec<F
             let lacking = usual.iter().filter(|usual| usual.iter().any(|direction| has.contains(direction)));
             let lacks: Vec<Direction> = lacking.flatten().filter(|d| !has.contains(d)).copied().collect();
             // A node that couples directly is asked for the directions its job lists and no others.
-            let asked = |direction: &Direction| match node.coupling {
-                Coupling::Direct => node.directions.iter().any(|d| d.is_rotation() == direction.is_rotation()),
-                Coupling::Rigid => true,
+            let asked = |direction: &Direction| {
+                node.coupling.is_patch() || node.directions.iter().any(|d| d.is_rotation() == direction.is_rotation())
             };
             let lacks: Vec<Direction> = lacks.into_iter().filter(asked).collect();
             if !lacks.is_empty() {

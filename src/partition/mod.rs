@@ -1,7 +1,7 @@
 //! The partition: which degrees of freedom are interface, which internal, and the two matrices in that order.
 //!
 //! ```text
-//! T            n × n'      original rows from partitioned dofs; identity but for the rows of rigid patches
+//! T            n × n'      original rows from partitioned dofs; identity but for the rows of patches
 //! K = TᵀKT     n' × n'     internal dofs first, in the order of elimination, then the interface dofs in job order
 //! M = TᵀMT     n' × n'
 //! n' = n_I + n_B

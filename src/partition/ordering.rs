@@ -103,7 +103,7 @@ fn node_graph(model: &Model, transformation: &Transformation, nodes: &InternalNo
         .map(|row| match row {
             TransformationRow::Dof(dof) => nodes.of_dof.get(*dof as usize).copied().unwrap_or(NONE),
             // Dofs of a rigid node that are internal couple densely; METIS may place the node anywhere.
-            TransformationRow::Rigid(_) => NONE,
+            TransformationRow::Tied(_) => NONE,
         })
         .collect();
     let n_nodes = nodes.len();
@@ -134,7 +134,7 @@ fn node_graph(model: &Model, transformation: &Transformation, nodes: &InternalNo
 fn own_rows<'a>(transformation: &'a Transformation, dofs: &'a [u32]) -> impl Iterator<Item = usize> {
     dofs.iter().filter_map(|dof| match transformation.dofs[*dof as usize].origin {
         DofOrigin::Row(row) => Some(row),
-        DofOrigin::RigidNode(..) => None,
+        DofOrigin::PatchNode(..) => None,
     })
 }
 

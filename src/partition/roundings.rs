@@ -34,7 +34,7 @@ impl PatchEntries {
         for row in &transformation.rows {
             match row {
                 TransformationRow::Dof(dof) => place.push(*dof),
-                TransformationRow::Rigid(entries) => {
+                TransformationRow::Tied(entries) => {
                     place.push((n + rows.len()) as u32);
                     rows.push(entries.clone());
                 }

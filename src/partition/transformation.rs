@@ -1,8 +1,8 @@
 //! The transformation T between the rows of the model and the dofs of the partition.
 //!
-//! A row of an ordinary dof holds a single one. A row of a rigid patch holds the motion of its point by the six dofs of
-//! the interface node: u = t + θ × r for a translation, θ for a rotation; where
-//! coordinates are rounded, the motion that K knows instead of the one by the coordinates.
+//! A row of an ordinary dof holds a single one. A row of a patch holds how it follows the dofs of the interface node. For a
+//! rigid patch that is the motion of its point, u = t + θ × r for a translation, θ for a rotation; where coordinates are
+//! rounded, the motion that K knows instead of the one by the coordinates.
 
 use super::interface::{InterfaceNode, Interfaces, Resolved, Rows};
 use crate::dofs::{Direction, Dof, FileRows};
@@ -29,15 +29,15 @@ pub struct ReducedDof {
 pub enum DofOrigin {
     /// A row of the model.
     Row(usize),
-    /// A direction of a rigid interface node (its index in the job's order).
-    RigidNode(usize, Direction),
+    /// A direction of the interface node of a patch (its index in the job's order).
+    PatchNode(usize, Direction),
 }
 
 impl ReducedDof {
     /// What the dof is called in messages.
     pub(super) fn name(&self, interface: &[InterfaceNode], rows: &FileRows) -> String {
         match (self.origin, self.dof) {
-            (DofOrigin::RigidNode(node, direction), _) => format!("interface {} {direction}", interface[node].name),
+            (DofOrigin::PatchNode(node, direction), _) => format!("interface {} {direction}", interface[node].name),
             (DofOrigin::Row(_), Some(dof)) => dof.to_string(),
             (DofOrigin::Row(row), None) => format!("row {}", rows.of(row) + 1),
         }
@@ -58,8 +58,8 @@ pub struct Transformation {
 pub enum TransformationRow {
     /// The row is a dof of the partition itself.
     Dof(u32),
-    /// The row moves with a rigid interface node.
-    Rigid(Box<[(u32, f64)]>),
+    /// The row follows the interface node of a patch.
+    Tied(Box<[(u32, f64)]>),
 }
 
 impl TransformationRow {
@@ -67,11 +67,11 @@ impl TransformationRow {
     pub fn entries(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
         let single = match self {
             Self::Dof(dof) => Some((*dof, 1.0)),
-            Self::Rigid(_) => None,
+            Self::Tied(_) => None,
         };
         let several = match self {
             Self::Dof(_) => &[],
-            Self::Rigid(entries) => &**entries,
+            Self::Tied(entries) => &**entries,
         };
         single.into_iter().chain(several.iter().copied())
     }
@@ -98,7 +98,7 @@ impl Transformation {
                 match (&resolved.rows, part) {
                     (Rows::Own(rows), Part::Interface) => rows.iter().for_each(|row| builder.own_row(*row, part)),
                     (Rows::Own(_), Part::Internal) => {}
-                    (Rows::Patch(rows), _) => builder.rigid_node(index, resolved, rows, part),
+                    (Rows::Patch(rows), _) => builder.patch_node(index, resolved, rows, part),
                 }
             }
         }
@@ -126,7 +126,7 @@ impl Transformation {
         for row in &mut rows {
             match row {
                 TransformationRow::Dof(dof) => *dof = place[*dof as usize],
-                TransformationRow::Rigid(entries) => {
+                TransformationRow::Tied(entries) => {
                     entries.iter_mut().for_each(|(dof, _)| *dof = place[*dof as usize]);
                 }
             }
@@ -179,8 +179,8 @@ impl Builder<'_> {
         });
     }
 
-    /// Adds the directions of a rigid node that are interface dofs, or those that are not and that its patch can move in.
-    fn rigid_node(&mut self, index: usize, resolved: &Resolved, rows: &[usize], part: Part) {
+    /// Adds the directions of a patch's node that are interface dofs, or those that are not and that its patch can move in.
+    fn patch_node(&mut self, index: usize, resolved: &Resolved, rows: &[usize], part: Part) {
         let position = resolved.node.position.unwrap_or_default();
         let listed = &resolved.node.directions;
         let directions: Vec<Direction> = match part {
@@ -192,7 +192,7 @@ impl Builder<'_> {
         };
         for direction in directions {
             self.dofs.push(ReducedDof {
-                origin: DofOrigin::RigidNode(index, direction),
+                origin: DofOrigin::PatchNode(index, direction),
                 is_interface: part == Part::Interface,
                 site: Some(Site { position, direction }),
                 node: self.sites.n_nodes + index as u32,
@@ -218,7 +218,7 @@ impl Builder<'_> {
         let position = resolved.node.position.unwrap_or_default();
         let mut column_of = [None; 6];
         for (column, dof) in self.dofs.iter().enumerate() {
-            if let DofOrigin::RigidNode(node, direction) = dof.origin
+            if let DofOrigin::PatchNode(node, direction) = dof.origin
                 && node == index
             {
                 column_of[direction as usize] = Some(column as u32);
@@ -234,7 +234,7 @@ impl Builder<'_> {
         for (row, lever) in rows.iter().zip(&levers) {
             let entries = lever.iter().zip(column_of).filter(|(factor, _)| **factor != 0.0);
             let entries = entries.filter_map(|(factor, column)| column.map(|column| (column, *factor)));
-            self.rows[*row] = TransformationRow::Rigid(entries.collect());
+            self.rows[*row] = TransformationRow::Tied(entries.collect());
         }
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! The words and figures that the summary and the page have in common.
 
 use super::{FacesReport, InterfacePosition, InterfaceReport, ModeKind, PositionOrigin, ReductionReport};
-use crate::job::{Coupling, Eigensolver, Method};
+use crate::job::{Eigensolver, Method};
 use crate::number;
 use crate::verification::check::{ActiveLimit, Check, Verdict};
 
@@ -16,13 +16,6 @@ pub(super) fn eigensolver(eigensolver: Eigensolver) -> &'static str {
     match eigensolver {
         Eigensolver::Lanczos => "block Lanczos",
         Eigensolver::Arpack => "ARPACK",
-    }
-}
-
-pub(super) fn coupling(coupling: Coupling) -> &'static str {
-    match coupling {
-        Coupling::Direct => "direct",
-        Coupling::Rigid => "rigid",
     }
 }
 

@@ -93,7 +93,7 @@ pub(crate) fn judge(search: &Search<'_>, modes: Modes, certificate: Certificate)
     let unit = partition.scaling.eigenvalue_unit();
     let row = |dof: &supel::partition::ReducedDof| match dof.origin {
         DofOrigin::Row(row) => row,
-        DofOrigin::RigidNode(..) => usize::MAX,
+        DofOrigin::PatchNode(..) => usize::MAX,
     };
     let rows = partition.dofs.iter().map(row).collect();
     let orthogonality = mass_orthogonality(search.problem.modal().mass, modes.shapes.as_ref()).error;

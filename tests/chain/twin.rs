@@ -109,7 +109,7 @@ fn transformation(model: &models::Model, interfaces: &[InterfaceJob], partition:
     for (column, dof) in partition.dofs.iter().enumerate() {
         match dof.origin {
             DofOrigin::Row(row) => (t[(row, column)], sizes[(row, column)]) = (1.0, 1.0),
-            DofOrigin::RigidNode(index, direction) => {
+            DofOrigin::PatchNode(index, direction) => {
                 let node = &partition.interface[index];
                 let job = interfaces.iter().find(|job| job.name == node.name).expect("a job for every node");
                 let members = members(model, &job.nodes);

@@ -148,7 +148,7 @@ fn interfaces(reduction: &ReductionReport) -> Vec<String> {
         let (nodes, dofs) =
             (counted(interface.n_nodes, "node", "nodes"), counted(interface.n_dofs, "coordinate", "coordinates"));
         let places = words::positions(interface).map(|places| format!(", {places}")).unwrap_or_default();
-        format!("{}: {} coupling, {nodes}, {dofs}{places}", interface.name, words::coupling(interface.coupling))
+        format!("{}: {} coupling, {nodes}, {dofs}{places}", interface.name, interface.coupling.name())
     };
     reduction.interfaces.iter().map(line).collect()
 }

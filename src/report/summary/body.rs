@@ -108,7 +108,7 @@ fn rounded(value: f64, size: f64) -> String {
 
 fn reduced(page: &mut Page, reduction: &ReductionReport) {
     for interface in &reduction.interfaces {
-        let coupling = words::coupling(interface.coupling);
+        let coupling = interface.coupling.name();
         let nodes = number::counted(interface.n_nodes, "node", "nodes");
         let dofs = number::counted(interface.n_dofs, "dof", "dofs");
         page.entry("interface", &format!("{} · {coupling} · {nodes} · {dofs}", interface.name));
