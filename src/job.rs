@@ -5,6 +5,7 @@
 
 mod document;
 mod interface;
+mod method;
 mod ranges;
 mod reading;
 mod recovery;
@@ -17,9 +18,10 @@ mod validation;
 pub use crate::eigen::Eigensolver;
 pub use document::Notation;
 pub use interface::{Coupling, InterfaceJob, NodeSelection, Origin, Region};
+pub use method::{Boundary, Columns, Method};
 pub use recovery::{RecoveryJob, RecoveryPrecision};
 pub use scene::{DampingJob, SceneJob, Support};
 pub use schema::schema;
 pub use types::{
-    Certify, Duplicates, Expectation, Job, Method, ModeSelection, ModelJob, Precision, ReductionJob, RunJob, WriteJob,
+    Certify, Duplicates, Expectation, Job, ModeSelection, ModelJob, Precision, ReductionJob, RunJob, WriteJob,
 };

@@ -86,9 +86,9 @@
 //!
 //! 1. Of the stages only [`input`] and [`output`] touch files. Around them [`job`] reads its document, [`report`] reads the
 //!    clock, [`cli`] and the program have the terminal, and [`heap`] writes the last line of a run that finds no memory.
-//! 2. [`modes::Boundary::of`] alone decides what a reduction method means: the boundary under which its modes are sought.
-//!    Basis, reduction and verification know that boundary and never the method; [`output`], [`report`] and [`audit`] know
-//!    the method's name.
+//! 2. [`job::Method`] alone decides what a reduction method means: the boundary under which its modes are sought, and the
+//!    columns that are made of them. No later stage asks which method it is: modes and verification know the boundary,
+//!    basis and audit the columns, output and report the name.
 //! 3. A matrix is factored once per shift and solved many times; no inverse is ever formed.
 //! 4. The superelement format has one owner, the crate `supel-runtime`, used by the writer and by every reader.
 //! 5. `supel-runtime` depends on nothing of this crate.
@@ -177,7 +177,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let retained = Retained { modes: found, boundary: search.problem.boundary };
 
     observer.stage("basis");
-    let columns = basis::retained_columns(component, &retained);
+    let columns = basis::retained_columns(component, job.reduction.method, &retained);
     let basis = Basis::new(&constraint, columns, partition.internal().mass);
 
     observer.stage("projection");

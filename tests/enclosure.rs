@@ -9,7 +9,7 @@ mod chain;
 use serde_json::Value;
 use supel::cli::ExitCode;
 use supel::eigen::Modes;
-use supel::modes::Boundary;
+use supel::job::Boundary;
 use supel::verification::{Enclosures, enclosures};
 use supel_models::{
     Ends, Material, Model, bar, bar_spectrum, brick, known, ring, ring_spectrum, spring, spring_spectrum,

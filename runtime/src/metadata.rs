@@ -294,3 +294,17 @@ pub enum Verdict {
     /// Past the point of failure.
     Fail,
 }
+
+impl Method {
+    /// Its name in reports, after those who published it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::CraigBampton => "Craig-Bampton",
+            Self::Herting => "Herting",
+            Self::Rubin => "Rubin",
+            Self::Macneal => "MacNeal",
+            Self::Guyan => "Guyan",
+            Self::ModeAcceleration => "mode acceleration",
+        }
+    }
+}

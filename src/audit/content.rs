@@ -7,8 +7,7 @@ use super::pencil::eigenvalues;
 use super::version::kept_job;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::error::Result;
-use crate::job::Job;
-use crate::modes::Boundary;
+use crate::job::{Boundary, Job};
 use crate::verification::check::Limits;
 use crate::verification::limits::{self, Judged, Known, LARGEST_EXCUSE};
 

@@ -2,15 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use supel_runtime::{Coordinate, Generator, Method as FileMethod, RigidBodyModes, Superelement};
+use supel_runtime::{Coordinate, Generator, RigidBodyModes, Superelement};
 
 use super::content::Content;
 use super::flaw::flaw;
 use super::record;
 use super::rigid_motion::is_nearly_unit;
 use super::version::{applied, is_of_this_version};
-use crate::job::{Job, ModeSelection, NodeSelection, RecoveryPrecision};
-use crate::modes::Boundary;
+use crate::job::{Boundary, Columns, Job, Method, ModeSelection, NodeSelection, RecoveryPrecision};
 use crate::verification::check::{Check, Limits};
 
 /// Method, units, interfaces, axes, band and recovery are those of the job kept in the file.
@@ -202,16 +201,15 @@ pub(super) fn accounts(content: &Content<'_>) -> Check {
     if metadata.dropped.iter().any(|dropped| dropped.column.is_interface()) {
         flaws.push("an interface coordinate left out".to_owned());
     }
-    let is_method = matches!(metadata.method, FileMethod::CraigBampton | FileMethod::Herting);
-    if is_method {
-        flaws.extend(of_method(content).iter().map(ToString::to_string));
+    if let Some(method) = Method::of_file(metadata.method) {
+        flaws.extend(of_method(content, method).iter().map(ToString::to_string));
         flaws.extend(applied(content.superelement, with_method(content)));
     }
     flaw("its parts belong together", "number of parts missing, surplus or of another method", &flaws)
 }
 
 /// What the method of a file says of its columns, whoever made them.
-fn of_method(content: &Content<'_>) -> Vec<&'static str> {
+fn of_method(content: &Content<'_>, method: Method) -> Vec<&'static str> {
     let (metadata, tensors) = (content.superelement.metadata(), content.superelement.tensors());
     let modal =
         || metadata.coordinates[content.n_b..].iter().chain(metadata.dropped.iter().map(|column| &column.column));
@@ -222,8 +220,8 @@ fn of_method(content: &Content<'_>) -> Vec<&'static str> {
         }
     };
     let n_r = content.n_rigid();
-    let (is_modal, is_held) = (is_modal(content), is_held(content));
-    let boundary = if is_held { Boundary::FixedInterface } else { Boundary::FreeInterface };
+    let is_modal = is_modal(content);
+    let boundary = if is_modal { Boundary::FreeInterface } else { method.boundary() };
     expect(tensors.frequencies.is_empty() || content.boundary == boundary, "modes of another boundary");
     let numbers = |pick: fn(&Coordinate) -> Option<usize>| -> Vec<usize> {
         let mut numbers: Vec<usize> = modal().filter_map(pick).collect();
@@ -239,7 +237,7 @@ fn of_method(content: &Content<'_>) -> Vec<&'static str> {
         _ => None,
     });
     let all = |is_there: bool| if is_there { (0..n_r).collect() } else { Vec::new() };
-    expect(relief == all(!is_held && !is_modal), "inertia relief");
+    expect(relief == all(method.columns() == Columns::ModeAcceleration && !is_modal), "inertia relief");
     expect(rigid == all(is_modal), "rigid-body coordinates");
     // Mass properties and gravity take the six unit motions, which are the first six of seven and more.
     let is_told = metadata.model.rigid_body_modes == RigidBodyModes::Geometric || n_r > 6 || is_nearly_unit(content);
@@ -271,7 +269,8 @@ fn is_modal(content: &Content<'_>) -> bool {
 
 /// Whether the modes are those of the held interface.
 fn is_held(content: &Content<'_>) -> bool {
-    content.superelement.metadata().method == FileMethod::CraigBampton && !is_modal(content)
+    let method = Method::of_file(content.superelement.metadata().method);
+    method.is_some_and(|method| method.boundary() == Boundary::FixedInterface) && !is_modal(content)
 }
 
 /// M-26: the program that made it, as far as this one can speak for it. What a file says of that is no reason to believe the rest of

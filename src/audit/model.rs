@@ -32,8 +32,7 @@ use super::spectrum::condition_of;
 use crate::error::Result;
 use crate::factor::Analysis;
 use crate::input::InputFacts;
-use crate::job::Job;
-use crate::modes::Boundary;
+use crate::job::{Boundary, Job};
 use crate::partition::Partition;
 use crate::rigid::{self, RigidBodyModes, RigidSource};
 use crate::verification::check::{Check, Limits};
@@ -198,7 +197,7 @@ impl Free {
     fn new(job: &Job, partition: &Partition, (analysis, given): (&Analysis, &RigidBodyModes)) -> Result<Self> {
         let full = Full::new(partition, analysis, given)?;
         let is_modal = partition.n_interface() == 0 && full.zero.count() > 0;
-        let boundary = if is_modal { Boundary::FreeInterface } else { Boundary::of(job.reduction.method) };
+        let boundary = if is_modal { Boundary::FreeInterface } else { job.reduction.method.boundary() };
         let asked = match boundary {
             Boundary::FreeInterface => Some(AskedModes::free(&full, deflated(given, &full.zero), &job.reduction)?),
             Boundary::FixedInterface => None,

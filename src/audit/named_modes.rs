@@ -13,7 +13,7 @@ use supel_runtime::Coordinate;
 
 use super::content::{Content, unpacked};
 use crate::dense;
-use crate::modes::Boundary;
+use crate::job::Boundary;
 use crate::verification::check::{Check, Limits};
 
 /// The amplitudes of the coordinate's named columns, n_η × n_η: C⁻¹ of stored = named · C.

@@ -6,7 +6,7 @@ use super::content::Content;
 use super::pencil::eigenvalues;
 use crate::dense;
 use crate::error::Result;
-use crate::modes::Boundary;
+use crate::job::Boundary;
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::Judged;
 

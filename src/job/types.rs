@@ -8,6 +8,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use std::path::PathBuf;
 
 use super::interface::InterfaceJob;
+use super::method::Method;
 use super::recovery::RecoveryJob;
 use super::scene::SceneJob;
 use crate::eigen::Eigensolver;
@@ -123,26 +124,6 @@ pub struct ReductionJob {
     /// Which eigensolver finds them.
     #[serde(default)]
     pub eigensolver: Eigensolver,
-}
-
-/// The reduction method: which modes fill the dynamic mode matrix.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, ValueEnum)]
-#[serde(rename_all = "kebab-case")]
-pub enum Method {
-    /// Constraint modes and fixed-interface normal modes.
-    CraigBampton,
-    /// Constraint modes, inertia-relief modes and mode-accelerated free-free modes.
-    Herting,
-}
-
-impl Method {
-    /// What a superelement file calls it.
-    pub fn in_file(self) -> supel_runtime::Method {
-        match self {
-            Self::CraigBampton => supel_runtime::Method::CraigBampton,
-            Self::Herting => supel_runtime::Method::Herting,
-        }
-    }
 }
 
 /// How many elastic modes are kept.

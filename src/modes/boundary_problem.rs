@@ -11,28 +11,9 @@ use crate::eigen::{CARRIES_NOTHING, Factored, ShiftInvert};
 use crate::eigen::{ModalProblem, Shifted, shifted};
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, InertiaCount, ShiftedFactor, count_below};
-use crate::job::Method;
+use crate::job::Boundary;
 use crate::partition::Partition;
 use crate::sparse::diagonal;
-
-/// The boundary condition modes are computed under.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Boundary {
-    /// Interface free.
-    FreeInterface,
-    /// Interface held.
-    FixedInterface,
-}
-
-impl Boundary {
-    /// The boundary whose modes a method keeps.
-    pub fn of(method: Method) -> Self {
-        match method {
-            Method::CraigBampton => Self::FixedInterface,
-            Method::Herting => Self::FreeInterface,
-        }
-    }
-}
 
 /// A component under one boundary condition.
 #[derive(Clone, Copy, Debug)]

@@ -20,7 +20,6 @@
 //! eigenvalues. Where they differ the count is taken above any spectrum of a mesh with these diagonals instead of just above
 //! the highest mode, and what it finds missing is looked for as any other mode.
 
-use super::Boundary;
 use super::boundary_problem::BoundaryProblem;
 use super::finite::{above_all, most_finite};
 use super::slices::{Band, ModeSource, missing};
@@ -29,7 +28,7 @@ use crate::eigen::{ElasticCount, median_ratio};
 use crate::eigen::{Equilibrated, ModeError, Modes};
 use crate::error::{Error, Result};
 use crate::factor::InertiaCount;
-use crate::job::Certify;
+use crate::job::{Boundary, Certify};
 use crate::random::SEED;
 use crate::sparse::Pencil;
 

@@ -20,7 +20,7 @@ mod search;
 mod slices;
 
 pub(crate) use boundary_problem::massive;
-pub use boundary_problem::{AtShift, Boundary, BoundaryProblem};
+pub use boundary_problem::{AtShift, BoundaryProblem};
 pub use certificate::{Certificate, CountedInterval, Mending, certified};
 pub use component::Component;
 pub use retained::Retained;

@@ -1,7 +1,7 @@
 //! The modes a method retains.
 
-use super::boundary_problem::Boundary;
 use crate::eigen::Modes;
+use crate::job::Boundary;
 
 /// The modes a method retains.
 #[derive(Clone, Debug)]

@@ -7,12 +7,12 @@
 use super::boundary_problem::BoundaryProblem;
 use super::counts::Counts;
 use super::slices::{Band, ModeSource, SLICE, search_between};
-use super::{Boundary, Component, dense_spectrum, indefinite};
+use super::{Component, dense_spectrum, indefinite};
 use crate::eigen::ElasticCount;
 use crate::eigen::{CLUSTER_GAP, ModeRequest, Modes, ShiftInvert, elastic_modes};
 use crate::eigen::{EigenWork, Interval, Wanted, are_clustered, is_above};
 use crate::error::{Error, Result};
-use crate::job::{Eigensolver, ModeSelection, ReductionJob};
+use crate::job::{Boundary, Eigensolver, ModeSelection, ReductionJob};
 use crate::partition::Partition;
 
 /// More modes than this come in slices. On solids of 30,000 and 91,000 dofs 400 modes take 1.1 times as long in slices as in one
@@ -41,7 +41,7 @@ impl<'a> Search<'a> {
     /// The stiffness has negative eigenvalues; no memory for the count.
     pub fn new(component: Component<'a>, job: &ReductionJob) -> Result<Self> {
         indefinite::refuse(component)?;
-        let boundary = if component.is_modal() { Boundary::FreeInterface } else { Boundary::of(job.method) };
+        let boundary = if component.is_modal() { Boundary::FreeInterface } else { job.method.boundary() };
         let problem = BoundaryProblem { component, boundary };
         let wanted = mode_wish(job.modes, component.partition);
         let edge = match wanted {

@@ -7,9 +7,9 @@ use crate::eigen::CLUSTER_GAP;
 use crate::error::Warning;
 use crate::input::MatrixFacts;
 use crate::input::PatchFaces;
-use crate::job::{Certify, InterfaceJob, ModeSelection, Origin};
+use crate::job::{Boundary, Certify, InterfaceJob, ModeSelection, Origin};
 use crate::model::RoundedCoordinates;
-use crate::modes::{Boundary, CountedInterval};
+use crate::modes::CountedInterval;
 use crate::partition::InterfaceNode;
 use crate::report::RigidBodySource;
 use crate::report::{

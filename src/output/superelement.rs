@@ -10,8 +10,7 @@ use super::recovery::{direction_of, recovery};
 use super::results::Results;
 use crate::basis::DynamicCoordinate;
 use crate::error::{Error, Result};
-use crate::job::{Job, ModeSelection};
-use crate::modes::Boundary;
+use crate::job::{Boundary, Job, ModeSelection};
 use crate::partition::DofOrigin;
 use crate::verification::check::{Check, Verdict};
 

@@ -79,7 +79,7 @@ fn escaped_lines(lines: &[String]) -> String {
 fn suite(report: &Report) -> String {
     let reduction = &report.body.reduction;
     let sizes = format!("{} to {} degrees of freedom", report.body.model.n_dofs, reduction.n_reduced);
-    escaped(&format!("{} reduction, {sizes}", words::method(reduction.method)))
+    escaped(&format!("{} reduction, {sizes}", reduction.method.name()))
 }
 
 fn of_check(check: &Check, warnings: JunitWarnings) -> Outcome {

@@ -4,7 +4,6 @@ use serde::ser::{Serialize, SerializeStruct, Serializer};
 use supel_runtime::Superelement;
 
 use super::conclusion::conclusion;
-use super::inspection::method;
 use super::json::CheckLine;
 use super::page::{Page, Paint, Tone, WIDTH};
 use super::summary::body;
@@ -57,7 +56,7 @@ impl VerificationReport {
         let mut page = Page::new(paint);
         let metadata = superelement.metadata();
         let sizes = format!("{} coordinates", superelement.n_coordinates());
-        page.line(Page::toned(&format!("superelement · {} · {sizes}", method(metadata.method)), Tone::Heading));
+        page.line(Page::toned(&format!("superelement · {} · {sizes}", metadata.method.name()), Tone::Heading));
         page.entry("made by", &format!("{} {}", metadata.generator.name, metadata.generator.version));
         page.entry("file", &format!("blake3 {}", self.digest));
         let against = match self.against {

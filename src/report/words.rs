@@ -1,16 +1,9 @@
 //! The words and figures that the summary and the page have in common.
 
 use super::{FacesReport, InterfacePosition, InterfaceReport, ModeKind, PositionOrigin, ReductionReport};
-use crate::job::{Eigensolver, Method};
+use crate::job::Eigensolver;
 use crate::number;
 use crate::verification::check::{ActiveLimit, Check, Verdict};
-
-pub(super) fn method(method: Method) -> &'static str {
-    match method {
-        Method::CraigBampton => "Craig-Bampton",
-        Method::Herting => "Herting",
-    }
-}
 
 pub(super) fn eigensolver(eigensolver: Eigensolver) -> &'static str {
     match eigensolver {

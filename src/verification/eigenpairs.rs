@@ -13,7 +13,7 @@ use super::limits::UNKNOWN;
 use super::residual::{AT_REST, Residuals, Rows, Worst};
 use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::{MassOrthogonality, ModeError, NOTICED_BAR, mass_orthogonality};
-use crate::modes::Boundary;
+use crate::job::Boundary;
 use crate::sparse::Pencil;
 use crate::sparse::panels;
 

@@ -20,8 +20,8 @@ mod pair;
 use crate::eigen::Modes;
 use crate::error::Result;
 use crate::factor::{Analysis, whole_count};
-use crate::job::Certify;
-use crate::modes::{Boundary, Component, Retained};
+use crate::job::{Boundary, Certify};
+use crate::modes::{Component, Retained};
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
 

@@ -10,7 +10,7 @@ use super::rigid_motion::energy_limits;
 use super::spectrum::{Spectrum, zero_level};
 use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::{Modes, REPEATED_WITHIN};
-use crate::modes::Boundary;
+use crate::job::Boundary;
 use crate::sparse::absolute_energy;
 use crate::sparse::{Leading, panels};
 

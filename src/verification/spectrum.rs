@@ -9,7 +9,7 @@ use super::pencil::{Spectral, scaled_by};
 use crate::dense;
 use crate::eigen::{rayleigh_quotients, zero};
 use crate::error::Result;
-use crate::modes::Boundary;
+use crate::job::Boundary;
 
 /// Eigenvalues of the reduced pencil with its interface free, and under the boundary of the retained modes.
 pub(super) struct Spectrum {

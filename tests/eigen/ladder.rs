@@ -4,8 +4,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use supel::eigen::{Interval, Modes};
 use supel::error::{Error, ErrorClass};
-use supel::job::{Certify, Eigensolver};
-use supel::modes::{Boundary, Mending, ModeSource, Search, certified};
+use supel::job::{Boundary, Certify, Eigensolver};
+use supel::modes::{Mending, ModeSource, Search, certified};
 use supel::random::SEED;
 use supel_models::*;
 

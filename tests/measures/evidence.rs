@@ -34,8 +34,11 @@ pub(crate) fn with_evidence<T>(
     let job = ReductionJob { method, modes: ModeSelection::Count { count }, eigensolver: Eigensolver::Lanczos };
     let search = Search::new(component, &job).expect("a stable component");
     let retained = Retained { modes: search.lowest(SEED).expect("modes"), boundary: search.problem.boundary };
-    let basis =
-        Basis::new(&constraint, supel::basis::retained_columns(component, &retained), partition.internal().mass);
+    let basis = Basis::new(
+        &constraint,
+        supel::basis::retained_columns(component, method, &retained),
+        partition.internal().mass,
+    );
     let reduction = Reduction::new(&partition, &basis, &rigid);
     look(Evidence {
         partition: &partition,

@@ -2,8 +2,8 @@
 
 use supel::basis::Basis;
 use supel::constraint::ConstraintModes;
-use supel::job::{Expectation, Method};
-use supel::modes::{Boundary, Certificate, CountedInterval, Mending, Retained};
+use supel::job::{Boundary, Expectation, Method};
+use supel::modes::{Certificate, CountedInterval, Mending, Retained};
 use supel::reduction::Reduction;
 use supel::rigid::RigidBodyModes;
 use supel::verification::Evidence;

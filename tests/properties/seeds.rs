@@ -42,8 +42,11 @@ fn built(method: Method, count: usize, seed: u64) -> Built {
     let search = Search::new(component, &job).expect("counts");
     let found = search.lowest(seed).expect("converges");
     let retained = Retained { modes: found, boundary: search.problem.boundary };
-    let basis =
-        Basis::new(&constraint, supel::basis::retained_columns(component, &retained), partition.internal().mass);
+    let basis = Basis::new(
+        &constraint,
+        supel::basis::retained_columns(component, method, &retained),
+        partition.internal().mass,
+    );
     let reduction = Reduction::new(&partition, &basis, &rigid);
     drop(factor);
     Built { reduction, retained, partition }

@@ -14,7 +14,7 @@ use faer::{Mat, MatRef};
 use super::asked::AskedModes;
 use super::interior::{Answers, Interior, column_products};
 use crate::dense;
-use crate::modes::Boundary;
+use crate::job::Boundary;
 use crate::partition::Partition;
 use crate::random::SplitMix64;
 use crate::rigid::{RigidBodyModes, RigidSource};

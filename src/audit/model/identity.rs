@@ -12,8 +12,7 @@ use crate::audit::kept_job::band;
 use crate::audit::version::kept_job;
 use crate::dofs::Direction;
 use crate::input::InputFacts;
-use crate::job::{Job, RecoveryPrecision};
-use crate::modes::Boundary;
+use crate::job::{Boundary, Job, RecoveryPrecision};
 use crate::partition::{DofOrigin, InterfaceNode, Partition, ReducedDof};
 use crate::verification::check::{Check, Limits};
 

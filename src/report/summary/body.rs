@@ -23,7 +23,7 @@ pub(super) fn write(page: &mut Page, body: &ReportBody) {
         "{} {} · {} · {sizes} degrees of freedom",
         body.generator.name,
         body.generator.version,
-        words::method(reduction.method)
+        reduction.method.name()
     );
     page.line(Page::toned(&title, Tone::Heading));
     page.heading("Read");

@@ -1,8 +1,8 @@
 //! What a boundary of the scene does to the interface dofs.
 
 use super::interfaces::{Inertia, Interface};
+use crate::job::Boundary as ModeBoundary;
 use crate::job::Support;
-use crate::modes::Boundary as ModeBoundary;
 use crate::number::quantity;
 use crate::verification::evidence::Evidence;
 

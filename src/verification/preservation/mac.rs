@@ -8,7 +8,7 @@ use super::outcome::PreservedMode;
 use crate::dense;
 use crate::eigen::CLUSTER_GAP;
 use crate::error::Result;
-use crate::modes::Boundary;
+use crate::job::Boundary;
 use crate::reduction::transpose_apply;
 use crate::sparse::product;
 use crate::verification::pencil::Spectral;
