@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::dofs::Direction;
 use crate::model::{Finding, Model};
 
-use super::interface::{Interfaces, Resolved, Rows};
+use super::interface_node::{Interfaces, Resolved, Rows};
 
 /// One finding for each interface node, or node of a patch, that is held in a direction.
 ///

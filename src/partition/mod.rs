@@ -10,20 +10,26 @@
 //! The internal dofs are put into a fill-reducing order once, here, so that no later stage permutes a vector.
 
 mod congruence;
+mod direct_nodes;
 mod held;
 mod interface;
+mod interface_node;
 mod metis;
 mod minimum_degree;
+mod node_catalogue;
 mod noise;
 mod ordering;
 #[expect(clippy::module_inception, reason = "the partition is what the folder makes")]
 mod partition;
 mod problem;
 mod region;
+mod rigid_patch;
 mod roundings;
+mod sites;
 mod transformation;
 
-pub use interface::{InterfaceNode, patches, recovered_rows};
+pub use interface::{patches, recovered_rows};
+pub use interface_node::InterfaceNode;
 pub use noise::CHANCE_OF_MORE;
 pub use partition::{LARGEST_INTERFACE, Partition};
 pub use problem::EntriesAt;

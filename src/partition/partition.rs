@@ -14,7 +14,7 @@ use crate::sparse::Pencil;
 use crate::sparse::Precision;
 use crate::sparse::{Leading, SparseMatrix};
 
-use super::interface::InterfaceNode;
+use super::interface_node::InterfaceNode;
 use super::roundings::{PatchEntries, Roundings};
 use super::transformation::{DofOrigin, ReducedDof, Transformation};
 use super::{congruence, held, interface, ordering};

@@ -4,10 +4,12 @@
 //! rigid patch that is the motion of its point, u = t + θ × r for a translation, θ for a rotation; where coordinates are
 //! rounded, the motion that K knows instead of the one by the coordinates.
 
-use super::interface::{InterfaceNode, Interfaces, Resolved, Rows};
+use super::interface_node::{InterfaceNode, Interfaces, Resolved, Rows};
+use super::rigid_patch;
+use super::sites::Sites;
 use crate::dofs::{Direction, Dof, FileRows};
-use crate::error::{Error, Result};
-use crate::model::{Model, RoundedCoordinates, Site, node_of_row};
+use crate::error::Result;
+use crate::model::{Model, Site};
 
 /// A dof of the partition.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,7 +106,7 @@ impl Transformation {
         }
         for (index, resolved) in interfaces.0.iter().enumerate() {
             if let Rows::Patch(rows) = &resolved.rows {
-                builder.attach_patch(index, resolved, rows)?;
+                builder.tie_patch(index, resolved, rows)?;
             }
         }
         Ok(Self { dofs: builder.dofs, rows: builder.rows })
@@ -132,25 +134,6 @@ impl Transformation {
             }
         }
         Self { dofs, rows }
-    }
-}
-
-/// Positions of the rows of the model.
-struct Sites<'a> {
-    of_row: Option<Vec<Site>>,
-    /// How they move as K knows it, where their coordinates are rounded.
-    rounded: Option<&'a RoundedCoordinates>,
-    node_of_row: Vec<u32>,
-    dofs: Option<&'a [Dof]>,
-    n_nodes: u32,
-}
-
-impl<'a> Sites<'a> {
-    fn new(model: &'a Model) -> Self {
-        let of_row = model.sites();
-        let node_of_row = node_of_row(model.n_dofs(), model.dofs.as_deref());
-        let n_nodes = node_of_row.iter().max().map_or(0, |max| max + 1);
-        Self { of_row, rounded: model.fit.rounded(), node_of_row, dofs: model.dofs.as_deref(), n_nodes }
     }
 }
 
@@ -187,7 +170,7 @@ impl Builder<'_> {
             Part::Interface => listed.clone(),
             Part::Internal => {
                 let rest = Direction::ALL.into_iter().filter(|direction| !listed.contains(direction));
-                rest.filter(|direction| self.moves(position, rows, *direction)).collect()
+                rest.filter(|direction| rigid_patch::moves(&self.sites, (&resolved.node, rows), *direction)).collect()
             }
         };
         for direction in directions {
@@ -201,45 +184,19 @@ impl Builder<'_> {
         }
     }
 
-    fn moves(&self, position: [f64; 3], rows: &[usize], direction: Direction) -> bool {
-        rows.iter().any(|row| self.lever(*row, position)[direction as usize] != 0.0)
-    }
-
-    /// The factors of the six dofs of a node at `position` in the motion of a row.
-    fn lever(&self, row: usize, position: [f64; 3]) -> [f64; 6] {
-        match (&self.sites.of_row, self.sites.rounded) {
-            (None, _) => [0.0; 6],
-            (Some(_), Some(rounded)) => rounded.motion(row, position),
-            (Some(sites), None) => sites[row].rigid_motion_about(position),
-        }
-    }
-
-    fn attach_patch(&mut self, index: usize, resolved: &Resolved, rows: &[usize]) -> Result<()> {
-        let position = resolved.node.position.unwrap_or_default();
-        let mut column_of = [None; 6];
+    fn tie_patch(&mut self, index: usize, resolved: &Resolved, rows: &[usize]) -> Result<()> {
+        let mut columns = [None; 6];
         for (column, dof) in self.dofs.iter().enumerate() {
             if let DofOrigin::PatchNode(node, direction) = dof.origin
                 && node == index
             {
-                column_of[direction as usize] = Some(column as u32);
+                columns[direction as usize] = Some(column as u32);
             }
         }
-        let levers: Vec<[f64; 6]> = rows.iter().map(|row| self.lever(*row, position)).collect();
-        let rank = crate::dense::rank_of_rows(&levers, PATCH_RANK_TOLERANCE);
-        let n_columns = column_of.iter().flatten().count();
-        if rank < n_columns {
-            let interface = resolved.node.name.clone();
-            return Err(Error::PatchRank { interface, n_rows: rows.len(), rank, expected: n_columns });
-        }
-        for (row, lever) in rows.iter().zip(&levers) {
-            let entries = lever.iter().zip(column_of).filter(|(factor, _)| **factor != 0.0);
-            let entries = entries.filter_map(|(factor, column)| column.map(|column| (column, *factor)));
-            self.rows[*row] = TransformationRow::Tied(entries.collect());
+        let tied = rigid_patch::tied_rows(&self.sites, (&resolved.node, rows), columns)?;
+        for (row, entries) in rows.iter().zip(tied) {
+            self.rows[*row] = TransformationRow::Tied(entries);
         }
         Ok(())
     }
 }
-
-/// Smallest singular value of a patch's levers, relative to the largest and with rotations scaled to the patch's size,
-/// below which the patch cannot move in six independent ways: far above rounding, far below any real patch.
-const PATCH_RANK_TOLERANCE: f64 = 1e-8;

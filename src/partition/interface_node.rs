@@ -1,0 +1,47 @@
+//! The nodes of the superelement's interface and the rows of the model that they stand for.
+
+use crate::dofs::Direction;
+use crate::job::Coupling;
+
+/// One node of the superelement's interface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InterfaceNode {
+    /// Name of the job's interface it came from.
+    pub name: String,
+    /// Label of the model's node; none for a rigid patch and for rows without a dof map.
+    pub label: Option<i64>,
+    /// Position, where coordinates are known.
+    pub position: Option<[f64; 3]>,
+    /// Its directions, in the order of the interface dofs; empty where the model has no dof map.
+    pub directions: Vec<Direction>,
+    /// How it couples to the model.
+    pub coupling: Coupling,
+    /// Nodes of the model it stands for.
+    pub n_nodes: usize,
+}
+
+/// An interface node with the rows it owns.
+#[derive(Clone, Debug)]
+pub(super) struct Resolved {
+    pub(super) node: InterfaceNode,
+    pub(super) rows: Rows,
+}
+
+/// The rows of the model that an interface node stands for.
+#[derive(Clone, Debug)]
+pub(super) enum Rows {
+    /// The node's own rows, one for each interface dof.
+    Own(Vec<usize>),
+    /// All rows of a patch that moves with the node as a rigid body.
+    Patch(Vec<usize>),
+}
+
+/// All interfaces of a job, resolved.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Interfaces(pub(super) Vec<Resolved>);
+
+impl Interfaces {
+    pub(super) fn into_nodes(self) -> Vec<InterfaceNode> {
+        self.0.into_iter().map(|resolved| resolved.node).collect()
+    }
+}

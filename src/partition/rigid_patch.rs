@@ -1,0 +1,71 @@
+//! Rigid coupling: a patch of nodes moves with one node of six degrees of freedom as a rigid body.
+
+use super::interface_node::{InterfaceNode, Resolved, Rows};
+use super::node_catalogue::NodeCatalogue;
+use super::sites::Sites;
+use crate::dense::rank_of_rows;
+use crate::dofs::Direction;
+use crate::error::{Error, Result};
+use crate::job::{Coupling, InterfaceJob, Origin};
+
+/// Smallest singular value of a patch's levers, relative to the largest and with rotations scaled to the patch's size,
+/// below which the patch cannot move in six independent ways: far above rounding, far below any real patch.
+const PATCH_RANK_TOLERANCE: f64 = 1e-8;
+
+/// The node of a patch, at the place that the job gives or at the mean of the patch.
+pub(super) fn node(catalogue: &NodeCatalogue, job: &InterfaceJob, labels: &[i64]) -> Result<Resolved> {
+    let mut rows = Vec::new();
+    let mut centroid = [0.0; 3];
+    for label in labels {
+        rows.extend(catalogue.rows_of(job, *label)?.values());
+        let point =
+            catalogue.position(*label).ok_or_else(|| Error::RigidNeedsCoordinates { interface: job.name.clone() })?;
+        for axis in 0..3 {
+            centroid[axis] += point[axis] / labels.len() as f64;
+        }
+    }
+    let position = match job.origin {
+        Origin::Centroid => centroid,
+        Origin::Point(point) => point,
+    };
+    let mut directions = job.dofs.clone().unwrap_or_else(|| Direction::ALL.to_vec());
+    directions.sort_unstable();
+    let node = InterfaceNode {
+        name: job.name.clone(),
+        label: None,
+        position: Some(position),
+        directions,
+        coupling: Coupling::Rigid,
+        n_nodes: labels.len(),
+    };
+    Ok(Resolved { node, rows: Rows::Patch(rows) })
+}
+
+/// Whether the rows of a patch take part in a direction of its node.
+pub(super) fn moves(sites: &Sites<'_>, (node, rows): (&InterfaceNode, &[usize]), direction: Direction) -> bool {
+    let position = node.position.unwrap_or_default();
+    rows.iter().any(|row| sites.lever(*row, position)[direction as usize] != 0.0)
+}
+
+/// How the rows of a patch follow the dofs of its node, `columns` by direction: each row's dofs and factors.
+///
+/// # Errors
+/// [`Error::PatchRank`] where the rows do not follow all of them independently.
+pub(super) fn tied_rows(
+    sites: &Sites<'_>,
+    (node, rows): (&InterfaceNode, &[usize]),
+    columns: [Option<u32>; 6],
+) -> Result<Vec<Box<[(u32, f64)]>>> {
+    let position = node.position.unwrap_or_default();
+    let levers: Vec<[f64; 6]> = rows.iter().map(|row| sites.lever(*row, position)).collect();
+    let rank = rank_of_rows(&levers, PATCH_RANK_TOLERANCE);
+    let expected = columns.iter().flatten().count();
+    if rank < expected {
+        return Err(Error::PatchRank { interface: node.name.clone(), n_rows: rows.len(), rank, expected });
+    }
+    let entries_of = |lever: &[f64; 6]| {
+        let entries = lever.iter().zip(columns).filter(|(factor, _)| **factor != 0.0);
+        entries.filter_map(|(factor, column)| column.map(|column| (column, *factor))).collect()
+    };
+    Ok(levers.iter().map(entries_of).collect())
+}
