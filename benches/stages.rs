@@ -116,7 +116,7 @@ fn measure(criterion: &mut Criterion, family: Family, folder: &Path) {
         Basis::new(&constraint, supel::basis::retained_columns(component, &retained), partition.internal().mass);
     group.bench_function(id("project"), |b| b.iter(|| Reduction::new(partition, &basis, rigid)));
 
-    let outcome = supel::reduce(job, supel::forecast::Resources::default(), &mut ()).expect("reduced");
+    let outcome = supel::reduce(job, supel::memory_forecast::Resources::default(), &mut ()).expect("reduced");
     group.bench_function(id("write"), |b| b.iter(|| outcome.superelement.to_bytes().expect("bytes")));
     group.finish();
 }

@@ -34,7 +34,7 @@
 //!
 //! ```
 //! use supel::job::Job;
-//! use supel::forecast::Resources;
+//! use supel::memory_forecast::Resources;
 //! use supel::verification::check::Verdict;
 //! use supel_runtime::Superelement;
 //!
@@ -78,7 +78,7 @@
 //! number · dofs · error · heap · regular_file · random · dense · sparse
 //! factor · eigen
 //! job · input · model · partition · rigid · coordinates · constraint · modes · basis · reduction
-//! forecast · verification · audit
+//! memory_forecast · verification · audit
 //! report · output · outcome · cli
 //! ```
 //!
@@ -105,10 +105,10 @@ pub mod dofs;
 pub mod eigen;
 pub mod error;
 pub mod factor;
-pub mod forecast;
 pub mod heap;
 pub mod input;
 pub mod job;
+pub mod memory_forecast;
 pub mod model;
 pub mod modes;
 mod number;
@@ -128,9 +128,9 @@ use basis::Basis;
 use constraint::Constrained;
 use coordinates::Levers;
 use error::Result;
-use forecast::Resources;
 use input::{Allowance, InputFacts};
 use job::Job;
+use memory_forecast::Resources;
 use model::Model;
 use modes::{Component, ModeSource, Retained, Search};
 use outcome::Outcome;
@@ -158,7 +158,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let rank = rigid::interface_rank(&partition, &rigid)?;
 
     observer.stage("factor");
-    let storage = forecast::storage_within_memory(&analysis, &partition, job, resources)?;
+    let storage = memory_forecast::storage_within_memory(&analysis, &partition, job, resources)?;
     let factor = constraint::interior_factor(&partition, &analysis, &rigid, storage)?;
 
     observer.stage("constraint modes");
@@ -169,7 +169,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let component = Component::new(&partition, &analysis, &factor, &rigid, &constraint);
     let search = Search::new(component, &job.reduction)?;
     let size = (storage, search.n_expected());
-    let at_once = forecast::slices_within_memory(&analysis, &partition, job, resources, size)?;
+    let at_once = memory_forecast::slices_within_memory(&analysis, &partition, job, resources, size)?;
     let found = factor.vouched(search.with_slices_at_once(at_once).lowest(SEED))?;
 
     observer.stage("certificate");
@@ -267,7 +267,7 @@ pub fn verify(
     let (facts, partition) = prepared(job, resources, observer)?;
 
     observer.stage("reference");
-    forecast::comparison_within_memory(&partition, job, resources, superelement.tensors().frequencies.len())?;
+    memory_forecast::comparison_within_memory(&partition, job, resources, superelement.tensors().frequencies.len())?;
     let reference = Reference::new(job, &facts, &partition)?;
 
     observer.stage("comparison");

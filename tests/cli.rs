@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use supel::cli::{ExitCode, Pipeline, Reduce, Terminal, run};
 use supel::error::{Error, Result};
-use supel::forecast::Resources;
 use supel::job::{Coupling, Job, Method, ModeSelection, NodeSelection, Precision};
+use supel::memory_forecast::Resources;
 use supel::outcome::Outcome;
 use supel::report::Observer;
 use supel_runtime::Superelement;

@@ -10,9 +10,9 @@
 mod basis;
 mod dynamic;
 mod orthonormal;
-mod retained;
+mod retained_columns;
 
 pub use basis::Basis;
 pub use dynamic::{DroppedColumn, DynamicCoordinate};
 pub use dynamic::{DynamicColumns, fixed_interface_columns, modal_columns, mode_acceleration_columns};
-pub use retained::retained_columns;
+pub use retained_columns::retained_columns;

@@ -4,8 +4,8 @@ use supel_runtime::Superelement;
 
 use crate::audit::Audit;
 use crate::error::Result;
-use crate::forecast::Resources;
 use crate::job::Job;
+use crate::memory_forecast::Resources;
 use crate::outcome::Outcome;
 use crate::report::Observer;
 

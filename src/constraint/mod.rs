@@ -11,9 +11,12 @@ mod constraint_modes;
 mod free_at_zero;
 mod interior;
 mod mechanism;
+mod rigid_correction;
+mod schur_complement;
 
 pub use constrained::{Constrained, constrained};
-pub use constraint_modes::{Carried, ConstraintModes, constraint_modes};
+pub use constraint_modes::{ConstraintModes, constraint_modes};
 pub use free_at_zero::{FreeAtZero, RefinedAtZero};
 pub use interior::interior_factor;
 pub use mechanism::{Loose, LooseMotions, with_mechanisms};
+pub use rigid_correction::Carried;

@@ -6,11 +6,11 @@ use faer::{Mat, MatMut, MatRef};
 
 use super::elimination::Kind;
 use super::entry::Entry;
-use super::inertia::{boundary_of, count_negative};
 use super::matrix::Shifted;
 use super::multifrontal::{Keep, Numbers, Stop, eliminate};
 use super::refined::{Refined, Refinement};
 use super::solve::by_solutions;
+use super::sturm_count::{boundary_of, count_negative};
 use super::substitution::Factor;
 use super::{Analysis, SolveOperator, Storage};
 use crate::dense;

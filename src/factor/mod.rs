@@ -17,7 +17,6 @@ mod cholesky;
 mod elimination;
 mod entry;
 mod indefinite;
-mod inertia;
 mod matrix;
 mod multifrontal;
 mod panels;
@@ -26,17 +25,18 @@ mod refined;
 mod rounding;
 mod rows;
 mod solve;
+mod sturm_count;
 mod substitution;
 
 pub use analysis::Analysis;
 pub use cholesky::Cholesky;
 pub use indefinite::{WholeCount, whole_count};
-pub use inertia::{
-    CONDENSED_GAP, InertiaCount, ShiftedFactor, condensed, count_below, count_negative, few_digits, rank,
-};
 pub use refined::Refinement;
 pub use rounding::forming_error;
 pub use solve::SolveOperator;
+pub use sturm_count::{
+    CONDENSED_GAP, InertiaCount, ShiftedFactor, condensed, count_below, count_negative, few_digits, rank,
+};
 
 /// How the entries of a Cholesky factor are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

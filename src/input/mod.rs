@@ -10,7 +10,6 @@ mod dof_map;
 mod empty_rows;
 mod entries;
 mod facts;
-mod foreign;
 mod gathering;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
@@ -23,6 +22,7 @@ mod patch;
 mod patch_faces;
 mod source;
 mod table;
+mod unsupported_format;
 
 pub use allowance::Allowance;
 pub use digits::significant_digits;

@@ -6,12 +6,12 @@ use std::path::Path;
 use super::allowance::Allowance;
 use super::blocks::LastLine;
 use super::dof_map::{self, DirectionBase};
-use super::foreign::Wanted;
 use super::kind::{hdf5_location, is_hdf5_mesh};
 use super::matrix_market::{OrderSource, TextMatrix};
 #[cfg(feature = "hdf5")]
 use super::patch::Patches;
-use super::{Cells, InputNote, MatrixInput, empty_rows, foreign, matrix_market, node_table};
+use super::unsupported_format::Wanted;
+use super::{Cells, InputNote, MatrixInput, empty_rows, matrix_market, node_table, unsupported_format};
 use crate::dofs::{DofMap, FileRows, Nodes};
 use crate::error::{Error, Result};
 use crate::job::{Duplicates, ModelJob};
@@ -145,7 +145,7 @@ fn read_matrix(model: &ModelJob, role: Role, allowance: &Allowance) -> Result<Ma
             unchanged(&file, || read_hdf5_matrix(&file, group.as_deref(), role, allowance)).map(Matrix::Hdf5)
         }
         None => unchanged(path, || {
-            foreign::refuse(path, Wanted::Matrix)?;
+            unsupported_format::refuse(path, Wanted::Matrix)?;
             matrix_market::read(path, model.symmetric, allowance)
         })
         .map(Matrix::Text),
@@ -160,7 +160,7 @@ fn read_nodes(path: &Path, allowance: &Allowance, digests: &mut Digests) -> Resu
         let nodes = if is_hdf5_mesh(path) {
             read_hdf5_nodes(path, allowance, digests)?
         } else {
-            foreign::refuse(path, Wanted::Table)?;
+            unsupported_format::refuse(path, Wanted::Table)?;
             node_table::read(path, allowance)?
         };
         Ok((nodes, digest(path)?))
@@ -298,7 +298,7 @@ fn extend(input: MatrixInput, n: usize, notes: &mut Vec<InputNote>) -> MatrixInp
 }
 
 fn read_dofs(path: &Path, n: usize, nodes: Option<(&Nodes, &Path)>, notes: &mut Vec<InputNote>) -> Result<DofMap> {
-    foreign::refuse(path, Wanted::Table)?;
+    unsupported_format::refuse(path, Wanted::Table)?;
     let read = dof_map::read(path, n)?;
     if read.n_rows != n {
         return Err(Error::DofCount { path: path.to_owned(), found: read.n_rows, n });

@@ -11,11 +11,11 @@
 
 mod congruence;
 mod direct_nodes;
-mod held;
 mod interface;
 mod interface_node;
 mod metis;
 mod minimum_degree;
+mod missing_directions;
 mod node_catalogue;
 mod noise;
 mod ordering;

@@ -17,7 +17,7 @@ use crate::sparse::{Leading, SparseMatrix};
 use super::interface_node::InterfaceNode;
 use super::roundings::{PatchEntries, Roundings};
 use super::transformation::{DofOrigin, ReducedDof, Transformation};
-use super::{congruence, held, interface, ordering};
+use super::{congruence, interface, missing_directions, ordering};
 
 /// Most interface dofs: the two reduced matrices alone take 6.4 GB then, and decomposing them days.
 pub const LARGEST_INTERFACE: usize = 20_000;
@@ -76,7 +76,7 @@ impl Partition {
         if n_interface > LARGEST_INTERFACE {
             return Err(Error::InterfaceTooLarge { n_interface, limit: LARGEST_INTERFACE });
         }
-        let (facts, mut findings) = (model.facts(), held::constrained_nodes(&model, &resolved));
+        let (facts, mut findings) = (model.facts(), missing_directions::constrained_nodes(&model, &resolved));
         let stiffness = congruence::congruence(&model.stiffness, &transformation);
         let cancellation = congruence::cancellation(&model.stiffness, &stiffness, &transformation);
         let patches = PatchEntries::of(&model.stiffness, &transformation);

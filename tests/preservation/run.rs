@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use supel::forecast::Resources;
 use supel::job::{InterfaceJob, Job};
+use supel::memory_forecast::Resources;
 use supel::outcome::Outcome;
 use supel::verification::preservation::Preservation;
 use supel_models::{Material, Model, brick, write};

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use supel::cli::{ExitCode, Pipeline, Reduce, Terminal, run};
 use supel::error::Result;
-use supel::forecast::Resources;
 use supel::job::Job;
+use supel::memory_forecast::Resources;
 use supel::outcome::Outcome;
 use supel::report::Observer;
 

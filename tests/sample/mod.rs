@@ -6,8 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use supel::error::Result;
 use supel::error::Warning;
-use supel::forecast::Resources;
 use supel::job::{Coupling, Eigensolver, Job, Method};
+use supel::memory_forecast::Resources;
 use supel::outcome::Outcome;
 use supel::report::FacesReport;
 use supel::report::{

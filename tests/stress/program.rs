@@ -5,8 +5,8 @@ use std::path::Path;
 
 use supel::dense;
 use supel::error::Error;
-use supel::forecast::Resources;
 use supel::job::{Coupling, InterfaceJob, Job, NodeSelection};
+use supel::memory_forecast::Resources;
 use supel::outcome::Outcome;
 use supel::verification::check::{Check, Verdict};
 use supel_models::{Model, write};

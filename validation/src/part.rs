@@ -5,8 +5,8 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use supel::forecast::Resources;
 use supel::job::Job;
+use supel::memory_forecast::Resources;
 use supel::report::Observer;
 use supel_models::{Model, write};
 use supel_runtime::{Superelement, Verdict};

@@ -9,9 +9,9 @@ use super::{hmf, med, moab, xdmf};
 use crate::dofs::Nodes;
 use crate::error::{Error, Result};
 use crate::input::Allowance;
-use crate::input::foreign::{self, Wanted};
 use crate::input::hdf5::group::Group;
 use crate::input::hdf5::mesh::Mesh;
+use crate::input::unsupported_format::{self, Wanted};
 use crate::regular_file;
 
 /// Bytes of a node: position, label, and the labels once more while they are compared.
@@ -60,7 +60,7 @@ pub(super) fn is_xml(path: &Path) -> Result<bool> {
 }
 
 fn read_hdf5(path: &Path, allowance: &Allowance) -> Result<Mesh> {
-    foreign::refuse(path, Wanted::Table)?;
+    unsupported_format::refuse(path, Wanted::Table)?;
     let h5 = H5::open(path, allowance)?;
     let mesh = read_format(&h5)?;
     h5.hold(NODE * mesh.coordinates.len() as u64)?;

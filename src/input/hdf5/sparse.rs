@@ -6,8 +6,8 @@ use super::convention::Convention;
 use super::file::{H5, with_memory};
 use super::search::{MatrixRole, find_matrix};
 use crate::error::Result;
-use crate::input::foreign::{self, Wanted};
 use crate::input::hdf5::group::Group;
+use crate::input::unsupported_format::{self, Wanted};
 use crate::input::{Allowance, MatrixInput, significant_digits};
 use crate::regular_file::digest;
 use crate::sparse::Declared;
@@ -49,7 +49,7 @@ pub(crate) fn read_matrix_within(
 }
 
 fn read_matrix_once(path: &Path, group: Option<&str>, role: MatrixRole, allowance: &Allowance) -> Result<MatrixInput> {
-    foreign::refuse(path, Wanted::Matrix)?;
+    unsupported_format::refuse(path, Wanted::Matrix)?;
     let h5 = H5::open(path, allowance)?;
     let start = Group::root(&h5)?.group(group.unwrap_or("/"))?;
     let stated = if group.is_some() { Convention::of(&start, &start.members()?)? } else { None };

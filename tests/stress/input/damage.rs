@@ -4,8 +4,8 @@ use std::io::Write;
 
 use supel::cli::ExitCode;
 use supel::error::Error;
-use supel::forecast::Resources;
 use supel::job::Job;
+use supel::memory_forecast::Resources;
 use supel_models::{Material, brick};
 
 use super::{assert_done, assert_refused, chain, chain_job, reduce_chain};

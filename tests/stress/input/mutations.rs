@@ -5,8 +5,8 @@
 use std::panic::catch_unwind;
 
 use supel::error::Error;
-use supel::forecast::Resources;
 use supel::job::{Job, Method};
+use supel::memory_forecast::Resources;
 use supel_models::{Material, SplitMix64, brick, fnv1a};
 
 use crate::place::Place;
