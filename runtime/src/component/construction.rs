@@ -11,13 +11,15 @@
 
 use alloc::vec::Vec;
 
+use super::acts_on::ActsOn;
 use super::dense;
-use super::floating_frame::FrameRounding;
-use super::gravity::Weight;
+use super::error::ComponentError;
+use super::frame_condition::{FloatingFrame, FrameRounding};
 use super::identity::Identity;
-use super::projection::ActsOn;
-use super::recovery::RecoveryMap;
-use super::{ComponentError, FloatingFrame, Measures, ModalComponent};
+use super::measures::Measures;
+use super::modal_component::{Matrices, ModalComponent};
+use super::recovery_map::RecoveryMap;
+use super::weight::Weight;
 use crate::elementary::sqrt;
 use crate::matrix::Matrix;
 use crate::metadata::{Coordinate, Direction, MOTIONS, RigidBodyModes};
@@ -43,14 +45,6 @@ const ABOVE_THE_STIFFNESS: f64 = 10.0;
 /// Smallest pivot of the rigid-body mass scaled to unit diagonal: of a body ten thousand times its size away from the
 /// origin.
 const SMALLEST_PIVOT: f64 = 1e-9;
-
-/// Reduced matrices, r × r, row by row.
-#[derive(Clone, Debug)]
-pub(super) struct Matrices {
-    pub(super) stiffness: Vec<f64>,
-    pub(super) mass: Vec<f64>,
-    pub(super) damping: Option<Vec<f64>>,
-}
 
 impl ModalComponent {
     /// A component with motion-based measures of deformation.

@@ -1,7 +1,9 @@
 //! Loads on interface nodes that keep their direction in space.
 
+use super::error::EvaluationError;
+use super::floating_frame::check_motions;
+use super::modal_component::ModalComponent;
 use super::workspace::check_finite;
-use super::{EvaluationError, ModalComponent};
 use crate::metadata::InterfaceDof;
 use crate::motion::{
     Matrix3, Matrix6, Motion, Vector3, Vector6, blocks, force_to_origin, join, multiply_3, skew, transposed_times_3,
@@ -102,7 +104,7 @@ impl ModalComponent {
                 return Err(EvaluationError::NotFinite { what, index });
             }
         }
-        self.check_motions(motions)?;
+        check_motions(self, motions)?;
         self.check_unloaded(load, &motions[load.node])
     }
 

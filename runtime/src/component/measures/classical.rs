@@ -2,7 +2,7 @@
 //!
 //! A change of the place is one of d and of R, R ψ̃ with the relative turn ψ = Δθ_j − RᵀΔθ_F.
 
-use super::{NodeMeasure, NodeRates, PlaceMatrices, RateMatrices, sum_6};
+use super::node::{NodeMeasure, NodeRates, PlaceMatrices, RateMatrices, sum_6};
 use crate::motion::{
     IDENTITY_3, Matrix3, Matrix6, Motion, Vector3, Vector6, blocks, cross, join, multiply_3, skew, split, times_3,
     times_6, transposed_times_3,

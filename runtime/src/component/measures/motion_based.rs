@@ -3,7 +3,7 @@
 //! T⁻¹(E) = [p₀ I + p̃/2, c I + p̃_u/2; 0, p₀ I + p̃/2] is linear but for p₀ = √(1 − pᵀp/4) and c = ∇p₀ᵀp_u: all derivatives
 //! are those of the cosine p₀, as forms ∇p₀, ∇²p₀ a and ∇³p₀ (a, b) on the increment of p.
 
-use super::{NodeMeasure, NodeRates, RateMatrices, difference_6, sum_6};
+use super::node::{NodeMeasure, NodeRates, RateMatrices, difference_6, sum_6};
 use crate::motion::{
     Matrix3, Matrix6, Motion, Vector3, Vector6, blocks, check, dot, hat, parameter_cosine, split, tangent_inverse,
     tangent_inverse_rate, times_6,
