@@ -17,7 +17,7 @@ mod validation;
 pub use crate::eigen::Eigensolver;
 pub use document::Notation;
 pub use interface::{Coupling, InterfaceJob, NodeSelection, Origin, Region};
-pub use recovery::{RecoveryJob, RecoveryPrecision};
+pub use recovery::RecoveryJob;
 pub use scene::{DampingJob, SceneJob, Support};
 pub use schema::schema;
 pub use types::{

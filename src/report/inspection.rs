@@ -1,6 +1,6 @@
 //! What a superelement file says of itself, as text for people.
 
-use supel_runtime::{CheckSummary, Coordinate, FORMAT_VERSION, Flag, InterfaceNode, Method, Superelement};
+use supel_runtime::{CheckSummary, Coordinate, FORMAT_VERSION, Flag, InterfaceNode, Superelement};
 
 use super::mode_table::{Mode, mode_table};
 use super::page::{Page, Paint, Tone, verdict_word};
@@ -27,7 +27,8 @@ pub fn inspection(superelement: &Superelement, file_bytes: u64, paint: Paint) ->
 
 fn head(page: &mut Page, superelement: &Superelement, file_bytes: u64) {
     let metadata = superelement.metadata();
-    let title = format!("superelement · {} · {} coordinates", method(metadata.method), superelement.n_coordinates());
+    let title =
+        format!("superelement · {} · {} coordinates", words::method(metadata.method), superelement.n_coordinates());
     page.line(Page::toned(&title, Tone::Heading));
     let generator = &metadata.generator;
     let made_by = format!("{} {} · format version {FORMAT_VERSION}", generator.name, generator.version);
@@ -155,16 +156,5 @@ fn own(verdict: supel_runtime::Verdict) -> Verdict {
         supel_runtime::Verdict::Pass => Verdict::Pass,
         supel_runtime::Verdict::Warn => Verdict::Warn,
         supel_runtime::Verdict::Fail => Verdict::Fail,
-    }
-}
-
-pub(super) fn method(method: Method) -> &'static str {
-    match method {
-        Method::CraigBampton => "Craig-Bampton",
-        Method::Herting => "Herting",
-        Method::Rubin => "Rubin",
-        Method::Macneal => "MacNeal",
-        Method::Guyan => "Guyan",
-        Method::ModeAcceleration => "mode acceleration",
     }
 }

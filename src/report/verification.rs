@@ -4,11 +4,10 @@ use serde::ser::{Serialize, SerializeStruct, Serializer};
 use supel_runtime::Superelement;
 
 use super::conclusion::conclusion;
-use super::inspection::method;
 use super::json::CheckLine;
 use super::page::{Page, Paint, Tone, WIDTH};
 use super::summary::body;
-use super::{Generator, json_text, table};
+use super::{Generator, json_text, table, words};
 use crate::audit::Audit;
 
 /// Version of the document's layout.
@@ -57,7 +56,7 @@ impl VerificationReport {
         let mut page = Page::new(paint);
         let metadata = superelement.metadata();
         let sizes = format!("{} coordinates", superelement.n_coordinates());
-        page.line(Page::toned(&format!("superelement · {} · {sizes}", method(metadata.method)), Tone::Heading));
+        page.line(Page::toned(&format!("superelement · {} · {sizes}", words::method(metadata.method)), Tone::Heading));
         page.entry("made by", &format!("{} {}", metadata.generator.name, metadata.generator.version));
         page.entry("file", &format!("blake3 {}", self.digest));
         let against = match self.against {

@@ -1,7 +1,9 @@
 //! The words and figures that the summary and the page have in common.
 
+use supel_runtime::Method;
+
 use super::{FacesReport, InterfacePosition, InterfaceReport, ModeKind, PositionOrigin, ReductionReport};
-use crate::job::{Coupling, Eigensolver, Method};
+use crate::job::{Coupling, Eigensolver};
 use crate::number;
 use crate::verification::check::{ActiveLimit, Check, Verdict};
 
@@ -9,6 +11,10 @@ pub(super) fn method(method: Method) -> &'static str {
     match method {
         Method::CraigBampton => "Craig-Bampton",
         Method::Herting => "Herting",
+        Method::Rubin => "Rubin",
+        Method::Macneal => "MacNeal",
+        Method::Guyan => "Guyan",
+        Method::ModeAcceleration => "mode acceleration",
     }
 }
 

@@ -140,7 +140,7 @@ fn matrix(matrix: &MatrixReport) -> String {
 }
 
 fn method(reduction: &ReductionReport) -> String {
-    format!("{}; modes by {}", words::method(reduction.method), words::eigensolver(reduction.eigensolver))
+    format!("{}; modes by {}", words::method(reduction.method.in_file()), words::eigensolver(reduction.eigensolver))
 }
 
 fn interfaces(reduction: &ReductionReport) -> Vec<String> {

@@ -20,7 +20,7 @@ use super::Report;
 use crate::report::words;
 use markup::Markup;
 
-pub(in crate::report) use markup::escaped;
+pub use markup::escaped;
 
 /// Everything about looks; no element of the page carries a style of its own.
 const STYLE: &str = include_str!("style.css");
@@ -44,7 +44,7 @@ pub fn html(report: &Report) -> String {
     page.raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n");
     page.raw("<meta name=\"color-scheme\" content=\"light\"/>\n");
     let sizes = format!("{} to {} degrees of freedom", body.model.n_dofs, body.reduction.n_reduced);
-    page.element("title", &format!("Reduction report: {}, {sizes}", words::method(body.reduction.method)));
+    page.element("title", &format!("Reduction report: {}, {sizes}", words::method(body.reduction.method.in_file())));
     page.raw("<style>\n");
     page.raw(STYLE);
     page.raw("</style>\n</head>\n<body>\n");

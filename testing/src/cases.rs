@@ -1,0 +1,93 @@
+//! The models the theorems are tested on.
+
+use supel::job::InterfaceJob;
+use supel_models::transform::{join, supported};
+use supel_models::{Inertia, Material, Model, Section, brick, frame, membrane};
+
+use crate::chain::{Chain, Method, Twin, direct, reduce, rigid_group, rows};
+
+/// A model, its interfaces and the number of its rigid-body modes.
+pub struct Case {
+    pub name: &'static str,
+    pub model: Model,
+    pub interfaces: Vec<InterfaceJob>,
+    pub n_rigid: usize,
+}
+
+/// Expansion modes asked for.
+pub const N_MODES: usize = 6;
+
+pub fn cases() -> Vec<Case> {
+    let case = |name, model, interfaces: Vec<InterfaceJob>, n_rigid| Case { name, model, interfaces, n_rigid };
+    let patches = || vec![rigid_group("XMIN"), rigid_group("XMAX")];
+    let two_bodies = join(&solid(), &small_solid(), &[]);
+    let offset = solid().labels.len() as i64;
+    vec![
+        case("free solid, nodes", solid(), vec![direct("pins", &[1, 5, 15, 45])], 6),
+        case("free solid, patches", steel(), patches(), 6),
+        case("free solid, patch and node", steel(), vec![rigid_group("XMIN"), direct("tip", &[45])], 6),
+        case("free solid without coordinates", anonymous(solid()), vec![rows("rows", &[0, 1, 2, 12, 13, 14, 44])], 6),
+        case("free frame", elbow(Inertia::Consistent), vec![direct("ends", &[1, 6])], 6),
+        case("free frame, massless rotations", elbow(Inertia::LumpedTranslations), vec![direct("ends", &[1, 6])], 6),
+        case("free membrane", sheet(), vec![direct("corners", &[1, 20])], 3),
+        case(
+            "two bodies",
+            two_bodies,
+            vec![direct("pins", &[1, 5, 45]), direct("others", &[1, 3, 4].map(|l| l + offset))],
+            12,
+        ),
+        case("held solid", supported(&solid(), |(label, _)| label % 5 == 1), vec![rigid_group("XMAX")], 0),
+        case("pendulum", pendulum(), vec![direct("tip", &[6])], 1),
+    ]
+}
+
+/// Runs a check on every case with one method.
+pub fn for_each_case(method: Method, check: impl Fn(&Case, &Chain, &Twin)) {
+    for case in cases() {
+        let chain = reduce(&case.model, &case.interfaces, method, N_MODES);
+        let chain = chain.unwrap_or_else(|error| panic!("{}, {method:?}: {error}", case.name));
+        let twin = Twin::new(&case.model, &case.interfaces, &chain.partition);
+        check(&case, &chain, &twin);
+    }
+}
+
+/// Runs a check on every case with both methods.
+pub fn for_each_method(check: impl Fn(&Case, &Chain, &Twin)) {
+    for method in [Method::CraigBampton, Method::Herting] {
+        for_each_case(method, &check);
+    }
+}
+
+/// Unequal sides keep the natural frequencies apart.
+fn solid() -> Model {
+    brick([4, 2, 2], [4.0, 1.2, 0.7], &Material::UNIT)
+}
+
+fn small_solid() -> Model {
+    brick([1, 1, 3], [1.0, 1.3, 2.0], &Material::UNIT)
+}
+
+fn steel() -> Model {
+    brick([4, 2, 2], [80.0, 24.0, 14.0], &Material::STEEL_MM_T_S)
+}
+
+fn sheet() -> Model {
+    membrane([4, 3], [4.0, 2.0], &Material::UNIT)
+}
+
+/// The matrices of a model without the meaning of their rows.
+fn anonymous(model: Model) -> Model {
+    Model { dofs: Vec::new(), ..model }
+}
+
+/// Five beams with a bend, six nodes.
+fn elbow(inertia: Inertia) -> Model {
+    let nodes = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.1, 0.0, 0.0], [2.1, 0.9, 0.0], [2.1, 1.7, 0.3], [2.1, 2.8, 0.3]];
+    let edges = [[0, 1], [1, 2], [2, 3], [3, 4], [4, 5]];
+    frame(&nodes, &edges, &Section::round(0.05), &Material::STEEL_SI, inertia)
+}
+
+/// The elbow on a hinge about z at its first node.
+fn pendulum() -> Model {
+    supported(&elbow(Inertia::Consistent), |(label, direction)| label == 1 && direction != 5)
+}

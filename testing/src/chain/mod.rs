@@ -1,0 +1,137 @@
+//! The stages of a reduction run on generated models, and a dense twin of each model to judge them by.
+//!
+//! The twin is made from the model's own entries and from the definition of a rigid patch, without a line of the
+//! library; it shares with the partition only the order of the degrees of freedom and the powers of two taken out.
+
+pub mod certified;
+mod twin;
+
+use supel::basis::{Basis, DynamicColumns, fixed_interface_columns, mode_acceleration_columns};
+use supel::constraint::FreeAtZero;
+use supel::constraint::{ConstraintModes, constraint_modes};
+use supel::coordinates;
+use supel::dofs::{Direction, Dof, Nodes};
+use supel::eigen::{Factored, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes};
+use supel::error::Error;
+use supel::factor::Cholesky;
+use supel::input::{Input, MatrixInput};
+pub use supel::job::Method;
+use supel::job::{Coupling, Eigensolver, InterfaceJob, NodeSelection, Origin};
+use supel::model::Model;
+use supel::partition::Partition;
+use supel::random::SEED;
+use supel::reduction::Reduction;
+use supel::rigid::{self, RigidBodyModes};
+use supel::sparse::{AssemblyNotes, Declared, SparseMatrix, Triplets};
+use supel_models as models;
+use supel_models::model::Entry;
+
+pub use twin::{EPS, Twin, absolute, against_bound, column_difference, dense, difference, psi, spectrum, terms};
+
+/// A generated model as the readers would hand it over.
+pub fn input(model: &models::Model) -> Input {
+    let dofs =
+        model.dofs.iter().map(|&(node, direction)| Dof { node, direction: Direction::ALL[usize::from(direction)] });
+    let dofs: Vec<Dof> = dofs.collect();
+    let index = |label: &i64| model.labels.iter().position(|other| other == label).expect("a node of the model");
+    let groups = model.groups.iter().map(|(name, members)| (name.clone(), members.iter().map(index).collect()));
+    let nodes = Nodes { labels: model.labels.clone(), coordinates: model.nodes.clone(), groups: groups.collect() };
+    Input {
+        stiffness: matrix(model.n, &model.stiffness),
+        mass: matrix(model.n, &model.mass),
+        nodes: (!dofs.is_empty()).then_some(nodes),
+        dofs: (!dofs.is_empty()).then_some(dofs),
+        rows: Default::default(),
+        digests: Default::default(),
+        notes: Vec::new(),
+    }
+}
+
+fn matrix(n: usize, entries: &[Entry]) -> MatrixInput {
+    let notes = AssemblyNotes::default();
+    MatrixInput { matrix: sparse(n, entries), notes, digits: 17, path: "generated".into(), digest: String::new() }
+}
+
+/// The matrix of all entries of both triangles.
+pub fn sparse(n: usize, entries: &[Entry]) -> SparseMatrix {
+    let mut triplets = Triplets::default();
+    entries.iter().for_each(|&(row, col, value)| triplets.push(row, col, value));
+    triplets.assemble(n, Declared::General, "generated".as_ref()).expect("both triangles of a general matrix").0
+}
+
+/// An interface of the nodes themselves.
+pub fn direct(name: &str, labels: &[i64]) -> InterfaceJob {
+    interface(name, NodeSelection::Labels(labels.to_vec()), Coupling::Direct)
+}
+
+/// One rigid node that carries a group.
+pub fn rigid_group(name: &str) -> InterfaceJob {
+    interface(name, NodeSelection::Group(format!("group:{name}")), Coupling::Rigid)
+}
+
+/// Rows as interface dofs.
+pub fn rows(name: &str, rows: &[usize]) -> InterfaceJob {
+    interface(name, NodeSelection::Rows { rows: rows.to_vec() }, Coupling::Direct)
+}
+
+/// An interface with the centroid as origin and all dofs.
+pub fn interface(name: &str, nodes: NodeSelection, coupling: Coupling) -> InterfaceJob {
+    InterfaceJob { name: name.to_owned(), nodes, coupling, origin: Origin::Centroid, dofs: None }
+}
+
+/// Everything the stages handed on.
+pub struct Chain {
+    pub partition: Partition,
+    pub rigid: RigidBodyModes,
+    pub constraint: ConstraintModes,
+    pub modes: Modes,
+    pub named: DynamicColumns,
+    pub basis: Basis,
+    pub reduction: Reduction,
+}
+
+/// The partition of a generated model.
+pub fn partition(model: &models::Model, interfaces: &[InterfaceJob]) -> Result<Partition, Error> {
+    Partition::new(coordinates::compared(Model::new(input(model))?, &[], coordinates::Levers::Used)?, interfaces)
+}
+
+/// The partition and its rigid-body modes, from coordinates where there are any.
+pub fn rigid_of(model: &models::Model, interfaces: &[InterfaceJob]) -> Result<(Partition, RigidBodyModes), Error> {
+    let partition = partition(model, interfaces)?;
+    let rigid = rigid::rigid_body_modes(&partition)?.0;
+    Ok((partition, rigid))
+}
+
+/// Reduces a generated model with `count` expansion modes.
+pub fn reduce(
+    model: &models::Model,
+    interfaces: &[InterfaceJob],
+    method: Method,
+    count: usize,
+) -> Result<Chain, Error> {
+    let (partition, rigid) = rigid_of(model, interfaces)?;
+    rigid::interface_rank(&partition, &rigid)?;
+    let analysis = partition.analysis()?;
+    let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof))?;
+    let constraint = constraint_modes(&partition, &factor, &rigid);
+    let request = ModeRequest { wanted: Wanted::Count(count), eigensolver: Eigensolver::Lanczos, seed: SEED };
+    let precision = partition.precision;
+    let (modes, named) = match method {
+        Method::CraigBampton => {
+            let problem = ModalProblem::of(partition.internal(), precision);
+            let modes = elastic_modes(problem, &Factored::new(&factor, 0.0), request)?;
+            let named = fixed_interface_columns(&modes);
+            (modes, named)
+        }
+        Method::Herting => {
+            let operator = FreeAtZero::new(&factor, &partition.stiffness, &constraint, &rigid)?;
+            let problem = ModalProblem::of(partition.pencil(), precision).deflating(rigid.deflated());
+            let modes = elastic_modes(problem, &operator, request)?;
+            let named = mode_acceleration_columns(&partition, &factor, &constraint, &rigid, &modes);
+            (modes, named)
+        }
+    };
+    let basis = Basis::new(&constraint, named.clone(), partition.internal().mass);
+    let reduction = Reduction::new(&partition, &basis, &rigid);
+    Ok(Chain { partition, rigid, constraint, modes, named, basis, reduction })
+}

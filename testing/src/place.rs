@@ -1,0 +1,155 @@
+//! Folders with models in them, and the command line run on them in process.
+
+use std::ffi::OsString;
+use std::fs;
+use std::path::PathBuf;
+
+use serde_json::Value;
+use supel::cli::{ExitCode, Terminal, run};
+use supel_models::{Material, Model, brick, write};
+use supel_runtime::Superelement;
+
+/// What a command left behind.
+pub struct Ended {
+    pub code: ExitCode,
+    pub out: String,
+    pub err: String,
+}
+
+impl Ended {
+    #[track_caller]
+    pub fn expect(self, code: ExitCode) -> Self {
+        assert_eq!(self.code, code, "{}{}", self.out, self.err);
+        self
+    }
+}
+
+/// Runs `supel` with these arguments.
+pub fn supel(args: &[&str]) -> Ended {
+    let (mut out, mut err) = (Vec::new(), Vec::new());
+    let args = std::iter::once("supel").chain(args.iter().copied()).map(OsString::from);
+    let code = run(
+        args,
+        supel::cli::Pipeline { reduce: supel::reduce, verify: supel::verify },
+        &mut Terminal::plain(&mut out, &mut err),
+    );
+    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+    Ended { code, out: text(out), err: text(err) }
+}
+
+/// A folder of its own.
+pub struct Place(tempfile::TempDir);
+
+impl Place {
+    #[expect(clippy::new_without_default, reason = "it makes a folder")]
+    pub fn new() -> Self {
+        Self(tempfile::tempdir().expect("folder"))
+    }
+
+    /// A folder with K.mtx, M.mtx, dofs.txt and nodes.csv of a model.
+    pub fn with(model: &Model) -> Self {
+        let place = Self::new();
+        let write = |name: &str, put: &dyn Fn(&mut Vec<u8>)| {
+            let mut bytes = Vec::new();
+            put(&mut bytes);
+            place.write(name, &bytes);
+        };
+        let matrix = |bytes: &mut Vec<u8>, entries| write::matrix_market(bytes, model.n, entries, "").expect("written");
+        write("K.mtx", &|bytes| matrix(bytes, &model.stiffness));
+        write("M.mtx", &|bytes| matrix(bytes, &model.mass));
+        write("dofs.txt", &|bytes| write::dof_map(bytes, model).expect("written"));
+        write("nodes.csv", &|bytes| write::nodes_csv(bytes, model).expect("written"));
+        place
+    }
+
+    /// A steel block of 4 × 2 × 2 bricks, 135 dofs: free, with no two natural frequencies alike.
+    pub fn with_brick() -> Self {
+        Self::with(&steel_brick())
+    }
+
+    /// The folder with the bundled example.
+    pub fn with_example() -> Self {
+        let place = Self::new();
+        let example = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/bracket");
+        for name in ["job.toml", "stiffness.mtx.gz", "mass.mtx.gz", "bracket.med"] {
+            fs::copy(example.join(name), place.path(name)).expect("copied");
+        }
+        place
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    pub fn text(&self, name: &str) -> String {
+        self.path(name).display().to_string()
+    }
+
+    pub fn write(&self, name: &str, content: &[u8]) {
+        // A file written over waits for the disk on some systems; a new one does not.
+        let _ = fs::remove_file(self.path(name));
+        fs::write(self.path(name), content).expect("written");
+    }
+
+    pub fn bytes(&self, name: &str) -> Vec<u8> {
+        fs::read(self.path(name)).expect("read")
+    }
+
+    /// The flags that name the files of a model with coordinates.
+    pub fn model_flags(&self) -> Vec<String> {
+        let mut flags = self.matrix_flags();
+        flags.extend(["--dofs".into(), self.text("dofs.txt")]);
+        flags.extend(["--nodes".into(), self.text("nodes.csv")]);
+        flags
+    }
+
+    /// The flags that name the matrices alone.
+    pub fn matrix_flags(&self) -> Vec<String> {
+        let flags = ["--stiffness".into(), self.text("K.mtx"), "--mass".into(), self.text("M.mtx")];
+        flags.into()
+    }
+
+    /// `supel reduce` by flags alone to x.supel; `rest` is split at spaces.
+    pub fn reduce(&self, model: &[String], rest: &str) -> Ended {
+        let output = self.text("x.supel");
+        let mut args: Vec<&str> = vec!["reduce", "--output", &output];
+        args.extend(model.iter().map(String::as_str));
+        args.extend(rest.split_whitespace());
+        supel(&args)
+    }
+
+    pub fn superelement(&self, name: &str) -> Superelement {
+        Superelement::open(&self.path(name)).expect("a superelement")
+    }
+
+    pub fn report(&self, name: &str) -> Value {
+        serde_json::from_slice(&self.bytes(name)).expect("JSON")
+    }
+
+    /// The bytes of the report's body, everything before the facts of the run.
+    pub fn report_body(&self, name: &str) -> String {
+        let report = String::from_utf8(self.bytes(name)).expect("UTF-8");
+        let (body, _) = report.split_once("\n  \"run\": {").expect("facts of the run");
+        body.to_owned()
+    }
+}
+
+pub fn steel_brick() -> Model {
+    brick([4, 2, 2], [1.0, 0.31, 0.23], &Material::STEEL_SI)
+}
+
+/// The natural frequencies a superelement names, in Hz.
+pub fn frequencies_hz(superelement: &Superelement) -> Vec<f64> {
+    let omega = &superelement.tensors().frequencies;
+    omega.iter().map(|omega| omega / std::f64::consts::TAU).collect()
+}
+
+/// Asserts that two lists of frequencies agree relatively.
+#[track_caller]
+pub fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) {
+    assert_eq!(found.len(), expected.len(), "{found:?}\n{expected:?}");
+    for (found, expected) in found.iter().zip(expected) {
+        let difference = (found / expected - 1.0).abs();
+        assert!(difference <= tolerance, "{found} and {expected} differ by {difference:e}");
+    }
+}
