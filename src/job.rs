@@ -19,7 +19,7 @@ pub use crate::eigen::Eigensolver;
 pub use document::Notation;
 pub use interface::{Coupling, InterfaceJob, NodeSelection, Origin, Region};
 pub use method::{Boundary, Columns, Method};
-pub use recovery::{RecoveryJob, RecoveryPrecision};
+pub use recovery::RecoveryJob;
 pub use scene::{DampingJob, SceneJob, Support};
 pub use schema::schema;
 pub use types::{

@@ -5,9 +5,8 @@ use crate::factor::{Analysis, Storage};
 use crate::job::{Certify, Job, ModeSelection, Precision};
 use crate::modes::{LARGEST_SEARCH, SLICED_FROM};
 use crate::partition::Partition;
+use crate::sparse::ENTRY_BYTES;
 
-/// Bytes of an entry of a sparse matrix: value and column.
-const ENTRY: u64 = 12;
 /// Bytes of a double.
 const DOUBLE: u64 = 8;
 /// Modes assumed for a band whose number of modes is not known yet.
@@ -123,7 +122,7 @@ pub fn comparison_within_memory(partition: &Partition, job: &Job, resources: Res
     let factors = analysis.factor_bytes(Storage::Double).saturating_mul(2).saturating_add(analysis.stack_bytes());
     let loads = partition.n_interface().min(MAX_LOADS) as u64;
     let vectors = COLUMNS_OF_A_LOAD * loads + COLUMNS_OF_A_MODE * n_modes as u64 + COLUMNS_OF_A_SEARCH;
-    let needed = factors.saturating_add(2 * ENTRY * entries).saturating_add(DOUBLE * n * vectors);
+    let needed = factors.saturating_add(2 * ENTRY_BYTES * entries).saturating_add(DOUBLE * n * vectors);
     if needed > available {
         return Err(Error::MemoryComparison { needed, available });
     }
@@ -165,7 +164,7 @@ impl Forecast {
         let factors = analysis.factor_bytes(storage).saturating_add(others).saturating_add(stacks);
         let vectors = 2 * partition.n_interface() as u64 + of_solver.max(BLOCKS_OF_MODES * n_modes) + refinement;
         let recovery = COPIES * partition.recovered.len() as u64 * (partition.n_interface() as u64 + n_modes);
-        Self { factors, matrices: n_copies * ENTRY * entries, vectors: DOUBLE * (n * vectors + recovery) }
+        Self { factors, matrices: n_copies * ENTRY_BYTES * entries, vectors: DOUBLE * (n * vectors + recovery) }
     }
 
     fn total(self) -> u64 {

@@ -1,9 +1,8 @@
 //! The command line, in process with a pipeline made by hand, and as a program.
 
-mod sample;
-
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use supel_testing::sample;
 
 use supel::cli::{ExitCode, Pipeline, Reduce, Terminal, run};
 use supel::error::{Error, Result};

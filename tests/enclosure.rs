@@ -1,11 +1,5 @@
 //! `--certify full`: proven intervals hold the exact eigenvalues, and are as narrow as the theory says.
 
-#[allow(dead_code, reason = "each test crate uses its part")]
-#[path = "end_to_end/place.rs"]
-mod place;
-
-mod chain;
-
 use serde_json::Value;
 use supel::cli::ExitCode;
 use supel::eigen::Modes;
@@ -14,6 +8,7 @@ use supel::verification::{Enclosures, enclosures};
 use supel_models::{
     Ends, Material, Model, bar, bar_spectrum, brick, known, ring, ring_spectrum, spring, spring_spectrum,
 };
+use supel_testing::{chain, place};
 
 use crate::place::Place;
 

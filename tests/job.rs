@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 use supel::error::{Error, ErrorClass, Result};
-use supel::job::{Coupling, Job, Method, ModeSelection, NodeSelection, Origin, RecoveryPrecision, Region, Support};
+use supel::job::{Coupling, Job, Method, ModeSelection, NodeSelection, Origin, Region, Support};
+use supel_runtime::Precision;
 
 const FULL: &str = r#"
 [model]
@@ -107,7 +108,7 @@ fn every_key_of_a_toml_job_is_read() {
     assert_eq!(job.reduction.modes, ModeSelection::UpTo { up_to_hz: 1000.0 });
     assert_eq!(job.run.memory_gib, Some(4.0));
     let recovery = job.write.recovery.expect("a recovery");
-    assert_eq!((recovery.nodes.group_name(), recovery.precision), (Some("SKIN"), RecoveryPrecision::Single));
+    assert_eq!((recovery.nodes.group_name(), recovery.precision), (Some("SKIN"), Precision::Single));
 }
 
 #[test]

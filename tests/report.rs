@@ -1,10 +1,9 @@
 //! The report: its JSON document against its schema, its text against a snapshot.
 
-mod sample;
-
 use serde_json::Value;
 use supel::report::{Completeness, Observer, Paint, Report, StageClock, summary};
 use supel::verification::check::Verdict;
+use supel_testing::sample;
 
 fn validator() -> jsonschema::Validator {
     let schema: Value = serde_json::from_str(include_str!("../schemas/report.schema.json")).expect("schema is JSON");

@@ -1,10 +1,8 @@
 //! The superelement file as others see it: its JSON Schema, and a Python program that trusts nothing but its numbers.
 
-#[path = "../runtime/tests/sample/mod.rs"]
-mod sample;
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use supel_models::superelements::particle as sample;
 
 use serde_json::{Value, json};
 use supel_runtime::{Coordinate, Direction, Flag, Matrix, Metadata, Method, Superelement, Tensors, Verdict};

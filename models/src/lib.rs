@@ -3,7 +3,8 @@
 //! Every model is computed, none is read: the same arguments give the same bits on every machine that rounds as
 //! IEEE 754 says. Families with a closed-form spectrum ([`mod@bar`], [`spring`], [`ring`], [`mod@known`]) come with it; the
 //! solids ([`brick`], [`hexahedra`], [`tetrahedra`]), membranes ([`mod@membrane`]) and frames ([`mod@frame`]) carry their rigid-body modes to
-//! rounding. [`mod@part`] makes three of them in any size for benchmarks. [`transform`] turns one model into another: joined, scaled, rounded.
+//! rounding. [`mod@part`] makes three of them in any size for benchmarks. [`superelements`]
+//! are what programs that simulate read. [`transform`] turns one model into another: joined, scaled, rounded.
 
 pub mod bar;
 pub mod bracket;
@@ -19,6 +20,7 @@ pub mod membrane;
 pub mod model;
 pub mod part;
 pub mod random;
+pub mod superelements;
 pub mod tetrahedra;
 pub mod tetrahedron;
 pub mod transform;

@@ -108,6 +108,28 @@ pub fn grounded(model: &Model, row: usize, stiffness: f64) -> Model {
     Model { stiffness: sum.finish(), ..model.clone() }
 }
 
+/// RᵀKR and RᵀMR with a turn of 90° about z at some nodes, counted from 0, of a model of three dofs a node: ux takes the place of uy, uy that of −ux.
+pub fn turned(model: &Model, is_turned: impl Fn(usize) -> bool) -> Model {
+    let node_of = |row: u32| (model.dofs[row as usize].0 - 1) as usize;
+    let image = |row: u32| match (is_turned(node_of(row)), row % 3) {
+        (true, 0) => (row + 1, -1.0),
+        (true, 1) => (row - 1, 1.0),
+        _ => (row, 1.0),
+    };
+    let of = |entries: &[Entry]| {
+        let mut turned: Vec<Entry> = entries
+            .iter()
+            .map(|&(row, col, value)| {
+                let ((row, of_row), (col, of_col)) = (image(row), image(col));
+                (row, col, value * of_row * of_col)
+            })
+            .collect();
+        turned.sort_unstable_by_key(|&(row, col, _)| (row, col));
+        turned
+    };
+    Model { stiffness: of(&model.stiffness), mass: of(&model.mass), ..model.clone() }
+}
+
 fn map_values(
     model: &Model,
     stiffness: impl Fn((u32, u32), f64) -> f64,

@@ -3,16 +3,13 @@
 
 #![allow(missing_docs)]
 
-#[path = "../tests/beam/mod.rs"]
-mod beam;
-#[path = "../tests/random/mod.rs"]
-mod random;
+use supel_models::superelements::beam;
 
 use std::hint::black_box;
 use std::num::NonZero;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use random::Random;
+use supel_models::SplitMix64;
 use supel_runtime::Superelement;
 use supel_runtime::component::{
     BatchError, Evaluation, FloatingFrame, ModalComponent, State, Workspace, evaluate_all, tangents_all,
@@ -32,7 +29,7 @@ impl Case {
         let (tensors, metadata) = beam::random_parts(2, n_modal, 1);
         let superelement = Superelement::new(tensors, metadata).expect("the parts fit");
         let component = ModalComponent::new(&superelement, FloatingFrame::MassWeighted).expect("a free body");
-        let mut random = Random(2);
+        let mut random = SplitMix64::new(2);
         let r = component.n_coordinates();
         let first: Vec<Motion> = (0..2).map(|_| random.motion(0.05)).collect();
         let second = first.iter().map(|motion| motion.compose(&random.motion(0.005))).collect();

@@ -7,7 +7,7 @@ use crate::container::{Dtype, RawTensor, TENSORS, TensorToWrite};
 use crate::error::{FileError, Result};
 use crate::matrix::Matrix;
 use crate::metadata::Direction;
-use crate::superelement::{Precision, RecoveredDof, Recovery, Tensors};
+use crate::tensors::{Precision, RecoveredDof, Recovery, Tensors};
 
 /// The tensors that are there, in the order of the file.
 pub(crate) fn encode(tensors: &Tensors) -> Vec<TensorToWrite> {

@@ -139,6 +139,7 @@ mod metadata;
 pub mod motion;
 mod strict_json;
 mod superelement;
+mod tensors;
 mod validation;
 
 #[cfg(feature = "std")]
@@ -154,4 +155,5 @@ pub use metadata::{
     CheckSummary, Coordinate, Direction, DroppedColumn, Flag, Generator, InterfaceDof, InterfaceNode, MOTIONS,
     MassProperties, Metadata, Method, ModelSummary, RigidBodyModes, Validity, Verdict, Verification,
 };
-pub use superelement::{Precision, RecoveredDof, Recovery, Superelement, Tensors};
+pub use superelement::Superelement;
+pub use tensors::{Precision, RecoveredDof, Recovery, Tensors};

@@ -69,8 +69,9 @@ pub enum Method {
     ModeAcceleration,
 }
 
-/// Direction of a degree of freedom at a node.
+/// The direction of a degree of freedom, in the order of the classical six.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Direction {
     /// Translation along x.
@@ -100,6 +101,22 @@ pub const MOTIONS: [&str; 6] = [
 impl Direction {
     /// All six, in order; their places are the numbers in `recovery_dofs`.
     pub const ALL: [Self; 6] = [Self::Ux, Self::Uy, Self::Uz, Self::Rx, Self::Ry, Self::Rz];
+
+    /// The axis 0, 1 or 2.
+    pub fn axis(self) -> usize {
+        self as usize % 3
+    }
+
+    /// True for a rotation.
+    pub fn is_rotation(self) -> bool {
+        self as usize >= 3
+    }
+}
+
+impl core::fmt::Display for Direction {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(["ux", "uy", "uz", "rx", "ry", "rz"][*self as usize])
+    }
 }
 
 /// A node at which the superelement is joined to others.
@@ -306,5 +323,12 @@ impl Method {
             Self::Guyan => "Guyan",
             Self::ModeAcceleration => "mode acceleration",
         }
+    }
+}
+
+impl Verdict {
+    /// The worst of several verdicts, `Pass` for none.
+    pub fn worst(verdicts: impl IntoIterator<Item = Self>) -> Self {
+        verdicts.into_iter().max().unwrap_or(Self::Pass)
     }
 }

@@ -18,11 +18,11 @@ mod tangent;
 
 use crate::elementary::{sin, sqrt};
 
-pub(crate) use algebra::blocks;
 pub use algebra::{
     IDENTITY_3, IDENTITY_6, Matrix3, Matrix6, Vector3, Vector6, check, cross, dot, hat, join, multiply_3, multiply_6,
     multiply_transposed_3, skew, split, times_3, times_6, transposed_times_3, transposed_times_6,
 };
+pub(crate) use algebra::{ZERO_3, blocks};
 pub use point::{force_to_origin, force_to_point, velocity_to_origin, velocity_to_point};
 pub use tangent::{
     parameter_cosine, tangent, tangent_3, tangent_inverse, tangent_inverse_3, tangent_inverse_rate,
@@ -153,7 +153,7 @@ impl Motion {
     /// Motion tensor C = [R, ũR; 0, R], which turns material into spatial increments; eq. (52).
     pub fn tensor(&self) -> Matrix6 {
         let coupling = multiply_3(&skew(&self.translation), &self.rotation);
-        blocks(&self.rotation, &coupling, &[[0.0; 3]; 3], &self.rotation)
+        blocks(&self.rotation, &coupling, &ZERO_3, &self.rotation)
     }
 }
 

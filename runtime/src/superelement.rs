@@ -1,112 +1,9 @@
 //! The superelement: a component reduced to its interface and a few modal amplitudes.
-//!
-//! | symbol | field | shape |
-//! |---|---|---|
-//! | K̂, M̂ | `stiffness`, `mass` | r × r, r = n_B + n_η |
-//! | Û | `rigid_body_modes` | r × n_r |
-//! | M_F | `rigid_body_mass` | n_r × n_r |
-//! | ω | `frequencies` | n_modes, rad/s |
 
-use alloc::vec::Vec;
-
-use crate::error::{FileError, Result};
-use crate::matrix::Matrix;
-use crate::metadata::{Direction, Metadata};
+use crate::error::Result;
+use crate::metadata::Metadata;
+use crate::tensors::Tensors;
 use crate::validation;
-
-/// The numbers of a superelement, under the names they have in the file.
-///
-/// All are in classical coordinates: displacement and rotation of each interface node in the inertial frame, followed
-/// by the modal amplitudes. Units are those of the model.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Tensors {
-    /// Reduced stiffness matrix K̂, r × r, symmetric to the bit.
-    pub stiffness: Matrix,
-    /// Reduced mass matrix M̂, r × r, symmetric to the bit.
-    pub mass: Matrix,
-    /// Rigid-body modes in the reduced coordinates Û, r × n_r; n_r is 6 for each free component, 0 for a fixed one.
-    pub rigid_body_modes: Matrix,
-    /// Rigid-body mass M_F = UᵀMU of the full model, n_r × n_r.
-    pub rigid_body_mass: Matrix,
-    /// Positions of the k interface nodes in the reference configuration, k × 3.
-    pub interface_positions: Vec<[f64; 3]>,
-    /// Rotation matrices of the k interface nodes, k × 3 × 3: columns are the node's axes in the inertial frame.
-    pub interface_frames: Vec<[[f64; 3]; 3]>,
-    /// Natural angular frequencies of the modes that were computed, n_modes, rad/s, ascending: fixed-interface ones for
-    /// Craig-Bampton, elastic free-free ones for Herting and Rubin.
-    pub frequencies: Vec<f64>,
-    /// Reduced damping matrix, r × r.
-    pub damping: Option<Matrix>,
-    /// Mixing of the modal columns, n_η × n_η: stored dynamic modes = named modes · mixing.
-    pub mixing: Option<Matrix>,
-    /// Loads of a unit gravity field along x, y, z, r × 3.
-    pub gravity: Option<Matrix>,
-    /// Reduced load vectors, r × n_loads, named by `load_names` of the metadata.
-    pub load_vectors: Option<Matrix>,
-    /// Rows of the reduction basis for displacements inside the component.
-    pub recovery: Option<Recovery>,
-}
-
-/// Rows of the reduction basis Ψ: displacement inside the component = `rows` · reduced coordinates.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Recovery {
-    pub(crate) rows: Matrix,
-    pub(crate) dofs: Vec<RecoveredDof>,
-    pub(crate) precision: Precision,
-}
-
-/// What one recovered row is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct RecoveredDof {
-    /// Label of the node in the model.
-    pub node: i64,
-    /// Direction at the node.
-    pub direction: Direction,
-}
-
-/// How many bytes a number of the recovery takes in the file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Precision {
-    /// Eight.
-    Double,
-    /// Four: fit for the deformation, to which the client adds the rigid-body motion; applied to the whole motion it
-    /// would lose the deformation in the rounding.
-    Single,
-}
-
-impl Recovery {
-    /// Recovery rows (n × r) and the n degrees of freedom they recover; in single precision the values are rounded.
-    ///
-    /// # Errors
-    ///
-    /// [`FileError::WrongShape`] if there are not as many dofs as rows.
-    pub fn new(rows: Matrix, dofs: Vec<RecoveredDof>, precision: Precision) -> Result<Self> {
-        if rows.rows() != dofs.len() {
-            let (found, expected) = (vec![dofs.len(), 2], vec![rows.rows(), 2]);
-            return Err(FileError::WrongShape { tensor: "recovery_dofs", found, expected });
-        }
-        let rows = match precision {
-            Precision::Double => rows,
-            Precision::Single => Matrix::from_fn(rows.rows(), rows.cols(), |i, j| f64::from(rows[(i, j)] as f32)),
-        };
-        Ok(Self { rows, dofs, precision })
-    }
-
-    /// The rows, n × r.
-    pub fn rows(&self) -> &Matrix {
-        &self.rows
-    }
-
-    /// What each row is.
-    pub fn dofs(&self) -> &[RecoveredDof] {
-        &self.dofs
-    }
-
-    /// How the rows are stored.
-    pub fn precision(&self) -> Precision {
-        self.precision
-    }
-}
 
 /// A superelement whose parts are known to fit each other; it cannot be changed, so threads may share it.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,7 +17,7 @@ impl Superelement {
     ///
     /// # Errors
     ///
-    /// The content variants of [`FileError`]: shapes that contradict the coordinates, values that are not finite, a
+    /// The content variants of [`FileError`](crate::FileError): shapes that contradict the coordinates, values that are not finite, a
     /// stiffness or mass matrix that is not symmetric to the bit, coordinates out of order, modes, positions or
     /// verdicts that metadata and tensors give differently.
     pub fn new(tensors: Tensors, metadata: Metadata) -> Result<Self> {

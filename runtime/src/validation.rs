@@ -7,8 +7,8 @@ use alloc::vec::Vec;
 use crate::document::is_digest;
 use crate::error::{FileError, Result};
 use crate::matrix::Matrix;
-use crate::metadata::{Coordinate, InterfaceDof, Metadata, Verdict};
-use crate::superelement::Tensors;
+use crate::metadata::{Coordinate, InterfaceDof, Metadata};
+use crate::tensors::Tensors;
 
 /// How far RᵀR of an interface frame may be from the identity; a rotation from twelve printed digits passes.
 const FRAME_TOLERANCE: f64 = 1e-10;
@@ -243,11 +243,4 @@ fn check_modes(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
         }
     }
     Ok(())
-}
-
-impl Verdict {
-    /// The worst of several verdicts, `Pass` for none.
-    pub fn worst(verdicts: impl IntoIterator<Item = Self>) -> Self {
-        verdicts.into_iter().max().unwrap_or(Self::Pass)
-    }
 }

@@ -1,6 +1,6 @@
 //! No damage goes unnoticed: every bit of a file, every length of it.
 
-mod sample;
+use supel_models::superelements::particle as sample;
 
 use supel_runtime::{FileError, Superelement};
 

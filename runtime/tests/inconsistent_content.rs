@@ -1,7 +1,7 @@
 //! One test for each way in which numbers and metadata can fail to be one superelement. Each changes one thing in a
 //! good one.
 
-mod sample;
+use supel_models::superelements::particle as sample;
 
 use supel_runtime::{
     Coordinate, Direction, FileError, InterfaceDof, Matrix, Metadata, Precision, Recovery, Superelement, Tensors,

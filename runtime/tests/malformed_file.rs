@@ -1,7 +1,7 @@
 //! One test for each way in which the bytes of a file can be wrong. Each starts from a good file, changes one thing and,
 //! where the change would otherwise be caught by the digest, seals the file anew.
 
-mod sample;
+use supel_models::superelements::particle as sample;
 
 use serde_json::{Map, Value, json};
 use supel_runtime::{FileError, Superelement};

@@ -1,10 +1,8 @@
 //! Motions, their parameters and tangent operators: identities of the paper, and central differences.
 
-mod random;
-
 use std::f64::consts::PI;
 
-use random::Random;
+use supel_models::SplitMix64;
 use supel_runtime::motion::{
     self, IDENTITY_6, Matrix3, Matrix6, Motion, Vector3, Vector6, check, cross, hat, multiply_6, skew, tangent,
     tangent_3, tangent_inverse, tangent_inverse_3, tangent_inverse_rate, tangent_inverse_rate_3, times_6,
@@ -39,7 +37,7 @@ fn plus(a: &Vector6, factor: f64, b: &Vector6) -> Vector6 {
 
 /// Parameters with |p_θ| up to 1.4, rotations up to 90 degrees.
 fn samples() -> Vec<Vector6> {
-    let mut random = Random(1);
+    let mut random = SplitMix64::new(1);
     (0..20).map(|_| random.vector_6(0.8)).collect()
 }
 
@@ -49,7 +47,7 @@ fn minus(p: &Vector6) -> Vector6 {
 
 #[test]
 fn motions_form_a_group() {
-    let mut random = Random(2);
+    let mut random = SplitMix64::new(2);
     let (a, b, c) = (random.motion(1.5), random.motion(1.5), random.motion(1.5));
     assert_same_motion(&a.compose(&b).compose(&c), &a.compose(&b.compose(&c)), ROUNDING);
     assert_same_motion(&a.compose(&a.inverse()), &Motion::IDENTITY, ROUNDING);
@@ -60,11 +58,11 @@ fn motions_form_a_group() {
 
 #[test]
 fn a_drift_from_the_rotations_is_squared_away() {
-    let mut random = Random(9);
+    let mut random = SplitMix64::new(9);
     let h = random.motion(1.5);
     for drift in [1e-3, 1e-6] {
         let mut drifted = h;
-        drifted.rotation.iter_mut().flatten().for_each(|entry| *entry += drift * random.next());
+        drifted.rotation.iter_mut().flatten().for_each(|entry| *entry += drift * random.either_sign());
         let back = drifted.orthonormalised();
         let gram = motion::multiply_transposed_3(&back.rotation, &back.rotation);
         assert_close(gram.as_flattened(), motion::IDENTITY_3.as_flattened(), 9.0 * drift * drift + ROUNDING);
@@ -87,7 +85,7 @@ fn exponential_of_small_and_large_angles_turns_about_the_axis() {
 
 #[test]
 fn exponentials_of_one_vector_add_up() {
-    let mut random = Random(3);
+    let mut random = SplitMix64::new(3);
     let v = random.vector_6(1.0);
     let (first, second) = (Motion::exp(&v.map(|x| 0.3 * x)), Motion::exp(&v.map(|x| 0.7 * x)));
     assert_same_motion(&second.compose(&first), &Motion::exp(&v), ROUNDING);
@@ -139,7 +137,7 @@ fn half_a_turn_and_not_a_number_have_no_parameters() {
 
 #[test]
 fn tangent_operators_are_derivatives_of_the_motion() {
-    let mut random = Random(4);
+    let mut random = SplitMix64::new(4);
     for p in samples() {
         let direction = random.vector_6(1.0);
         let at = |s: f64| Motion::from_parameters(&plus(&p, s * STEP, &direction)).expect("less than half a turn");
@@ -197,7 +195,7 @@ fn tangent_times_inverse_tangent_of_opposite_parameters_is_the_inverse_motion_te
 
 #[test]
 fn relative_parameters_follow_both_frames() {
-    let mut random = Random(5);
+    let mut random = SplitMix64::new(5);
     for _ in 0..20 {
         let (a, b) = (random.motion(0.4), random.motion(0.4));
         let (da, db) = (random.vector_6(1.0), random.vector_6(1.0));
@@ -214,7 +212,7 @@ fn relative_parameters_follow_both_frames() {
 
 #[test]
 fn rates_are_derivatives_of_the_inverse_tangents() {
-    let mut random = Random(6);
+    let mut random = SplitMix64::new(6);
     for p in samples() {
         let rate = random.vector_6(1.0);
         let (ahead, behind) = (plus(&p, STEP, &rate), plus(&p, -STEP, &rate));
@@ -234,7 +232,7 @@ fn rates_are_derivatives_of_the_inverse_tangents() {
 
 #[test]
 fn hat_is_the_commutator_and_check_its_adjoint() {
-    let mut random = Random(7);
+    let mut random = SplitMix64::new(7);
     let (a, b) = (random.vector_6(1.0), random.vector_6(1.0));
     assert_close(&times_6(&hat(&a), &b), &times_6(&hat(&b), &a).map(|x| -x), ROUNDING);
     assert_close(&transposed_times_6(&hat(&a), &b), &times_6(&check(&b), &a), ROUNDING);
@@ -254,7 +252,7 @@ fn hat_is_the_commutator_and_check_its_adjoint() {
 
 #[test]
 fn the_motion_tensor_turns_material_into_spatial_increments() {
-    let mut random = Random(8);
+    let mut random = SplitMix64::new(8);
     let (h, v) = (random.motion(1.0), random.vector_6(1e-6));
     // H exp(v) = exp(C v) H to first order in every entry, exactly in the group.
     let spatial = Motion::exp(&times_6(&h.tensor(), &v)).compose(&h);

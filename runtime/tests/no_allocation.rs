@@ -2,13 +2,12 @@
 
 #![allow(unsafe_code)]
 
-mod beam;
-mod random;
+use supel_models::superelements::beam;
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use random::Random;
+use supel_models::SplitMix64;
 use supel_runtime::component::{DeadLoad, FloatingFrame, Measures, ModalComponent, RecoveredNode, State};
 use supel_runtime::motion::{IDENTITY_3, Motion};
 use supel_runtime::{Direction, Matrix, Precision, RecoveredDof, Recovery, Superelement};
@@ -58,7 +57,7 @@ fn evaluations_allocate_nothing() {
     let dofs = Direction::ALL[..3].iter().map(|&direction| RecoveredDof { node: 7, direction }).collect();
     tensors.recovery = Some(Recovery::new(rows, dofs, Precision::Double).expect("three rows, three dofs"));
     let superelement = Superelement::new(tensors, metadata).expect("the parts fit");
-    let mut random = Random(2);
+    let mut random = SplitMix64::new(2);
     let (amplitudes, velocities) = (random.vector(5, 0.1), random.vector(17, 1.0));
     let near: Vec<Motion> = (0..2).map(|_| random.motion(0.2)).collect();
     let broken = vec![near[0], near[0].compose(&Motion::exp(&[0.0, 0.0, 0.0, 3.1, 0.0, 0.0]))];

@@ -1,12 +1,9 @@
 //! The example of a client's own integrator runs, and keeps what a free body keeps.
 
-#[path = "beam/mod.rs"]
-mod beam;
+use supel_models::superelements::beam;
 #[path = "../examples/own_integrator.rs"]
 #[allow(dead_code, missing_docs, unreachable_pub)]
 mod example;
-#[path = "random/mod.rs"]
-mod random;
 
 use std::path::Path;
 use std::process::Command;

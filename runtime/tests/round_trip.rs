@@ -1,6 +1,6 @@
 //! What is written is read back, here and by the reference implementation of the container.
 
-mod sample;
+use supel_models::superelements::particle as sample;
 
 use safetensors::SafeTensors;
 use safetensors::tensor::{Dtype, TensorView};

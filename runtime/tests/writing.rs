@@ -1,6 +1,6 @@
 //! A file appears whole or not at all, whatever happens while it is written.
 
-mod sample;
+use supel_models::superelements::particle as sample;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -9,7 +9,7 @@ use super::flaw::flaw;
 use super::record;
 use super::rigid_motion::is_nearly_unit;
 use super::version::{applied, is_of_this_version};
-use crate::job::{Boundary, Columns, Job, Method, ModeSelection, NodeSelection, RecoveryPrecision};
+use crate::job::{Boundary, Columns, Job, Method, ModeSelection, NodeSelection};
 use crate::verification::check::{Check, Limits};
 
 /// Method, units, interfaces, axes, band and recovery are those of the job kept in the file.
@@ -65,10 +65,7 @@ fn by_job(content: &Content<'_>, job: &Job) -> Vec<&'static str> {
     );
     expect(!found.is_empty() || !is_by_rows || rows(content) == rows_asked(job), "other interface rows");
     expect(metadata.validity.band_hz == band(content.superelement, job), "another band");
-    let precision = job.write.recovery.as_ref().map(|recovery| match recovery.precision {
-        RecoveryPrecision::Double => supel_runtime::Precision::Double,
-        RecoveryPrecision::Single => supel_runtime::Precision::Single,
-    });
+    let precision = job.write.recovery.as_ref().map(|recovery| recovery.precision);
     let recovery = tensors.recovery.as_ref();
     expect(recovery.map(supel_runtime::Recovery::precision) == precision, "another recovery");
     if let (Some(recovery), Some(NodeSelection::Labels(asked))) =

@@ -1,6 +1,6 @@
 //! What one row of the matrices stands for.
 
-use super::direction::Direction;
+use supel_runtime::Direction;
 
 /// A degree of freedom of the finite element model: what one row of K and M stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

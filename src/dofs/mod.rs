@@ -1,11 +1,10 @@
 //! Degrees of freedom and nodes: what the rows of the matrices stand for, and what they are called in messages.
 
-mod direction;
 mod dof;
 mod file_rows;
 mod nodes;
 
-pub use direction::Direction;
 pub use dof::{Dof, DofMap};
 pub use file_rows::{FileRows, RowNames};
 pub use nodes::Nodes;
+pub use supel_runtime::Direction;

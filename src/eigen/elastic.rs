@@ -28,6 +28,12 @@ pub enum Eigensolver {
     Arpack,
 }
 
+impl Eigensolver {
+    /// The solvers of this build.
+    pub const BUILT_IN: &'static [Self] =
+        if cfg!(feature = "arpack") { &[Self::Lanczos, Self::Arpack] } else { &[Self::Lanczos] };
+}
+
 /// Which modes, by which solver.
 #[derive(Clone, Copy, Debug)]
 pub struct ModeRequest {

@@ -16,19 +16,12 @@ use super::entries::{Entries, Fault, MIN_LINE_BYTES, parse_entries};
 use super::gathering::{Gathered, Gathering};
 use crate::error::{Error, Result};
 use crate::sparse::Triangle;
-use crate::sparse::{Declared, MAX_ORDER};
+use crate::sparse::{Declared, ENTRY_BYTES, MAX_ORDER, ROW_BYTES, TRIPLET_BYTES};
 
 /// Order up to which a matrix may be empty; its row pointers take 8 MiB.
 const FREE_ORDER: u64 = 1 << 20;
 /// Rows for each entry that a larger matrix may have, so that the row pointers stay within a multiple of the file.
 const MAX_ROWS_PER_ENTRY: u64 = 100;
-
-/// Bytes of an entry as it comes: row, column, value.
-const TRIPLET: u64 = 16;
-/// Bytes of an entry of the assembled matrix: column and value.
-const ENTRY: u64 = 12;
-/// Bytes of a row of the assembled matrix.
-const ROW: u64 = 8;
 
 /// A matrix read from text.
 pub(super) struct TextMatrix {
@@ -93,7 +86,7 @@ fn read_in_blocks(
     let (matrix, mut notes) = triplets.assemble(n as usize, assembled, path)?;
     notes.mirrored &= declared == Declared::General;
     notes.n_duplicates += n_merged;
-    claim.set(ENTRY * matrix.nnz() as u64 + ROW * u64::from(n))?;
+    claim.set(ENTRY_BYTES * matrix.nnz() as u64 + ROW_BYTES * u64::from(n))?;
     let digits = significant_digits(matrix.data()).min(digits_as_written.unwrap_or(u32::MAX));
     let input = MatrixInput { matrix, notes, digits, path: path.to_owned(), digest: ending.digest };
     Ok(TextMatrix { input, order, last_line: ending.last_line })
@@ -124,7 +117,7 @@ impl Reading<'_> {
     /// Claims the entries so far and the matrix that will be made of them: both triangles where one is declared for both.
     fn claim_entries(&mut self) -> Result<()> {
         let is_mirrored = matches!(self.head, Some(Head::Coordinate { declared: Declared::Symmetric, .. }));
-        let of_entry = TRIPLET + if is_mirrored { 2 * ENTRY } else { ENTRY };
+        let of_entry = TRIPLET_BYTES + if is_mirrored { 2 * ENTRY_BYTES } else { ENTRY_BYTES };
         self.claim.set(of_entry * self.entries.n_held() as u64)
     }
 

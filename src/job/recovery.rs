@@ -3,6 +3,7 @@
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use supel_runtime::Precision;
 
 use super::interface::{Coupling, InterfaceJob, NodeSelection, Origin};
 use super::selection::selection;
@@ -17,18 +18,7 @@ pub struct RecoveryJob {
     pub nodes: NodeSelection,
     /// How the rows are stored.
     #[serde(default)]
-    pub precision: RecoveryPrecision,
-}
-
-/// How many bytes a number of the recovery takes in the file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum RecoveryPrecision {
-    /// Eight.
-    #[default]
-    Double,
-    /// Four: enough for the deformation, to which the simulation adds the rigid-body motion.
-    Single,
+    pub precision: Precision,
 }
 
 /// The key, by which messages call the selection.

@@ -10,7 +10,6 @@ use supel_runtime::{Matrix, Precision, RecoveredDof, Recovery};
 
 use super::results::Results;
 use crate::error::{Error, Result};
-use crate::job::RecoveryPrecision;
 
 /// Single precision keeps all its digits, 24 bits, of numbers from 2⁻¹²⁶ to 2¹²⁸. Shapes whose largest entry lies between these
 /// powers of two keep them down to 2⁻²⁶ of that entry, below which the digits are those of its rounding.
@@ -35,15 +34,11 @@ pub(super) fn recovery(results: &Results<'_>) -> Result<Option<Recovery>> {
         let of_row = partition.transformation.rows[rows[i].0].entries();
         of_row.map(|(dof, factor)| factor * psi(dof as usize, column)).sum()
     });
-    let precision = match job.precision {
-        RecoveryPrecision::Double => Precision::Double,
-        RecoveryPrecision::Single => {
-            refuse_beyond_single(&values, n_b)?;
-            Precision::Single
-        }
-    };
-    let dofs = rows.iter().map(|(_, dof)| RecoveredDof { node: dof.node, direction: direction_of(dof.direction) });
-    let recovery = Recovery::new(values, dofs.collect(), precision);
+    if job.precision == Precision::Single {
+        refuse_beyond_single(&values, n_b)?;
+    }
+    let dofs = rows.iter().map(|(_, dof)| RecoveredDof { node: dof.node, direction: dof.direction });
+    let recovery = Recovery::new(values, dofs.collect(), job.precision);
     recovery.map(Some).map_err(|error| Error::of_superelement(&results.job.write.superelement, error))
 }
 
@@ -56,9 +51,4 @@ fn refuse_beyond_single(values: &Matrix, n_b: usize) -> Result<()> {
         return Ok(());
     }
     Err(Error::RecoveryRange { largest, low, high })
-}
-
-/// A direction as the file names it.
-pub(super) fn direction_of(direction: crate::dofs::Direction) -> supel_runtime::Direction {
-    supel_runtime::Direction::ALL[direction as usize]
 }

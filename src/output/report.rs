@@ -11,13 +11,12 @@ use crate::job::{Boundary, Certify, InterfaceJob, ModeSelection, Origin};
 use crate::model::RoundedCoordinates;
 use crate::modes::CountedInterval;
 use crate::partition::InterfaceNode;
-use crate::report::RigidBodySource;
 use crate::report::{
     Completeness, DroppedCoordinate, FacesReport, Generator, InterfacePosition, InterfaceReport, MassProperties,
     MatrixReport, ModeKind, ModeRow, ModelReport, PositionOrigin, ReductionReport, ReportBody, RigidBodyModes,
     TrustInterval,
 };
-use crate::rigid::{ILL_CONDITIONED, RigidSource};
+use crate::rigid::ILL_CONDITIONED;
 
 pub(super) fn body(results: &Results<'_>) -> ReportBody {
     ReportBody {
@@ -48,13 +47,7 @@ fn model(results: &Results<'_>) -> ModelReport {
         mass: matrix(mass),
         files: results.input.files.clone(),
         mass_properties: mass_properties(results),
-        rigid_body_modes: RigidBodyModes {
-            count: evidence.rigid.count(),
-            source: match evidence.rigid.source {
-                RigidSource::Geometric => RigidBodySource::Geometric,
-                RigidSource::Algebraic => RigidBodySource::Algebraic,
-            },
-        },
+        rigid_body_modes: RigidBodyModes { count: evidence.rigid.count(), source: evidence.rigid.source },
         units: results.job.model.units.clone(),
         notes,
     }

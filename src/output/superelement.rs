@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use faer::{Mat, MatRef};
 use supel_runtime::{self as file, Coordinate, Matrix, Metadata, Superelement, Tensors};
 
-use super::recovery::{direction_of, recovery};
+use super::recovery::recovery;
 use super::results::Results;
 use crate::basis::DynamicCoordinate;
 use crate::error::{Error, Result};
@@ -104,7 +104,7 @@ fn named_nodes(results: &Results<'_>) -> Vec<file::InterfaceNode> {
         Some(file::InterfaceNode {
             name: node.name.clone(),
             label: node.label,
-            dofs: node.directions.iter().map(|direction| direction_of(*direction)).collect(),
+            dofs: node.directions.clone(),
             position: node.position?,
         })
     });

@@ -27,10 +27,11 @@ use serde::Serialize;
 use crate::error::Warning;
 use crate::job::{Coupling, Eigensolver, Method};
 use crate::number;
+use crate::rigid::RigidSource;
 use crate::verification::check::{Check, Verdict};
 use crate::verification::preservation::Preservation;
 
-pub use html::html;
+pub use html::{escaped, html};
 pub use inspection::inspection;
 pub use junit::{JunitWarnings, junit};
 pub use page::Paint;
@@ -143,17 +144,7 @@ pub struct RigidBodyModes {
     /// How many.
     pub count: usize,
     /// From coordinates or from K.
-    pub source: RigidBodySource,
-}
-
-/// Where rigid-body modes come from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum RigidBodySource {
-    /// From the coordinates of the nodes, verified against K.
-    Geometric,
-    /// From K and M by inverse iteration.
-    Algebraic,
+    pub source: RigidSource,
 }
 
 /// The reduction and its modes.

@@ -7,7 +7,8 @@ pub(crate) enum Align {
     Right,
 }
 
-/// Width of `text` in columns of the terminal; every character used here is one column wide.
+/// Width of `text` in columns of the terminal; every character used here is one column wide. A table of widths would serve names in
+/// wide scripts alone, and no crate that we have brings one.
 pub(crate) fn width(text: &str) -> usize {
     text.chars().count()
 }

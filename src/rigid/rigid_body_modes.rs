@@ -1,19 +1,12 @@
 //! The rigid-body modes of a partition, and how well K lets them pass.
 
 use faer::{Mat, MatRef};
+/// Geometric ones come from coordinates and are verified against K, algebraic ones from inverse iteration on K − σM.
+pub use supel_runtime::RigidBodyModes as RigidSource;
 
 use crate::dense;
 use crate::partition::{InterfaceNode, Partition};
 use crate::sparse::{SparseMatrix, product};
-
-/// Where rigid-body modes come from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RigidSource {
-    /// Coordinates, verified against K.
-    Geometric,
-    /// Inverse iteration on K − σM.
-    Algebraic,
-}
 
 /// The rigid-body modes of a partition.
 #[derive(Clone, Debug)]

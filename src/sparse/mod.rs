@@ -26,6 +26,13 @@ pub type SparseMatrix = sprs::CsMatI<f64, u32, usize>;
 /// The largest order a matrix may have, 2³¹ − 1: what METIS and 32-bit row indices can number.
 pub const MAX_ORDER: usize = i32::MAX as usize;
 
+/// Bytes of an entry before it is in its row: row, column, value.
+pub(crate) const TRIPLET_BYTES: u64 = 16;
+/// Bytes of an entry of the assembled matrix: column and value.
+pub(crate) const ENTRY_BYTES: u64 = 12;
+/// Bytes of a row of the assembled matrix.
+pub(crate) const ROW_BYTES: u64 = 8;
+
 /// How a source declares its triplets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Declared {

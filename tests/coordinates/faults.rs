@@ -1,7 +1,7 @@
 //! One thing wrong with a model: its map, its coordinates, the frames of its rows or K itself.
 
-use supel_models::model::{Assembler, Entry};
-use supel_models::transform::supported;
+use supel_models::model::Assembler;
+use supel_models::transform::{supported, turned};
 use supel_models::{Material, Model, SplitMix64, brick};
 
 /// A steel block of 6 × 3 × 2 bricks, no two of whose sizes are alike.
@@ -108,28 +108,6 @@ fn shuffled(n: usize) -> Vec<usize> {
     let mut random = SplitMix64::new(3);
     (1..n).rev().for_each(|k| order.swap(k, (random.uniform() * (k + 1) as f64) as usize));
     order
-}
-
-/// RᵀKR and RᵀMR with a turn of 90° about z at some nodes: ux takes the place of uy, uy that of −ux.
-fn turned(model: &Model, is_turned: impl Fn(usize) -> bool) -> Model {
-    let node_of = |row: u32| (model.dofs[row as usize].0 - 1) as usize;
-    let image = |row: u32| match (is_turned(node_of(row)), row % 3) {
-        (true, 0) => (row + 1, -1.0),
-        (true, 1) => (row - 1, 1.0),
-        _ => (row, 1.0),
-    };
-    let of = |entries: &[Entry]| {
-        let mut turned: Vec<Entry> = entries
-            .iter()
-            .map(|&(row, col, value)| {
-                let ((row, of_row), (col, of_col)) = (image(row), image(col));
-                (row, col, value * of_row * of_col)
-            })
-            .collect();
-        turned.sort_unstable_by_key(|&(row, col, _)| (row, col));
-        turned
-    };
-    Model { stiffness: of(&model.stiffness), mass: of(&model.mass), ..model.clone() }
 }
 
 /// K with a spring against each rotation about the middle and none against translation: no support of a solid does that.

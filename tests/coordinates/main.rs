@@ -3,13 +3,10 @@
 //! [`faults`] changes one thing of a sound model; [`table`] reduces the result with every coupling and method. What no
 //! program can see from K, M, dof map and coordinates stands there too, and in `docs/what-the-report-proves.md`.
 
-#[path = "../chain/mod.rs"]
-mod chain;
 mod faults;
-#[path = "../end_to_end/place.rs"]
-#[allow(dead_code, reason = "other tests use the rest")]
-mod place;
 mod sound;
 mod table;
 mod thin;
 mod told;
+
+use supel_testing::{chain, place};

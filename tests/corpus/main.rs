@@ -3,10 +3,10 @@
 mod aircraft;
 mod false_alarms;
 mod pairs;
-#[allow(dead_code, reason = "this crate uses its part")]
-#[path = "../end_to_end/place.rs"]
-mod place;
 mod reference;
+
+use supel_testing::corpus::corpus;
+use supel_testing::place;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -26,17 +26,6 @@ use supel::sparse::SparseMatrix;
 
 use pairs::{Expected, PAIRS, Pair, Reason, Rows, Size, Source};
 use reference::Reference;
-
-fn corpus() -> Option<PathBuf> {
-    let given = std::env::var_os("SUPEL_CORPUS").map(PathBuf::from);
-    let folder = given.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/corpus"));
-    let pairs = folder.join("pairs");
-    if pairs.is_dir() {
-        return Some(pairs);
-    }
-    println!("skipped: no corpus at {}", folder.display());
-    None
-}
 
 /// A file, plain or gzipped.
 fn find(folder: &Path, name: &str) -> Option<PathBuf> {

@@ -1,25 +1,17 @@
 //! A generated model ready for an eigensolver, and the one check every answer has to pass.
 
 use supel::dense;
-use supel::dofs::{Direction, Dof, Nodes};
 use supel::eigen::{
     Factored, MassOrthogonality, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes, mass_orthogonality, shifted,
 };
 use supel::factor::{Analysis, Cholesky};
-use supel::input::{Input, MatrixInput};
 use supel::job::{Eigensolver, InterfaceJob};
 use supel::model::Model;
 use supel::partition::Partition;
 use supel::random::SEED;
 use supel::rigid::{RigidBodyModes, from_coordinates};
-use supel::sparse::{AssemblyNotes, Declared, SparseMatrix, Triplets};
 
-pub(crate) const BOTH: [Eigensolver; 2] = [Eigensolver::Lanczos, Eigensolver::Arpack];
-
-/// The solvers this build has.
-pub(crate) fn eigensolvers() -> &'static [Eigensolver] {
-    if cfg!(feature = "arpack") { &BOTH } else { &BOTH[..1] }
-}
+use crate::chain;
 
 /// A partition with its rigid-body modes and an answer for every request.
 pub(crate) struct Component {
@@ -105,38 +97,6 @@ fn none(partition: &Partition) -> RigidBodyModes {
 }
 
 pub(crate) fn partition(model: &supel_models::Model, interfaces: &[InterfaceJob]) -> Partition {
-    let model = Model::new(input(model)).expect("a model");
+    let model = Model::new(chain::input(model)).expect("a model");
     Partition::new(model, interfaces).expect("a partition")
-}
-
-fn input(model: &supel_models::Model) -> Input {
-    let index_of = |label: &i64| model.labels.iter().position(|other| other == label);
-    let groups = model.groups.iter().map(|(name, labels)| (name.clone(), labels.iter().filter_map(index_of).collect()));
-    let nodes = Nodes { labels: model.labels.clone(), coordinates: model.nodes.clone(), groups: groups.collect() };
-    let dof = |&(node, direction): &(i64, u8)| Dof { node, direction: Direction::ALL[usize::from(direction)] };
-    Input {
-        stiffness: matrix_input(model.n, &model.stiffness),
-        mass: matrix_input(model.n, &model.mass),
-        dofs: (!model.dofs.is_empty()).then(|| model.dofs.iter().map(dof).collect()),
-        nodes: (!model.nodes.is_empty()).then_some(nodes),
-        rows: Default::default(),
-        digests: Default::default(),
-        notes: Vec::new(),
-    }
-}
-
-fn matrix_input(n: usize, entries: &[supel_models::model::Entry]) -> MatrixInput {
-    MatrixInput {
-        matrix: matrix(n, entries),
-        notes: AssemblyNotes::default(),
-        digits: 17,
-        path: "generated".into(),
-        digest: String::new(),
-    }
-}
-
-pub(crate) fn matrix(n: usize, entries: &[supel_models::model::Entry]) -> SparseMatrix {
-    let mut triplets = Triplets::default();
-    entries.iter().for_each(|&(row, col, value)| triplets.push(row, col, value));
-    triplets.assemble(n, Declared::General, "generated".as_ref()).expect("a matrix").0
 }

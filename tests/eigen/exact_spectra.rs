@@ -3,7 +3,8 @@
 use supel::eigen::Wanted;
 use supel_models::*;
 
-use crate::component::{Component, eigensolvers};
+use crate::chain::certified::eigensolvers;
+use crate::component::Component;
 
 /// Whether every eigensolver finds the lowest `count` of an exact spectrum.
 fn finds_lowest(model: &Model, exact: &[f64], counts: &[usize]) {

@@ -3,7 +3,8 @@
 use supel::eigen::Wanted;
 use supel_models::*;
 
-use crate::component::{Component, eigensolvers};
+use crate::chain::certified::eigensolvers;
+use crate::component::Component;
 
 /// Number of modes a band gives, in user units of λ.
 fn in_band(component: &Component, limit: f64) -> Vec<usize> {

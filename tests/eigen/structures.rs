@@ -4,7 +4,8 @@ use supel::eigen::{Modes, Wanted};
 use supel::job::Eigensolver;
 use supel_models::*;
 
-use crate::component::{Component, eigensolvers};
+use crate::chain::certified::eigensolvers;
+use crate::component::Component;
 
 /// The lowest modes by Lanczos, the same by ARPACK.
 fn agreed(component: &Component, wanted: Wanted) -> Modes {

@@ -13,6 +13,7 @@ use supel::cli::ExitCode;
 use supel_models::frame::{Inertia, Section, frame};
 use supel_models::transform::{grounded, rounded};
 use supel_models::{Family, Material, Model, Part, brick, write};
+use supel_testing::chain::certified::eigensolver_words;
 
 use crate::place::{Place, supel};
 
@@ -168,7 +169,7 @@ fn of_all<T: Sync>(items: &[T], look: impl Fn(&T) -> Option<String> + Sync) -> V
 
 #[test]
 fn few_digits_give_frequencies_within_their_bars_or_are_refused_for_the_digits() {
-    let solvers: &[&str] = if cfg!(feature = "arpack") { &["lanczos", "arpack"] } else { &["lanczos"] };
+    let solvers = eigensolver_words();
     let components = components();
     let is_whole = std::env::var_os("SUPEL_WHOLE").is_some();
     let ways: Vec<(&str, Told, &str)> = METHODS

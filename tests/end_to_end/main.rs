@@ -4,9 +4,10 @@ mod failures;
 mod few_digits;
 mod foreign_names;
 mod penalties;
-mod place;
 mod recovery;
 mod results;
 #[cfg(feature = "hdf5")]
 mod same_bytes;
 mod told;
+
+use supel_testing::place;

@@ -2,6 +2,7 @@
 
 use supel::cli::ExitCode;
 use supel_models::{Ends, Material, brick, spring};
+use supel_testing::chain::certified::eigensolver_words;
 
 use crate::place::{Place, frequencies_hz, supel};
 
@@ -30,7 +31,7 @@ fn assert_same(found: &Written, expected: &Written, what: &str) {
 
 fn assert_threads_change_nothing(method: &str) {
     let place = Place::with_example();
-    for solver in eigensolvers() {
+    for solver in eigensolver_words() {
         let by = |threads| reduced_by(&place, &["--method", method, "--eigensolver", solver, "--threads", threads]);
         let first = by("1");
         for threads in THREADS {
@@ -71,17 +72,12 @@ fn beam(place: &Place, rest: &str) -> Written {
     (place.bytes("x.supel"), place.report_body("x.report.json"))
 }
 
-/// The solvers this build has.
-fn eigensolvers() -> Vec<&'static str> {
-    if cfg!(feature = "arpack") { vec!["lanczos", "arpack"] } else { vec!["lanczos"] }
-}
-
 /// Copies of a repeated frequency may turn into each other by any rounding; that none differs shows in the bytes.
 #[test]
 fn pairs_of_modes_do_not_depend_on_threads_nor_on_the_run() {
     let place = square_beam();
     for method in ["herting", "craig-bampton"] {
-        for solver in eigensolvers() {
+        for solver in eigensolver_words() {
             let flags = format!("--method {method} --eigensolver {solver} --modes 8 --threads");
             let first = beam(&place, &format!("{flags} 1"));
             let found = frequencies_hz(&place.superelement("x.supel"));
@@ -98,7 +94,7 @@ fn pairs_of_modes_do_not_depend_on_threads_nor_on_the_run() {
 #[test]
 fn a_job_does_not_depend_on_the_jobs_before_it() {
     let (beams, chains) = (square_beam(), Place::with(&spring(200, Ends::Free)));
-    for solver in eigensolvers() {
+    for solver in eigensolver_words() {
         let of_beam = || beam(&beams, &format!("--method herting --eigensolver {solver} --modes 6"));
         let of_chain = || {
             let flags = format!("--interface ends=rows:0,199 --method herting --eigensolver {solver} --modes 9");
@@ -115,7 +111,7 @@ fn a_job_does_not_depend_on_the_jobs_before_it() {
 /// Jobs that run at the same time share the state of the process.
 #[test]
 fn a_job_does_not_depend_on_jobs_that_run_at_its_side() {
-    for solver in eigensolvers() {
+    for solver in eigensolver_words() {
         let flags = |method: &str| format!("--method {method} --eigensolver {solver} --modes 6 --threads 2");
         let methods = ["herting", "craig-bampton", "herting", "craig-bampton"];
         let alone = methods.map(|method| beam(&square_beam(), &flags(method)));

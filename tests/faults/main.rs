@@ -5,8 +5,7 @@
 
 mod files;
 mod memory;
-#[path = "../end_to_end/place.rs"]
-#[allow(dead_code, reason = "each test crate uses its part")]
-mod place;
 mod shim;
 mod streams;
+
+use supel_testing::place;

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use supel::error::{Error, Result};
 use supel::input::{Input, InputNote, read};
+use supel_testing::corpus::corpus;
 
 use crate::job;
 
@@ -17,17 +18,6 @@ const EXPANDED: [&str; 6] = [
     "nafems_FV12_free_thin_plate_S8R",
     "nafems_FV32_tapered_membrane_CPS8",
 ];
-
-fn corpus() -> Option<PathBuf> {
-    let given = std::env::var_os("SUPEL_CORPUS").map(PathBuf::from);
-    let folder = given.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/corpus"));
-    let pairs = folder.join("pairs");
-    if pairs.is_dir() {
-        return Some(pairs);
-    }
-    println!("skipped: no corpus at {}", folder.display());
-    None
-}
 
 /// The first of these names that exists in a folder.
 fn pick(folder: &Path, names: &[&str]) -> Option<PathBuf> {

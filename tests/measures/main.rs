@@ -3,17 +3,13 @@
 //! A fault is put into the evidence itself – a mode, a column of Ψ_S, an entry of K̂ – so that nothing but the checks can
 //! notice it: the checker is checked.
 
-#[path = "../theorems/cases.rs"]
-#[allow(dead_code, reason = "the theorems use the rest")]
-mod cases;
-#[path = "../chain/mod.rs"]
-mod chain;
 mod digits;
 mod error_bars;
-mod evidence;
 mod facts;
 mod faults;
 mod grounded;
 mod healthy;
 mod roundings;
 mod scales;
+
+use supel_testing::{cases, chain, evidence};

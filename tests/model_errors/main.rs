@@ -2,14 +2,14 @@
 //!
 //! A message has to name the place and the remedy: the tests read it as a user would.
 
-#[path = "../chain/mod.rs"]
-mod chain;
 mod interfaces;
 mod invariance;
 mod matrices;
 mod numerics;
 mod regions;
 mod rigid_body;
+
+use supel_testing::chain;
 
 use supel::error::{Error, ErrorClass};
 

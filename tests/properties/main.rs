@@ -4,17 +4,14 @@
 //! A fixed number of cases from a fixed seed runs every time. More are asked for by `SUPEL_CASES=1000`, which also takes a new
 //! seed; what fails is kept in `regressions/` and tried first from then on.
 
-#[path = "../chain/mod.rs"]
-mod chain;
 mod component;
 mod invariance;
 mod oracle;
-#[allow(dead_code, reason = "this crate uses its part")]
-#[path = "../end_to_end/place.rs"]
-mod place;
 mod projection;
 mod report;
 mod seeds;
+
+use supel_testing::{chain, place};
 
 use proptest::test_runner::{Config, FileFailurePersistence, RngSeed};
 

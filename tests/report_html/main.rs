@@ -5,9 +5,9 @@ mod browser;
 mod command;
 mod content;
 mod junit;
-#[path = "../sample/mod.rs"]
-mod sample;
 mod structure;
+
+use supel_testing::sample;
 
 use roxmltree::{Document, Node};
 use supel::report::Report;

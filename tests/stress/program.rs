@@ -10,6 +10,7 @@ use supel::memory_forecast::Resources;
 use supel::outcome::Outcome;
 use supel::verification::check::{Check, Verdict};
 use supel_models::{Model, write};
+pub(crate) use supel_testing::chain::certified::eigensolver_words as eigensolvers;
 
 /// What a reduction is asked for.
 #[derive(Clone, Debug)]
@@ -21,11 +22,6 @@ pub(crate) struct Case {
     pub(crate) eigensolver: &'static str,
     /// Further lines of the table `model`.
     pub(crate) of_model: String,
-}
-
-/// The eigensolvers this build has.
-pub(crate) fn eigensolvers() -> &'static [&'static str] {
-    if cfg!(feature = "arpack") { &["lanczos", "arpack"] } else { &["lanczos"] }
 }
 
 /// Both methods.

@@ -4,9 +4,8 @@
 //! What a test compares with is computed densely from the model's own entries; see `chain`.
 
 mod basis;
-mod cases;
-#[path = "../chain/mod.rs"]
-mod chain;
 mod eigenpairs;
 mod reduction;
 mod rigid_body;
+
+use supel_testing::{cases, chain};

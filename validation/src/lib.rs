@@ -5,7 +5,6 @@
 //! *Modal Reduction Procedures for Flexible Multibody Dynamics*.
 
 pub mod beam;
-mod body;
 pub mod claims;
 pub mod curve;
 pub mod examples;

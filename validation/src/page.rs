@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use supel::report::escaped;
 use supel_runtime::component::Measures;
 
 use crate::Result;
@@ -51,7 +52,7 @@ fn rules(studies: &[Study]) -> String {
          <em>marginal</em> up to {NOTICED}, from there <em>noticed</em>, <em>considerable</em>, <em>significant</em>; without a \
          degree any change counts, and measures are <em>equally</em> accurate where it is not noticed. <em>About n</em> iterations: \
          at most n + {ABOUT}, with a matrix that never changes; a lower number of iterations is any lower one.</p>\n<p>Claims: {}.</p>\n",
-        totals(studies)
+        escaped(&totals(studies))
     )
 }
 
@@ -86,7 +87,7 @@ fn iterations(studies: &[Study]) -> String {
         };
         let found =
             [coarse, fine].map(|tolerance| format!("{} at {tolerance:.0e}", taken(study, *tolerance))).join("; ");
-        let title = study.example.title();
+        let [title, paper, found] = [study.example.title(), paper, &found].map(escaped);
         rows += &format!("<tr><td>{title}</td><td>{paper}</td><td>{found}</td></tr>\n");
     }
     let head = "<tr><th>Mean iterations per step</th><th>The paper</th><th>Found here, by variant</th></tr>";
@@ -121,12 +122,12 @@ fn file_name(figure: &Figure, measures: Measures) -> String {
 }
 
 fn section(html: &mut String, study: &Study) -> std::fmt::Result {
-    writeln!(html, "<h2>{}</h2>", study.example.title())?;
+    writeln!(html, "<h2>{}</h2>", escaped(study.example.title()))?;
     if let Some(same) = study.same_by_command {
         let word = if same { "the same to the last bit" } else { "<strong class=\"not\">different</strong>" };
         writeln!(html, "<p>Superelements from the library and from <code>supel reduce</code>: {word}.</p>")?;
     }
-    writeln!(html, "<p>{}</p>", study.example.note())?;
+    writeln!(html, "<p>{}</p>", escaped(study.example.note()))?;
     claim_table(html, study)?;
     misfit_table(html, study)?;
     iteration_table(html, study)?;
@@ -138,7 +139,7 @@ fn section(html: &mut String, study: &Study) -> std::fmt::Result {
             "<figure><img src=\"{}/{file}\" alt=\"{}\"><figcaption>As figure {} of the paper, computed here: {words}; \
              below, the differences from the reference.</figcaption></figure>",
             study.example.name(),
-            figure.quantity.1,
+            escaped(figure.quantity.1),
             file.trim_start_matches("figure-").trim_end_matches(".svg"),
         )?;
     }
@@ -154,6 +155,7 @@ fn claim_table(html: &mut String, study: &Study) -> std::fmt::Result {
             Verdict::NotReached => ("not", "no"),
         };
         let Claim { paper, found, reference, .. } = claim;
+        let [paper, found, reference] = [paper, &found, &reference].map(escaped);
         writeln!(
             html,
             "<tr><td>{paper}</td><td>{found}</td><td>{reference}</td><td class=\"{class}\">{word}</td></tr>"
@@ -166,13 +168,14 @@ fn misfit_table(html: &mut String, study: &Study) -> std::fmt::Result {
     // A column of the reference that is not drawn is not recorded either.
     let n = study.runs.first().map_or(0, |run| run.1.curves.names.len().min(study.reference.names.len()) - 1);
     write!(html, "<table><tr><th>Misfit, largest / RMS</th>")?;
-    (0..n).try_for_each(|column| write!(html, "<th class=\"n\">{}</th>", study.reference.quantity(column).0))?;
+    (0..n)
+        .try_for_each(|column| write!(html, "<th class=\"n\">{}</th>", escaped(&study.reference.quantity(column).0)))?;
     writeln!(html, "</tr>")?;
     for (variant, run) in &study.runs {
         let words = if variant.measures == Measures::MotionBased { "" } else { ", classical" };
-        write!(html, "<tr><td>{}{words}</td>", study.example.label((variant.layout, variant.n_modes)))?;
+        write!(html, "<tr><td>{}{words}</td>", escaped(&study.example.label((variant.layout, variant.n_modes))))?;
         match &run.stopped {
-            Some(why) => write!(html, "<td colspan=\"{n}\">stops: {why}</td>")?,
+            Some(why) => write!(html, "<td colspan=\"{n}\">stops: {}</td>", escaped(why))?,
             None => (0..n).try_for_each(|column| {
                 let misfit = run.curves.misfit(column, (&study.reference, column), [0.0, f64::INFINITY]);
                 write!(html, "<td class=\"n\">{:.2} % / {:.2} %</td>", 100.0 * misfit.max, 100.0 * misfit.rms)
@@ -191,7 +194,7 @@ fn iteration_table(html: &mut String, study: &Study) -> std::fmt::Result {
     study.example.tolerances().iter().try_for_each(|tolerance| write!(html, "<th class=\"n\">{tolerance:.0e}</th>"))?;
     writeln!(html, "</tr>")?;
     for model in study.example.models() {
-        write!(html, "<tr><td>{}</td>", study.example.label(*model))?;
+        write!(html, "<tr><td>{}</td>", escaped(&study.example.label(*model)))?;
         let own = study.efforts.iter().filter(|entry| (entry.0.layout, entry.0.n_modes) == *model);
         for (_, _, effort) in own {
             match effort {

@@ -101,3 +101,11 @@ pub fn reduced_by_command(program: &Path, job: &Path) -> Result<Superelement> {
     }
     Ok(Superelement::open(&Job::read(job)?.write.superelement)?)
 }
+
+/// The superelements of parts, reduced in folders of their names.
+///
+/// # Errors
+/// The errors of writing the files and of supel.
+pub fn reduced_parts(parts: &[Part], folder: &Path) -> Result<Vec<Superelement>> {
+    parts.iter().map(|part| reduced(&part.write(&folder.join(&part.name))?)).collect()
+}

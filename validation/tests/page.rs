@@ -46,6 +46,15 @@ fn static_example_reaches_every_claim_and_shows_every_figure() {
     assert!(!html.contains(">Figure "), "a curve of our own is captioned as one of the paper");
 }
 
+/// What an error says may hold signs that mean something to a browser.
+#[test]
+fn texts_are_shown_as_they_stand() {
+    let mut study = study(Example::Bend);
+    study.runs[0].1.stopped = Some("<b> of \"A & B\"".to_owned());
+    let html = page(&[study], None);
+    assert!(html.contains("stops: &lt;b&gt; of &quot;A &amp; B&quot;<"), "an error is taken for markup");
+}
+
 /// The windows of 5.3 that show a second each have the legend that the whole record has.
 #[test]
 fn windows_have_legends() {

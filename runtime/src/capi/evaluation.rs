@@ -45,7 +45,7 @@ pub unsafe extern "C" fn supel_workspace_free(workspace: *mut SupelWorkspace) {
 
 /// Before anything is done: the wrong workspace is a mistake of the program, not of the state.
 pub(super) fn check_workspace(component: &ModalComponent, workspace: &Workspace) -> Outcome {
-    component.check_workspace(workspace).map_err(|error| failed(SupelStatus::Argument)(&error))
+    workspace.check_component(component).map_err(|error| failed(SupelStatus::Argument)(&error))
 }
 
 type Evaluate = fn(&ModalComponent, &State<'_>, &mut Workspace) -> Result<(), EvaluationError>;

@@ -4,7 +4,8 @@
 //! the node in its own axes and S = [I, x̃; 0, I]; modal amplitudes stay as they are. S is constant, so that accelerations and
 //! increments change as velocities do. In the coordinates v "the node stays where it is" means "the first three are zero".
 
-use super::{EvaluationError, ModalComponent};
+use super::error::EvaluationError;
+use super::modal_component::ModalComponent;
 use crate::motion::{Vector3, Vector6, cross, force_to_point, velocity_to_origin, velocity_to_point};
 
 impl ModalComponent {

@@ -4,7 +4,10 @@ use alloc::vec::Vec;
 use std::num::NonZero;
 use std::sync::{Mutex, PoisonError};
 
-use super::{EvaluationError, ModalComponent, State, Workspace};
+use super::error::EvaluationError;
+use super::modal_component::ModalComponent;
+use super::state::State;
+use super::workspace::Workspace;
 
 /// One component in one state, and where its results go.
 #[derive(Debug)]

@@ -11,18 +11,20 @@
 
 use alloc::vec::Vec;
 
+use super::acts_on::ActsOn;
 use super::dense;
-use super::floating_frame::FrameRounding;
-use super::gravity::Weight;
+use super::error::ComponentError;
+use super::frame_condition::{FloatingFrame, FrameRounding};
 use super::identity::Identity;
-use super::projection::ActsOn;
-use super::recovery::RecoveryMap;
-use super::{ComponentError, FloatingFrame, Measures, ModalComponent};
+use super::measures::Measures;
+use super::modal_component::{Matrices, ModalComponent};
+use super::recovery_map::RecoveryMap;
+use super::weight::Weight;
 use crate::elementary::sqrt;
 use crate::matrix::Matrix;
 use crate::metadata::{Coordinate, Direction, MOTIONS, RigidBodyModes};
 use crate::motion::{
-    IDENTITY_3, IDENTITY_6, Matrix6, Vector3, Vector6, blocks, dot, multiply_6, skew, transposed_times_6,
+    IDENTITY_3, IDENTITY_6, Matrix6, Vector3, Vector6, ZERO_3, blocks, dot, multiply_6, skew, transposed_times_6,
 };
 use crate::superelement::Superelement;
 
@@ -43,14 +45,6 @@ const ABOVE_THE_STIFFNESS: f64 = 10.0;
 /// Smallest pivot of the rigid-body mass scaled to unit diagonal: of a body ten thousand times its size away from the
 /// origin.
 const SMALLEST_PIVOT: f64 = 1e-9;
-
-/// Reduced matrices, r × r, row by row.
-#[derive(Clone, Debug)]
-pub(super) struct Matrices {
-    pub(super) stiffness: Vec<f64>,
-    pub(super) mass: Vec<f64>,
-    pub(super) damping: Option<Vec<f64>>,
-}
 
 impl ModalComponent {
     /// A component with motion-based measures of deformation.
@@ -174,7 +168,7 @@ fn check_interface(superelement: &Superelement) -> Result<(), ComponentError> {
 
 /// D = [I, −x̃; 0, I].
 fn shift(position: &Vector3) -> Matrix6 {
-    blocks(&IDENTITY_3, &skew(&position.map(|x| -x)), &[[0.0; 3]; 3], &IDENTITY_3)
+    blocks(&IDENTITY_3, &skew(&position.map(|x| -x)), &ZERO_3, &IDENTITY_3)
 }
 
 /// D⁻¹ = [I, x̃; 0, I].
@@ -328,7 +322,7 @@ fn inverse_in_scale(a: &Matrix6) -> Option<Matrix6> {
 fn no_frame(product: &Matrix6) -> ComponentError {
     let mass = (product[0][0] + product[1][1] + product[2][2]) / 3.0;
     let centre = [(1, 5), (2, 3), (0, 4)].map(|(i, j)| product[i][j] / mass);
-    let about = blocks(&IDENTITY_3, &skew(&centre), &[[0.0; 3]; 3], &IDENTITY_3);
+    let about = blocks(&IDENTITY_3, &skew(&centre), &ZERO_3, &IDENTITY_3);
     let turned = multiply_6(&dense::transposed(&about), &multiply_6(product, &about));
     if inverse_in_scale(&turned).is_none() {
         return ComponentError::MasslessMotion;

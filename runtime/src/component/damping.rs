@@ -7,25 +7,24 @@
 //! whole motion, as seen from the floating frame; any other one on the deformation rate alone, so that rounding in C U does
 //! not brake a fast rotation.
 
-use super::ModalComponent;
+use super::acts_on::ActsOn;
 use super::dense;
-use super::projection::{ActsOn, Projector};
+use super::modal_component::ModalComponent;
+use super::projection::Projector;
 use super::workspace::Workspace;
 
-impl ModalComponent {
-    pub(super) fn damping_forces(&self, workspace: &mut Workspace) {
-        let Some(damping) = &self.matrices().damping else {
-            return;
-        };
-        let Workspace { nodes, q, deformation_rate, velocity, product, results, load, .. } = workspace;
-        let rate = match self.damping_acts_on {
-            ActsOn::Deformation => deformation_rate,
-            ActsOn::Motion => velocity,
-        };
-        dense::times(damping, rate, product);
-        results.dissipated_power = dense::dot(rate, product);
-        let (on, projector) = (self.damping_acts_on, Projector { nodes, q });
-        let on_frame = self.project(product, &[0.0; 6], on, &projector, &mut results.damping_forces);
-        load.add(product, &on_frame);
-    }
+pub(super) fn damping_forces(component: &ModalComponent, workspace: &mut Workspace) {
+    let Some(damping) = &component.matrices().damping else {
+        return;
+    };
+    let Workspace { nodes, q, deformation_rate, velocity, product, results, load, .. } = workspace;
+    let rate = match component.damping_acts_on {
+        ActsOn::Deformation => deformation_rate,
+        ActsOn::Motion => velocity,
+    };
+    dense::times(damping, rate, product);
+    results.dissipated_power = dense::dot(rate, product);
+    let (on, projector) = (component.damping_acts_on, Projector { nodes, q });
+    let on_frame = projector.project(product, &[0.0; 6], on, &mut results.damping_forces);
+    load.add(product, &on_frame);
 }

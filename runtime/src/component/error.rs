@@ -1,6 +1,6 @@
 //! Why a superelement makes no component, and why a component cannot be evaluated.
 
-use alloc::string::String;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use crate::metadata::Direction;
@@ -186,6 +186,5 @@ pub enum EvaluationError {
 }
 
 fn list(directions: &[Direction]) -> String {
-    let names = ["ux", "uy", "uz", "rx", "ry", "rz"];
-    directions.iter().map(|direction| names[*direction as usize]).collect::<Vec<_>>().join(", ")
+    directions.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }

@@ -4,16 +4,15 @@
 //! and the residual Yᵀe is itself a small motion.
 
 use super::dense;
+use super::error::EvaluationError;
+use super::modal_component::ModalComponent;
+use super::projection::{add_rigid, measure_rate};
+use super::state::State;
 use super::workspace::{Workspace, all_finite};
-use super::{EvaluationError, ModalComponent, State};
-use crate::motion::{Matrix3, Motion, Vector3, Vector6, cross, dot, times_6};
+use crate::motion::{Matrix3, Motion, cross, dot, times_6};
 
 /// Steps from one start. From a node turned by half a radian four are needed; the limit is for those that diverge.
 const MAX_ITERATIONS: usize = 25;
-
-/// Error of a term of Yᵀe relative to the numbers it is made of: some tens of operations rounded at 1e-16. The search
-/// converges quadratically and reaches it.
-const ROUNDING: f64 = 1e-14;
 
 /// Smallest pivot of YᵀF, which is the identity without deformation.
 const SMALLEST_PIVOT: f64 = 1e-3;
@@ -21,136 +20,138 @@ const SMALLEST_PIVOT: f64 = 1e-3;
 /// How far RᵀR of a node may be from the identity: 1e7 steps that each round at 1e-16 drift by 1e-9.
 const ROTATION_TOLERANCE: f64 = 1e-6;
 
-impl ModalComponent {
-    /// Checks the state; finds H_F, e, J, F, S, Q, V_F and ė.
-    pub(super) fn kinematics(&self, state: &State<'_>, workspace: &mut Workspace) -> Result<(), EvaluationError> {
-        self.check_workspace(workspace)?;
-        workspace.has_state = false;
-        self.check(state)?;
-        self.find_frame(state, workspace)?;
-        self.project_frame(workspace);
-        self.velocities(state.velocities, workspace);
-        Ok(())
-    }
+/// Checks the state; finds H_F, e, J, F, S, Q, V_F and ė.
+pub(super) fn kinematics(
+    component: &ModalComponent,
+    state: &State<'_>,
+    workspace: &mut Workspace,
+) -> Result<(), EvaluationError> {
+    workspace.check_component(component)?;
+    workspace.has_state = false;
+    check(component, state)?;
+    find_frame(component, state, workspace)?;
+    project_frame(component, workspace);
+    velocities(component, state.velocities, workspace);
+    Ok(())
+}
 
-    fn check(&self, state: &State<'_>) -> Result<(), EvaluationError> {
-        let r = self.n_coordinates();
-        let numbers = [
-            ("amplitudes", state.amplitudes, self.n_modal),
-            ("velocities", state.velocities, r),
-            ("accelerations", state.accelerations, r),
-        ];
-        self.check_motions(state.motions)?;
-        for (what, values, expected) in numbers {
-            if values.len() != expected {
-                return Err(EvaluationError::WrongLength { what, found: values.len(), expected });
-            }
-            if let Some(index) = values.iter().position(|value| !value.is_finite()) {
-                return Err(EvaluationError::NotFinite { what, index });
-            }
+fn check(component: &ModalComponent, state: &State<'_>) -> Result<(), EvaluationError> {
+    let r = component.n_coordinates();
+    let numbers = [
+        ("amplitudes", state.amplitudes, component.n_modal),
+        ("velocities", state.velocities, r),
+        ("accelerations", state.accelerations, r),
+    ];
+    check_motions(component, state.motions)?;
+    for (what, values, expected) in numbers {
+        if values.len() != expected {
+            return Err(EvaluationError::WrongLength { what, found: values.len(), expected });
         }
-        Ok(())
+        if let Some(index) = values.iter().position(|value| !value.is_finite()) {
+            return Err(EvaluationError::NotFinite { what, index });
+        }
     }
+    Ok(())
+}
 
-    /// A workspace of this component: one of another has other results, though it may have their number.
-    pub(crate) fn check_workspace(&self, workspace: &Workspace) -> Result<(), EvaluationError> {
-        if workspace.component == self.identity { Ok(()) } else { Err(EvaluationError::ForeignWorkspace) }
+/// As many motions as nodes, each a finite translation and a rotation.
+pub(super) fn check_motions(component: &ModalComponent, motions: &[Motion]) -> Result<(), EvaluationError> {
+    if motions.len() != component.n_nodes() {
+        let (what, found, expected) = ("motions of nodes", motions.len(), component.n_nodes());
+        return Err(EvaluationError::WrongLength { what, found, expected });
     }
+    for (node, motion) in motions.iter().enumerate() {
+        if let Some(axis) = motion.translation.iter().position(|value| !value.is_finite()) {
+            let (what, index) = ("translations of nodes", 3 * node + axis);
+            return Err(EvaluationError::NotFinite { what, index });
+        }
+        if !is_rotation(&motion.rotation) {
+            return Err(EvaluationError::NotRotation { node });
+        }
+    }
+    Ok(())
+}
 
-    /// As many motions as nodes, each a finite translation and a rotation.
-    pub(super) fn check_motions(&self, motions: &[Motion]) -> Result<(), EvaluationError> {
-        if motions.len() != self.n_nodes() {
-            let (what, found, expected) = ("motions of nodes", motions.len(), self.n_nodes());
-            return Err(EvaluationError::WrongLength { what, found, expected });
+/// From the given frame, or the last one carried along with node 0; failing that from each node in turn.
+fn find_frame(component: &ModalComponent, state: &State<'_>, workspace: &mut Workspace) -> Result<(), EvaluationError> {
+    let first = match workspace.given_frame.take() {
+        Some(frame) if is_rotation(&frame.rotation) && all_finite(&frame.translation) => frame,
+        Some(_) => return Err(EvaluationError::InvalidFrame),
+        None => state.motions[0].compose(&workspace.frame_in_node),
+    };
+    let mut outcome = newton(component, state, first, workspace);
+    for start in state.motions {
+        if outcome.is_ok() {
+            break;
         }
-        for (node, motion) in motions.iter().enumerate() {
-            if let Some(axis) = motion.translation.iter().position(|value| !value.is_finite()) {
-                let (what, index) = ("translations of nodes", 3 * node + axis);
-                return Err(EvaluationError::NotFinite { what, index });
-            }
-            if !is_rotation(&motion.rotation) {
-                return Err(EvaluationError::NotRotation { node });
-            }
-        }
-        Ok(())
+        outcome = newton(component, state, *start, workspace);
     }
+    workspace.frame_in_node = state.motions[0].relative(&workspace.floating_frame);
+    if outcome.is_err() {
+        workspace.frame_in_node = Motion::IDENTITY;
+    }
+    outcome
+}
 
-    /// From the given frame, or the last one carried along with node 0; failing that from each node in turn.
-    fn find_frame(&self, state: &State<'_>, workspace: &mut Workspace) -> Result<(), EvaluationError> {
-        let first = match workspace.given_frame.take() {
-            Some(frame) if is_rotation(&frame.rotation) && all_finite(&frame.translation) => frame,
-            Some(_) => return Err(EvaluationError::InvalidFrame),
-            None => state.motions[0].compose(&workspace.frame_in_node),
-        };
-        let mut outcome = self.newton(state, first, workspace);
-        for start in state.motions {
-            if outcome.is_ok() {
-                break;
-            }
-            outcome = self.newton(state, *start, workspace);
+fn newton(
+    component: &ModalComponent,
+    state: &State<'_>,
+    start: Motion,
+    workspace: &mut Workspace,
+) -> Result<(), EvaluationError> {
+    let rounding = component.frame_rounding.of(state);
+    workspace.floating_frame = start.orthonormalised();
+    let mut correction = [0.0; 6];
+    for _ in 0..MAX_ITERATIONS {
+        measure(component, state, workspace)?;
+        let gradient = dense::block_sum(&component.frame, workspace.nodes.iter().map(|node| &node.f));
+        workspace.s = dense::inverse(&gradient, SMALLEST_PIVOT).ok_or(EvaluationError::FrameSingular)?;
+        let residual = dense::columns_times(&component.frame, &workspace.deformation);
+        if residual.iter().zip(&rounding).all(|(x, limit)| x.abs() <= *limit) {
+            return Ok(());
         }
-        workspace.frame_in_node = state.motions[0].relative(&workspace.floating_frame);
-        if outcome.is_err() {
-            workspace.frame_in_node = Motion::IDENTITY;
-        }
-        outcome
+        correction = times_6(&workspace.s, &residual);
+        workspace.floating_frame = workspace.floating_frame.compose(&Motion::exp(&correction));
     }
+    let correction = correction.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    Err(EvaluationError::FrameNotConverged { iterations: MAX_ITERATIONS, correction })
+}
 
-    fn newton(&self, state: &State<'_>, start: Motion, workspace: &mut Workspace) -> Result<(), EvaluationError> {
-        let rounding = self.frame_rounding.of(state);
-        workspace.floating_frame = start.orthonormalised();
-        let mut correction = [0.0; 6];
-        for _ in 0..MAX_ITERATIONS {
-            self.measure(state, workspace)?;
-            let gradient = dense::block_sum(&self.frame, workspace.nodes.iter().map(|node| &node.f));
-            workspace.s = dense::inverse(&gradient, SMALLEST_PIVOT).ok_or(EvaluationError::FrameSingular)?;
-            let residual = dense::columns_times(&self.frame, &workspace.deformation);
-            if residual.iter().zip(&rounding).all(|(x, limit)| x.abs() <= *limit) {
-                return Ok(());
-            }
-            correction = times_6(&workspace.s, &residual);
-            workspace.floating_frame = workspace.floating_frame.compose(&Motion::exp(&correction));
-        }
-        let correction = correction.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        Err(EvaluationError::FrameNotConverged { iterations: MAX_ITERATIONS, correction })
+/// e, J and F of the nodes for the current floating frame.
+fn measure(component: &ModalComponent, state: &State<'_>, workspace: &mut Workspace) -> Result<(), EvaluationError> {
+    let (blocks, amplitudes) = workspace.deformation.split_at_mut(6 * component.n_nodes());
+    let each = workspace.nodes.iter_mut().zip(state.motions).zip(&component.positions);
+    for (j, (((node, motion), position), e)) in each.zip(blocks.as_chunks_mut::<6>().0).enumerate() {
+        let relative = workspace.floating_frame.relative(motion);
+        *node = component.measures.of(&relative, position).ok_or(EvaluationError::HalfTurn { node: j })?;
+        *e = node.e;
     }
+    amplitudes.copy_from_slice(state.amplitudes);
+    Ok(())
+}
 
-    /// e, J and F of the nodes for the current floating frame.
-    fn measure(&self, state: &State<'_>, workspace: &mut Workspace) -> Result<(), EvaluationError> {
-        let (blocks, amplitudes) = workspace.deformation.split_at_mut(6 * self.n_nodes());
-        let each = workspace.nodes.iter_mut().zip(state.motions).zip(&self.positions);
-        for (j, (((node, motion), position), e)) in each.zip(blocks.as_chunks_mut::<6>().0).enumerate() {
-            let relative = workspace.floating_frame.relative(motion);
-            *node = self.measures.of(&relative, position).ok_or(EvaluationError::HalfTurn { node: j })?;
-            *e = node.e;
-        }
-        amplitudes.copy_from_slice(state.amplitudes);
-        Ok(())
+/// Qᵀ = JᵀY Sᵀ, r × 6, and F − U.
+pub(super) fn project_frame(component: &ModalComponent, workspace: &mut Workspace) {
+    let n_nodal = 6 * component.n_nodes();
+    let (blocks, amplitudes) = workspace.q.split_at_mut(n_nodal);
+    let (frame_blocks, frame_amplitudes) = component.frame.split_at(n_nodal);
+    let each = blocks.as_chunks_mut::<6>().0.iter_mut().zip(frame_blocks.as_chunks::<6>().0);
+    for ((q, y), node) in each.zip(&workspace.nodes) {
+        *q = dense::turned_rows(&node.j, y);
     }
+    amplitudes.copy_from_slice(frame_amplitudes);
+    for (node, rigid) in workspace.nodes.iter_mut().zip(&component.rigid) {
+        node.excess = core::array::from_fn(|i| dense::plus_scaled(&node.f[i], -1.0, &rigid[i]));
+    }
+    dense::apply_to_rows(&workspace.s, &mut workspace.q);
+}
 
-    /// Qᵀ = JᵀY Sᵀ, r × 6, and F − U.
-    pub(super) fn project_frame(&self, workspace: &mut Workspace) {
-        let n_nodal = 6 * self.n_nodes();
-        let (blocks, amplitudes) = workspace.q.split_at_mut(n_nodal);
-        let (frame_blocks, frame_amplitudes) = self.frame.split_at(n_nodal);
-        let each = blocks.as_chunks_mut::<6>().0.iter_mut().zip(frame_blocks.as_chunks::<6>().0);
-        for ((q, y), node) in each.zip(&workspace.nodes) {
-            *q = dense::turned_rows(&node.j, y);
-        }
-        amplitudes.copy_from_slice(frame_amplitudes);
-        for (node, rigid) in workspace.nodes.iter_mut().zip(&self.rigid) {
-            node.excess = core::array::from_fn(|i| dense::plus_scaled(&node.f[i], -1.0, &rigid[i]));
-        }
-        dense::apply_to_rows(&workspace.s, &mut workspace.q);
-    }
-
-    /// V_F = Q v, ė = J v − F V_F and ε = ė + U V_F.
-    fn velocities(&self, v: &[f64], workspace: &mut Workspace) {
-        let v_f = workspace.frame_part(v);
-        workspace.frame_velocity = v_f;
-        self.measure_rate(v, &v_f, &workspace.nodes, &mut workspace.deformation_rate);
-        self.add_rigid(&workspace.deformation_rate, &v_f, &mut workspace.velocity);
-    }
+/// V_F = Q v, ė = J v − F V_F and ε = ė + U V_F.
+fn velocities(component: &ModalComponent, v: &[f64], workspace: &mut Workspace) {
+    let v_f = workspace.frame_part(v);
+    workspace.frame_velocity = v_f;
+    measure_rate(v, &v_f, &workspace.nodes, &mut workspace.deformation_rate);
+    add_rigid(&component.rigid, &workspace.deformation_rate, &v_f, &mut workspace.velocity);
 }
 
 fn is_rotation([a, b, c]: &Matrix3) -> bool {
@@ -158,36 +159,4 @@ fn is_rotation([a, b, c]: &Matrix3) -> bool {
     let unit = [a, b, c].into_iter().all(|row| near(dot(row, row), 1.0));
     let orthogonal = [(a, b), (a, c), (b, c)].into_iter().all(|(x, y)| near(dot(x, y), 0.0));
     unit && orthogonal && near(dot(&cross(a, b), c), 1.0)
-}
-
-/// What rounding makes of Yᵀe: each of its six rows is a sum of translations, rotations and amplitudes.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct FrameRounding {
-    /// Largest coordinate of an interface node.
-    pub(super) extent: f64,
-    /// Sums of the magnitudes of Y over translations, rotations and amplitudes.
-    weights: [Vector6; 3],
-}
-
-impl FrameRounding {
-    pub(super) fn new(frame: &[Vector6], positions: &[Vector3]) -> Self {
-        let mut weights = [[0.0; 6]; 3];
-        for (i, row) in frame.iter().enumerate() {
-            let kind = if i >= 6 * positions.len() { 2 } else { i % 6 / 3 };
-            weights[kind] = dense::plus_scaled(&weights[kind], 1.0, &row.map(f64::abs));
-        }
-        Self { extent: largest(positions.as_flattened()), weights }
-    }
-
-    /// Rounding of each row: displacements are differences of numbers as large as the way of the component.
-    fn of(&self, state: &State<'_>) -> Vector6 {
-        let way = state.motions.iter().fold(self.extent, |size, motion| size.max(largest(&motion.translation)));
-        let [translations, rotations, amplitudes] = &self.weights;
-        let amplitude = largest(state.amplitudes);
-        core::array::from_fn(|a| ROUNDING * (translations[a] * way + rotations[a] + amplitudes[a] * amplitude))
-    }
-}
-
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |size: f64, x| size.max(x.abs()))
 }

@@ -11,53 +11,17 @@
 //!
 //! with L = (J P_⊥)ᵀĜ, and Q_θ the rotation rows of Q: ∂a = ã Q_θ, ∂s = Lᵀ.
 
+use super::acts_on::ActsOn;
 use super::dense;
-use super::projection::{ActsOn, Projector};
+use super::error::EvaluationError;
+use super::modal_component::ModalComponent;
+use super::projection::Projector;
+use super::rows::{add_by_place, subtract_frame_rows};
+use super::weight::{Weight, on_frame};
 use super::workspace::{Scratch, Workspace, check_finite};
-use super::{EvaluationError, ModalComponent};
-use crate::elementary::sqrt;
 use crate::motion::{
-    Matrix6, Vector3, Vector6, cross, dot, join, skew, split, times_3, times_6, transposed_times_3, transposed_times_6,
+    Vector3, Vector6, cross, dot, join, split, times_3, times_6, transposed_times_3, transposed_times_6,
 };
-
-/// What the entries of UᵀĜ may differ from those of a weight: loads of gravity may be printed with six digits.
-const OF_A_WEIGHT: f64 = 1e-5;
-
-/// Mass m and moment of mass x_m that loads of gravity are the weight of.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Weight {
-    mass: f64,
-    moment: Vector3,
-}
-
-impl Weight {
-    /// From Ĝ, rows of three, and U of the nodes; `None` where UᵀĜ is not (m I; x̃_m). `rigid_mass` gives the size of x_m.
-    pub(super) fn of(gravity: &[Vector3], rigid: &[Matrix6], rigid_mass: &Matrix6) -> Option<Self> {
-        let columns: [Vector6; 3] = core::array::from_fn(|c| on_frame(gravity, rigid, |row| row[c]));
-        let entry = |i: usize, c: usize| columns[c][i];
-        let mass = (entry(0, 0) + entry(1, 1) + entry(2, 2)) / 3.0;
-        let moment = [(5, 1), (3, 2), (4, 0)].map(|(i, c)| 0.5 * (entry(i, c) - entry(c + 3, i - 3)));
-        let arms = (3..6).map(|i| rigid_mass[i][i].abs()).sum::<f64>() * mass.abs();
-        let limits = [OF_A_WEIGHT * mass.abs(), OF_A_WEIGHT * sqrt(arms)];
-        let turned = skew(&moment);
-        let is_weight = (0..3).all(|i| {
-            let straight = |c: usize| if i == c { mass } else { 0.0 };
-            (0..3).all(|c| {
-                (entry(i, c) - straight(c)).abs() <= limits[0] && (entry(3 + i, c) - turned[i][c]).abs() <= limits[1]
-            })
-        });
-        is_weight.then_some(Self { mass, moment })
-    }
-}
-
-/// Σ U_jᵀ f_j of a load with one value for each coordinate.
-fn on_frame(gravity: &[Vector3], rigid: &[Matrix6], value: impl Fn(&Vector3) -> f64) -> Vector6 {
-    let mut sum = [0.0; 6];
-    for (rigid, rows) in rigid.iter().zip(gravity.as_chunks::<6>().0) {
-        sum = dense::plus_scaled(&sum, 1.0, &transposed_times_6(rigid, &rows.each_ref().map(&value)));
-    }
-    sum
-}
 
 impl ModalComponent {
     /// Forces on the coordinates (r) of the gravity field `g`, an acceleration in inertial axes, in the state that was
@@ -121,19 +85,19 @@ impl ModalComponent {
         dense::transpose(q, wide_q);
         // ∂f.
         square.fill(0.0);
-        self.add_by_place(&Projector { nodes, q }, (product, &of_frame), wide_q, square, on_frame);
+        add_by_place(self, &Projector { nodes, q }, (product, &of_frame), wide_q, square, on_frame);
         for (row, column) in square.chunks_exact_mut(r).zip(columns.as_chunks::<3>().0) {
             let factors = cross(column, &load.field);
             dense::add_six(row, &join(&[0.0; 3], &factors), wide_q, 0);
         }
-        self.subtract_frame_rows(q, on_frame, square);
+        subtract_frame_rows(q, on_frame, square);
         check_finite([("stiffness of gravity", square)])?;
         dense::add_scaled(stiffness, -1.0, square);
         Ok(())
     }
 
     fn check_gravity(&self, g: &Vector3, workspace: &Workspace) -> Result<(), EvaluationError> {
-        self.check_workspace(workspace)?;
+        workspace.check_component(self)?;
         workspace.check_state()?;
         match g.iter().position(|value| !value.is_finite()) {
             Some(index) => Err(EvaluationError::NotFinite { what: "acceleration of gravity", index }),
@@ -154,7 +118,7 @@ impl ModalComponent {
         let whole = self.gravity_on_frame(|row| dot(row, &field));
         let reaction = dense::plus_scaled(&whole, 1.0, &join(&[0.0; 3], &cross(&moved, &field))).map(|x| -x);
         let projector = Projector { nodes, q };
-        let on_frame = self.project(product, &reaction, ActsOn::Deformation, &projector, &mut results.gravity);
+        let on_frame = projector.project(product, &reaction, ActsOn::Deformation, &mut results.gravity);
         Ok(GravityLoad { field, moved, on_frame })
     }
 

@@ -1,10 +1,13 @@
 //! Loads on interface nodes that keep their direction in space.
 
+use super::error::EvaluationError;
+use super::floating_frame::check_motions;
+use super::modal_component::ModalComponent;
 use super::workspace::check_finite;
-use super::{EvaluationError, ModalComponent};
 use crate::metadata::InterfaceDof;
 use crate::motion::{
-    Matrix3, Matrix6, Motion, Vector3, Vector6, blocks, force_to_origin, join, multiply_3, skew, transposed_times_3,
+    Matrix3, Matrix6, Motion, Vector3, Vector6, ZERO_3, blocks, force_to_origin, join, multiply_3, skew,
+    transposed_times_3,
 };
 
 /// A load that should have no component along a dof has one of rounding, 1e-16 and the drift of the rotation; moments also that
@@ -36,9 +39,8 @@ impl DeadLoad {
         let force = skew(&transposed_times_3(&motion.rotation, &self.force));
         let moment = skew(&transposed_times_3(&motion.rotation, &self.moment));
         let lever = multiply_3(&skew(position), &force);
-        let zero = [[0.0; 3]; 3];
         let lower: Matrix3 = core::array::from_fn(|i| core::array::from_fn(|j| -(lever[i][j] + moment[i][j])));
-        blocks(&zero, &force.map(|row| row.map(|x| -x)), &zero, &lower)
+        blocks(&ZERO_3, &force.map(|row| row.map(|x| -x)), &ZERO_3, &lower)
     }
 }
 
@@ -102,7 +104,7 @@ impl ModalComponent {
                 return Err(EvaluationError::NotFinite { what, index });
             }
         }
-        self.check_motions(motions)?;
+        check_motions(self, motions)?;
         self.check_unloaded(load, &motions[load.node])
     }
 

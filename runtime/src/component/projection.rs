@@ -5,78 +5,31 @@
 
 use alloc::vec::Vec;
 
-use super::ModalComponent;
+use super::acts_on::ActsOn;
 use super::dense;
 use super::measures::NodeMeasure;
 use crate::motion::{Matrix6, Vector6, times_6, transposed_times_6};
 
-/// What a quantity of the component acts on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ActsOn {
-    /// The deformation ė: W = F.
-    Deformation,
-    /// The whole motion ε = ė + U V_F: W = F − U.
-    Motion,
+/// J x − F x_F, r.
+pub(super) fn measure_rate(x: &[f64], x_f: &Vector6, nodes: &[NodeMeasure], rate: &mut [f64]) {
+    let n_nodal = 6 * nodes.len();
+    let (blocks, amplitudes) = rate.split_at_mut(n_nodal);
+    for ((target, x), node) in blocks.as_chunks_mut::<6>().0.iter_mut().zip(x.as_chunks::<6>().0).zip(nodes) {
+        let (of_node, of_frame) = (times_6(&node.j, x), times_6(&node.f, x_f));
+        *target = core::array::from_fn(|i| of_node[i] - of_frame[i]);
+    }
+    amplitudes.copy_from_slice(&x[n_nodal..]);
 }
 
-impl ActsOn {
-    /// W of one node.
-    #[inline]
-    pub(super) fn carried(self, node: &NodeMeasure) -> &Matrix6 {
-        match self {
-            Self::Deformation => &node.f,
-            Self::Motion => &node.excess,
-        }
+/// x + U x_F, r.
+pub(super) fn add_rigid(rigid: &[Matrix6], x: &[f64], x_f: &Vector6, sum: &mut [f64]) {
+    let n_nodal = 6 * rigid.len();
+    let (blocks, amplitudes) = sum.split_at_mut(n_nodal);
+    let each = blocks.as_chunks_mut::<6>().0.iter_mut().zip(x.as_chunks::<6>().0);
+    for ((target, x), rigid) in each.zip(rigid) {
+        *target = dense::plus_scaled(x, 1.0, &times_6(rigid, x_f));
     }
-}
-
-impl ModalComponent {
-    /// J x − F x_F, r.
-    pub(super) fn measure_rate(&self, x: &[f64], x_f: &Vector6, nodes: &[NodeMeasure], rate: &mut [f64]) {
-        let n_nodal = 6 * self.n_nodes();
-        let (blocks, amplitudes) = rate.split_at_mut(n_nodal);
-        for ((target, x), node) in blocks.as_chunks_mut::<6>().0.iter_mut().zip(x.as_chunks::<6>().0).zip(nodes) {
-            let (of_node, of_frame) = (times_6(&node.j, x), times_6(&node.f, x_f));
-            *target = core::array::from_fn(|i| of_node[i] - of_frame[i]);
-        }
-        amplitudes.copy_from_slice(&x[n_nodal..]);
-    }
-
-    /// x + U x_F, r.
-    pub(super) fn add_rigid(&self, x: &[f64], x_f: &Vector6, sum: &mut [f64]) {
-        let n_nodal = 6 * self.n_nodes();
-        let (blocks, amplitudes) = sum.split_at_mut(n_nodal);
-        let each = blocks.as_chunks_mut::<6>().0.iter_mut().zip(x.as_chunks::<6>().0);
-        for ((target, x), rigid) in each.zip(&self.rigid) {
-            *target = dense::plus_scaled(x, 1.0, &times_6(rigid, x_f));
-        }
-        amplitudes.copy_from_slice(&x[n_nodal..]);
-    }
-
-    /// (J − W Q)ᵀg − Qᵀg_F, r: forces on the coordinates, from those on the deformation or motion and on the frame. All that
-    /// the frame has of them, Wᵀg + g_F, is returned.
-    pub(super) fn project(
-        &self,
-        g: &[f64],
-        g_f: &Vector6,
-        on: ActsOn,
-        projector: &Projector<'_>,
-        forces: &mut [f64],
-    ) -> Vector6 {
-        let n_nodal = 6 * self.n_nodes();
-        let (blocks, amplitudes) = forces.split_at_mut(n_nodal);
-        let mut on_frame = *g_f;
-        let each = blocks.as_chunks_mut::<6>().0.iter_mut().zip(g.as_chunks::<6>().0);
-        for ((target, g), node) in each.zip(projector.nodes) {
-            *target = transposed_times_6(&node.j, g);
-            on_frame = dense::plus_scaled(&on_frame, 1.0, &transposed_times_6(on.carried(node), g));
-        }
-        amplitudes.copy_from_slice(&g[n_nodal..]);
-        for (force, q) in forces.iter_mut().zip(projector.q) {
-            *force -= dense::dot(q, &on_frame);
-        }
-        on_frame
-    }
+    amplitudes.copy_from_slice(&x[n_nodal..]);
 }
 
 /// The parts of a workspace that make J − F Q.
@@ -86,7 +39,27 @@ pub(super) struct Projector<'a> {
     pub(super) q: &'a [Vector6],
 }
 
-/// Sum of what acts on the coordinates by [`ModalComponent::project`].
+impl Projector<'_> {
+    /// (J − W Q)ᵀg − Qᵀg_F, r: forces on the coordinates, from those on the deformation or motion and on the frame. All that
+    /// the frame has of them, Wᵀg + g_F, is returned.
+    pub(super) fn project(&self, g: &[f64], g_f: &Vector6, on: ActsOn, forces: &mut [f64]) -> Vector6 {
+        let n_nodal = 6 * self.nodes.len();
+        let (blocks, amplitudes) = forces.split_at_mut(n_nodal);
+        let mut on_frame = *g_f;
+        let each = blocks.as_chunks_mut::<6>().0.iter_mut().zip(g.as_chunks::<6>().0);
+        for ((target, g), node) in each.zip(self.nodes) {
+            *target = transposed_times_6(&node.j, g);
+            on_frame = dense::plus_scaled(&on_frame, 1.0, &transposed_times_6(on.carried(node), g));
+        }
+        amplitudes.copy_from_slice(&g[n_nodal..]);
+        for (force, q) in forces.iter_mut().zip(self.q) {
+            *force -= dense::dot(q, &on_frame);
+        }
+        on_frame
+    }
+}
+
+/// Sum of what acts on the coordinates by [`Projector::project`].
 #[derive(Clone, Debug)]
 pub(super) struct Load {
     /// g, r.

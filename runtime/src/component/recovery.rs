@@ -3,24 +3,11 @@
 //! The recovery rows are applied to the deformation, d = Ψ A e, and the floating frame carries the node along:
 //! x = R_F (x₀ + d) + u_F, with the rotation R_F exp(θ̃_d). To first order in the deformation it is the linear recovery.
 
-use alloc::collections::BTreeMap;
-use alloc::vec::Vec;
-
-use super::dense;
+use super::error::EvaluationError;
+use super::modal_component::ModalComponent;
+use super::workspace::Workspace;
 use super::workspace::check_finite;
-use super::{EvaluationError, ModalComponent, Workspace};
 use crate::motion::{Matrix3, Motion, Vector3, join, multiply_3};
-use crate::superelement::Recovery;
-
-/// Recovery rows in the coordinates of the deformation, node by node.
-#[derive(Clone, Debug)]
-pub(super) struct RecoveryMap {
-    /// rows × r.
-    rows: Vec<f64>,
-    labels: Vec<i64>,
-    /// For each node the row of each direction.
-    directions: Vec<[Option<usize>; 6]>,
-}
 
 /// Where a node inside the component has gone.
 ///
@@ -32,30 +19,6 @@ pub struct RecoveredNode {
     pub displacement: Vector3,
     /// Rotation: that of the floating frame where the file recovers no rotation of the node.
     pub rotation: Matrix3,
-}
-
-impl RecoveryMap {
-    /// Ψ A, and which rows belong to which node, in the order of their first rows.
-    pub(super) fn new(recovery: &Recovery, change: &[f64]) -> Self {
-        let r = recovery.rows().cols();
-        let mut rows = vec![0.0; recovery.rows().as_slice().len()];
-        for (row, target) in recovery.rows().as_slice().chunks_exact(r).zip(rows.chunks_exact_mut(r)) {
-            for (factor, change_row) in row.iter().zip(change.chunks_exact(r)) {
-                dense::add_scaled(target, *factor, change_row);
-            }
-        }
-        let (mut labels, mut directions) = (Vec::new(), Vec::new());
-        let mut places = BTreeMap::new();
-        for (row, dof) in recovery.dofs().iter().enumerate() {
-            let place = *places.entry(dof.node).or_insert_with(|| {
-                labels.push(dof.node);
-                directions.push([None; 6]);
-                labels.len() - 1
-            });
-            directions[place][dof.direction as usize] = Some(row);
-        }
-        Self { rows, labels, directions }
-    }
 }
 
 impl ModalComponent {
@@ -84,7 +47,7 @@ impl ModalComponent {
         positions: &[Vector3],
         nodes: &mut [RecoveredNode],
     ) -> Result<(), EvaluationError> {
-        self.check_workspace(workspace)?;
+        workspace.check_component(self)?;
         workspace.check_state()?;
         let expected = self.recovered_labels().len();
         for (what, found) in [("positions of recovered nodes", positions.len()), ("recovered nodes", nodes.len())] {
@@ -114,18 +77,5 @@ impl ModalComponent {
             check_finite([("displacements of recovered nodes", &node.displacement)])?;
         }
         Ok(())
-    }
-}
-
-impl RecoveryMap {
-    /// Displacement and rotation of a node in the floating frame, each `None` unless all three are recovered.
-    fn deformation(&self, place: usize, e: &[f64]) -> [Option<Vector3>; 2] {
-        let value = |row: usize| dense::dot(&self.rows[row * e.len()..(row + 1) * e.len()], e);
-        let [x, y, z, rx, ry, rz] = self.directions[place];
-        let three = |rows: [Option<usize>; 3]| match rows {
-            [Some(x), Some(y), Some(z)] => Some([value(x), value(y), value(z)]),
-            _ => None,
-        };
-        [three([x, y, z]), three([rx, ry, rz])]
     }
 }

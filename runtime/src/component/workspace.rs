@@ -3,11 +3,12 @@
 use alloc::vec::Vec;
 
 use super::dense;
-use super::exact::PlaceTerms;
+use super::error::EvaluationError;
 use super::identity::Identity;
 use super::measures::NodeMeasure;
+use super::modal_component::ModalComponent;
+use super::place_terms::PlaceTerms;
 use super::projection::Load;
-use super::{EvaluationError, ModalComponent};
 use crate::motion::{IDENTITY_6, Matrix6, Motion, Vector6};
 
 /// Scratch and results of the evaluations of one component; made by [`ModalComponent::workspace`].
@@ -130,6 +131,7 @@ pub(super) fn all_finite(values: &[f64]) -> bool {
 }
 
 impl Workspace {
+    /// Without deformation; [`project_frame`](super::floating_frame::project_frame) fills what follows from it.
     pub(super) fn new(component: &ModalComponent) -> Self {
         let (k, r) = (component.n_nodes(), component.n_coordinates());
         let (vector, matrix, columns) = (|| vec![0.0; r], || vec![0.0; r * r], || vec![[0.0; 6]; r]);
@@ -153,7 +155,7 @@ impl Workspace {
             wide: core::array::from_fn(|_| vec![0.0; 6 * r]),
             tall: columns(),
         };
-        let mut workspace = Self {
+        Self {
             component: component.identity,
             has_state: true,
             floating_frame: Motion::IDENTITY,
@@ -172,9 +174,12 @@ impl Workspace {
             load: Load { on_deformation: vector(), on_frame: [0.0; 6] },
             results,
             scratch,
-        };
-        component.project_frame(&mut workspace);
-        workspace
+        }
+    }
+
+    /// Fails for the workspace of another component, which has other results, though it may have their number.
+    pub(crate) fn check_component(&self, component: &ModalComponent) -> Result<(), EvaluationError> {
+        if self.component == component.identity { Ok(()) } else { Err(EvaluationError::ForeignWorkspace) }
     }
 
     /// Fails unless the last evaluation succeeded.

@@ -12,6 +12,9 @@ pub type Matrix6 = [[f64; 6]; 6];
 /// 3 × 3 identity.
 pub const IDENTITY_3: Matrix3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
+/// Zero, 3 × 3.
+pub(crate) const ZERO_3: Matrix3 = [[0.0; 3]; 3];
+
 /// 6 × 6 identity.
 pub const IDENTITY_6: Matrix6 = {
     let mut identity = [[0.0; 6]; 6];
@@ -106,7 +109,7 @@ pub fn multiply_6(a: &Matrix6, b: &Matrix6) -> Matrix6 {
 pub fn hat(v: &Vector6) -> Matrix6 {
     let (linear, angular) = split(v);
     let (linear, angular) = (skew(&linear), skew(&angular));
-    blocks(&angular, &linear, &[[0.0; 3]; 3], &angular)
+    blocks(&angular, &linear, &ZERO_3, &angular)
 }
 
 /// V̌ = [0, ṽ; ṽ, ω̃] for V = (v; ω), with Âᵀ B = B̌ A; eq. (55).
@@ -114,7 +117,7 @@ pub fn hat(v: &Vector6) -> Matrix6 {
 pub fn check(v: &Vector6) -> Matrix6 {
     let (linear, angular) = split(v);
     let (linear, angular) = (skew(&linear), skew(&angular));
-    blocks(&[[0.0; 3]; 3], &linear, &linear, &angular)
+    blocks(&ZERO_3, &linear, &linear, &angular)
 }
 
 /// [a, b; c, d].

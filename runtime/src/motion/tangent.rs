@@ -9,7 +9,7 @@
 
 use crate::elementary::sqrt;
 
-use super::algebra::{Matrix3, Matrix6, Vector3, Vector6, blocks, dot, multiply_3, skew, split};
+use super::algebra::{Matrix3, Matrix6, Vector3, Vector6, ZERO_3, blocks, dot, multiply_3, skew, split};
 
 /// p₀ = cos(φ/2) = √(1 − pᵀp/4) of p = 2 sin(φ/2) n; eq. (99).
 #[inline]
@@ -53,7 +53,7 @@ pub fn tangent(parameters: &Vector6) -> Matrix6 {
             + (mixed[i][j] + mixed_back[i][j]) / (4.0 * p0)
     });
     let rotation = tangent_3(&p);
-    blocks(&rotation, &coupling, &[[0.0; 3]; 3], &rotation)
+    blocks(&rotation, &coupling, &ZERO_3, &rotation)
 }
 
 /// Its inverse [T⁻¹, T₋; 0, T⁻¹] with T₋ = p̃_u/2 − ϱ/(4p₀) I; eqs. (104), (106).
@@ -63,7 +63,7 @@ pub fn tangent_inverse(parameters: &Vector6) -> Matrix6 {
     let p0 = parameter_cosine(&p);
     let rotation = scaled_identity_plus_half_skew(p0, &p);
     let coupling = scaled_identity_plus_half_skew(-dot(&p, &p_u) / (4.0 * p0), &p_u);
-    blocks(&rotation, &coupling, &[[0.0; 3]; 3], &rotation)
+    blocks(&rotation, &coupling, &ZERO_3, &rotation)
 }
 
 /// Rate of the inverse where the parameters change at `rate`; eqs. (102), (108). It is linear in `rate`.
@@ -79,7 +79,7 @@ pub fn tangent_inverse_rate(parameters: &Vector6, rate: &Vector6) -> Matrix6 {
     let rho_rate = dot(&rate_p, &p_u) + dot(&p, &rate_u);
     let diagonal = -(dot(&p, &p_u) * along / (4.0 * p0 * p0) + rho_rate) / (4.0 * p0);
     let coupling = scaled_identity_plus_half_skew(diagonal, &rate_u);
-    blocks(&rotation, &coupling, &[[0.0; 3]; 3], &rotation)
+    blocks(&rotation, &coupling, &ZERO_3, &rotation)
 }
 
 /// d I + ṽ/2.

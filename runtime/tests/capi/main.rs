@@ -1,9 +1,6 @@
 //! The interface for C: the header is that of the source, and C programs build against it and run.
 
-#[path = "../beam/mod.rs"]
-mod beam;
-#[path = "../random/mod.rs"]
-mod random;
+use supel_models::superelements::beam;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

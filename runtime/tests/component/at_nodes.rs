@@ -6,8 +6,8 @@ use supel_runtime::motion::{
 };
 
 use crate::beam;
-use crate::random::Random;
 use crate::situation::{Situation, assert_close, central_difference, dot, times};
+use supel_models::SplitMix64;
 
 fn arc() -> ModalComponent {
     ModalComponent::new(&beam::arc(3).superelement, FloatingFrame::MassWeighted).expect("a free body")
@@ -16,7 +16,7 @@ fn arc() -> ModalComponent {
 /// The point moves with Rᵀẋ as its material velocity says.
 #[test]
 fn the_velocity_at_a_point_is_that_of_the_point() {
-    let mut random = Random(1);
+    let mut random = SplitMix64::new(1);
     let (motion, position, velocity) = (random.motion(1.0), random.vector_3(2.0), random.vector_6(1.0));
     let place = |s: f64| motion.compose(&Motion::exp(&velocity.map(|x| s * x))).apply(&position).to_vec();
     let moved = central_difference(1e-5, place);
@@ -37,7 +37,7 @@ fn vectors_and_matrices_keep_power_and_energy() {
     let r = component.n_coordinates();
     let situation = Situation::random(&component, 0.2, 3);
     let workspace = situation.tangents(&component);
-    let mut random = Random(4);
+    let mut random = SplitMix64::new(4);
     let (forces, at_nodes) = (random.vector(r, 1.0), random.vector(r, 1.0));
     let mut velocities = at_nodes.clone();
     component.velocities_to_origin(&mut velocities).expect("all coordinates");

@@ -5,15 +5,15 @@ use supel_runtime::motion::{Motion, Vector6};
 use supel_runtime::{Matrix, Superelement};
 
 use crate::beam::{self, Square};
-use crate::random::Random;
 use crate::situation::{CHOICES, Situation, components, largest, random_skew, times};
+use supel_models::SplitMix64;
 
 /// For motion of size s the forces are s (K q, M q̈) up to s².
 #[test]
 fn small_motion_is_that_of_the_linear_reduced_model() {
     for component in components() {
         let errors = [1e-4, 5e-5].map(|size| {
-            let mut random = Random(1);
+            let mut random = SplitMix64::new(1);
             let direction = random.vector(component.n_coordinates(), 1.0);
             let mut situation = Situation::random(&component, 0.0, 2);
             situation.motions.fill(Motion::IDENTITY);
@@ -122,7 +122,7 @@ fn flown(component: &ModalComponent, step: f64) -> Flight {
     situation.motions.fill(Motion::IDENTITY);
     situation.amplitudes.fill(0.0);
     let spin: Vector6 = [0.5, 0.0, 1.0, 1.0, 2.0, 3.0];
-    let mut random = Random(4);
+    let mut random = SplitMix64::new(4);
     let stir: Vec<f64> = random.vector(r, 0.02);
     situation.velocities = (0..r).map(|i| if i < 6 * k { spin[i % 6] + stir[i] } else { stir[i] }).collect();
     situation.accelerations.fill(0.0);

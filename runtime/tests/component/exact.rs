@@ -4,8 +4,8 @@ use supel_runtime::component::{DeadLoad, ModalComponent, Workspace};
 use supel_runtime::motion::{Motion, join, transposed_times_3, velocity_to_point};
 
 use crate::beam;
-use crate::random::Random;
 use crate::situation::{CHOICES, Situation, assert_close, central_difference, components, largest, times, units};
+use supel_models::SplitMix64;
 
 /// Nodes turn by up to 0.8 rad against each other.
 const LARGE: f64 = 0.25;
@@ -38,7 +38,7 @@ fn the_exact_stiffness_is_the_derivative_of_all_forces() {
 fn the_error_of_differences_falls_with_the_square_of_the_step() {
     for component in components().iter().filter(|component| component.n_nodes() > 1) {
         let situation = Situation::random(component, LARGE, 21);
-        let direction = Random(22).vector(component.n_coordinates(), 1.0);
+        let direction = SplitMix64::new(22).vector(component.n_coordinates(), 1.0);
         let expected = times(situation.exact_tangents(component).exact_stiffness(), &direction);
         let error = |step: f64| {
             let found = central_difference(step, |s| forces(&situation.moved(s, &direction).evaluated(component)));
@@ -110,7 +110,7 @@ fn the_papers_stiffness_lacks_the_geometric_part() {
 fn rigid_increments_change_no_force() {
     for component in components() {
         let situation = Situation::random(&component, LARGE, 26);
-        let spatial = Random(27).vector_6(1.0);
+        let spatial = SplitMix64::new(27).vector_6(1.0);
         // The material increment of a spatial one: C(H)⁻¹.
         let mut direction = vec![0.0; component.n_coordinates()];
         for (target, motion) in direction.as_chunks_mut::<6>().0.iter_mut().zip(&situation.motions) {
@@ -132,7 +132,7 @@ fn rigid_increments_change_no_force() {
 fn a_superposed_rigid_motion_changes_nothing() {
     for component in components().iter().filter(|component| component.n_nodes() > 1) {
         let situation = Situation::random(component, 0.2, 1);
-        let carrier = Random(2).motion(3.0);
+        let carrier = SplitMix64::new(2).motion(3.0);
         let mut carried = situation.clone();
         carried.motions.iter_mut().for_each(|motion| *motion = carrier.compose(motion));
         let (found, expected) = (carried.exact_tangents(component), situation.exact_tangents(component));

@@ -3,11 +3,11 @@
 use supel_runtime::component::{Measures, ModalComponent};
 use supel_runtime::motion::{check, hat, times_6, transposed_times_6};
 
-use crate::random::Random;
 use crate::situation::{
     CHOICES, Situation, assert_close, central_difference, components, dot, file_matrix, gradient, largest,
     superelements, times, units,
 };
+use supel_models::SplitMix64;
 
 /// Deformation in the tests, rad and length, of each entry at each node: nodes turn by up to 0.8 rad against each other.
 const LARGE: f64 = 0.25;
@@ -113,7 +113,7 @@ fn mass_and_gyroscopic_matrix_are_derivatives_of_the_inertial_forces() {
     for component in components() {
         let situation = Situation::random(&component, LARGE, 6);
         let tangents = situation.tangents(&component);
-        let direction = Random(60).vector(component.n_coordinates(), 1.0);
+        let direction = SplitMix64::new(60).vector(component.n_coordinates(), 1.0);
         let forces = |change: &dyn Fn(&mut Situation)| {
             let mut changed = situation.clone();
             change(&mut changed);

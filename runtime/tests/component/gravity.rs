@@ -5,8 +5,8 @@ use supel_runtime::motion::{cross, dot};
 use supel_runtime::{Matrix, Superelement};
 
 use crate::beam;
-use crate::random::Random;
 use crate::situation::{CHOICES, Situation, assert_close, central_difference, gradient, superelements, units};
+use supel_models::SplitMix64;
 
 /// Nodes turn by up to 0.8 rad against each other.
 const LARGE: f64 = 0.25;
@@ -20,8 +20,8 @@ const G: [f64; 3] = [1.0, -2.0, 3.0];
 /// The arc with loads of gravity that are not M̂Û, as where the mass is lumped otherwise than in the model, and those loads.
 fn own_gravity() -> (Superelement, Matrix) {
     let (mut tensors, metadata, _) = beam::reduced_parts(&beam::arc_nodes(), &beam::SOFT, &[0, 8], 3);
-    let mut random = Random(14);
-    let own = Matrix::from_fn(15, 3, |_, _| random.next());
+    let mut random = SplitMix64::new(14);
+    let own = Matrix::from_fn(15, 3, |_, _| random.either_sign());
     tensors.gravity = Some(own.clone());
     (Superelement::new(tensors, metadata).expect("the parts fit"), own)
 }

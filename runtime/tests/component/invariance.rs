@@ -7,8 +7,8 @@ use supel_runtime::component::{EvaluationError, FloatingFrame, ModalComponent, S
 use supel_runtime::motion::{Motion, cross};
 
 use crate::beam;
-use crate::random::Random;
 use crate::situation::{Situation, assert_close, components, largest};
+use supel_models::SplitMix64;
 
 fn arc() -> ModalComponent {
     ModalComponent::new(&beam::arc(5).superelement, FloatingFrame::MassWeighted).expect("a free body")
@@ -29,7 +29,7 @@ fn assert_same_results(found: &Workspace, expected: &Workspace, tolerance: f64) 
 fn a_superposed_rigid_motion_changes_nothing_but_the_frame() {
     for component in components().iter().filter(|component| component.n_nodes() > 1) {
         let situation = Situation::random(component, 0.2, 1);
-        let carrier = Random(2).motion(3.0);
+        let carrier = SplitMix64::new(2).motion(3.0);
         let mut carried = situation.clone();
         carried.motions.iter_mut().for_each(|motion| *motion = carrier.compose(motion));
         let (found, expected) = (carried.evaluated(component), situation.evaluated(component));
@@ -121,7 +121,7 @@ fn a_beam_finds_its_frame_from_anywhere() {
         let situation = Situation::random(&component, 0.1, seed);
         let expected = situation.evaluated(&component);
         let mut workspace = component.workspace();
-        workspace.set_floating_frame(&Random(seed).motion(3.0));
+        workspace.set_floating_frame(&SplitMix64::new(seed).motion(3.0));
         component.evaluate(&situation.state(), &mut workspace).expect("a moderate deformation");
         assert_same_results(&workspace, &expected, 1e-11);
     }
@@ -341,7 +341,7 @@ fn states_of_any_finite_size_give_finite_results_or_an_error() {
             [1e-300_f64, 1e-3, 1.0, 3.0, 1e3, 1e150].into_iter().zip([1.0, 1e200, 1e100, 1.0, 1e308, 1.0])
         {
             let mut situation = Situation::random(&component, 1.0, seed);
-            let mut random = Random(seed);
+            let mut random = SplitMix64::new(seed);
             situation.motions.iter_mut().for_each(|motion| *motion = random.motion(size.min(3.0)));
             situation.motions.iter_mut().for_each(|motion| motion.translation = random.vector_3(size));
             situation.amplitudes = random.vector(5, size);

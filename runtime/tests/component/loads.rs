@@ -5,8 +5,8 @@ use supel_runtime::motion::{Motion, Vector3, dot, times_3, times_6, transposed_t
 use supel_runtime::{Direction, InterfaceDof, Superelement};
 
 use crate::beam;
-use crate::random::Random;
 use crate::situation::{Situation, assert_close};
+use supel_models::SplitMix64;
 
 const LOAD: DeadLoad = DeadLoad { node: 1, force: [3.0, -4.0, 5.0], moment: [1.0, 2.0, -3.0] };
 const STEP: f64 = 1e-5;
@@ -17,7 +17,7 @@ fn arc() -> ModalComponent {
 
 #[test]
 fn a_load_does_the_work_of_its_force_and_moment() {
-    let mut random = Random(1);
+    let mut random = SplitMix64::new(1);
     let (motion, position, v) = (random.motion(1.0), random.vector_3(2.0), random.vector_6(1.0));
     let moved = |s: f64| motion.compose(&Motion::exp(&v.map(|x| s * x)));
     let (ahead, behind) = (moved(STEP).apply(&position), moved(-STEP).apply(&position));
@@ -30,7 +30,7 @@ fn a_load_does_the_work_of_its_force_and_moment() {
 
 #[test]
 fn load_stiffness_is_minus_the_derivative_of_the_load() {
-    let mut random = Random(2);
+    let mut random = SplitMix64::new(2);
     let (motion, position, v) = (random.motion(1.0), random.vector_3(2.0), random.vector_6(1.0));
     let at = |s: f64| LOAD.in_node(&motion.compose(&Motion::exp(&v.map(|x| s * x))), &position);
     let expected: Vec<f64> = (0..6).map(|i| -(at(STEP)[i] - at(-STEP)[i]) / (2.0 * STEP)).collect();

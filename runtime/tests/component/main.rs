@@ -3,8 +3,7 @@
 mod at_nodes;
 #[cfg(feature = "std")]
 mod batch;
-#[path = "../beam/mod.rs"]
-mod beam;
+use supel_models::superelements::beam;
 mod construction;
 mod damping;
 mod dynamics;
@@ -13,7 +12,5 @@ mod forces;
 mod gravity;
 mod invariance;
 mod loads;
-#[path = "../random/mod.rs"]
-mod random;
 mod recovery;
 mod situation;

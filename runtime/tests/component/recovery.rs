@@ -5,8 +5,8 @@ use supel_runtime::motion::{IDENTITY_3, Motion, Vector3};
 use supel_runtime::{Direction, Matrix, Precision, RecoveredDof, Recovery, Superelement};
 
 use crate::beam;
-use crate::random::Random;
 use crate::situation::{CHOICES, Situation, assert_close, times};
+use supel_models::SplitMix64;
 
 const EMPTY: RecoveredNode = RecoveredNode { displacement: [0.0; 3], rotation: IDENTITY_3 };
 
@@ -37,7 +37,7 @@ fn recovered_nodes_follow_a_rigid_motion() {
     for (frame, measures) in CHOICES {
         let component = ModalComponent::with_measures(&arc(&WHOLE).0, frame, measures).expect("a free body");
         assert_eq!(component.recovered_labels(), [5, 3]);
-        let motion = Random(1).motion(2.5);
+        let motion = SplitMix64::new(1).motion(2.5);
         let mut situation = Situation::random(&component, 0.0, 2);
         situation.motions.fill(motion);
         situation.amplitudes.fill(0.0);
@@ -57,7 +57,7 @@ fn small_motion_is_recovered_as_in_the_linear_model() {
         let (superelement, basis) = arc(&WHOLE);
         let component = ModalComponent::with_measures(&superelement, frame, measures).expect("a free body");
         let errors = [1e-3, 5e-4].map(|size| {
-            let mut random = Random(3);
+            let mut random = SplitMix64::new(3);
             let increments = random.vector(12, size);
             let mut situation = Situation::random(&component, 0.0, 4);
             situation.amplitudes = random.vector(4, size);

@@ -5,7 +5,7 @@ use supel_runtime::motion::{Motion, Vector6};
 use supel_runtime::{Matrix, Superelement, Tensors};
 
 use crate::beam;
-use crate::random::Random;
+use supel_models::SplitMix64;
 
 /// A state and its data.
 #[derive(Clone)]
@@ -19,7 +19,7 @@ pub(crate) struct Situation {
 impl Situation {
     /// Motions that differ by about `size` from a common one, velocities and accelerations of order one.
     pub(crate) fn random(component: &ModalComponent, size: f64, seed: u64) -> Self {
-        let mut random = Random(seed);
+        let mut random = SplitMix64::new(seed);
         let carrier = random.motion(1.2);
         let (k, n, r) = (component.n_nodes(), component.n_modal(), component.n_coordinates());
         Self {
@@ -114,7 +114,7 @@ pub(crate) fn unsymmetric_deformation(tensors: &Tensors) -> Matrix {
 }
 
 pub(crate) fn random_skew(r: usize) -> Matrix {
-    let entries = Random(16).vector(r * r, 0.5);
+    let entries = SplitMix64::new(16).vector(r * r, 0.5);
     Matrix::from_fn(r, r, |i, j| entries[i * r + j] - entries[j * r + i])
 }
 

@@ -3,14 +3,12 @@
 use supel_runtime::{Coordinate, Superelement};
 
 use super::asked::AskedModes;
+use super::entries::FAR;
 use super::scaled::Scaled;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::sparse::Precision;
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::LARGEST_EXCUSE;
-
-/// A difference this many times its bound is none of rounding.
-const FAR: f64 = 10.0;
 
 /// Of an error bar the share of the arithmetic: both frequencies were computed from the same data.
 fn share_of_arithmetic(precision: Precision) -> f64 {

@@ -20,7 +20,7 @@ const BOTH: f64 = 10.0;
 /// Relative difference of an entry that is always accepted.
 const ENGINEERING: f64 = 1e-12;
 /// A difference this many times its bound is none of rounding.
-const FAR: f64 = 10.0;
+pub(super) const FAR: f64 = 10.0;
 
 /// Identifier, name and equation of a check.
 type Words = (&'static str, &'static str, &'static str);

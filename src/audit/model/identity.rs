@@ -12,7 +12,7 @@ use crate::audit::kept_job::band;
 use crate::audit::version::kept_job;
 use crate::dofs::Direction;
 use crate::input::InputFacts;
-use crate::job::{Boundary, Job, RecoveryPrecision};
+use crate::job::{Boundary, Job};
 use crate::partition::{DofOrigin, InterfaceNode, Partition, ReducedDof};
 use crate::verification::check::{Check, Limits};
 
@@ -230,10 +230,7 @@ pub(super) fn statements(
     expect(metadata.validity.assumptions.is_empty(), "assumptions about the simulation");
     expect(metadata.validity.unloaded.is_empty(), "unloaded directions");
     expect(metadata.validity.band_hz == band(superelement, job), "another band");
-    let asked = job.write.recovery.as_ref().map(|recovery| match recovery.precision {
-        RecoveryPrecision::Double => supel_runtime::Precision::Double,
-        RecoveryPrecision::Single => supel_runtime::Precision::Single,
-    });
+    let asked = job.write.recovery.as_ref().map(|recovery| recovery.precision);
     let recovery = tensors.recovery.as_ref();
     expect(recovery.is_some() == asked.is_some(), "recovery");
     if let (Some(recovery), Some(asked)) = (recovery, asked) {

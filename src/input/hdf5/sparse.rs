@@ -10,14 +10,7 @@ use crate::input::hdf5::group::Group;
 use crate::input::unsupported_format::{self, Wanted};
 use crate::input::{Allowance, MatrixInput, significant_digits};
 use crate::regular_file::digest;
-use crate::sparse::Declared;
-
-/// Bytes of an entry before it is in its row: row, column, value.
-const TRIPLET: u64 = 16;
-/// Bytes of an entry of the assembled matrix: column and value.
-const ENTRY: u64 = 12;
-/// Bytes of a row of the assembled matrix.
-const ROW: u64 = 8;
+use crate::sparse::{Declared, ENTRY_BYTES, ROW_BYTES, TRIPLET_BYTES};
 
 /// Reads a square sparse matrix from an HDF5 file: MATLAB v7.3 and PETSc (`MATLAB_sparse`, `jc`, `ir`, `data`), anndata,
 /// h5sparse, Exudyn, or plain `data`, `indices`, `indptr`.
@@ -60,8 +53,8 @@ fn read_matrix_once(path: &Path, group: Option<&str>, role: MatrixRole, allowanc
     let (compressed, stored_digits) = convention.read(&group)?;
     let digits = significant_digits(compressed.values()).min(stored_digits);
     let n = compressed.check(h5.path(), group.name())?;
-    h5.hold((TRIPLET + ENTRY) * compressed.values().len() as u64 + ROW * n as u64)?;
+    h5.hold((TRIPLET_BYTES + ENTRY_BYTES) * compressed.values().len() as u64 + ROW_BYTES * n as u64)?;
     let (matrix, notes) = compressed.into_triplets(h5.path())?.assemble(n, Declared::General, h5.path())?;
-    h5.keep(ENTRY * matrix.nnz() as u64 + ROW * n as u64)?;
+    h5.keep(ENTRY_BYTES * matrix.nnz() as u64 + ROW_BYTES * n as u64)?;
     Ok(MatrixInput { matrix, notes, digits, path: path.to_owned(), digest: digest(path)? })
 }

@@ -194,7 +194,7 @@ pub(super) fn class_of(verdict: Verdict) -> &'static str {
 }
 
 /// Text that is safe in content and in attributes of HTML and XML.
-pub(in crate::report) fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for character in printable(text).chars() {
         match character {

@@ -19,7 +19,7 @@ mod size;
 use super::Report;
 use markup::Markup;
 
-pub(in crate::report) use markup::escaped;
+pub use markup::escaped;
 
 /// Everything about looks; no element of the page carries a style of its own.
 const STYLE: &str = include_str!("style.css");

@@ -1,17 +1,16 @@
 //! What was read, computed and checked.
 
+use super::preserved::LINES_SHOWN;
 use crate::number;
 use crate::report::mode_table::{Mode, mode_table};
 use crate::report::page::{Page, Tone, WIDTH, verdict_word};
 use crate::report::table::{self, Align};
 use crate::report::{
     Completeness, MassProperties, MatrixReport, ModelReport, ReductionReport, ReportBody, RigidBodyEvidence,
-    RigidBodySource, TrustInterval, words,
+    TrustInterval, words,
 };
+use crate::rigid::RigidSource;
 use crate::verification::check::{Check, Verdict};
-
-/// Longer lists of notes and left-out coordinates are cut; the JSON document has them all.
-const LINES_SHOWN: usize = 8;
 
 /// Longest name of a check: with it a row takes 2 + 4 + 44 + 7 + 6 + 11 + 7 + 6 columns and six gaps of two, 99.
 const NAME: usize = 44;
@@ -63,8 +62,8 @@ fn model(page: &mut Page, model: &ModelReport) {
     }
     mass_properties(page, &model.mass_properties);
     let source = match model.rigid_body_modes.source {
-        RigidBodySource::Geometric => "from the coordinates, verified against the stiffness",
-        RigidBodySource::Algebraic => "from the matrices, by inverse iteration",
+        RigidSource::Geometric => "from the coordinates, verified against the stiffness",
+        RigidSource::Algebraic => "from the matrices, by inverse iteration",
     };
     let rigid = match model.rigid_body_modes.count {
         0 => "no modes: the component is restrained".to_owned(),

@@ -5,7 +5,7 @@ use crate::report::page::Page;
 use crate::verification::preservation::{BoundaryComparison, Preservation};
 
 /// Longer lists are cut; the JSON document has them all.
-const LINES_SHOWN: usize = 8;
+pub(super) const LINES_SHOWN: usize = 8;
 
 pub(super) fn write(page: &mut Page, preservation: &Preservation) {
     if *preservation == Preservation::default() {

@@ -2,6 +2,7 @@
 //!
 //! The figures are Rayleigh quotients of the rotations by the coordinates over the first elastic eigenvalue.
 
+use supel_models::transform::turned;
 use supel_models::{Inertia, Material, Model, Section, brick, frame};
 
 use super::{assert_done, assert_refused};
@@ -159,9 +160,7 @@ fn i_20_a_frame_that_was_not_declared() {
 /// cannot tell them from supports with a mechanism; they are never accepted without a warning or an error.
 #[test]
 fn i_20_frames_at_some_nodes() {
-    let mut block = steel_brick();
-    let of = |entries: &[supel_models::model::Entry]| turned(entries, |row| row / 3 % 5 == 4);
-    (block.stiffness, block.mass) = (of(&block.stiffness), of(&block.mass));
+    let block = turned(&steel_brick(), |node| node % 5 == 4);
     for method in ["herting", "craig-bampton"] {
         let place = Place::with(&block);
         let rest = format!("--interface foot=1,11,31,41 --method {method} --modes 5 --threads 1");
@@ -170,22 +169,4 @@ fn i_20_frames_at_some_nodes() {
         let is_refused = ended.code == supel::cli::ExitCode::CheckFailed && !place.path("x.supel").exists();
         assert!(is_named || is_refused, "{method}: {:?} {}{}", ended.code, ended.out, ended.err);
     }
-}
-
-/// RᵀAR with a turn of 90° about z at the nodes of some rows: ux takes the place of uy, uy that of −ux.
-fn turned(entries: &[supel_models::model::Entry], is_turned: impl Fn(u32) -> bool) -> Vec<supel_models::model::Entry> {
-    let image = |row: u32| match (is_turned(row), row % 3) {
-        (true, 0) => (row + 1, -1.0),
-        (true, 1) => (row - 1, 1.0),
-        _ => (row, 1.0),
-    };
-    let mut turned: Vec<_> = entries
-        .iter()
-        .map(|&(row, col, value)| {
-            let ((row, of_row), (col, of_col)) = (image(row), image(col));
-            (row, col, value * of_row * of_col)
-        })
-        .collect();
-    turned.sort_unstable_by_key(|&(row, col, _)| (row, col));
-    turned
 }

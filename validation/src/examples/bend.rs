@@ -5,7 +5,8 @@ use std::f64::consts::FRAC_PI_4;
 use supel_runtime::Superelement;
 use supel_runtime::component::FloatingFrame;
 
-use super::{Run, Variant};
+use super::run::Run;
+use super::variant::Variant;
 use crate::Result;
 use crate::beam::{Section, arc};
 use crate::curve::Curves;

@@ -3,7 +3,8 @@
 use supel_runtime::Superelement;
 use supel_runtime::component::FloatingFrame;
 
-use super::{Run, Variant, recorded};
+use super::run::{Run, recorded};
+use super::variant::Variant;
 use crate::Result;
 use crate::beam::{Section, polyline};
 use crate::integrator::{IterationMatrix, Scheme};

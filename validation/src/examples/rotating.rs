@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use supel_runtime::Superelement;
 use supel_runtime::component::FloatingFrame;
 
-use super::{Run, Variant, recorded, seen_from};
+use super::run::{Run, recorded, seen_from};
+use super::variant::Variant;
 use crate::Result;
 use crate::beam::{Section, polyline};
 use crate::integrator::{IterationMatrix, Scheme};

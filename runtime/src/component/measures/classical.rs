@@ -2,13 +2,11 @@
 //!
 //! A change of the place is one of d and of R, R ψ̃ with the relative turn ψ = Δθ_j − RᵀΔθ_F.
 
-use super::{NodeMeasure, NodeRates, PlaceMatrices, RateMatrices, sum_6};
+use super::node::{NodeMeasure, NodeRates, PlaceMatrices, RateMatrices, sum_6};
 use crate::motion::{
-    IDENTITY_3, Matrix3, Matrix6, Motion, Vector3, Vector6, blocks, cross, join, multiply_3, skew, split, times_3,
-    times_6, transposed_times_3,
+    IDENTITY_3, Matrix3, Matrix6, Motion, Vector3, Vector6, ZERO_3, blocks, cross, join, multiply_3, skew, split,
+    times_3, times_6, transposed_times_3,
 };
-
-const ZERO: Matrix3 = [[0.0; 3]; 3];
 
 /// J = [R, −R x̃; 0, ½(tr R I − Rᵀ)], F = [I, −(x + d)~; 0, ½(tr R I − R)], in the coordinates of the node.
 pub(super) fn measure(motion: &Motion, position: &Vector3) -> NodeMeasure {
@@ -19,8 +17,8 @@ pub(super) fn measure(motion: &Motion, position: &Vector3) -> NodeMeasure {
     NodeMeasure {
         motion: *motion,
         e: join(&d, &axial(r)),
-        j: blocks(r, &negative(&multiply_3(r, &skew(position))), &ZERO, &node_turn),
-        f: blocks(&IDENTITY_3, &negative(&skew(&moved)), &ZERO, &frame_turn),
+        j: blocks(r, &negative(&multiply_3(r, &skew(position))), &ZERO_3, &node_turn),
+        f: blocks(&IDENTITY_3, &negative(&skew(&moved)), &ZERO_3, &frame_turn),
         excess: [[0.0; 6]; 6],
     }
 }
@@ -56,8 +54,8 @@ fn velocity_matrices(node: &NodeMeasure, position: &Vector3, rates: &NodeRates) 
     let r_rate = multiply_3(&node.motion.rotation, &skew(&relative_spin(node, rates)));
     let (node_turn, frame_turn) = skew_part_derivatives(&r_rate);
     [
-        blocks(&r_rate, &negative(&multiply_3(&r_rate, &skew(position))), &ZERO, &node_turn),
-        blocks(&ZERO, &negative(&skew(&split(&rates.measure).0)), &ZERO, &frame_turn),
+        blocks(&r_rate, &negative(&multiply_3(&r_rate, &skew(position))), &ZERO_3, &node_turn),
+        blocks(&ZERO_3, &negative(&skew(&split(&rates.measure).0)), &ZERO_3, &frame_turn),
     ]
 }
 
@@ -66,7 +64,7 @@ pub(super) fn rate_matrices(node: &NodeMeasure, position: &Vector3, rates: &Node
     let by_turn = by_turn(&turned(node, position, [&rates.node, &rates.frame]), node);
     let [j, f] = velocity_matrices(node, position, rates);
     RateMatrices {
-        measure: blocks(&dragged(&rates.frame), &ZERO, &ZERO, &ZERO),
+        measure: blocks(&dragged(&rates.frame), &ZERO_3, &ZERO_3, &ZERO_3),
         node: sum_6(&j, &by_turn.node),
         frame: sum_6(&f, &by_turn.frame),
     }
@@ -75,7 +73,7 @@ pub(super) fn rate_matrices(node: &NodeMeasure, position: &Vector3, rates: &Node
 /// Derivative of J x − F x_F by the place: that of [`turned`] by ψ, and d̃ω_F = −ω̃_F d by d.
 pub(super) fn carried(node: &NodeMeasure, position: &Vector3, [x, x_f]: [&Vector6; 2]) -> PlaceMatrices {
     let by_turn = by_turn(&turned(node, position, [x, x_f]), node);
-    by_turn.plus(&by_displacement([dragged(x_f), ZERO], node))
+    by_turn.plus(&by_displacement([dragged(x_f), ZERO_3], node))
 }
 
 /// Derivative of J x − F x_F by ψ: (−R ã; −(ω − ω_F) κᵀ − ½ (Rᵀω)~ − ½ R ω̃_F), with a the part of x at the node in its own axes.
@@ -126,8 +124,8 @@ pub(super) fn forces_by_place(node: &NodeMeasure, position: &Vector3, h: &Vector
         (multiply_3(&skew(position), &pulled), multiply_3(r, &skew(&h_p)), skew(&transposed_times_3(r, &h_p)));
     let of_node = from(|i, j| lever[i][j] - h_p[i] * kappa[j] + 0.5 * turned[i][j]);
     let of_frame = from(|i, j| -h_p[i] * kappa[j] - 0.5 * back[i][j]);
-    let on_frame = by_turn(&[ZERO, of_frame], node);
-    [by_turn(&[pulled, of_node], node), on_frame.plus(&by_displacement([ZERO, negative(&skew(&h_u))], node))]
+    let on_frame = by_turn(&[ZERO_3, of_frame], node);
+    [by_turn(&[pulled, of_node], node), on_frame.plus(&by_displacement([ZERO_3, negative(&skew(&h_u))], node))]
 }
 
 /// A derivative by ψ, its translation and its rotation rows, as one by the place.
@@ -135,14 +133,14 @@ fn by_turn([translation, rotation]: &[Matrix3; 2], node: &NodeMeasure) -> PlaceM
     // Rows of A Rᵀ.
     let back = |a: &Matrix3| a.map(|row| times_3(&node.motion.rotation, &row));
     PlaceMatrices {
-        node: blocks(&ZERO, translation, &ZERO, rotation),
-        frame: blocks(&ZERO, &back(translation), &ZERO, &back(rotation)),
+        node: blocks(&ZERO_3, translation, &ZERO_3, rotation),
+        frame: blocks(&ZERO_3, &back(translation), &ZERO_3, &back(rotation)),
     }
 }
 
 /// A derivative by d as one by the place.
 fn by_displacement([translation, rotation]: [Matrix3; 2], node: &NodeMeasure) -> PlaceMatrices {
-    PlaceMatrices::of_measure(&blocks(&translation, &ZERO, &rotation, &ZERO), node)
+    PlaceMatrices::of_measure(&blocks(&translation, &ZERO_3, &rotation, &ZERO_3), node)
 }
 
 /// −ω̃_F.

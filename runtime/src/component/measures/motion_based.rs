@@ -3,13 +3,11 @@
 //! T⁻¹(E) = [p₀ I + p̃/2, c I + p̃_u/2; 0, p₀ I + p̃/2] is linear but for p₀ = √(1 − pᵀp/4) and c = ∇p₀ᵀp_u: all derivatives
 //! are those of the cosine p₀, as forms ∇p₀, ∇²p₀ a and ∇³p₀ (a, b) on the increment of p.
 
-use super::{NodeMeasure, NodeRates, RateMatrices, difference_6, sum_6};
+use super::node::{NodeMeasure, NodeRates, RateMatrices, difference_6, sum_6};
 use crate::motion::{
-    Matrix3, Matrix6, Motion, Vector3, Vector6, blocks, check, dot, hat, parameter_cosine, split, tangent_inverse,
-    tangent_inverse_rate, times_6,
+    Matrix3, Matrix6, Motion, Vector3, Vector6, ZERO_3, blocks, check, dot, hat, parameter_cosine, split,
+    tangent_inverse, tangent_inverse_rate, times_6,
 };
-
-const ZERO: Matrix3 = [[0.0; 3]; 3];
 
 pub(super) fn measure(motion: &Motion, parameters: &Vector6) -> NodeMeasure {
     NodeMeasure {
@@ -56,7 +54,7 @@ impl Cosine {
 fn scaled(w: &Vector6, s_p: &Vector3, c_p: &Vector3) -> Matrix6 {
     let (w_u, w_p) = split(w);
     let along = dyad(&w_p, s_p);
-    blocks(&along, &sum_3(&dyad(&w_u, s_p), &dyad(&w_p, c_p)), &ZERO, &along)
+    blocks(&along, &sum_3(&dyad(&w_u, s_p), &dyad(&w_p, c_p)), &ZERO_3, &along)
 }
 
 /// (T⁻¹)˙ (V − V_F) + Ė̂ V_F, as Ḟ = J̇ − Ė̂.
@@ -99,7 +97,7 @@ pub(super) fn forces_by_measure(node: &NodeMeasure, h: &Vector6) -> [Matrix6; 2]
     let cosine = Cosine::of(&p);
     let first = cosine.first();
     let across = dyad(&h_u, &first);
-    let dyads = blocks(&ZERO, &across, &across, &sum_3(&dyad(&h_u, &cosine.second(&p_u)), &dyad(&h_p, &first)));
+    let dyads = blocks(&ZERO_3, &across, &across, &sum_3(&dyad(&h_u, &cosine.second(&p_u)), &dyad(&h_p, &first)));
     let half = check(&h.map(|x| 0.5 * x));
     [sum_6(&dyads, &half), difference_6(&dyads, &half)]
 }

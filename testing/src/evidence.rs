@@ -17,7 +17,7 @@ use supel::verification::{Evidence, verify};
 use crate::chain::input;
 
 /// Runs the stages on an input and hands their evidence on.
-pub(crate) fn with_evidence<T>(
+pub fn with_evidence<T>(
     input: Input,
     interfaces: &[InterfaceJob],
     (method, count): (Method, usize),
@@ -56,7 +56,7 @@ pub(crate) fn with_evidence<T>(
 }
 
 /// The evidence of a generated model with all its digits.
-pub(crate) fn with_model<T>(
+pub fn with_model<T>(
     model: &supel_models::Model,
     interfaces: &[InterfaceJob],
     method: (Method, usize),
@@ -66,12 +66,12 @@ pub(crate) fn with_model<T>(
 }
 
 /// The checks of some evidence.
-pub(crate) fn checks(evidence: &Evidence<'_>) -> Vec<Check> {
+pub fn checks(evidence: &Evidence<'_>) -> Vec<Check> {
     verify(evidence).expect("dense decompositions").checks
 }
 
 /// Identifiers of the checks that do not pass, each once, with their verdicts.
-pub(crate) fn complaints(checks: &[Check]) -> Vec<(&'static str, Verdict)> {
+pub fn complaints(checks: &[Check]) -> Vec<(&'static str, Verdict)> {
     let mut found: Vec<_> = checks
         .iter()
         .filter(|check| check.verdict() > Verdict::Pass)
@@ -83,7 +83,7 @@ pub(crate) fn complaints(checks: &[Check]) -> Vec<(&'static str, Verdict)> {
 }
 
 /// A check as a line of text.
-pub(crate) fn line(check: &Check) -> String {
+pub fn line(check: &Check) -> String {
     let (limit, worst) = (check.limits.value(), check.worst.as_deref().unwrap_or("-"));
     format!("{:?} {} {}: {:.1e} of {limit:.1e}, at {worst}", check.verdict(), check.id, check.name, check.value)
 }

@@ -12,26 +12,26 @@ use supel_models as models;
 use supel_models::model::Entry;
 
 /// Rounding unit of double precision.
-pub(crate) const EPS: f64 = f64::EPSILON;
+pub const EPS: f64 = f64::EPSILON;
 
 /// The dense twin of a partition.
-pub(crate) struct Twin {
+pub struct Twin {
     /// T, n × n'.
-    pub(crate) transformation: Mat<f64>,
+    pub transformation: Mat<f64>,
     /// TᵀKT, scaled as the partition is.
-    pub(crate) k: Mat<f64>,
+    pub k: Mat<f64>,
     /// TᵀMT, scaled as the partition is.
-    pub(crate) m: Mat<f64>,
+    pub m: Mat<f64>,
     /// |T|ᵀ|K||T|: the sizes of the terms that K is summed from, which its rounding is relative to.
-    pub(crate) k_terms: Mat<f64>,
+    pub k_terms: Mat<f64>,
     /// |T|ᵀ|M||T|.
-    pub(crate) m_terms: Mat<f64>,
+    pub m_terms: Mat<f64>,
     /// n_I.
-    pub(crate) n_i: usize,
+    pub n_i: usize,
 }
 
 impl Twin {
-    pub(crate) fn new(model: &models::Model, interfaces: &[InterfaceJob], partition: &Partition) -> Self {
+    pub fn new(model: &models::Model, interfaces: &[InterfaceJob], partition: &Partition) -> Self {
         let (transformation, sizes) = transformation(model, interfaces, partition);
         let scaled = |entries: &[Entry], unit: f64| {
             let mut full = Mat::zeros(model.n, model.n);
@@ -55,34 +55,34 @@ impl Twin {
         self.k.nrows() - self.n_i
     }
 
-    pub(crate) fn k_ii(&self) -> MatRef<'_, f64> {
+    pub fn k_ii(&self) -> MatRef<'_, f64> {
         self.k.submatrix(0, 0, self.n_i, self.n_i)
     }
 
-    pub(crate) fn m_ii(&self) -> MatRef<'_, f64> {
+    pub fn m_ii(&self) -> MatRef<'_, f64> {
         self.m.submatrix(0, 0, self.n_i, self.n_i)
     }
 
-    pub(crate) fn k_ib(&self) -> MatRef<'_, f64> {
+    pub fn k_ib(&self) -> MatRef<'_, f64> {
         self.k.submatrix(0, self.n_i, self.n_i, self.n_b())
     }
 
-    pub(crate) fn m_ib(&self) -> MatRef<'_, f64> {
+    pub fn m_ib(&self) -> MatRef<'_, f64> {
         self.m.submatrix(0, self.n_i, self.n_i, self.n_b())
     }
 
-    pub(crate) fn k_bb(&self) -> MatRef<'_, f64> {
+    pub fn k_bb(&self) -> MatRef<'_, f64> {
         self.k.submatrix(self.n_i, self.n_i, self.n_b(), self.n_b())
     }
 
     /// K_II⁻¹ F.
-    pub(crate) fn solve(&self, forces: MatRef<'_, f64>) -> Mat<f64> {
+    pub fn solve(&self, forces: MatRef<'_, f64>) -> Mat<f64> {
         self.k_ii().llt(Side::Lower).expect("K_II is definite").solve(forces)
     }
 
     /// n_I κ ε: the relative error that solving with K_II may have, κ of the matrix with unit diagonal, because Cholesky
     /// factorisation does not see a diagonal scaling (van der Sluis 1969; Higham 2002, theorem 10.6).
-    pub(crate) fn solve_error(&self) -> f64 {
+    pub fn solve_error(&self) -> f64 {
         let d: Vec<f64> = (0..self.n_i).map(|i| self.k[(i, i)].sqrt()).collect();
         let scaled = Mat::from_fn(self.n_i, self.n_i, |i, j| self.k[(i, j)] / (d[i] * d[j]));
         let eigenvalues = scaled.self_adjoint_eigenvalues(Side::Lower).expect("a finite matrix");
@@ -90,12 +90,12 @@ impl Twin {
     }
 
     /// All finite eigenvalues of the free component, ascending.
-    pub(crate) fn free_spectrum(&self) -> Vec<f64> {
+    pub fn free_spectrum(&self) -> Vec<f64> {
         spectrum(self.k.as_ref(), self.m.as_ref())
     }
 
     /// All finite eigenvalues with the interface held, ascending.
-    pub(crate) fn clamped_spectrum(&self) -> Vec<f64> {
+    pub fn clamped_spectrum(&self) -> Vec<f64> {
         spectrum(self.k_ii(), self.m_ii())
     }
 }
@@ -163,7 +163,7 @@ fn members(model: &models::Model, nodes: &NodeSelection) -> Vec<i64> {
 ///
 /// They come from M x = ν (K + sM) x, λ = 1/ν − s, with s near the lowest elastic eigenvalue: an error ε/s of ν is then
 /// an error ε (λ + s)²/s of λ.
-pub(crate) fn spectrum(k: MatRef<'_, f64>, m: MatRef<'_, f64>) -> Vec<f64> {
+pub fn spectrum(k: MatRef<'_, f64>, m: MatRef<'_, f64>) -> Vec<f64> {
     let n = k.nrows();
     let largest = (0..n).filter(|i| m[(*i, *i)] > 0.0).map(|i| k[(i, i)] / m[(i, i)]).fold(0.0, f64::max);
     let first = shifted_spectrum(k, m, 1e-4 * largest);
@@ -186,7 +186,7 @@ fn shifted_spectrum(k: MatRef<'_, f64>, m: MatRef<'_, f64>, s: f64) -> Vec<f64> 
 }
 
 /// A sparse matrix as a dense one.
-pub(crate) fn dense(matrix: &SparseMatrix) -> Mat<f64> {
+pub fn dense(matrix: &SparseMatrix) -> Mat<f64> {
     let mut full = Mat::zeros(matrix.rows(), matrix.cols());
     for (row, view) in matrix.outer_iterator().enumerate() {
         view.iter().for_each(|(col, value)| full[(row, col)] = *value);
@@ -195,7 +195,7 @@ pub(crate) fn dense(matrix: &SparseMatrix) -> Mat<f64> {
 }
 
 /// Ψ of equation (18) in the partition's order: [Ψ_S Ψ_D; I 0].
-pub(crate) fn psi(basis: &Basis) -> Mat<f64> {
+pub fn psi(basis: &Basis) -> Mat<f64> {
     let (psi_s, psi_d) = (&basis.constraint_modes, &basis.dynamic_modes);
     let (n_i, n_b) = (psi_s.nrows(), psi_s.ncols());
     Mat::from_fn(n_i + n_b, n_b + psi_d.ncols(), |i, j| match (i < n_i, j < n_b) {
@@ -206,26 +206,26 @@ pub(crate) fn psi(basis: &Basis) -> Mat<f64> {
 }
 
 /// |A|.
-pub(crate) fn absolute(a: MatRef<'_, f64>) -> Mat<f64> {
+pub fn absolute(a: MatRef<'_, f64>) -> Mat<f64> {
     Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)].abs())
 }
 
 /// The largest difference, relative to the largest entry of the expected matrix.
-pub(crate) fn difference(found: MatRef<'_, f64>, expected: MatRef<'_, f64>) -> f64 {
+pub fn difference(found: MatRef<'_, f64>, expected: MatRef<'_, f64>) -> f64 {
     assert_eq!(found.shape(), expected.shape());
     let size = expected.norm_max();
     if expected.ncols() == 0 { 0.0 } else { (found - expected).norm_max() / size }
 }
 
 /// The largest difference in the worst column, each relative to its own largest entry.
-pub(crate) fn column_difference(found: MatRef<'_, f64>, expected: MatRef<'_, f64>) -> f64 {
+pub fn column_difference(found: MatRef<'_, f64>, expected: MatRef<'_, f64>) -> f64 {
     assert_eq!(found.shape(), expected.shape());
     let columns = 0..found.ncols();
     columns.map(|j| difference(found.subcols(j, 1), expected.subcols(j, 1))).fold(0.0, f64::max)
 }
 
 /// √(|x_i|ᵀA|x_i| · |y_j|ᵀA|y_j|) ≥ |x_i|ᵀA|y_j|: the size of the terms of XᵀAY, free of units, for a matrix A of sizes.
-pub(crate) fn terms(x: MatRef<'_, f64>, a: &Mat<f64>, y: MatRef<'_, f64>) -> Mat<f64> {
+pub fn terms(x: MatRef<'_, f64>, a: &Mat<f64>, y: MatRef<'_, f64>) -> Mat<f64> {
     let lengths = |x: MatRef<'_, f64>| -> Vec<f64> {
         let (sizes, image) = (absolute(x), a * absolute(x));
         (0..x.ncols()).map(|j| (sizes.col(j).transpose() * image.col(j)).sqrt()).collect()
@@ -235,7 +235,7 @@ pub(crate) fn terms(x: MatRef<'_, f64>, a: &Mat<f64>, y: MatRef<'_, f64>) -> Mat
 }
 
 /// The largest |found − expected| / bound over all entries: at most one where every entry keeps its own bound.
-pub(crate) fn against_bound(found: MatRef<'_, f64>, expected: MatRef<'_, f64>, bound: MatRef<'_, f64>) -> f64 {
+pub fn against_bound(found: MatRef<'_, f64>, expected: MatRef<'_, f64>, bound: MatRef<'_, f64>) -> f64 {
     assert_eq!(found.shape(), expected.shape());
     let entries = (0..found.nrows()).flat_map(|i| (0..found.ncols()).map(move |j| (i, j)));
     entries.fold(0.0, |worst: f64, at| {

@@ -15,11 +15,11 @@ fn noise(seed: usize) -> f64 {
     value - value.floor()
 }
 
-pub(super) fn frequency(index: usize) -> f64 {
+pub(crate) fn frequency(index: usize) -> f64 {
     100.0 * (index as f64).powf(1.3)
 }
 
-pub(super) fn trust_intervals() -> Vec<TrustInterval> {
+pub(crate) fn trust_intervals() -> Vec<TrustInterval> {
     let interval = |from_hz, to_hz, number, pivot_growth| TrustInterval {
         from_hz,
         to_hz,
@@ -31,7 +31,7 @@ pub(super) fn trust_intervals() -> Vec<TrustInterval> {
     vec![interval(-71.2, 8_000.5, 35, 3.1), interval(8_000.5, 16_200.25, 21, 4.7e2)]
 }
 
-pub(super) fn rigid_body(properties: &MassProperties) -> RigidBodyEvidence {
+pub(crate) fn rigid_body(properties: &MassProperties) -> RigidBodyEvidence {
     let mut close = properties.clone();
     close.mass = close.mass.map(|mass| mass * (1.0 + 3e-13));
     let expected = MassProperties { inertia: None, ..properties.clone() };
@@ -67,7 +67,7 @@ pub(super) fn rigid_body(properties: &MassProperties) -> RigidBodyEvidence {
     }
 }
 
-pub(super) fn preservation() -> Preservation {
+pub(crate) fn preservation() -> Preservation {
     Preservation {
         modes: (1..=50).map(preserved).collect(),
         mac: mac(50),

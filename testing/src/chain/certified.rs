@@ -3,7 +3,7 @@
 use supel::constraint::constraint_modes;
 use supel::eigen::{Modes, mass_orthogonality};
 use supel::error::Error;
-use supel::factor::{Analysis, Cholesky};
+use supel::factor::Cholesky;
 use supel::job::{Certify, Eigensolver, InterfaceJob, Method, ModeSelection, ReductionJob};
 use supel::modes::{Certificate, Component, ModeSource, Search, certified};
 use supel::partition::DofOrigin;
@@ -12,47 +12,51 @@ use supel::rigid;
 use supel_models::Model;
 
 /// Modes with the counts that certify them, in user units.
-pub(crate) struct Certified {
-    pub(crate) modes: Modes,
-    pub(crate) certificate: Certificate,
+pub struct Certified {
+    pub modes: Modes,
+    pub certificate: Certificate,
     /// λ in user units.
-    pub(crate) lambda: Vec<f64>,
+    pub lambda: Vec<f64>,
     /// Row of the model that each row of the shapes belongs to.
-    pub(crate) rows: Vec<usize>,
+    pub rows: Vec<usize>,
     /// |XᵀMX − I|.
-    pub(crate) orthogonality: f64,
+    pub orthogonality: f64,
     /// A factor of (rad/s)² from λ as the tool has it.
-    pub(crate) unit: f64,
+    pub unit: f64,
 }
 
 /// The solvers this build has.
-pub(crate) fn eigensolvers() -> &'static [Eigensolver] {
-    const BOTH: [Eigensolver; 2] = [Eigensolver::Lanczos, Eigensolver::Arpack];
-    if cfg!(feature = "arpack") { &BOTH } else { &BOTH[..1] }
+pub fn eigensolvers() -> &'static [Eigensolver] {
+    Eigensolver::BUILT_IN
+}
+
+/// Their words in jobs and flags.
+pub fn eigensolver_words() -> &'static [&'static str] {
+    &["lanczos", "arpack"][..Eigensolver::BUILT_IN.len()]
 }
 
 /// Fixed-interface modes, with no interface those of the model as it is.
-pub(crate) fn held(modes: ModeSelection, eigensolver: Eigensolver) -> ReductionJob {
+pub fn held(modes: ModeSelection, eigensolver: Eigensolver) -> ReductionJob {
     ReductionJob { method: Method::CraigBampton, modes, eigensolver }
 }
 
 /// Free-interface modes.
-pub(crate) fn free(modes: ModeSelection, eigensolver: Eigensolver) -> ReductionJob {
+pub fn free(modes: ModeSelection, eigensolver: Eigensolver) -> ReductionJob {
     ReductionJob { method: Method::Herting, modes, eigensolver }
 }
 
 /// So many modes.
-pub(crate) fn count(count: usize) -> ModeSelection {
+pub fn count(count: usize) -> ModeSelection {
     ModeSelection::Count { count }
 }
 
 /// All modes up to an eigenvalue.
-pub(crate) fn up_to(lambda: f64) -> ModeSelection {
+pub fn up_to(lambda: f64) -> ModeSelection {
     ModeSelection::UpTo { up_to_hz: lambda.sqrt() / std::f64::consts::TAU }
 }
 
 /// Runs the stages up to the factor of K_II.
-pub(crate) fn with_component<T>(
+pub fn with_component<T>(
     model: &Model,
     interfaces: &[InterfaceJob],
     look: impl FnOnce(Component<'_>) -> Result<T, Error>,
@@ -72,7 +76,7 @@ pub(crate) fn with_component<T>(
 }
 
 /// Searches and certifies.
-pub(crate) fn certify(model: &Model, interfaces: &[InterfaceJob], job: &ReductionJob) -> Result<Certified, Error> {
+pub fn certify(model: &Model, interfaces: &[InterfaceJob], job: &ReductionJob) -> Result<Certified, Error> {
     with_component(model, interfaces, |component| {
         let search = Search::new(component, job)?;
         let found = search.lowest(SEED)?;
@@ -82,7 +86,7 @@ pub(crate) fn certify(model: &Model, interfaces: &[InterfaceJob], job: &Reductio
 }
 
 /// What every certified answer has to satisfy whatever it is of.
-pub(crate) fn judge(search: &Search<'_>, modes: Modes, certificate: Certificate) -> Certified {
+pub fn judge(search: &Search<'_>, modes: Modes, certificate: Certificate) -> Certified {
     assert!(certificate.holds(), "{certificate:?}");
     assert!(certificate.doubt() <= 1.0, "growth beyond what is certain: {certificate:?}");
     assert_eq!(certificate.n_counted, modes.count() + search.problem.n_rigid());
@@ -105,7 +109,7 @@ impl Certified {
     /// Asserts the lowest eigenvalues against exact ones. Rounding of the entries and of the Rayleigh quotient moves λ_j by
     /// c_j times the rounding of sums of up to 81 terms, whose errors add up like the root of their number: 32 ε c_j.
     #[track_caller]
-    pub(crate) fn assert_lambda(&self, exact: &[f64]) {
+    pub fn assert_lambda(&self, exact: &[f64]) {
         assert_eq!(self.lambda.len(), exact.len(), "number of modes");
         for (j, (lambda, exact)) in self.lambda.iter().zip(exact).enumerate() {
             let error = (lambda / exact - 1.0).abs();
@@ -116,7 +120,7 @@ impl Certified {
 
     /// Asserts eigenvalues of a chosen spectrum, whose K is rounded in units of its largest one and has cond(C)² below 100.
     #[track_caller]
-    pub(crate) fn assert_known(&self, exact: &[f64], largest: f64) {
+    pub fn assert_known(&self, exact: &[f64], largest: f64) {
         assert_eq!(self.lambda.len(), exact.len(), "{:?}", self.lambda);
         for (lambda, exact) in self.lambda.iter().zip(exact) {
             assert!((lambda - exact).abs() <= 100.0 * f64::EPSILON * largest, "{lambda} for {exact}");

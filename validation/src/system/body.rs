@@ -2,19 +2,29 @@
 
 use faer::Mat;
 use supel_runtime::Superelement;
-use supel_runtime::component::{ModalComponent, RecoveredNode, State, Workspace};
+use supel_runtime::component::{FloatingFrame, Measures, ModalComponent, RecoveredNode, State, Workspace};
 use supel_runtime::motion::{IDENTITY_3, Motion, Vector3};
 
+use super::configuration::Configuration;
+use super::forces::{Forces, Matrices};
 use crate::Result;
-use crate::system::{Configuration, Forces, Formulation, Matrices};
 
 /// How far a node of the mechanism may be from the interface node that it is, as a share of the largest coordinate: two programs
 /// write the same place in ten digits.
 const SAME_PLACE: f64 = 1e-9;
 
+/// How a component defines its floating frame and its deformation.
+#[derive(Clone, Copy, Debug)]
+pub struct Formulation {
+    /// Y of eq. (8).
+    pub frame: FloatingFrame,
+    /// Motion-based or classical.
+    pub measures: Measures,
+}
+
 /// A component with its place in the mechanism.
 #[derive(Debug)]
-pub(crate) struct Body {
+pub(super) struct Body {
     component: ModalComponent,
     nodes: Vec<usize>,
     /// Coordinate of the mechanism of each coordinate of the component.
@@ -31,7 +41,7 @@ impl Body {
     ///
     /// # Errors
     /// A superelement that the component refuses; a node of the mechanism that is not where the interface node is.
-    pub(crate) fn new(
+    pub(super) fn new(
         superelement: &Superelement,
         nodes: &[usize],
         positions: &[Vector3],
@@ -56,7 +66,7 @@ impl Body {
     }
 
     /// The state of the mechanism, as far as it is this component's.
-    pub(crate) fn place(&mut self, at: &Configuration, velocity: &[f64], acceleration: &[f64]) -> Result<()> {
+    pub(super) fn place(&mut self, at: &Configuration, velocity: &[f64], acceleration: &[f64]) -> Result<()> {
         for (motion, node) in self.motions.iter_mut().zip(&self.nodes) {
             *motion = at.motions[*node];
         }
@@ -71,40 +81,40 @@ impl Body {
         Ok(())
     }
 
-    pub(crate) fn evaluate(&mut self) -> Result<()> {
+    pub(super) fn evaluate(&mut self) -> Result<()> {
         let Self { component, motions, amplitudes, velocities, accelerations, workspace, .. } = self;
         Ok(component.evaluate(&State { motions, amplitudes, velocities, accelerations }, workspace)?)
     }
 
-    pub(crate) fn tangents(&mut self) -> Result<()> {
+    pub(super) fn tangents(&mut self) -> Result<()> {
         let Self { component, motions, amplitudes, velocities, accelerations, workspace, .. } = self;
         Ok(component.exact_tangents(&State { motions, amplitudes, velocities, accelerations }, workspace)?)
     }
 
     /// Kinetic energy, strain energy and potential energy in gravity of the state last evaluated.
-    pub(crate) fn energies(&self, gravity: &Vector3) -> Result<[f64; 3]> {
+    pub(super) fn energies(&self, gravity: &Vector3) -> Result<[f64; 3]> {
         let (workspace, potential) = (&self.workspace, self.component.gravity_potential(gravity, &self.workspace)?);
         Ok([workspace.kinetic_energy(), workspace.strain_energy(), potential])
     }
 
     /// Power that the damping takes in the state last evaluated.
-    pub(crate) fn dissipated_power(&self) -> f64 {
+    pub(super) fn dissipated_power(&self) -> f64 {
         self.workspace.dissipated_power()
     }
 
     /// Where the recovered nodes are, in the state last evaluated.
-    pub(crate) fn recovered(&self, positions: &[Vector3]) -> Result<Vec<RecoveredNode>> {
+    pub(super) fn recovered(&self, positions: &[Vector3]) -> Result<Vec<RecoveredNode>> {
         let still = RecoveredNode { displacement: [0.0; 3], rotation: IDENTITY_3 };
         let mut nodes = vec![still; self.component.recovered_labels().len()];
         self.component.recover(&self.workspace, positions, &mut nodes)?;
         Ok(nodes)
     }
 
-    pub(crate) fn floating_frame(&self) -> &Motion {
+    pub(super) fn floating_frame(&self) -> &Motion {
         self.workspace.floating_frame()
     }
 
-    pub(crate) fn add_forces(&mut self, gravity: &Vector3, forces: &mut Forces) -> Result<()> {
+    pub(super) fn add_forces(&mut self, gravity: &Vector3, forces: &mut Forces) -> Result<()> {
         let weight = self.component.gravity_forces(gravity, &mut self.workspace)?.to_vec();
         let workspace = &self.workspace;
         let sources = [workspace.elastic_forces(), workspace.inertial_forces(), workspace.damping_forces(), &weight];
@@ -117,7 +127,7 @@ impl Body {
         Ok(())
     }
 
-    pub(crate) fn add_matrices(&self, matrices: &mut Matrices) -> Result<()> {
+    pub(super) fn add_matrices(&self, matrices: &mut Matrices) -> Result<()> {
         let workspace = &self.workspace;
         self.add(workspace.stiffness(), &mut matrices.stiffness)?;
         self.add(workspace.exact_stiffness(), &mut matrices.exact_stiffness)?;

@@ -7,17 +7,17 @@ use supel_models::{Inertia, Material, Model, Section, brick, frame, membrane};
 use crate::chain::{Chain, Method, Twin, direct, reduce, rigid_group, rows};
 
 /// A model, its interfaces and the number of its rigid-body modes.
-pub(crate) struct Case {
-    pub(crate) name: &'static str,
-    pub(crate) model: Model,
-    pub(crate) interfaces: Vec<InterfaceJob>,
-    pub(crate) n_rigid: usize,
+pub struct Case {
+    pub name: &'static str,
+    pub model: Model,
+    pub interfaces: Vec<InterfaceJob>,
+    pub n_rigid: usize,
 }
 
 /// Expansion modes asked for.
-pub(crate) const N_MODES: usize = 6;
+pub const N_MODES: usize = 6;
 
-pub(crate) fn cases() -> Vec<Case> {
+pub fn cases() -> Vec<Case> {
     let case = |name, model, interfaces: Vec<InterfaceJob>, n_rigid| Case { name, model, interfaces, n_rigid };
     let patches = || vec![rigid_group("XMIN"), rigid_group("XMAX")];
     let two_bodies = join(&solid(), &small_solid(), &[]);
@@ -42,7 +42,7 @@ pub(crate) fn cases() -> Vec<Case> {
 }
 
 /// Runs a check on every case with one method.
-pub(crate) fn for_each_case(method: Method, check: impl Fn(&Case, &Chain, &Twin)) {
+pub fn for_each_case(method: Method, check: impl Fn(&Case, &Chain, &Twin)) {
     for case in cases() {
         let chain = reduce(&case.model, &case.interfaces, method, N_MODES);
         let chain = chain.unwrap_or_else(|error| panic!("{}, {method:?}: {error}", case.name));
@@ -52,7 +52,7 @@ pub(crate) fn for_each_case(method: Method, check: impl Fn(&Case, &Chain, &Twin)
 }
 
 /// Runs a check on every case with both methods.
-pub(crate) fn for_each_method(check: impl Fn(&Case, &Chain, &Twin)) {
+pub fn for_each_method(check: impl Fn(&Case, &Chain, &Twin)) {
     for method in [Method::CraigBampton, Method::Herting] {
         for_each_case(method, &check);
     }

@@ -3,15 +3,13 @@
 //! An element has the exact static stiffness, Φ = 12 EI/(GA l²), and the consistent mass of its shape functions with rotary
 //! inertia.
 
-#![allow(dead_code, unreachable_pub)]
-
 use supel_runtime::motion::{Vector3, cross, dot};
 use supel_runtime::{
     Coordinate, Direction, Generator, InterfaceNode, Matrix, Metadata, Method, ModelSummary, RigidBodyModes,
     Superelement, Tensors, Validity, Verdict, Verification,
 };
 
-use crate::random::Random;
+use crate::random::SplitMix64;
 
 /// Stiffness and mass of a cross-section; about axes 1 (along), 2, 3.
 #[derive(Clone, Copy)]
@@ -247,7 +245,7 @@ fn basis(k: &Square, m: &Square, interface: &[usize], n_modes: usize) -> Vec<f64
             basis[i * r + column] = value;
         }
     }
-    let mut random = Random(42);
+    let mut random = SplitMix64::new(42);
     let mut modes: Vec<Vec<f64>> = Vec::new();
     for mode in 0..n_modes {
         // Starting from random loads, so that every direction is reached.
@@ -331,7 +329,7 @@ pub fn parts(stiffness: Matrix, mass: Matrix, positions: &[Vector3]) -> (Tensors
 
 /// A component of random numbers: a full mass, and a full stiffness without rigid-body forces.
 pub fn random_parts(n_nodes: usize, n_modal: usize, seed: u64) -> (Tensors, Metadata) {
-    let mut random = Random(seed);
+    let mut random = SplitMix64::new(seed);
     let r = 6 * n_nodes + n_modal;
     let positions: Vec<Vector3> = (0..n_nodes).map(|_| random.vector_3(1.0)).collect();
     let mut definite = || {

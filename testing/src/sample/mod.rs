@@ -13,8 +13,9 @@ use supel::report::FacesReport;
 use supel::report::{
     Completeness, DroppedCoordinate, Generator, InterfacePosition, InterfaceReport, MassProperties, MatrixReport,
     ModeKind, ModeRow, ModelReport, Observer, PositionOrigin, ReductionReport, Report, ReportBody, RigidBodyModes,
-    RigidBodySource, RunFacts, StageTime, WorkCounters,
+    RunFacts, StageTime, WorkCounters,
 };
+use supel::rigid::RigidSource;
 use supel::verification::check::{Check, Limits};
 use supel_runtime::{
     CheckSummary, Coordinate, Direction, InterfaceNode, Matrix, Metadata, ModelSummary, Superelement, Tensors,
@@ -22,7 +23,7 @@ use supel_runtime::{
 };
 
 /// A report in which every optional field is present, with checks of all three verdicts and limits.
-pub(crate) fn full_report() -> Report {
+pub fn full_report() -> Report {
     let mut report = passing_report();
     report.body.checks.push(Check {
         id: "M-09",
@@ -69,7 +70,7 @@ pub(crate) fn full_report() -> Report {
 }
 
 /// A report without anything to complain of.
-pub(crate) fn passing_report() -> Report {
+pub fn passing_report() -> Report {
     Report { body: body(), run: run_facts() }
 }
 
@@ -147,7 +148,7 @@ fn model() -> ModelReport {
             cg: Some([0.0, -1.5e-17, 41.2]),
             inertia: Some([[1.25, 0.0, -0.015], [0.0, 2.5, 0.0], [-0.015, 0.0, 3.1]]),
         },
-        rigid_body_modes: RigidBodyModes { count: 6, source: RigidBodySource::Geometric },
+        rigid_body_modes: RigidBodyModes { count: 6, source: RigidSource::Geometric },
         units: Some("mm-t-s".to_owned()),
         notes: vec![
             "stiffness: declared general but held one triangle; it was mirrored".to_owned(),
@@ -177,7 +178,7 @@ fn run_facts() -> RunFacts {
 }
 
 /// A superelement of two translations: k = 4, m = 1 each, free along x.
-pub(crate) fn superelement() -> Superelement {
+pub fn superelement() -> Superelement {
     let node = |name: &str, x: f64| InterfaceNode {
         name: name.to_owned(),
         label: Some(12),
@@ -237,8 +238,8 @@ fn metadata(interface_nodes: Vec<InterfaceNode>) -> Metadata {
 }
 
 /// A pipeline that answers every job with the same component.
-#[allow(dead_code, clippy::unnecessary_wraps)]
-pub(crate) fn pipeline(_job: &Job, _resources: Resources, observer: &mut dyn Observer) -> Result<Outcome> {
+#[allow(clippy::unnecessary_wraps)]
+pub fn pipeline(_job: &Job, _resources: Resources, observer: &mut dyn Observer) -> Result<Outcome> {
     observer.stage("read");
     observer.stage("factor");
     let report = Report { run: RunFacts { work: run_facts().work, ..RunFacts::default() }, ..passing_report() };

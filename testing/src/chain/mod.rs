@@ -3,9 +3,7 @@
 //! The twin is made from the model's own entries and from the definition of a rigid patch, without a line of the
 //! library; it shares with the partition only the order of the degrees of freedom and the powers of two taken out.
 
-#![allow(dead_code, unused_imports, reason = "each test crate uses its part")]
-
-pub(crate) mod certified;
+pub mod certified;
 mod twin;
 
 use supel::basis::{Basis, DynamicColumns, fixed_interface_columns, mode_acceleration_columns};
@@ -15,22 +13,23 @@ use supel::coordinates;
 use supel::dofs::{Direction, Dof, Nodes};
 use supel::eigen::{Factored, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes};
 use supel::error::Error;
-use supel::factor::{Analysis, Cholesky};
+use supel::factor::Cholesky;
 use supel::input::{Input, MatrixInput};
+pub use supel::job::Method;
 use supel::job::{Coupling, Eigensolver, InterfaceJob, NodeSelection, Origin};
 use supel::model::Model;
 use supel::partition::Partition;
 use supel::random::SEED;
 use supel::reduction::Reduction;
 use supel::rigid::{self, RigidBodyModes};
-use supel::sparse::{AssemblyNotes, Declared, Triplets};
+use supel::sparse::{AssemblyNotes, Declared, SparseMatrix, Triplets};
 use supel_models as models;
 use supel_models::model::Entry;
 
-pub(crate) use twin::{EPS, Twin, absolute, against_bound, column_difference, dense, difference, psi, spectrum, terms};
+pub use twin::{EPS, Twin, absolute, against_bound, column_difference, dense, difference, psi, spectrum, terms};
 
 /// A generated model as the readers would hand it over.
-pub(crate) fn input(model: &models::Model) -> Input {
+pub fn input(model: &models::Model) -> Input {
     let dofs =
         model.dofs.iter().map(|&(node, direction)| Dof { node, direction: Direction::ALL[usize::from(direction)] });
     let dofs: Vec<Dof> = dofs.collect();
@@ -49,69 +48,62 @@ pub(crate) fn input(model: &models::Model) -> Input {
 }
 
 fn matrix(n: usize, entries: &[Entry]) -> MatrixInput {
+    let notes = AssemblyNotes::default();
+    MatrixInput { matrix: sparse(n, entries), notes, digits: 17, path: "generated".into(), digest: String::new() }
+}
+
+/// The matrix of all entries of both triangles.
+pub fn sparse(n: usize, entries: &[Entry]) -> SparseMatrix {
     let mut triplets = Triplets::default();
     entries.iter().for_each(|&(row, col, value)| triplets.push(row, col, value));
-    let assembled = triplets.assemble(n, Declared::General, "generated".as_ref());
-    let (matrix, _) = assembled.expect("both triangles of a general matrix");
-    let notes = AssemblyNotes::default();
-    MatrixInput { matrix, notes, digits: 17, path: "generated".into(), digest: String::new() }
+    triplets.assemble(n, Declared::General, "generated".as_ref()).expect("both triangles of a general matrix").0
 }
 
 /// An interface of the nodes themselves.
-pub(crate) fn direct(name: &str, labels: &[i64]) -> InterfaceJob {
+pub fn direct(name: &str, labels: &[i64]) -> InterfaceJob {
     interface(name, NodeSelection::Labels(labels.to_vec()), Coupling::Direct)
 }
 
 /// One rigid node that carries a group.
-pub(crate) fn rigid_group(name: &str) -> InterfaceJob {
+pub fn rigid_group(name: &str) -> InterfaceJob {
     interface(name, NodeSelection::Group(format!("group:{name}")), Coupling::Rigid)
 }
 
 /// Rows as interface dofs.
-pub(crate) fn rows(name: &str, rows: &[usize]) -> InterfaceJob {
+pub fn rows(name: &str, rows: &[usize]) -> InterfaceJob {
     interface(name, NodeSelection::Rows { rows: rows.to_vec() }, Coupling::Direct)
 }
 
 /// An interface with the centroid as origin and all dofs.
-pub(crate) fn interface(name: &str, nodes: NodeSelection, coupling: Coupling) -> InterfaceJob {
+pub fn interface(name: &str, nodes: NodeSelection, coupling: Coupling) -> InterfaceJob {
     InterfaceJob { name: name.to_owned(), nodes, coupling, origin: Origin::Centroid, dofs: None }
 }
 
-/// The reduction methods.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Method {
-    CraigBampton,
-    Herting,
-}
-
 /// Everything the stages handed on.
-pub(crate) struct Chain {
-    pub(crate) partition: Partition,
-    pub(crate) rigid: RigidBodyModes,
-    pub(crate) constraint: ConstraintModes,
-    pub(crate) modes: Modes,
-    pub(crate) named: DynamicColumns,
-    pub(crate) basis: Basis,
-    pub(crate) reduction: Reduction,
+pub struct Chain {
+    pub partition: Partition,
+    pub rigid: RigidBodyModes,
+    pub constraint: ConstraintModes,
+    pub modes: Modes,
+    pub named: DynamicColumns,
+    pub basis: Basis,
+    pub reduction: Reduction,
 }
 
 /// The partition of a generated model.
-pub(crate) fn partition(model: &models::Model, interfaces: &[InterfaceJob]) -> Result<Partition, Error> {
+pub fn partition(model: &models::Model, interfaces: &[InterfaceJob]) -> Result<Partition, Error> {
     Partition::new(coordinates::compared(Model::new(input(model))?, &[], coordinates::Levers::Used)?, interfaces)
 }
 
 /// The partition and its rigid-body modes, from coordinates where there are any.
-pub(crate) fn rigid_of(
-    model: &models::Model,
-    interfaces: &[InterfaceJob],
-) -> Result<(Partition, RigidBodyModes), Error> {
+pub fn rigid_of(model: &models::Model, interfaces: &[InterfaceJob]) -> Result<(Partition, RigidBodyModes), Error> {
     let partition = partition(model, interfaces)?;
     let rigid = rigid::rigid_body_modes(&partition)?.0;
     Ok((partition, rigid))
 }
 
 /// Reduces a generated model with `count` expansion modes.
-pub(crate) fn reduce(
+pub fn reduce(
     model: &models::Model,
     interfaces: &[InterfaceJob],
     method: Method,

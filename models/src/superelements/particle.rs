@@ -5,8 +5,6 @@
 //! ω² = k / m_i; free, body and particle oscillate against each other with ω² = k / μ, 1/μ = 1/m_a + 1/m_i. In both cases
 //! the dynamic mode is a relative displacement s of the particle, normalised to unit modal mass.
 
-#![allow(dead_code, unreachable_pub)]
-
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 

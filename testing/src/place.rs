@@ -10,22 +10,22 @@ use supel_models::{Material, Model, brick, write};
 use supel_runtime::Superelement;
 
 /// What a command left behind.
-pub(crate) struct Ended {
-    pub(crate) code: ExitCode,
-    pub(crate) out: String,
-    pub(crate) err: String,
+pub struct Ended {
+    pub code: ExitCode,
+    pub out: String,
+    pub err: String,
 }
 
 impl Ended {
     #[track_caller]
-    pub(crate) fn expect(self, code: ExitCode) -> Self {
+    pub fn expect(self, code: ExitCode) -> Self {
         assert_eq!(self.code, code, "{}{}", self.out, self.err);
         self
     }
 }
 
 /// Runs `supel` with these arguments.
-pub(crate) fn supel(args: &[&str]) -> Ended {
+pub fn supel(args: &[&str]) -> Ended {
     let (mut out, mut err) = (Vec::new(), Vec::new());
     let args = std::iter::once("supel").chain(args.iter().copied()).map(OsString::from);
     let code = run(
@@ -38,15 +38,16 @@ pub(crate) fn supel(args: &[&str]) -> Ended {
 }
 
 /// A folder of its own.
-pub(crate) struct Place(tempfile::TempDir);
+pub struct Place(tempfile::TempDir);
 
 impl Place {
-    pub(crate) fn new() -> Self {
+    #[expect(clippy::new_without_default, reason = "it makes a folder")]
+    pub fn new() -> Self {
         Self(tempfile::tempdir().expect("folder"))
     }
 
     /// A folder with K.mtx, M.mtx, dofs.txt and nodes.csv of a model.
-    pub(crate) fn with(model: &Model) -> Self {
+    pub fn with(model: &Model) -> Self {
         let place = Self::new();
         let write = |name: &str, put: &dyn Fn(&mut Vec<u8>)| {
             let mut bytes = Vec::new();
@@ -62,41 +63,40 @@ impl Place {
     }
 
     /// A steel block of 4 × 2 × 2 bricks, 135 dofs: free, with no two natural frequencies alike.
-    pub(crate) fn with_brick() -> Self {
+    pub fn with_brick() -> Self {
         Self::with(&steel_brick())
     }
 
     /// The folder with the bundled example.
-    #[cfg(feature = "hdf5")]
-    pub(crate) fn with_example() -> Self {
+    pub fn with_example() -> Self {
         let place = Self::new();
-        let example = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/bracket");
+        let example = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/bracket");
         for name in ["job.toml", "stiffness.mtx.gz", "mass.mtx.gz", "bracket.med"] {
             fs::copy(example.join(name), place.path(name)).expect("copied");
         }
         place
     }
 
-    pub(crate) fn path(&self, name: &str) -> PathBuf {
+    pub fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
     }
 
-    pub(crate) fn text(&self, name: &str) -> String {
+    pub fn text(&self, name: &str) -> String {
         self.path(name).display().to_string()
     }
 
-    pub(crate) fn write(&self, name: &str, content: &[u8]) {
+    pub fn write(&self, name: &str, content: &[u8]) {
         // A file written over waits for the disk on some systems; a new one does not.
         let _ = fs::remove_file(self.path(name));
         fs::write(self.path(name), content).expect("written");
     }
 
-    pub(crate) fn bytes(&self, name: &str) -> Vec<u8> {
+    pub fn bytes(&self, name: &str) -> Vec<u8> {
         fs::read(self.path(name)).expect("read")
     }
 
     /// The flags that name the files of a model with coordinates.
-    pub(crate) fn model_flags(&self) -> Vec<String> {
+    pub fn model_flags(&self) -> Vec<String> {
         let mut flags = self.matrix_flags();
         flags.extend(["--dofs".into(), self.text("dofs.txt")]);
         flags.extend(["--nodes".into(), self.text("nodes.csv")]);
@@ -104,13 +104,13 @@ impl Place {
     }
 
     /// The flags that name the matrices alone.
-    pub(crate) fn matrix_flags(&self) -> Vec<String> {
+    pub fn matrix_flags(&self) -> Vec<String> {
         let flags = ["--stiffness".into(), self.text("K.mtx"), "--mass".into(), self.text("M.mtx")];
         flags.into()
     }
 
     /// `supel reduce` by flags alone to x.supel; `rest` is split at spaces.
-    pub(crate) fn reduce(&self, model: &[String], rest: &str) -> Ended {
+    pub fn reduce(&self, model: &[String], rest: &str) -> Ended {
         let output = self.text("x.supel");
         let mut args: Vec<&str> = vec!["reduce", "--output", &output];
         args.extend(model.iter().map(String::as_str));
@@ -118,36 +118,35 @@ impl Place {
         supel(&args)
     }
 
-    pub(crate) fn superelement(&self, name: &str) -> Superelement {
+    pub fn superelement(&self, name: &str) -> Superelement {
         Superelement::open(&self.path(name)).expect("a superelement")
     }
 
-    pub(crate) fn report(&self, name: &str) -> Value {
+    pub fn report(&self, name: &str) -> Value {
         serde_json::from_slice(&self.bytes(name)).expect("JSON")
     }
 
     /// The bytes of the report's body, everything before the facts of the run.
-    #[cfg(feature = "hdf5")]
-    pub(crate) fn report_body(&self, name: &str) -> String {
+    pub fn report_body(&self, name: &str) -> String {
         let report = String::from_utf8(self.bytes(name)).expect("UTF-8");
         let (body, _) = report.split_once("\n  \"run\": {").expect("facts of the run");
         body.to_owned()
     }
 }
 
-pub(crate) fn steel_brick() -> Model {
+pub fn steel_brick() -> Model {
     brick([4, 2, 2], [1.0, 0.31, 0.23], &Material::STEEL_SI)
 }
 
 /// The natural frequencies a superelement names, in Hz.
-pub(crate) fn frequencies_hz(superelement: &Superelement) -> Vec<f64> {
+pub fn frequencies_hz(superelement: &Superelement) -> Vec<f64> {
     let omega = &superelement.tensors().frequencies;
     omega.iter().map(|omega| omega / std::f64::consts::TAU).collect()
 }
 
 /// Asserts that two lists of frequencies agree relatively.
 #[track_caller]
-pub(crate) fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) {
+pub fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) {
     assert_eq!(found.len(), expected.len(), "{found:?}\n{expected:?}");
     for (found, expected) in found.iter().zip(expected) {
         let difference = (found / expected - 1.0).abs();

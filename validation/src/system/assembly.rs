@@ -1,18 +1,14 @@
-//! Modal components assembled into a mechanism.
-//!
-//! ```text
-//! q   n = 6 k + Σ n_η   nodes of the mechanism, six each, then the amplitudes of each component
-//! ```
-//! A node's velocity is taken at the node and in its own axes, (Rᵀẋ; ω), so that "the node stays" is "the first three are
-//! zero"; the component changes them to those of the point at the inertial origin, and its forces back.
+//! The mechanism: its nodes, supports, joints and loads, and the sums over its components.
 
 use faer::Mat;
 use supel_runtime::Superelement;
-use supel_runtime::component::{DeadLoad, FloatingFrame, Measures, RecoveredNode};
+use supel_runtime::component::{DeadLoad, RecoveredNode};
 use supel_runtime::motion::{Motion, Vector3, velocity_to_origin};
 
+use super::body::{Body, Formulation};
+use super::configuration::Configuration;
+use super::forces::{Forces, Matrices};
 use crate::Result;
-use crate::body::Body;
 use crate::joint::{Joint, Row, Support, Supports};
 
 /// A dead load on a node of the mechanism, times a function of time.
@@ -55,67 +51,6 @@ pub struct System {
     pub gravity: Vector3,
     /// Velocities at the start, which the joints allow.
     pub initial_velocity: Vec<f64>,
-}
-
-/// Where everything is.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Configuration {
-    /// Motion of each node from its first position.
-    pub motions: Vec<Motion>,
-    /// Amplitudes of all components.
-    pub amplitudes: Vec<f64>,
-}
-
-/// Forces on all coordinates.
-#[derive(Clone, Debug, Default)]
-pub struct Forces {
-    /// f_E (81).
-    pub elastic: Vec<f64>,
-    /// f_I (84).
-    pub inertial: Vec<f64>,
-    /// Of the components' damping.
-    pub damping: Vec<f64>,
-    /// Loads and gravity.
-    pub applied: Vec<f64>,
-}
-
-impl Forces {
-    /// f_E + f_I + f_D − f_ext.
-    pub fn residual(&self) -> Vec<f64> {
-        let sums = self.elastic.iter().zip(&self.inertial).zip(&self.damping).map(|((e, i), d)| e + i + d);
-        sums.zip(&self.applied).map(|(sum, applied)| sum - applied).collect()
-    }
-}
-
-/// Tangent matrices of the components, n × n.
-#[derive(Clone, Debug)]
-pub struct Matrices {
-    /// K_T (82).
-    pub stiffness: Mat<f64>,
-    /// Derivative of f_E + f_I + f_D by the place.
-    pub exact_stiffness: Mat<f64>,
-    /// M_I (86).
-    pub mass: Mat<f64>,
-    /// Derivative of f_I by the velocities.
-    pub gyroscopic: Mat<f64>,
-    /// Derivative of f_D by the velocities.
-    pub damping: Mat<f64>,
-}
-
-impl Matrices {
-    fn zeros(n: usize) -> Self {
-        let zeros = || Mat::zeros(n, n);
-        Self { stiffness: zeros(), exact_stiffness: zeros(), mass: zeros(), gyroscopic: zeros(), damping: zeros() }
-    }
-}
-
-/// How a component defines its floating frame and its deformation.
-#[derive(Clone, Copy, Debug)]
-pub struct Formulation {
-    /// Y of eq. (8).
-    pub frame: FloatingFrame,
-    /// Motion-based or classical.
-    pub measures: Measures,
 }
 
 impl System {

@@ -1,0 +1,116 @@
+//! The numbers of a superelement, which say nothing of what they mean.
+//!
+//! | symbol | field | shape |
+//! |---|---|---|
+//! | K̂, M̂ | `stiffness`, `mass` | r × r, r = n_B + n_η |
+//! | Û | `rigid_body_modes` | r × n_r |
+//! | M_F | `rigid_body_mass` | n_r × n_r |
+//! | ω | `frequencies` | n_modes, rad/s |
+
+use alloc::vec::Vec;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{FileError, Result};
+use crate::matrix::Matrix;
+use crate::metadata::Direction;
+
+/// The numbers of a superelement, under the names they have in the file.
+///
+/// All are in classical coordinates: displacement and rotation of each interface node in the inertial frame, followed
+/// by the modal amplitudes. Units are those of the model.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tensors {
+    /// Reduced stiffness matrix K̂, r × r, symmetric to the bit.
+    pub stiffness: Matrix,
+    /// Reduced mass matrix M̂, r × r, symmetric to the bit.
+    pub mass: Matrix,
+    /// Rigid-body modes in the reduced coordinates Û, r × n_r; n_r is 6 for each free component, 0 for a fixed one.
+    pub rigid_body_modes: Matrix,
+    /// Rigid-body mass M_F = UᵀMU of the full model, n_r × n_r.
+    pub rigid_body_mass: Matrix,
+    /// Positions of the k interface nodes in the reference configuration, k × 3.
+    pub interface_positions: Vec<[f64; 3]>,
+    /// Rotation matrices of the k interface nodes, k × 3 × 3: columns are the node's axes in the inertial frame.
+    pub interface_frames: Vec<[[f64; 3]; 3]>,
+    /// Natural angular frequencies of the modes that were computed, n_modes, rad/s, ascending: fixed-interface ones for
+    /// Craig-Bampton, elastic free-free ones for Herting and Rubin.
+    pub frequencies: Vec<f64>,
+    /// Reduced damping matrix, r × r.
+    pub damping: Option<Matrix>,
+    /// Mixing of the modal columns, n_η × n_η: stored dynamic modes = named modes · mixing.
+    pub mixing: Option<Matrix>,
+    /// Loads of a unit gravity field along x, y, z, r × 3.
+    pub gravity: Option<Matrix>,
+    /// Reduced load vectors, r × n_loads, named by `load_names` of the metadata.
+    pub load_vectors: Option<Matrix>,
+    /// Rows of the reduction basis for displacements inside the component.
+    pub recovery: Option<Recovery>,
+}
+
+/// Rows of the reduction basis Ψ: displacement inside the component = `rows` · reduced coordinates.
+///
+/// In single precision they are fit for the deformation, to which the client adds the rigid-body motion; applied to the whole
+/// motion they would lose the deformation in the rounding.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recovery {
+    pub(crate) rows: Matrix,
+    pub(crate) dofs: Vec<RecoveredDof>,
+    pub(crate) precision: Precision,
+}
+
+/// What one recovered row is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RecoveredDof {
+    /// Label of the node in the model.
+    pub node: i64,
+    /// Direction at the node.
+    pub direction: Direction,
+}
+
+/// How many bytes a number of the recovery takes in the file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schemars", schemars(rename = "RecoveryPrecision"))]
+pub enum Precision {
+    /// Eight.
+    #[default]
+    Double,
+    /// Four: enough for the deformation, to which the simulation adds the rigid-body motion.
+    Single,
+}
+
+impl Recovery {
+    /// Recovery rows (n × r) and the n degrees of freedom they recover; in single precision the values are rounded.
+    ///
+    /// # Errors
+    ///
+    /// [`FileError::WrongShape`] if there are not as many dofs as rows.
+    pub fn new(rows: Matrix, dofs: Vec<RecoveredDof>, precision: Precision) -> Result<Self> {
+        if rows.rows() != dofs.len() {
+            let (found, expected) = (vec![dofs.len(), 2], vec![rows.rows(), 2]);
+            return Err(FileError::WrongShape { tensor: "recovery_dofs", found, expected });
+        }
+        let rows = match precision {
+            Precision::Double => rows,
+            Precision::Single => Matrix::from_fn(rows.rows(), rows.cols(), |i, j| f64::from(rows[(i, j)] as f32)),
+        };
+        Ok(Self { rows, dofs, precision })
+    }
+
+    /// The rows, n × r.
+    pub fn rows(&self) -> &Matrix {
+        &self.rows
+    }
+
+    /// What each row is.
+    pub fn dofs(&self) -> &[RecoveredDof] {
+        &self.dofs
+    }
+
+    /// How the rows are stored.
+    pub fn precision(&self) -> Precision {
+        self.precision
+    }
+}
