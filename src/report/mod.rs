@@ -36,7 +36,8 @@ pub use html::html;
 pub use inspection::inspection;
 pub use junit::{JunitWarnings, junit};
 pub use page::Paint;
-pub(crate) use printable::{json_text, printable};
+use printable::json_text;
+pub(crate) use printable::{printable, value_text};
 
 pub use rigid_body::{EffectiveMass, Grounding, MassRoute, RigidBodyEvidence};
 pub use stages::{Observer, StageClock, StageTime};
