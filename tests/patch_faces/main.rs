@@ -490,7 +490,7 @@ fn without_known_faces_nothing_is_claimed() {
     unknown(&moab(&mesh, "Hex9", (9, vec![11; 9])), "cells of type Hex9");
     unknown(&xdmf(&mesh, &topology("3DSMesh", &[])), "a Topology of type 3DSMesh");
     for code in [3, 16, 49, 51, 58, 64, 71] {
-        unknown(&xdmf(&mesh, &topology("Mixed", &[code, 3, 0, 1, 2])), &format!("cells of type {code},"));
+        unknown(&xdmf(&mesh, &topology("Mixed", &[code, 3, 0, 1, 2])), &format!("cells of type {code}"));
     }
     let outside = "<Topology TopologyType=\"Hexahedron\"><DataItem Format=\"HDF\">/etc/a.h5:/c</DataItem></Topology>";
     unknown(&xdmf(&mesh, outside), "outside the folder");

@@ -14,7 +14,7 @@ const SCOPE: &str =
 #[test]
 fn faces_that_are_not_known_are_told_with_the_reason() {
     let mut report = sample::passing_report();
-    let reason = "the mesh has cells of type POE, which is not read";
+    let reason = "the mesh has what supel does not read, cells of type POE";
     let at = report.body.reduction.interfaces.iter_mut().flat_map(|interface| &mut interface.at);
     at.for_each(|at| at.faces_unknown = at.faces.take().map(|_| reason.to_owned()));
     let told = format!("the mean of its nodes; the centroid of its faces is not known: {reason}");

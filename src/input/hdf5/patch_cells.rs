@@ -31,7 +31,7 @@ pub(crate) fn read_faces(path: &Path, patches: &Patches, allowance: &Allowance) 
     };
     match known {
         Known::All => faces.into_centroids(),
-        Known::Not(what) => Ok(faces.unknown(&format!("the mesh has {what}, which is not read"))),
+        Known::Not(what) => Ok(faces.unknown(&format!("the mesh has what supel does not read, {what}"))),
     }
 }
 
