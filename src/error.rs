@@ -6,6 +6,7 @@
 mod code;
 mod warning;
 
+use std::ffi::OsStr;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -72,9 +73,7 @@ pub enum Error {
         left: String,
     },
     /// The answer did not arrive.
-    #[error(
-        "the answer could not be written to stdout: {source} – give stdout a place with room, or ask for none with --quiet"
-    )]
+    #[error("the answer could not be written to stdout: {source} – give stdout a place with room")]
     Answer {
         /// What the system said.
         source: std::io::Error,
@@ -91,7 +90,7 @@ pub enum Error {
         /// The file.
         path: PathBuf,
     },
-    /// A file that should be text is not UTF-8.
+    /// An XDMF file is not UTF-8. The readers of numbers take any bytes in comments and say of a field what was expected there.
     #[error("{}: byte {offset} is not UTF-8 text – write the file as UTF-8", path.display())]
     NotText {
         /// The file.
@@ -322,8 +321,8 @@ pub enum Error {
     },
     /// Entries of a matrix repeat a position, and the job refuses that.
     #[error(
-        "{}: {count} entries repeat a position; expected each position once with --strict: assemble the matrix, or leave \
-         --strict out to have them added",
+        "{}: {count} entries repeat a position; expected each position once, as --strict or model.duplicates = \"refuse\" asks: \
+         assemble the matrix, or take that back to have them added",
         path.display()
     )]
     Duplicates {
@@ -335,8 +334,8 @@ pub enum Error {
     /// A matrix declared symmetric has entries on both sides of the diagonal.
     #[error(
         "{}: declared symmetric, but entries lie on both sides of the diagonal, ({}, {}) and ({}, {}); \
-         expected one triangle: remove the other, declare the matrix general, or say which holds with --symmetric lower or \
-         upper",
+         expected one triangle: remove the other, declare the matrix general, or say which holds: model.symmetric = \"lower\" \
+         or \"upper\" (reduce --symmetric)",
         path.display(), lower.0, lower.1, upper.0, upper.1
     )]
     DoubleTriangle {
@@ -1003,6 +1002,27 @@ pub enum Error {
         /// Another way out, with its leading word, or nothing.
         remedy: &'static str,
     },
+    /// A file or a folder of the job has a name that JSON cannot hold.
+    #[error(
+        "`{key}` is {path:?} – expected a name in UTF-8, as the report and the superelement keep names – rename {:?}",
+        not_text(path)
+    )]
+    NameNotText {
+        /// Path of the key.
+        key: &'static str,
+        /// The file, with its folders.
+        path: PathBuf,
+    },
+    /// A document cannot be written as JSON.
+    #[error(
+        "{what} cannot be written as JSON: {source} – expected names in UTF-8 – rename files and folders that have others"
+    )]
+    NotJson {
+        /// The document.
+        what: &'static str,
+        /// Why not.
+        source: serde_json::Error,
+    },
     /// An output has an extension that does not say what the file is.
     #[error("`{key}` is {} – expected a name that ends in {expected}", path.display())]
     OutputName {
@@ -1063,8 +1083,8 @@ pub enum Error {
     },
     /// A superelement of another version is to be made again.
     #[error(
-        "{}: made by {found}, this is {} {} – only the same version gives the same bytes; run that one, or compare with \
-         --job and without --reproduce", path.display(), env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION")
+        "{}: made by {found}, this is {} {} – only the same version gives the same bytes; run that one, or compare by \
+         verify --job without --reproduce", path.display(), env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION")
     )]
     OtherVersion {
         /// The file.
@@ -1072,8 +1092,12 @@ pub enum Error {
         /// Program and version that it names.
         found: String,
     },
-    /// The job kept in a superelement cannot be run again.
-    #[error("{}: the job kept in the file cannot be read; give the job with --job", path.display())]
+    /// The job kept in a superelement is none that this version can run.
+    #[error(
+        "{}: the job kept in the file is none of {} {} – found one of another version, or none – run that version, or take \
+         the job document itself",
+        path.display(), env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION")
+    )]
     KeptJob {
         /// The file.
         path: PathBuf,
@@ -1088,7 +1112,7 @@ pub enum Error {
     },
     /// A matrix is not symmetric.
     #[error(
-        "the {matrix} matrix is not symmetric – worst at {place} – found a relative difference of {asymmetry:.1e} – expected below 1e-6 – leave out follower forces, gyroscopic and friction terms; where the file lacks part of a triangle, take the other one with --symmetric lower or upper"
+        "the {matrix} matrix is not symmetric – worst at {place} – found a relative difference of {asymmetry:.1e} – expected below 1e-6 – leave out follower forces, gyroscopic and friction terms; where the file lacks part of a triangle, take the other one: model.symmetric = \"lower\" or \"upper\" (reduce --symmetric)"
     )]
     Unsymmetric {
         /// `stiffness` or `mass`.
@@ -1150,7 +1174,7 @@ pub enum Error {
     },
     /// Rows without stiffness and mass.
     #[error(
-        "{n_rows} rows have neither stiffness nor mass – the first is row {row}{dof} – expected none – leave unused and constrained dofs out of both matrices, or drop these rows with --drop-empty"
+        "{n_rows} rows have neither stiffness nor mass – the first is row {row}{dof} – expected none – leave unused and constrained dofs out of both matrices, or drop these rows: model.drop_empty = true (reduce --drop-empty)"
     )]
     EmptyRows {
         /// How many.
@@ -1286,7 +1310,7 @@ pub enum Error {
     },
     /// Nodes asked for where the model has none.
     #[error(
-        "interface {interface:?} names nodes – the model has no dof map or no nodes – give --dofs and --nodes; an interface may also list rows by number"
+        "interface {interface:?} names nodes – the model has no dof map or no nodes – give model.dofs and model.nodes (reduce --dofs, reduce --nodes); an interface may also list rows by number"
     )]
     SelectionNeedsNodes {
         /// The interface.
@@ -1448,7 +1472,7 @@ pub enum Error {
     },
     /// The forecast of a comparison with the full matrices exceeds the memory there is.
     #[error(
-        "the comparison with the full matrices needs {} – {} are available – free memory, raise run.memory_gib of the job, or verify the file without --job",
+        "the comparison with the full matrices needs {} – {} are available – free memory, raise run.memory_gib of the job, or verify the file by itself",
         bytes(*needed), bytes(*available)
     )]
     MemoryComparison {
@@ -1504,7 +1528,7 @@ pub enum Error {
     },
     /// The modes found are not all there are.
     #[error(
-        "modes are missing below {below_hz:.6} Hz – found {found}, the Sturm count says {counted} – neither another start nor slices of the band found more – use --eigensolver arpack to compare"
+        "modes are missing below {below_hz:.6} Hz – found {found}, the Sturm count says {counted} – neither another start nor slices of the band found more – use reduction.eigensolver = \"arpack\" (reduce --eigensolver) to compare"
     )]
     ModesMissing {
         /// Frequency of the shift.
@@ -1516,11 +1540,13 @@ pub enum Error {
     },
     /// The second eigensolver is not built in.
     #[error(
-        "--eigensolver arpack needs the feature \"arpack\", which this program was built without – use --eigensolver lanczos"
+        "the eigensolver arpack needs the feature \"arpack\", which this program was built without – leave reduction.eigensolver (reduce --eigensolver) out"
     )]
     EigensolverMissing,
     /// The second eigensolver failed.
-    #[error("ARPACK failed with status {status} after {converged} converged modes – use --eigensolver lanczos")]
+    #[error(
+        "ARPACK failed with status {status} after {converged} converged modes – leave reduction.eigensolver (reduce --eigensolver) out to use lanczos"
+    )]
     Arpack {
         /// Its `info`.
         status: i32,
@@ -1567,7 +1593,7 @@ impl Error {
 }
 
 /// How to go on where a dof map cannot be used.
-const BY_ROWS: &str = "go on by rows: leave dof map and nodes out and give interfaces as rows from zero, as in --interface hub=rows:0,1,2";
+const BY_ROWS: &str = "go on by rows: leave dof map and nodes out and give interfaces as rows from zero, as in reduce --interface hub=rows:0,1,2";
 
 /// `:12` after a path, where the line is known.
 struct At(Option<usize>);
@@ -1596,6 +1622,11 @@ pub(crate) fn held_words(boundary: &str) -> &'static str {
     if boundary == "held" { "the interface held" } else { "no interface held" }
 }
 
+/// The first part of a path that is not UTF-8.
+fn not_text(path: &Path) -> &OsStr {
+    path.iter().find(|part| part.to_str().is_none()).unwrap_or(path.as_os_str())
+}
+
 fn listed(names: &[String]) -> String {
     const SHOWN: usize = 12;
     match names.len() {
@@ -1608,7 +1639,7 @@ fn listed(names: &[String]) -> String {
 /// The parts of a forecast, the largest first, and what makes that one smaller.
 fn forecast(available: u64, [factors, matrices, vectors]: [u64; 3], in_single: Option<u64>) -> String {
     let mut parts = [
-        (factors, "factors", "use a weaker --certify, which needs fewer factors"),
+        (factors, "factors", "use a weaker run.certify (reduce --certify), which needs fewer factors"),
         (vectors, "vectors", "keep fewer modes or interface dofs"),
         (matrices, "matrices", "reduce a smaller model"),
     ];

@@ -629,9 +629,33 @@ fn an_xdmf_reference_out_of_the_folder_is_refused() {
 
 #[test]
 fn xdmf_that_is_no_xml_or_defines_entities_is_refused() {
-    for text in ["<Xdmf>", "<!DOCTYPE x [<!ENTITY a \"b\">]><Xdmf/>"] {
-        let error = xdmf(text).unwrap_err();
-        assert!(matches!(error, Error::XdmfSyntax { .. }), "{error}");
+    assert!(matches!(xdmf("<Xdmf>").unwrap_err(), Error::XdmfSyntax { .. }));
+    let laugh = |n: usize| format!("<!ENTITY l{n} \"{}\">", format!("&l{};", n - 1).repeat(10));
+    let laughs: String = (1..12).map(laugh).collect();
+    let content = geometry("XYZ", "XML", "&l11;");
+    for declared in [
+        "<!DOCTYPE Xdmf [<!ENTITY a \"b\">]>".to_owned(),
+        format!("<!DOCTYPE Xdmf [<!ENTITY l0 \"1 \">{laughs}]>"),
+        "<!DOCTYPE Xdmf [<!ENTITY l11 SYSTEM \"mesh.h5\">]>".to_owned(),
+        "<!DOCTYPE Xdmf [<!ELEMENT Xdmf ANY>]>".to_owned(),
+    ] {
+        let start = std::time::Instant::now();
+        let error = xdmf(&(declared + &content)).unwrap_err();
+        assert!(matches!(error, Error::MeshUnsupported { .. }), "{error}");
+        // Expanded it would be 10¹¹ numbers.
+        assert!(start.elapsed().as_secs() < 10, "{:?}", start.elapsed());
+    }
+}
+
+/// The document type that FEniCS and XDMF 2 write; the file it names is not there and is not looked for.
+#[test]
+fn xdmf_with_a_document_type_is_read() {
+    let plain = geometry("XYZ", "HDF", "mesh.h5:/data0");
+    let expected = xdmf(&plain).unwrap().coordinates;
+    for declared in
+        ["<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>", "<!DOCTYPE Xdmf SYSTEM \"/etc/passwd\">", "<!DOCTYPE Xdmf>"]
+    {
+        assert_eq!(xdmf(&format!("<?xml version=\"1.0\" ?>\n{declared}\n{plain}")).unwrap().coordinates, expected);
     }
 }
 

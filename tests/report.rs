@@ -11,7 +11,7 @@ fn validator() -> jsonschema::Validator {
 }
 
 fn document(report: &Report) -> Value {
-    serde_json::from_str(&report.to_json()).expect("report is JSON")
+    serde_json::from_str(&report.to_json().expect("names in UTF-8")).expect("report is JSON")
 }
 
 fn violations(document: &Value) -> Vec<String> {
@@ -159,7 +159,7 @@ fn report_appears_whole_or_not_at_all() {
     let folder = tempfile::tempdir().expect("folder");
     let path = folder.path().join("a.report.json");
     sample::passing_report().write(&path).expect("written");
-    assert_eq!(std::fs::read_to_string(&path).expect("read"), sample::passing_report().to_json());
+    assert_eq!(std::fs::read_to_string(&path).expect("read"), sample::passing_report().to_json().expect("JSON"));
     assert_eq!(std::fs::read_dir(folder.path()).expect("folder").count(), 1, "temporary file left");
     let error = sample::passing_report().write(&folder.path().join("missing/a.json")).expect_err("no such folder");
     assert_eq!(error.class(), supel::error::ErrorClass::Io);

@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use crate::error::{Error, Result};
 use crate::job::Job;
 
 /// Keys of which two jobs may differ and still make the same superelement: where files are, which may move, and how much memory
@@ -33,10 +34,13 @@ pub(super) struct Differences {
 }
 
 /// The keys in which two jobs differ, by their dotted names.
-pub(super) fn differences(one: &Job, other: &Job) -> Differences {
-    let document = |job: &Job| serde_json::to_value(job).unwrap_or_default();
+///
+/// # Errors
+/// [`Error::NotJson`] where the path of a file is not UTF-8.
+pub(super) fn differences(one: &Job, other: &Job) -> Result<Differences> {
+    let document = |job: &Job| serde_json::to_value(job).map_err(|source| Error::NotJson { what: "the job", source });
     let mut keys = Vec::new();
-    compare(&document(one), &document(other), "", &mut keys);
+    compare(&document(one)?, &document(other)?, "", &mut keys);
     let mut found = Differences::default();
     for (key, is_missing) in keys {
         let matters = is_missing && OPTIONAL_FILES.contains(&key.as_str());
@@ -46,7 +50,7 @@ pub(super) fn differences(one: &Job, other: &Job) -> Differences {
         let list = if OF_THE_WAY.contains(&key.as_str()) { &mut found.way } else { &mut found.wanted };
         list.push(key);
     }
-    found
+    Ok(found)
 }
 
 /// Collects the keys whose values differ, and whether one of the two lacks the key.
@@ -90,13 +94,13 @@ mod tests {
         moved.model.stiffness = "elsewhere/K".into();
         moved.write.html = Some("page.html".into());
         moved.run.memory_gib = Some(2.0);
-        assert_eq!(differences(&one, &moved), Differences::default());
+        assert_eq!(differences(&one, &moved).expect("names in UTF-8"), Differences::default());
         let mut other = one.clone();
         other.interfaces[0].name = "foot".to_owned();
         other.reduction.modes = crate::job::ModeSelection::UpTo { up_to_hz: 100.0 };
         other.reduction.eigensolver = crate::job::Eigensolver::Arpack;
         other.model.nodes = Some("mesh.med".into());
-        let found = differences(&one, &other);
+        let found = differences(&one, &other).expect("names in UTF-8");
         let wanted = ["interface[0].name", "model.nodes", "reduction.modes.count", "reduction.modes.up_to_hz"];
         assert_eq!(found.wanted, wanted);
         assert_eq!(found.way, ["reduction.eigensolver"]);

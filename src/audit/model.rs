@@ -128,7 +128,7 @@ impl<'a> Reference<'a> {
         let mut audit = Audit::default();
         let checks = &mut audit.checks;
         checks.push(identity::digests(superelement, self.facts));
-        checks.extend(identity::jobs(superelement, self.job));
+        checks.extend(identity::jobs(superelement, self.job)?);
         checks.push(identity::interface(superelement, self.partition));
         checks.push(identity::statements(superelement, (self.partition, self.job), &self.motions));
         checks.push(self.asked.backward_error());

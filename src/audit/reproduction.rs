@@ -9,34 +9,48 @@ use supel_runtime::{Matrix, Superelement, Tensors};
 use super::flaw::flaw;
 use super::jobs::differences;
 use super::version::kept_job;
+use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::verification::check::Check;
 
 /// M-26: the file has the bytes of a superelement made again by `job`.
-pub fn reproduced(superelement: &Superelement, again: &Superelement, job: &Job) -> Check {
+///
+/// # Errors
+/// [`Error::NotJson`] where the job names a file that is not UTF-8.
+pub fn reproduced(superelement: &Superelement, again: &Superelement, job: &Job) -> Result<Check> {
     let equation = "number of tensors and fields that differ from those of the same job run again";
-    flaw("the same job makes it again", equation, &different_parts(superelement, again, job))
+    Ok(flaw("the same job makes it again", equation, &different_parts(superelement, again, job)?))
 }
 
 /// The names of the parts that differ; none where the bytes are the same.
-fn different_parts(superelement: &Superelement, again: &Superelement, job: &Job) -> Vec<String> {
+fn different_parts(superelement: &Superelement, again: &Superelement, job: &Job) -> Result<Vec<String>> {
     let mut metadata = again.metadata().clone();
-    if kept_job(superelement).is_some_and(|kept| differences(&kept, job) == Default::default()) {
+    let is_its_job = match kept_job(superelement) {
+        Some(kept) => differences(&kept, job)? == Default::default(),
+        None => false,
+    };
+    if is_its_job {
         metadata.job = superelement.metadata().job.clone();
     }
     let Ok(again) = Superelement::new(again.tensors().clone(), metadata) else {
-        return vec!["its job".to_owned()];
+        return Ok(vec!["its job".to_owned()]);
     };
     let mut parts = Vec::new();
     tensors(superelement.tensors(), again.tensors(), &mut parts);
-    let document = |superelement: &Superelement| serde_json::to_value(superelement.metadata()).unwrap_or_default();
-    fields(&document(superelement), &document(&again), "", &mut parts);
-    let bytes = |superelement: &Superelement| superelement.to_bytes().map(|sealed| sealed.bytes).ok();
-    if parts.is_empty() && bytes(superelement) != bytes(&again) {
-        // Numbers that are equal and have other bits, as zero has.
-        parts.push("signs of zeros".to_owned());
+    let document = |superelement: &Superelement| {
+        let what = "the metadata of a superelement";
+        serde_json::to_value(superelement.metadata()).map_err(|source| Error::NotJson { what, source })
+    };
+    fields(&document(superelement)?, &document(&again)?, "", &mut parts);
+    if parts.is_empty() {
+        match (superelement.to_bytes(), again.to_bytes()) {
+            (Ok(one), Ok(other)) if one.bytes == other.bytes => {}
+            // Numbers that are equal and have other bits, as zero has.
+            (Ok(_), Ok(_)) => parts.push("signs of zeros".to_owned()),
+            _ => parts.push("bytes that cannot be written".to_owned()),
+        }
     }
-    parts
+    Ok(parts)
 }
 
 fn tensors(one: &Tensors, other: &Tensors, parts: &mut Vec<String>) {

@@ -152,7 +152,7 @@ pub(super) struct InspectFlags {
     /// Print all content except the matrices as JSON
     #[arg(long, conflicts_with = "job")]
     pub(super) json: bool,
-    /// Print the job that made the file, as JSON that `supel reduce` accepts
+    /// Print the job that made the file, as JSON that `supel reduce` accepts in any folder: its paths are absolute
     #[arg(long)]
     pub(super) job: bool,
 }

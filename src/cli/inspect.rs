@@ -1,14 +1,17 @@
 //! `supel inspect`: what is in a superelement file.
 
-use serde_json::json;
+use std::path::Path;
+
+use serde_json::{Value, json};
 use supel_runtime::{Coordinate, FORMAT_VERSION, Superelement, file_bytes};
 
 use super::answer::Terminal;
 use super::command::{InspectAnswer, InspectCommand};
 use super::exit_code::ExitCode;
+use super::verify::job_of_file;
 use crate::error::{Error, Result};
 use crate::regular_file;
-use crate::report::{inspection, json_text};
+use crate::report::{inspection, value_text};
 
 pub(super) fn run(command: &InspectCommand, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
     let failed = |error| Error::of_superelement(&command.file, error);
@@ -19,15 +22,24 @@ pub(super) fn run(command: &InspectCommand, terminal: &mut Terminal<'_>) -> Resu
     drop(bytes);
     let text = match command.answer {
         InspectAnswer::Text => inspection(&superelement, file_bytes as u64, terminal.paint),
-        InspectAnswer::Json => json_text(&document(&superelement)),
-        InspectAnswer::Job => json_text(&superelement.metadata().job),
+        InspectAnswer::Json => value_text(&document(&superelement)?),
+        InspectAnswer::Job => value_text(&job(&superelement, &command.file)?),
     };
     terminal.answer(&text);
     Ok(ExitCode::Done)
 }
 
+/// The job kept in the file. Its paths, which are relative to the folder of the file there, are absolute here, so that the answer is a job
+/// in whatever folder it is written to.
+fn job(superelement: &Superelement, path: &Path) -> Result<Value> {
+    let job = job_of_file(superelement, path)?;
+    serde_json::to_value(job).map_err(|source| Error::NotJson { what: "the job", source })
+}
+
 /// Everything but the matrices.
-fn document(superelement: &Superelement) -> serde_json::Value {
+fn document(superelement: &Superelement) -> Result<Value> {
+    let metadata = serde_json::to_value(superelement.metadata());
+    let metadata = metadata.map_err(|source| Error::NotJson { what: "the metadata of a superelement", source })?;
     let tensors = superelement.tensors();
     let n_inertia_relief = superelement
         .metadata()
@@ -35,7 +47,7 @@ fn document(superelement: &Superelement) -> serde_json::Value {
         .iter()
         .filter(|coordinate| matches!(coordinate, Coordinate::InertiaRelief { .. }))
         .count();
-    json!({
+    Ok(json!({
         "format_version": FORMAT_VERSION,
         "sizes": {
             "n_reduced": superelement.n_coordinates(),
@@ -45,6 +57,6 @@ fn document(superelement: &Superelement) -> serde_json::Value {
             "n_rigid": superelement.n_rigid(),
         },
         "frequencies_hz": tensors.frequencies.iter().map(|omega| omega / std::f64::consts::TAU).collect::<Vec<f64>>(),
-        "metadata": superelement.metadata(),
-    })
+        "metadata": metadata,
+    }))
 }

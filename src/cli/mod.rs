@@ -36,6 +36,7 @@ use clap::Parser;
 
 use crate::error::Result;
 use crate::heap;
+use crate::report::printable;
 
 use command::Command;
 use refusal::{Form, Refusal};
@@ -60,9 +61,9 @@ where
 }
 
 fn answered(args: Vec<OsString>, form: Form, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> ExitCode {
-    let flags = match flags::CommandLine::try_parse_from(args) {
+    let flags = match flags::CommandLine::try_parse_from(&args) {
         Ok(flags) => flags,
-        Err(error) if error.use_stderr() => return Refusal::usage(&error).tell(form, terminal),
+        Err(error) if error.use_stderr() => return Refusal::usage(&quoting_safely(error, &args)).tell(form, terminal),
         // Help and version are answers.
         Err(error) => {
             terminal.answer(&error.render().to_string());
@@ -74,6 +75,14 @@ fn answered(args: Vec<OsString>, form: Form, pipeline: Pipeline, terminal: &mut 
         Ok(Err(error)) => Refusal::of(&error).tell(form, terminal),
         Err(_) => Refusal::defect().tell(form, terminal),
     }
+}
+
+/// What clap says of a command line it cannot read, about the same words written out: it quotes them, where a line end would begin a line of
+/// its own and an escape sequence would be left out.
+fn quoting_safely(error: clap::Error, args: &[OsString]) -> clap::Error {
+    let written_out = args.iter().map(|arg| printable(&arg.to_string_lossy()).into_owned());
+    // Words that can be read once they are written out have nothing that clap quotes: they were not UTF-8.
+    flags::CommandLine::try_parse_from(written_out).err().unwrap_or(error)
 }
 
 fn execute(flags: flags::CommandLine, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {

@@ -4,22 +4,26 @@ use std::path::Path;
 
 use supel_runtime::{StagedFile, abandoned_parts};
 
-use super::overwriting::outputs;
+use super::overwriting::OwnFiles;
 use super::signals;
 use crate::error::{Error, Result};
 use crate::heap;
-use crate::job::WriteJob;
 
 /// Files that wait for their names.
-#[derive(Default)]
-pub(super) struct Outputs {
+pub(super) struct Outputs<'a> {
+    own: &'a OwnFiles,
     staged: Vec<StagedFile>,
 }
 
-impl Outputs {
+impl<'a> Outputs<'a> {
+    /// None yet of the outputs of a command.
+    pub(super) fn new(own: &'a OwnFiles) -> Self {
+        Self { own, staged: Vec::new() }
+    }
+
     /// Writes a file under a temporary name, after those before it in the order of names.
     pub(super) fn stage(&mut self, path: &Path, bytes: &[u8]) -> Result<()> {
-        self.staged.push(staged(path, bytes)?);
+        self.staged.push(staged(self.own, path, bytes)?);
         Ok(())
     }
 
@@ -37,7 +41,11 @@ impl Outputs {
 }
 
 /// A file under a temporary name, which is removed wherever the run ends before it gets its own.
-pub(super) fn staged(path: &Path, bytes: &[u8]) -> Result<StagedFile> {
+///
+/// # Panics
+/// Where it is none of the outputs of the command.
+pub(super) fn staged(own: &OwnFiles, path: &Path, bytes: &[u8]) -> Result<StagedFile> {
+    assert!(own.paths().iter().any(|output| output == path), "{} is no output of this command", path.display());
     let staged = StagedFile::write(path, bytes).map_err(Error::of_writing)?;
     heap::remove_at_end(staged.path());
     Ok(staged)
@@ -45,16 +53,13 @@ pub(super) fn staged(path: &Path, bytes: &[u8]) -> Result<StagedFile> {
 
 /// Refuses an output that has no place before the model is read, with the error that its writing would end in: an empty
 /// file is written in the folder of each and dropped.
-pub(super) fn refuse_unwritable(write: &WriteJob) -> Result<()> {
-    // The names of other outputs follow from the superelement: its folder is checked first.
-    outputs(write)
-        .iter()
-        .rev()
-        .try_for_each(|(_, path)| StagedFile::write(path, &[]).map(drop).map_err(Error::of_writing))
+pub(super) fn refuse_unwritable(own: &OwnFiles) -> Result<()> {
+    // The names of other outputs follow from the superelement, which is the last: its folder is checked first.
+    own.paths().iter().rev().try_for_each(|path| StagedFile::write(path, &[]).map(drop).map_err(Error::of_writing))
 }
 
 /// What is to be said of temporary files in the folders of the outputs, which other runs left or are writing.
-pub(super) fn abandoned(write: &WriteJob) -> Vec<String> {
-    let parts = outputs(write).into_iter().flat_map(|(_, path)| abandoned_parts(&path));
+pub(super) fn abandoned(own: &OwnFiles) -> Vec<String> {
+    let parts = own.paths().iter().flat_map(|path| abandoned_parts(path));
     parts.map(|part| format!("supel: {}: left by an interrupted run – it can be removed", part.display())).collect()
 }

@@ -7,17 +7,34 @@ use crate::error::{Error, Result};
 use crate::input;
 use crate::job::{Job, WriteJob};
 
-/// Refuses a job whose outputs are not files of their own; `document` is the job document, where there is one.
-///
-/// # Errors
-/// [`Error::OutputIsInput`], [`Error::OutputTwice`].
-pub(super) fn refuse(job: &Job, document: Option<&Path>) -> Result<()> {
-    let document = document.map(|path| ("the job document", path.to_owned()));
-    let inputs: Vec<(&str, PathBuf)> = input::files(&job.model).into_iter().chain(document).collect();
+/// A file that a command reads or writes, with what messages call it: its role as an input, its key or flag as an output.
+pub(super) type Named = (&'static str, PathBuf);
+
+/// The outputs of a command, each a file of its own. Nothing is written without one, so that every command that writes has asked.
+pub(super) struct OwnFiles(Vec<PathBuf>);
+
+impl OwnFiles {
+    /// The outputs of a command that reads `inputs`, in the order in which they get their names.
+    ///
+    /// # Errors
+    /// [`Error::OutputIsInput`], [`Error::OutputTwice`].
+    pub(super) fn of(inputs: &[Named], outputs: &[Named]) -> Result<Self> {
+        refuse(inputs, outputs)?;
+        Ok(Self(outputs.iter().map(|(_, path)| path.clone()).collect()))
+    }
+
+    /// Where they are, in the order in which they get their names.
+    pub(super) fn paths(&self) -> &[PathBuf] {
+        &self.0
+    }
+}
+
+fn refuse(inputs: &[Named], outputs: &[Named]) -> Result<()> {
     let inputs: Vec<(&str, &Path, Place)> =
         inputs.iter().map(|(role, path)| (*role, path.as_path(), Place::of(path))).collect();
     let mut earlier: Vec<(&'static str, Place)> = Vec::new();
-    for (key, path) in outputs(&job.write) {
+    for (key, path) in outputs {
+        let (key, path) = (*key, path.clone());
         let place = Place::of(&path);
         if let Some((role, input, _)) = inputs.iter().find(|(.., input)| input.is(&place)) {
             let (role, input) = ((*role).to_owned(), (*input).to_owned());
@@ -31,8 +48,14 @@ pub(super) fn refuse(job: &Job, document: Option<&Path>) -> Result<()> {
     Ok(())
 }
 
+/// The files that a job reads; `document` is the job document, where there is one.
+pub(super) fn inputs(job: &Job, document: Option<&Path>) -> Vec<Named> {
+    let document = document.map(|path| ("the job document", path.to_owned()));
+    input::files(&job.model).into_iter().chain(document).collect()
+}
+
 /// The outputs of a job in the order in which they get their names: the superelement, which the others tell about, last.
-pub(super) fn outputs(write: &WriteJob) -> Vec<(&'static str, PathBuf)> {
+pub(super) fn outputs(write: &WriteJob) -> Vec<Named> {
     let others = [
         ("write.report", Some(write.report_path())),
         ("write.html", write.html.clone()),

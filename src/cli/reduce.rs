@@ -8,6 +8,7 @@ use super::answer::{Program, Terminal};
 use super::command::{Answer, ReduceCommand, Strictness, Unverified};
 use super::exit_code::ExitCode;
 use super::outputs::{Outputs, abandoned, refuse_unwritable, staged};
+use super::overwriting::OwnFiles;
 use super::pipeline::Pipeline;
 use super::progress::StageLine;
 use super::rehearsal::{self, Rehearsed};
@@ -21,12 +22,13 @@ use crate::report::{JunitWarnings, Observer, Report, StageClock, html, junit, su
 use crate::verification::check::{Check, Limits, Verdict};
 
 pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
-    overwriting::refuse(&command.job, command.document.as_deref())?;
+    let (job, document) = (&command.job, command.document.as_deref());
+    let own = OwnFiles::of(&overwriting::inputs(job, document), &overwriting::outputs(&job.write))?;
     if command.answer != Answer::Nothing {
         command.remarks.iter().for_each(|remark| terminal.complain(remark));
     }
-    let mut complaints = abandoned(&command.job.write);
-    refuse_unwritable(&command.job.write)?;
+    let mut complaints = abandoned(&own);
+    refuse_unwritable(&own)?;
     let resources = Resources { memory_bytes: memory::available_bytes() };
     let rehearsed = match terminal.program {
         Program::Supel => {
@@ -44,16 +46,16 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     let Outcome { superelement, mut report } = outcome.map_err(|error| rehearsed.judge(error))?;
     clock.stage("write");
     report.run.n_threads = command.threads.used;
-    let (code, superelement) = stage_superelement(command, &superelement, &mut report)?;
+    let (code, superelement) = stage_superelement((command, &own), &superelement, &mut report)?;
     report.run.stages = clock.finish();
     drop(stage_line);
     report.run.peak_memory_bytes = process::peak_memory_bytes();
     report.run.report = Some(command.job.write.report_path());
-    let outputs = stage_all(command, &report, superelement)?;
+    let outputs = stage_all((command, &own), &report, superelement)?;
     // The answer is composed before the files are written: a lack of memory afterwards would be reported of a run that is done.
     let answer = match command.answer {
         Answer::Text => Some(summary(&report, terminal.paint)),
-        Answer::Json => Some(report.to_json()),
+        Answer::Json => Some(report.to_json()?),
         Answer::Nothing => None,
     };
     complaints.splice(0..0, explanation(command, code));
@@ -68,13 +70,13 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
 
 /// Writes the superelement under a temporary name and reads it back; hands it on if it may have its name.
 fn stage_superelement(
-    command: &ReduceCommand,
+    (command, own): (&ReduceCommand, &OwnFiles),
     superelement: &Superelement,
     report: &mut Report,
 ) -> Result<(ExitCode, Option<StagedFile>)> {
     let path = command.job.write.superelement.as_path();
     let sealed = superelement.to_bytes().map_err(|error| Error::of_superelement(path, error))?;
-    let staged = staged(path, &sealed.bytes)?;
+    let staged = staged(own, path, &sealed.bytes)?;
     report.body.checks.push(file_check(staged.path(), superelement));
     let is_verified = match (report.body.verdict(), command.strictness) {
         (Verdict::Info | Verdict::Pass, _) | (Verdict::Warn, Strictness::Normal) => true,
@@ -91,16 +93,20 @@ fn stage_superelement(
 
 /// Writes everything else under temporary names before anything gets its own: a report that cannot be written leaves no
 /// superelement without one. The superelement comes last, because others wait for it and all others carry its digest.
-fn stage_all(command: &ReduceCommand, report: &Report, superelement: Option<StagedFile>) -> Result<Outputs> {
+fn stage_all<'a>(
+    (command, own): (&ReduceCommand, &'a OwnFiles),
+    report: &Report,
+    superelement: Option<StagedFile>,
+) -> Result<Outputs<'a>> {
     let write = &command.job.write;
     let warnings = match command.strictness {
         Strictness::Normal => JunitWarnings::Pass,
         Strictness::Strict => JunitWarnings::Fail,
     };
-    let mut files: Vec<(PathBuf, String)> = vec![(write.report_path(), report.to_json())];
+    let mut files: Vec<(PathBuf, String)> = vec![(write.report_path(), report.to_json()?)];
     files.extend(write.html.clone().map(|path| (path, html(report))));
     files.extend(write.junit.clone().map(|path| (path, junit(report, warnings))));
-    let mut outputs = Outputs::default();
+    let mut outputs = Outputs::new(own);
     files.iter().try_for_each(|(path, text)| outputs.stage(path, text.as_bytes()))?;
     superelement.into_iter().for_each(|file| outputs.push(file));
     Ok(outputs)

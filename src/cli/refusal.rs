@@ -7,7 +7,7 @@ use serde_json::json;
 use super::answer::Terminal;
 use super::exit_code::ExitCode;
 use crate::error::{Error, INTERNAL_CODE, USAGE_CODE};
-use crate::report::json_text;
+use crate::report::value_text;
 
 /// A command that ended without its answer.
 pub(super) struct Refusal {
@@ -66,7 +66,7 @@ impl Refusal {
             terminal.complain(&format!("  caused by: {cause}"));
         }
         if form == Form::Json {
-            terminal.answer(&json_text(&self.document()));
+            terminal.answer(&value_text(&self.document()));
         }
         self.exit
     }

@@ -48,7 +48,7 @@ pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Te
     audit.checks.extend(accompanying::check(&command.file, &superelement, &digest));
     if let Some(job) = &rerun {
         let again = threads.install(|| (pipeline.reduce)(job, resources, &mut stage_line))?.superelement;
-        audit = reproduced(audit, &superelement, (&again, job));
+        audit = reproduced(audit, &superelement, (&again, job))?;
     }
     drop(stage_line);
     let report = VerificationReport {
@@ -59,7 +59,7 @@ pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Te
     };
     match command.answer {
         Answer::Text => terminal.answer(&report.to_text(&superelement, terminal.paint)),
-        Answer::Json => terminal.answer(&report.to_json(&superelement)),
+        Answer::Json => terminal.answer(&report.to_json(&superelement)?),
         Answer::Nothing => {
             unmet(&report.audit.checks, command.strictness).iter().for_each(|line| terminal.complain(line));
         }
@@ -80,18 +80,26 @@ fn job_to_run(command: &VerifyCommand, superelement: &Superelement) -> Result<Jo
     if let Some(job) = &command.job {
         return Ok(job.clone());
     }
-    let kept = audit::kept_job(superelement).ok_or_else(|| Error::KeptJob { path: command.file.clone() })?;
+    job_of_file(superelement, &command.file)
+}
+
+/// The job kept in the file at `path`, with its paths absolute.
+///
+/// # Errors
+/// [`Error::KeptJob`] where it is none of this version; those of [`Job::validate`] and [`Job::resolve`].
+pub(super) fn job_of_file(superelement: &Superelement, path: &Path) -> Result<Job> {
+    let kept = audit::kept_job(superelement).ok_or_else(|| Error::KeptJob { path: path.to_owned() })?;
     kept.validate()?;
-    kept.resolve(command.file.parent().unwrap_or(Path::new("")))
+    kept.resolve(path.parent().unwrap_or(Path::new("")))
 }
 
 /// An audit with what running the job again has shown: where the bytes are the same, it vouches for every field but the job
 /// itself, whose paths were not compared.
-fn reproduced(audit: Audit, superelement: &Superelement, (again, job): (&Superelement, &Job)) -> Audit {
-    let check = audit::reproduced(superelement, again, job);
+fn reproduced(audit: Audit, superelement: &Superelement, (again, job): (&Superelement, &Job)) -> Result<Audit> {
+    let check = audit::reproduced(superelement, again, job)?;
     let is_same = check.verdict() == Verdict::Pass;
     let Audit { mut checks, mut unvouched, notes } = audit;
     unvouched.retain(|unvouched| !is_same || unvouched.field == "job");
     checks.push(check);
-    Audit { checks, notes, unvouched }
+    Ok(Audit { checks, notes, unvouched })
 }

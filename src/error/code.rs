@@ -96,7 +96,7 @@ codes! {
         "the message says which files are new and where their old content is: put it back or run again";
     Answer => "E-STDOUT", Io,
         "the answer could not be written to stdout; files were written all the same",
-        "give stdout a place with room, or ask for no answer with `--quiet`";
+        "give stdout a place with room; `reduce` and `verify` give no answer with `--quiet`";
     NotAFile => "E-NOT-A-FILE", InputData,
         "a path is a folder, a pipe, a device or made up by the kernel",
         "give a regular file; write a pipe to disk first";
@@ -104,7 +104,7 @@ codes! {
         "a file was written, cut or exchanged while it was read",
         "wait until it is written and run again";
     NotText => "E-UTF8", InputData,
-        "a text file is not UTF-8",
+        "an XDMF file is not UTF-8; rows of a table that are not end with E-TABLE-FIELD, and matrices, dof maps and comments may hold any bytes where no number belongs",
         "write it as UTF-8";
     MemoryRead => "E-MEM-READ", Resources,
         "what the input files hold does not fit into the memory",
@@ -162,10 +162,10 @@ codes! {
         "correct the size line or export again";
     Duplicates => "E-DUPLICATES", InputData,
         "entries repeat a position, with `--strict` or `duplicates = \"refuse\"`",
-        "assemble the matrix before exporting it, or leave `--strict` out: repeated entries are then added";
+        "assemble the matrix before exporting it, or leave both out: repeated entries are then added";
     DoubleTriangle => "E-DOUBLE-TRIANGLE", InputData,
         "a matrix declared symmetric has entries on both sides of the diagonal",
-        "write one triangle, declare the matrix general, or say which triangle holds with `--symmetric`";
+        "write one triangle, declare the matrix general, or say which triangle holds with `model.symmetric` (`reduce --symmetric`)";
     SameMatrix => "E-SAME-MATRIX", InputData,
         "K and M are one matrix",
         "give the file of the other one";
@@ -207,7 +207,7 @@ codes! {
         "add it to the nodes, leave the nodes out, or go on by rows";
     DofOrderUnknown => "E-MAP-NEEDED", InputData,
         "without a dof map the counts do not say what the rows are",
-        "give a dof map with `--dofs`";
+        "give a dof map with `model.dofs` (`reduce --dofs`)";
     FeatureMissing => "E-FEATURE", Usage,
         "the program was built without what a file needs",
         "rebuild with the feature that the message names";
@@ -334,6 +334,12 @@ codes! {
     InterfaceConflict => "E-INTERFACE-KEY", Usage,
         "a key of an interface contradicts its nodes or coupling",
         "remove it, or do as the message says";
+    NameNotText => "E-NAME", Usage,
+        "a file or a folder of the job has a name that is not UTF-8, which the report and the superelement cannot keep",
+        "rename the one that the message names";
+    NotJson => "E-JSON", Usage,
+        "a report or a job cannot be written as JSON",
+        "rename files and folders whose names are not UTF-8";
     OutputName => "E-OUTPUT-NAME", Usage,
         "an output has the wrong extension",
         "name it as the message says";
@@ -354,16 +360,16 @@ codes! {
         "write it as the message says";
     OtherVersion => "E-OTHER-VERSION", Usage,
         "`verify --reproduce` of a file that another program or version made",
-        "run that version, or compare with `--job` alone";
+        "run that version, or compare with `verify --job` alone";
     KeptJob => "E-KEPT-JOB", Usage,
-        "`verify --reproduce` of a file whose job cannot be read",
-        "give the job with `--job`";
+        "`verify --reproduce` or `inspect --job` of a file that keeps no job of this version",
+        "run the version that made it, or take the job document itself";
     Threads => "E-THREADS", Resources,
         "the working threads cannot be started",
         "ask for fewer with `--threads`";
     Unsymmetric => "E-UNSYMMETRIC", InputData,
         "K or M is not symmetric",
-        "leave out follower forces, gyroscopic and friction terms; where a triangle is incomplete, say which one holds with `--symmetric`";
+        "leave out follower forces, gyroscopic and friction terms; where a triangle is incomplete, say which one holds with `model.symmetric` (`reduce --symmetric`)";
     Swapped => "E-SWAPPED", InputData,
         "K and M are exchanged",
         "exchange the two files";
@@ -381,7 +387,7 @@ codes! {
         "set its precision to `\"double\"`, or write the matrices in other units";
     EmptyRows => "E-EMPTY-ROWS", InputData,
         "rows have neither stiffness nor mass",
-        "leave unused and constrained dofs out of both matrices, or drop them with `--drop-empty`";
+        "leave unused and constrained dofs out of both matrices, or drop them with `model.drop_empty` (`reduce --drop-empty`)";
     MultiplierRow => "E-LAGRANGE", InputData,
         "K has a zero diagonal in a row with other entries",
         "eliminate constraints before exporting: multipliers have no mass and no stiffness";
@@ -405,7 +411,7 @@ codes! {
         "give the massless part its mass";
     MasslessFreeMotion => "E-FREE-MASSLESS", ModelPhysics,
         "free modes of a component with a rigid-body motion that moves no mass",
-        "give the nodes rotary inertia, or keep fixed-interface modes with `--method craig-bampton`";
+        "give the nodes rotary inertia, or keep fixed-interface modes with the method `craig-bampton`";
     DenseEigen => "E-DENSE-EIGEN", NumericalLimit,
         "a small dense eigenproblem did not converge",
         "check the magnitudes of the input for values near the ends of the range of a double";
@@ -417,7 +423,7 @@ codes! {
         "take fewer interface nodes or couple their patches rigidly";
     SelectionNeedsNodes => "E-NO-NODES", InputData,
         "an interface names nodes and the model has none",
-        "give `--dofs` and `--nodes`, or select rows";
+        "give `model.dofs` and `model.nodes` (`reduce --dofs`, `reduce --nodes`), or select rows";
     RigidNeedsCoordinates => "E-NO-COORDINATES", InputData,
         "a rigid interface has nodes without coordinates",
         "give a table or mesh with every node of the patch";
@@ -480,13 +486,13 @@ codes! {
         "close hinges and sliding joints or give them stiffness";
     ModesMissing => "E-MODES-MISSING", NumericalLimit,
         "modes are missing and a restart found no more",
-        "compare with `--eigensolver arpack`";
+        "compare with the eigensolver `arpack`";
     EigensolverMissing => "E-NO-ARPACK", Usage,
         "the program was built without ARPACK",
-        "use `--eigensolver lanczos` or rebuild with the feature `arpack`";
+        "use the eigensolver `lanczos` or rebuild with the feature `arpack`";
     Arpack => "E-ARPACK", NumericalLimit,
         "ARPACK failed",
-        "use `--eigensolver lanczos`";
+        "use the eigensolver `lanczos`";
     SuperelementFile => "E-SUPERELEMENT", InputData,
         "a file is not a superelement, or cannot be made one",
         "the message says what is wrong with it; write it again with `supel reduce`";

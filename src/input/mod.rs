@@ -30,7 +30,7 @@ pub use facts::{InputFacts, MatrixFacts};
 pub use kind::{files, hdf5_file};
 pub use model_files::{Input, read, read_hdf5_parts, read_within, start_hdf5};
 pub use note::InputNote;
-pub use patch::{Patch, PatchFaces, Patches};
+pub use patch::{Faces, Patch, PatchFaces, Patches};
 pub use patch_faces::{Cells, has_mean_origin, patch_faces};
 
 use std::path::PathBuf;

@@ -22,13 +22,28 @@ pub struct Patches {
     pub n_nodes: usize,
 }
 
-/// The faces of a patch: cells of surfaces, and outer faces of volume cells, all of whose nodes belong to it.
+/// What a mesh tells of the faces of a patch: outer faces of volume cells, and cells of surfaces elsewhere, all of whose nodes belong to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PatchFaces {
     /// Name of its interface.
     pub interface: String,
-    /// How many there are.
-    pub n_faces: usize,
-    /// Their area-weighted centroid.
-    pub centroid: [f64; 3],
+    /// The faces.
+    pub faces: Faces,
+}
+
+/// The faces of a patch.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Faces {
+    /// All are known.
+    Known {
+        /// How many there are.
+        count: usize,
+        /// Their area-weighted centroid.
+        centroid: [f64; 3],
+    },
+    /// The mesh has cells, but its faces are not known.
+    Unknown {
+        /// Why, in words that go on after a colon.
+        reason: String,
+    },
 }

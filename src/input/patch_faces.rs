@@ -30,7 +30,7 @@ pub fn has_mean_origin(interface: &InterfaceJob) -> bool {
     interface.coupling.is_patch() && interface.origin == Origin::Centroid && !is_one
 }
 
-/// The faces of each patch, as far as the file of the nodes has cells; patches without faces are left out.
+/// What the cells in the file of the nodes tell of the faces of each patch; patches without faces are left out.
 ///
 /// # Errors
 /// Cells that cannot be those of the nodes, a file that cannot be read or changes meanwhile, more data than `allowance` has room for.

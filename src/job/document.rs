@@ -6,7 +6,7 @@
 use std::io::Read;
 use std::path::Path;
 
-use super::schema;
+use super::schema::{self, Allowed};
 use super::types::Job;
 use crate::error::{Error, Result};
 use crate::regular_file;
@@ -75,6 +75,8 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<Job> {
 enum Tree {
     Table(Vec<Entry>),
     List(Vec<Tree>),
+    /// JSON's `null`, which a deserialiser takes for a key that is left out.
+    Null,
     Leaf,
 }
 
@@ -112,40 +114,57 @@ fn json_tree(value: &serde_json::Value) -> Tree {
             map.iter().map(|(key, value)| Entry { key: key.clone(), line: None, value: json_tree(value) }).collect(),
         ),
         serde_json::Value::Array(items) => Tree::List(items.iter().map(json_tree).collect()),
+        serde_json::Value::Null => Tree::Null,
         _ => Tree::Leaf,
     }
 }
 
 fn check_keys(tree: &Tree, path: &Path) -> Result<()> {
-    Keys { schema: schema::schema(), path }.check(tree, "", "")
+    Keys { schema: schema::schema(), path }.check(tree, "", (None, ""))
 }
 
-/// The keys that the types of a job have.
+/// The keys that the types of a job have, and what may stand at them.
+///
+/// A deserialiser would take a list for a table and give its elements to the keys in their order, which nobody means, or leave out what
+/// stands behind the third coordinate of a point.
 struct Keys<'a> {
     schema: serde_json::Value,
     path: &'a Path,
 }
 
 impl Keys<'_> {
-    /// `pattern` is the place with `[]` for every list, `place` the same with element numbers.
-    fn check(&self, tree: &Tree, pattern: &str, place: &str) -> Result<()> {
-        match tree {
-            Tree::Leaf => Ok(()),
-            Tree::List(items) => items.iter().enumerate().try_for_each(|(item_idx, item)| {
-                self.check(item, &format!("{pattern}[]"), &format!("{place}[{item_idx}]"))
-            }),
-            Tree::Table(entries) => {
-                // A table where none belongs is a value of the wrong kind, which the deserialiser reports.
-                let Some(known) = schema::keys(&self.schema, pattern) else { return Ok(()) };
-                entries.iter().try_for_each(|entry| {
-                    let here = join(place, &entry.key);
-                    if !known.contains(&entry.key) {
-                        let (path, suggestion) = (self.path.to_owned(), nearest(&entry.key, &known));
-                        return Err(Error::JobKey { path, line: entry.line, key: here, suggestion });
-                    }
-                    self.check(&entry.value, &join(pattern, &entry.key), &here)
-                })
+    /// `pattern` is the place with `[]` for every list, `place` the same with element numbers; `line` is that of its key.
+    fn check(&self, tree: &Tree, pattern: &str, (line, place): (Option<usize>, &str)) -> Result<()> {
+        let wrong = |found: &str, expected: &str| {
+            let name = if place.is_empty() { "the job".to_owned() } else { format!("`{place}`") };
+            let message = format!("{name} is {found} – expected {expected}");
+            Err(Error::JobSyntax { path: self.path.to_owned(), line, message })
+        };
+        if matches!(tree, Tree::Leaf) {
+            return Ok(());
+        }
+        let Allowed { keys, longest_list } = schema::allowed(&self.schema, pattern);
+        match (tree, keys) {
+            (Tree::Leaf, _) => Ok(()),
+            (Tree::Null, _) => wrong("null", "a value, or the key left out"),
+            (Tree::List(_), Some(known)) if longest_list.is_none() => {
+                wrong("a list", &format!("a table with keys of {}", known.join(", ")))
             }
+            (Tree::List(items), _) if longest_list.is_some_and(|longest| items.len() > longest) => {
+                wrong(&format!("a list of {}", items.len()), &format!("{}", longest_list.unwrap_or_default()))
+            }
+            (Tree::List(items), _) => items.iter().enumerate().try_for_each(|(item_idx, item)| {
+                self.check(item, &format!("{pattern}[]"), (line, &format!("{place}[{item_idx}]")))
+            }),
+            (Tree::Table(_), None) => wrong("a table", "a text, a number, a list or a word, as docs/job.md says"),
+            (Tree::Table(entries), Some(known)) => entries.iter().try_for_each(|entry| {
+                let here = join(place, &entry.key);
+                if !known.contains(&entry.key) {
+                    let (path, suggestion) = (self.path.to_owned(), nearest(&entry.key, &known));
+                    return Err(Error::JobKey { path, line: entry.line, key: here, suggestion });
+                }
+                self.check(&entry.value, &join(pattern, &entry.key), (entry.line.or(line), &here))
+            }),
         }
     }
 }

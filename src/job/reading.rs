@@ -40,20 +40,32 @@ impl Job {
     ///
     /// # Errors
     ///
-    /// [`Error::Read`] where the current directory cannot be determined.
+    /// [`Error::Read`] where the current directory cannot be determined; [`Error::NameNotText`] where a name that the report or the
+    /// superelement will keep is not UTF-8, which is known before anything is read.
     pub fn resolve(mut self, folder: &Path) -> Result<Self> {
-        for path in self.paths_mut() {
+        for (key, path) in self.paths_mut() {
             let joined = folder.join(&*path);
             *path = std::path::absolute(&joined).map_err(|source| Error::Read { path: joined, source })?;
+            if path.to_str().is_none() {
+                return Err(Error::NameNotText { key, path: path.clone() });
+            }
         }
         Ok(self)
     }
 
-    fn paths_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
-        let model = &mut self.model;
-        let inputs = [Some(&mut model.stiffness), Some(&mut model.mass), model.dofs.as_mut(), model.nodes.as_mut()];
-        let write = &mut self.write;
-        let outputs = [Some(&mut write.superelement), write.report.as_mut(), write.html.as_mut(), write.junit.as_mut()];
-        inputs.into_iter().chain(outputs).flatten()
+    /// All paths of the job with their keys.
+    fn paths_mut(&mut self) -> impl Iterator<Item = (&'static str, &mut PathBuf)> {
+        let (model, write) = (&mut self.model, &mut self.write);
+        let paths = [
+            ("model.stiffness", Some(&mut model.stiffness)),
+            ("model.mass", Some(&mut model.mass)),
+            ("model.dofs", model.dofs.as_mut()),
+            ("model.nodes", model.nodes.as_mut()),
+            ("write.superelement", Some(&mut write.superelement)),
+            ("write.report", write.report.as_mut()),
+            ("write.html", write.html.as_mut()),
+            ("write.junit", write.junit.as_mut()),
+        ];
+        paths.into_iter().filter_map(|(key, path)| Some((key, path?)))
     }
 }

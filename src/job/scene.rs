@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 use super::interface::InterfaceJob;
 use super::ranges::{number, positive};
@@ -15,7 +16,7 @@ use crate::error::{Error, Result};
 #[serde(deny_unknown_fields)]
 pub struct SceneJob {
     /// Lowest and highest frequency of interest, in Hz.
-    #[schemars(inner(range(min = 0)))]
+    #[schemars(schema_with = "band_schema")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub band_hz: Option<[f64; 2]>,
     /// Supports under which frequencies are compared; an empty list compares none.
@@ -42,11 +43,15 @@ impl Default for DampingJob {
     }
 }
 
+/// The words of [`Support`]; the mass is a decimal number above zero.
+const PATTERN: &str =
+    r"^(free|fix:.+|mass:[^=]+|mass:.+=\+?([0-9]*[1-9][0-9]*\.?[0-9]*|[0-9]*\.[0-9]*[1-9][0-9]*)([eE][-+]?[0-9]+)?)$";
+
 /// How the component is supported while its frequencies are compared: `free`, `fix:NAME`, `mass:NAME` or `mass:NAME=2.5`, NAME being an
 /// interface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "String", into = "String")]
-#[schemars(extend("pattern" = "^(free|fix:.+|mass:[^=]+|mass:.+=[-+.0-9eE]+)$"))]
+#[schemars(extend("pattern" = PATTERN))]
 pub enum Support {
     /// `free`: no interface held or loaded.
     Free,
@@ -110,6 +115,12 @@ impl TryFrom<String> for Support {
             _ => Err(expected()),
         }
     }
+}
+
+/// Two frequencies, the higher one above zero.
+fn band_schema(_: &mut SchemaGenerator) -> Schema {
+    let (low, high) = (json!({ "type": "number", "minimum": 0 }), json!({ "type": "number", "exclusiveMinimum": 0 }));
+    json_schema!({ "type": "array", "prefixItems": [low, high], "minItems": 2, "maxItems": 2 })
 }
 
 pub(super) fn validate(scene: &SceneJob, interfaces: &[InterfaceJob]) -> Result<()> {

@@ -16,9 +16,16 @@ pub fn schema() -> Value {
     schema
 }
 
-/// The keys of every table at a place of a job, by `interface[].nodes` for instance: `[]` stands for each element of a list. None
-/// where no table belongs.
-pub(super) fn keys(schema: &Value, place: &str) -> Option<Vec<String>> {
+/// What may stand at a place of a job.
+pub(super) struct Allowed {
+    /// The keys of every table that may; none where no table belongs.
+    pub(super) keys: Option<Vec<String>>,
+    /// How long a list that may; none where no list belongs.
+    pub(super) longest_list: Option<usize>,
+}
+
+/// What may stand at a place of a job, by `interface[].nodes` for instance: `[]` stands for each element of a list.
+pub(super) fn allowed(schema: &Value, place: &str) -> Allowed {
     let mut tables = alternatives(schema, schema);
     for step in place.split('.').filter(|step| !step.is_empty()) {
         let (key, n_lists) = (step.trim_end_matches("[]"), step.matches("[]").count());
@@ -33,7 +40,9 @@ pub(super) fn keys(schema: &Value, place: &str) -> Option<Vec<String>> {
     let mut keys: Vec<String> = objects.flat_map(Map::keys).cloned().collect();
     keys.sort();
     keys.dedup();
-    (!keys.is_empty()).then_some(keys)
+    let lists = tables.iter().filter(|choice| choice.get("type").is_some_and(|name| name == "array"));
+    let longest = |list: &&Value| list.get("maxItems").and_then(Value::as_u64).map_or(usize::MAX, |n| n as usize);
+    Allowed { keys: (!keys.is_empty()).then_some(keys), longest_list: lists.map(longest).max() }
 }
 
 /// What a part of the schema allows, references and choices followed.

@@ -11,6 +11,7 @@ use super::interface::InterfaceJob;
 use super::method::Method;
 use super::recovery::RecoveryJob;
 use super::scene::SceneJob;
+use super::selection::first_repeated;
 use crate::eigen::Eigensolver;
 
 /// What to read, how to reduce and what to write. Paths are relative to the folder of the document.
@@ -74,11 +75,14 @@ pub struct ModelJob {
     pub expect: Option<Expectation>,
 }
 
-/// Directions of which each is a rotation.
+/// Directions of which each is a rotation, none twice.
 fn rotations<'de, D: serde::Deserializer<'de>>(deserializer: D) -> std::result::Result<Vec<Direction>, D::Error> {
     let directions = Vec::<Direction>::deserialize(deserializer)?;
-    match directions.iter().find(|direction| !direction.is_rotation()) {
-        Some(other) => Err(serde::de::Error::custom(format!("`{other}` is no rotation, expected rx, ry or rz"))),
+    if let Some(other) = directions.iter().find(|direction| !direction.is_rotation()) {
+        return Err(serde::de::Error::custom(format!("`{other}` is no rotation, expected rx, ry or rz")));
+    }
+    match first_repeated(&directions) {
+        Some(twice) => Err(serde::de::Error::custom(format!("`{twice}` is listed twice, expected each rotation once"))),
         None => Ok(directions),
     }
 }

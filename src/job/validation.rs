@@ -148,10 +148,9 @@ fn overlap(first: &InterfaceJob, second: &InterfaceJob) -> Result<()> {
 
 fn output(key: &'static str, path: &Path, expected: &'static str) -> Result<()> {
     // `name.supel`, not a bare `.supel`, which would be a hidden file without a name.
-    let is_named = path
-        .file_name()
-        .and_then(|name| name.to_str())
-        .is_some_and(|name| name.strip_suffix(expected).is_some_and(|stem| !stem.is_empty()));
+    // `x.supel/` is the name of a folder, although it has the file name `x.supel`.
+    let has_ending = path.as_os_str().as_encoded_bytes().ends_with(expected.as_bytes());
+    let is_named = has_ending && path.file_name().is_some_and(|name| name.len() > expected.len());
     if is_named { Ok(()) } else { Err(Error::OutputName { key, path: path.to_owned(), expected }) }
 }
 

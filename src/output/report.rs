@@ -6,7 +6,7 @@ use crate::basis::DynamicCoordinate;
 use crate::eigen::CLUSTER_GAP;
 use crate::error::Warning;
 use crate::input::MatrixFacts;
-use crate::input::PatchFaces;
+use crate::input::{Faces, PatchFaces};
 use crate::job::{Boundary, Certify, InterfaceJob, ModeSelection, Origin};
 use crate::model::RoundedCoordinates;
 use crate::modes::CountedInterval;
@@ -106,11 +106,9 @@ fn interfaces(results: &Results<'_>) -> Vec<InterfaceReport> {
         let n_dofs = if node.directions.is_empty() { node.n_nodes } else { node.directions.len() };
         let origin = origin(node, &results.job.interfaces);
         let faces = |position| faces((node, position), origin, &results.input.faces);
-        let at = node.position.map(|position| InterfacePosition {
-            node: node.label,
-            position,
-            origin,
-            faces: faces(position),
+        let at = node.position.map(|position| {
+            let (faces, faces_unknown) = faces(position);
+            InterfacePosition { node: node.label, position, origin, faces, faces_unknown }
         });
         match rows.last_mut().filter(|row| row.name == node.name) {
             Some(row) => {
@@ -130,15 +128,21 @@ fn interfaces(results: &Results<'_>) -> Vec<InterfaceReport> {
     rows
 }
 
-/// How far the mean of a patch's nodes is from the centroid of its faces.
+/// How far the mean of a patch's nodes is from the centroid of its faces, or why that is not known.
 fn faces(
     (node, position): (&InterfaceNode, [f64; 3]),
     origin: PositionOrigin,
     known: &[PatchFaces],
-) -> Option<FacesReport> {
-    let faces = known.iter().find(|faces| origin == PositionOrigin::MeanOfNodes && faces.interface == node.name)?;
-    let offset = (0..3).map(|axis| (faces.centroid[axis] - position[axis]).powi(2)).sum::<f64>();
-    Some(FacesReport { count: faces.n_faces, centroid: faces.centroid, distance: offset.sqrt() })
+) -> (Option<FacesReport>, Option<String>) {
+    let found = known.iter().find(|faces| origin == PositionOrigin::MeanOfNodes && faces.interface == node.name);
+    match found.map(|found| &found.faces) {
+        None => (None, None),
+        Some(Faces::Unknown { reason }) => (None, Some(reason.clone())),
+        Some(Faces::Known { count, centroid }) => {
+            let offset = (0..3).map(|axis| (centroid[axis] - position[axis]).powi(2)).sum::<f64>();
+            (Some(FacesReport { count: *count, centroid: *centroid, distance: offset.sqrt() }), None)
+        }
+    }
 }
 
 /// Where the place of an interface node comes from.

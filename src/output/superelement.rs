@@ -18,7 +18,7 @@ use crate::verification::check::{Check, Verdict};
 pub(super) fn superelement(results: &Results<'_>, verdict: Verdict) -> Result<Superelement> {
     let tensors = Tensors { recovery: recovery(results)?, ..tensors(results) };
     refuse_out_of_range(&tensors)?;
-    let metadata = metadata(results, &tensors, verdict);
+    let metadata = metadata(results, &tensors, verdict)?;
     Superelement::new(tensors, metadata).map_err(|error| Error::of_superelement(&results.job.write.superelement, error))
 }
 
@@ -111,7 +111,7 @@ fn named_nodes(results: &Results<'_>) -> Vec<file::InterfaceNode> {
     named.collect::<Option<Vec<_>>>().unwrap_or_default()
 }
 
-fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metadata {
+fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Result<Metadata> {
     let evidence = &results.evidence;
     let interface_nodes = named_nodes(results);
     let mut coordinates = interface_coordinates(results, &interface_nodes);
@@ -126,7 +126,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
     let of_the_body = || Matrix::from_fn(6, 6, |i, j| tensors.rigid_body_mass[(i, j)]);
     let classical = evidence.rigid.is_classical.then(|| file::mass_properties(&of_the_body())).flatten();
     let digests = results.input.digests();
-    Metadata {
+    Ok(Metadata {
         generator: file::Generator { name: env!("CARGO_PKG_NAME").into(), version: env!("CARGO_PKG_VERSION").into() },
         method: results.job.reduction.method.in_file(),
         units: results.job.model.units.clone(),
@@ -145,9 +145,9 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Metad
             mass_properties: classical,
         },
         inputs: digests.into_iter().map(|(role, digest)| (role.to_owned(), digest.to_owned())).collect(),
-        job: job_document(results.job),
+        job: job_document(results.job)?,
         verification: verification(&results.checks(), verdict),
-    }
+    })
 }
 
 fn interface_coordinates(results: &Results<'_>, nodes: &[file::InterfaceNode]) -> Vec<Coordinate> {
@@ -193,7 +193,7 @@ fn band(job: &Job, tensors: &Tensors) -> Option<[f64; 2]> {
 
 /// The job with its paths relative to the superelement's folder, so that the file does not depend on where that is; without
 /// pages for people and machines, which change nothing of the superelement.
-fn job_document(job: &Job) -> serde_json::Value {
+fn job_document(job: &Job) -> Result<serde_json::Value> {
     let folder = job.write.superelement.parent().unwrap_or(Path::new("")).to_owned();
     let mut job = job.clone();
     let relative = |path: &mut PathBuf| *path = relative_to(path, &folder);
@@ -204,7 +204,7 @@ fn job_document(job: &Job) -> serde_json::Value {
     relative(&mut job.write.superelement);
     job.write.report.as_mut().map(relative);
     (job.write.html, job.write.junit) = (None, None);
-    serde_json::to_value(job).unwrap_or_default()
+    serde_json::to_value(job).map_err(|source| Error::NotJson { what: "the job", source })
 }
 
 /// The way from a folder to a path: up to where the two part, then down.

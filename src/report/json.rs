@@ -14,17 +14,21 @@ const FORMAT_VERSION: u32 = 1;
 
 impl Report {
     /// The JSON document; numbers that are not finite become `null`.
-    pub fn to_json(&self) -> String {
-        json_text(self)
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotJson`] where the path of an output is not UTF-8.
+    pub fn to_json(&self) -> Result<String> {
+        json_text("the report", self)
     }
 
     /// Writes the JSON document to `path`: whole or not at all.
     ///
     /// # Errors
     ///
-    /// [`Error::Write`], [`Error::NotSynced`], or [`Error::OutputKind`] where `path` is a folder or a device.
+    /// Those of [`Self::to_json`]; [`Error::Write`], [`Error::NotSynced`], or [`Error::OutputKind`] where `path` is a folder or a device.
     pub fn write(&self, path: &Path) -> Result<()> {
-        StagedFile::write(path, self.to_json().as_bytes()).and_then(StagedFile::commit).map_err(Error::of_writing)
+        StagedFile::write(path, self.to_json()?.as_bytes()).and_then(StagedFile::commit).map_err(Error::of_writing)
     }
 }
 

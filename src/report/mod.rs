@@ -35,8 +35,8 @@ pub use html::{escaped, html};
 pub use inspection::inspection;
 pub use junit::{JunitWarnings, junit};
 pub use page::Paint;
-pub(crate) use printable::{json_text, printable};
-
+use printable::json_text;
+pub(crate) use printable::{printable, value_text};
 pub use rigid_body::{EffectiveMass, Grounding, MassRoute, RigidBodyEvidence};
 pub use stages::{Observer, StageClock, StageTime};
 pub use summary::summary;
@@ -194,7 +194,7 @@ pub struct InterfaceReport {
 }
 
 /// Where a node of an interface is, in the units of the model.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct InterfacePosition {
     /// Label of the node of the model, where it is one.
     pub node: Option<i64>,
@@ -204,6 +204,8 @@ pub struct InterfacePosition {
     pub origin: PositionOrigin,
     /// The faces of a patch whose place is the mean of its nodes, where the mesh has faces.
     pub faces: Option<FacesReport>,
+    /// Why these faces are not known although the mesh has cells.
+    pub faces_unknown: Option<String>,
 }
 
 /// The faces all of whose nodes belong to a patch.

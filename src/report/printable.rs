@@ -8,6 +8,9 @@ use std::borrow::Cow;
 use std::fmt::Write;
 
 use serde::Serialize;
+use serde_json::Value;
+
+use crate::error::{Error, Result};
 
 /// The text with every character that is not shown as itself written as `\u{1b}`, `\n` and the like.
 pub(crate) fn printable(text: &str) -> Cow<'_, str> {
@@ -26,10 +29,21 @@ pub(crate) fn printable(text: &str) -> Cow<'_, str> {
 }
 
 /// A JSON document, indented and with a line end; what JSON leaves as it is but [`printable`] does not is escaped the way of JSON, which
-/// changes no value.
-pub(crate) fn json_text(document: &impl Serialize) -> String {
-    // Serialising the types of this crate cannot fail: no map has keys that are not strings and no writer is involved.
-    let text = serde_json::to_string_pretty(document).unwrap_or_default() + "\n";
+/// changes no value. `what` is what an error calls it.
+///
+/// # Errors
+/// [`Error::NotJson`] where a path in it is not UTF-8.
+pub(crate) fn json_text(what: &'static str, document: &impl Serialize) -> Result<String> {
+    let text = serde_json::to_string_pretty(document).map_err(|source| Error::NotJson { what, source })?;
+    Ok(escaped(text + "\n"))
+}
+
+/// A JSON value as [`json_text`] writes documents. A value has no part that JSON cannot hold.
+pub(crate) fn value_text(value: &Value) -> String {
+    escaped(format!("{value:#}\n"))
+}
+
+fn escaped(text: String) -> String {
     if !text.contains(acts_in_json) {
         return text;
     }
@@ -78,9 +92,9 @@ mod tests {
     #[test]
     fn a_json_document_keeps_its_values() {
         let text = "a\u{7f}\u{9b}\u{202e}\u{e0041}\u{1b}\n";
-        let document = json_text(&serde_json::json!({ "name": text }));
+        let document = value_text(&serde_json::json!({ "name": text }));
         assert!(!document.trim_end().contains(|c: char| c != '\n' && acts_on_its_surroundings(c)), "{document:?}");
-        let read: serde_json::Value = serde_json::from_str(&document).expect("JSON");
+        let read: Value = serde_json::from_str(&document).expect("JSON");
         assert_eq!(read["name"], text);
     }
 }

@@ -9,6 +9,7 @@ use super::page::{Page, Paint, Tone, WIDTH};
 use super::summary::body;
 use super::{Generator, json_text, table};
 use crate::audit::Audit;
+use crate::error::Result;
 
 /// Version of the document's layout.
 const FORMAT_VERSION: u32 = 1;
@@ -47,8 +48,12 @@ pub struct VerificationReport {
 
 impl VerificationReport {
     /// The JSON document on `superelement`; numbers that are not finite become `null`.
-    pub fn to_json(&self, superelement: &Superelement) -> String {
-        json_text(&Document { report: self, superelement })
+    ///
+    /// # Errors
+    ///
+    /// [`crate::error::Error::NotJson`]; nothing in it can have it.
+    pub fn to_json(&self, superelement: &Superelement) -> Result<String> {
+        json_text("the answer", &Document { report: self, superelement })
     }
 
     /// The text about `superelement` for people.

@@ -99,7 +99,10 @@ pub(super) fn positions(interface: &InterfaceReport) -> Option<String> {
             PositionOrigin::Node => place,
             PositionOrigin::MeanOfNodes => {
                 let faces = at.faces.map(|faces| from_centroid(&faces, size)).unwrap_or_default();
-                format!("{place}, the mean of its nodes{faces}")
+                let unknown = at.faces_unknown.as_ref();
+                let unknown =
+                    unknown.map(|why| format!("; the centroid of its faces is not known: {why}")).unwrap_or_default();
+                format!("{place}, the mean of its nodes{faces}{unknown}")
             }
             PositionOrigin::Job => format!("{place}, as the job says"),
         }

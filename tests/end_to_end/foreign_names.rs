@@ -109,10 +109,12 @@ fn texts_of_a_superelement_are_shown_and_not_obeyed() {
         let hostile = Superelement::new(tensors.clone(), metadata.clone()).expect("well formed");
         hostile.write(&place.path("hostile.supel")).expect("written");
         let file = place.text("hostile.supel");
-        for args in [&["inspect", &file][..], &["inspect", &file, "--json"], &["inspect", &file, "--job"]] {
+        for args in [&["inspect", &file][..], &["inspect", &file, "--json"]] {
             let ended = supel(args).expect(ExitCode::Done);
             assert!(!ended.out.contains(|c: char| c != '\n' && acts(c)), "{args:?}: {:?}", ended.out);
         }
+        let no_job = supel(&["inspect", &file, "--job"]).expect(ExitCode::Usage);
+        assert!(no_job.out.is_empty() && no_job.err.contains("E-KEPT-JOB"), "{}{}", no_job.out, no_job.err);
         for args in [&["verify", &file][..], &["verify", &file, "--json"]] {
             let ended = supel(args).expect(if is_failing { ExitCode::CheckFailed } else { ExitCode::Done });
             assert_harmless_end(&ended, "verify");
@@ -139,5 +141,80 @@ fn errors_are_one_line_whatever_they_quote() {
     assert_harmless_end(&ended, "a group");
     assert_eq!(ended.err.lines().count(), 1, "{}", ended.err);
     // What clap says of a command line takes several lines.
-    assert_harmless_end(&supel(&["reduce", "--method", HOSTILE]).expect(ExitCode::Usage), "a flag");
+    let flag = format!("--{HOSTILE}");
+    for args in
+        [&["reduce", "--method", HOSTILE][..], &["reduce", "job.toml", &flag], &["reduce", "--json", &flag], &[HOSTILE]]
+    {
+        let ended = supel(args).expect(ExitCode::Usage);
+        assert_harmless_end(&ended, "a flag");
+        assert!(ended.err.contains("\\u{1b}[2J") && ended.err.contains("\\n"), "left out: {}", ended.err);
+    }
+}
+
+/// A folder and files whose names are not UTF-8, as an old archive unpacks them: what would have to keep such a name is refused before
+/// anything is read, and what need not works.
+#[cfg(unix)]
+#[test]
+fn names_that_are_not_utf8_are_refused_before_anything_is_read() {
+    use std::ffi::{OsStr, OsString};
+    use std::os::unix::ffi::OsStrExt;
+
+    let place = Place::with_brick();
+    place.write("job.json", job(&place, "foot", "mm").as_bytes());
+    supel(&["reduce", &place.text("job.json")]).expect(ExitCode::Done);
+    let latin = place.path("").join(OsStr::from_bytes(b"b\xff"));
+    std::fs::create_dir(&latin).expect("a folder");
+    // The job names files of its own folder.
+    let text = String::from_utf8(place.bytes("job.json")).expect("UTF-8").replace(&place.text(""), "");
+    std::fs::write(latin.join("job.json"), text).expect("written");
+    for name in ["K.mtx", "M.mtx", "dofs.txt", "nodes.csv", "x.supel"] {
+        std::fs::copy(place.path(name), latin.join(name)).expect("copied");
+    }
+    let odd = |name: &[u8]| place.path("").join(OsStr::from_bytes(name)).into_os_string();
+    std::fs::copy(place.path("K.mtx"), odd(b"K\xff.mtx")).expect("copied");
+    let plain = |name: &str| OsString::from(place.text(name));
+    let inside = |name: &str| latin.join(name).into_os_string();
+    let count = |folder: &std::path::Path| std::fs::read_dir(folder).expect("a folder").count();
+    let before = (count(&place.path("")), count(&latin));
+    let run = |args: Vec<OsString>| {
+        let (mut out, mut err) = (Vec::new(), Vec::new());
+        let args = std::iter::once("supel".into()).chain(args);
+        let pipeline = supel::cli::Pipeline { reduce: supel::reduce, verify: supel::verify };
+        let code = supel::cli::run(args, pipeline, &mut supel::cli::Terminal::plain(&mut out, &mut err));
+        let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+        Ended { code, out: text(out), err: text(err) }
+    };
+    for (args, part) in [
+        (vec!["reduce".into(), inside("job.json")], "\"b\\xFF\""),
+        (vec!["reduce".into(), plain("job.json"), "--stiffness".into(), odd(b"K\xff.mtx")], "\"K\\xFF.mtx\""),
+        (vec!["reduce".into(), plain("job.json"), "-o".into(), odd(b"x\xff.supel")], "\"x\\xFF.supel\""),
+        (vec!["reduce".into(), plain("job.json"), "--junit".into(), odd(b"x\xff.xml")], "`write.junit`"),
+        (vec!["verify".into(), inside("x.supel"), "--job".into(), inside("job.json")], "`model.stiffness`"),
+        (vec!["verify".into(), inside("x.supel"), "--reproduce".into()], "`model.stiffness`"),
+        (vec!["inspect".into(), inside("x.supel"), "--job".into()], "`model.stiffness`"),
+    ] {
+        let said = run(args.clone()).expect(ExitCode::Usage);
+        assert!(said.err.starts_with("supel: error[E-NAME]: ") && said.err.contains(part), "{args:?}: {}", said.err);
+        assert!(said.out.is_empty() && said.err.lines().count() == 1, "{args:?}: {}{}", said.out, said.err);
+        assert_eq!((count(&place.path("")), count(&latin)), before, "{args:?} wrote something");
+        if args[0] != "inspect" {
+            let said = run([args, vec!["--json".into()]].concat()).expect(ExitCode::Usage);
+            let document: serde_json::Value = serde_json::from_str(&said.out).expect("JSON");
+            assert_eq!(document["error"]["code"], "E-NAME");
+        }
+    }
+    // What is read alone has no name that a document keeps.
+    std::fs::copy(place.path("x.supel"), odd(b"x\xff.supel")).expect("copied");
+    for file in [inside("x.supel"), odd(b"x\xff.supel")] {
+        for more in [&["verify", "--json"][..], &["inspect", "--json"], &["verify"], &["inspect"]] {
+            let args: Vec<OsString> = std::iter::once(more[0].into())
+                .chain([file.clone()])
+                .chain(more[1..].iter().map(OsString::from))
+                .collect();
+            let ended = run(args).expect(ExitCode::Done);
+            if more.contains(&"--json") {
+                serde_json::from_str::<serde_json::Value>(&ended.out).expect("JSON");
+            }
+        }
+    }
 }

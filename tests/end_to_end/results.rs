@@ -17,6 +17,24 @@ fn hertz(eigenvalues: &[f64]) -> Vec<f64> {
     eigenvalues.iter().map(|value| value.sqrt() / std::f64::consts::TAU).collect()
 }
 
+/// `supel inspect FILE --job > job.json` in one folder, `supel reduce job.json` of what is in another.
+#[test]
+fn the_job_kept_in_a_file_runs_from_any_folder() {
+    let (place, elsewhere) = (Place::with_brick(), Place::new());
+    let flags = "--interface foot=1,11,31,41 --method herting --modes 4";
+    place.reduce(&place.model_flags(), flags).expect(ExitCode::Done);
+    let made = place.bytes("x.supel");
+    let job = supel(&["inspect", &place.text("x.supel"), "--job"]).expect(ExitCode::Done).out;
+    elsewhere.write("job.json", job.as_bytes());
+    std::fs::remove_file(place.path("x.supel")).expect("removed");
+    let again = elsewhere.text("again.supel");
+    supel(&["reduce", &elsewhere.text("job.json"), "--output", &again]).expect(ExitCode::Done);
+    let first = supel_runtime::Superelement::from_bytes(&made).expect("a file");
+    assert_eq!(elsewhere.superelement("again.supel").tensors(), first.tensors());
+    supel(&["reduce", &elsewhere.text("job.json")]).expect(ExitCode::Done);
+    assert!(place.bytes("x.supel") == made, "the same file, in its own folder");
+}
+
 #[test]
 fn herting_keeps_the_modes_of_the_free_component() {
     let place = Place::with(&spring(12, Ends::Free));

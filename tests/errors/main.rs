@@ -1,5 +1,6 @@
 //! Every error and every warning: a code, a line in `docs/errors.md`, and a test that provokes it.
 
+mod advice;
 mod documented;
 mod outputs;
 mod provoked;

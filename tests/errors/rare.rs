@@ -22,6 +22,38 @@ fn a_dense_matrix_that_is_not_finite() {
     assert_eq!(error.code(), "E-DENSE-EIGEN");
 }
 
+/// What cannot be written as JSON is an error, not an empty file: here names that a program gives to the library.
+#[cfg(unix)]
+#[test]
+fn names_that_json_cannot_hold() {
+    use std::os::unix::ffi::OsStrExt;
+
+    use supel::error::ErrorClass;
+    use supel::memory_forecast::Resources;
+
+    use crate::place::Place;
+
+    let place = Place::with_brick();
+    let text = r#"
+model     = { stiffness = "K.mtx", mass = "M.mtx" }
+interface = [{ name = "ends", nodes = { rows = [0, 1, 2, 30, 31, 32, 90, 91, 92] } }]
+reduction = { method = "craig-bampton", modes = { count = 1 } }
+write     = { superelement = "x.supel" }
+"#;
+    let job = Job::parse(text, "job.toml".as_ref()).expect("a job").resolve(&place.path("")).expect("resolved");
+    let mut report = supel::reduce(&job, Resources::default(), &mut ()).expect("reduced").report;
+    let odd = place.path("").join(std::ffi::OsStr::from_bytes(b"x\xff.supel"));
+    report.run.superelement = Some(odd.clone());
+    let error = report.to_json().expect_err("no JSON");
+    assert_eq!((error.code(), error.class()), ("E-JSON", ErrorClass::Usage));
+    report.write(&place.path("x.json")).expect_err("no JSON");
+    assert!(!place.path("x.json").exists());
+    let mut job = job;
+    job.write.superelement = odd;
+    let error = supel::reduce(&job, Resources::default(), &mut ()).expect_err("no JSON");
+    assert_eq!(error.code(), "E-JSON", "{error}");
+}
+
 #[test]
 fn a_node_that_an_interface_lists_twice() {
     let text = r#"

@@ -186,6 +186,15 @@ fn bytes_that_are_no_text() {
     assert!(matches!(error, Error::TableField { line: 2, .. }), "{error}");
 }
 
+/// Comments may be in another encoding, and so may what no number is read from.
+#[test]
+fn bytes_that_are_no_text_where_no_number_belongs() {
+    let nodes = b"% f\xfcr alle\nnode,x,y,z\n# Gr\xf6\xdfe\n1,0,0,0\n";
+    read_tables(3, None, Some(nodes)).expect("comments of a table");
+    let map = b"% f\xfcr alle\n1.1\n1.2\n1.3\n";
+    read_tables(3, Some(map), Some(b"node,x,y,z\n1,0,0,0\n")).expect("comments of a dof map");
+}
+
 #[test]
 fn a_node_twice() {
     let error = node_error("node,x,y,z\n1,0,0,0\n\n1,1,0,0\n");

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use hdf5_metno::{File, H5Type};
 use supel::error::{Error, Result};
-use supel::input::{Allowance, Patch, PatchFaces, Patches, patch_faces};
+use supel::input::{Allowance, Faces, Patch, PatchFaces, Patches, patch_faces};
 use supel::job::ModelJob;
 use tempfile::TempDir;
 
@@ -263,10 +263,19 @@ fn topology(kind: &str, numbers: &[i64]) -> String {
 #[track_caller]
 fn assert_centroid(found: &Result<Vec<PatchFaces>>, n_faces: usize, centroid: Point, what: &str) {
     let Ok([only]) = found.as_deref() else { panic!("{what}: {found:?}") };
-    assert_eq!((only.interface.as_str(), only.n_faces), ("below", n_faces), "{what}");
-    for (found, expected) in only.centroid.iter().zip(centroid) {
+    let Faces::Known { count, centroid: found } = &only.faces else { panic!("{what}: {only:?}") };
+    assert_eq!((only.interface.as_str(), *count), ("below", n_faces), "{what}");
+    for (found, expected) in found.iter().zip(centroid) {
         assert!((found - expected).abs() <= ROUNDING * 3.0, "{what}: {only:?}");
     }
+}
+
+/// Asserts that the faces of the one patch are not known, and why.
+#[track_caller]
+fn assert_unknown(found: &Result<Vec<PatchFaces>>, why: &str, what: &str) {
+    let Ok([only]) = found.as_deref() else { panic!("{what}: {found:?}") };
+    let Faces::Unknown { reason } = &only.faces else { panic!("{what}: {only:?}") };
+    assert!(reason.contains(why), "{what}: {reason}");
 }
 
 #[test]
@@ -321,6 +330,21 @@ fn xdmf_that_refers_to_hdf5() {
     let Err(Error::MemoryRead { .. }) = written.faces_within(&patches, Some(500)) else { panic!("no room") };
 }
 
+/// The document type that FEniCS writes names a file that is not there; one that declares something is refused.
+#[test]
+fn xdmf_with_a_document_type() {
+    let mesh = Mesh::of(Shape::Brick, 8, Order::BottomTopUpright);
+    let written = xdmf(&mesh, &topology("Hexahedron", &rows(&mesh.cells, 0)));
+    let plain = fs::read_to_string(&written.1).expect("a document");
+    let with = |declared: &str| {
+        fs::write(&written.1, format!("<?xml version=\"1.0\"?>\n{declared}\n{plain}")).expect("written");
+        written.faces(&mesh.patch())
+    };
+    assert_centroid(&with("<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>"), 2, CENTROID, "a document type");
+    let entities = with("<!DOCTYPE Xdmf [<!ENTITY a \"0 0 0 0 0 0 0 0\"><!ENTITY b SYSTEM \"a.txt\">]>");
+    assert_eq!(entities.map_err(|error| error.code()), Err("E-MESH-UNSUPPORTED"));
+}
+
 /// A patch of a whole brick has the five faces of it that are outside; the sixth, which it has in common with the other brick, is none.
 #[test]
 fn faces_between_cells_do_not_count() {
@@ -346,6 +370,100 @@ fn surfaces_of_volumes_count_once() {
     assert_centroid(&found.faces(&mesh.patch()), 2, CENTROID, "with a surface");
 }
 
+/// Corners of the triangles on both sides of a diagonal of a quadrilateral.
+fn halves(face: &[usize]) -> Vec<Vec<usize>> {
+    vec![vec![face[0], face[1], face[2]], vec![face[0], face[2], face[3]]]
+}
+
+/// Cells of surfaces that lie on faces of volume cells with other corners add nothing to them.
+#[test]
+fn surfaces_on_volumes_count_once_whatever_their_corners() {
+    let bricks = Mesh::of(Shape::Brick, 8, Order::BottomTopUpright);
+    let patch = bricks.patch();
+    let cells = ("HE8", columns(&rows(&bricks.cells, 1), 8));
+    let below: Vec<usize> = bricks.cells[0][..4].to_vec();
+    let triangles = |faces: &[Vec<usize>]| ("TR3", columns(&rows(faces, 1), 3));
+    let found = med(&bricks, &[cells.clone(), triangles(&halves(&below))]).faces(&patch);
+    assert_centroid(&found, 2, CENTROID, "two triangles on one of two bricks");
+    let found = med(&bricks, &[cells.clone(), triangles(&halves(&below)[1..])]).faces(&patch);
+    assert_centroid(&found, 2, CENTROID, "one triangle");
+    let quadrilateral = ("QU4", columns(&rows(std::slice::from_ref(&below), 1), 4));
+    let found = med(&bricks, &[cells.clone(), triangles(&halves(&below)), quadrilateral.clone()]).faces(&patch);
+    assert_centroid(&found, 2, CENTROID, "triangles on a cell of a surface on a brick");
+    let alone = med(&bricks, &[triangles(&halves(&below)), quadrilateral.clone()]).faces(&patch);
+    assert_centroid(&alone, 1, [0.5, 1.0, 0.0], "triangles on a cell of a surface");
+    // In a stream the triangles come first.
+    let stream: Vec<i64> =
+        halves(&below).iter().flat_map(|t| [&[4], &rows(std::slice::from_ref(t), 0)[..]].concat()).collect();
+    let bricks_of_it = bricks.cells.iter().flat_map(|cell| [&[9], &rows(std::slice::from_ref(cell), 0)[..]].concat());
+    let stream: Vec<i64> = stream.into_iter().chain(bricks_of_it).collect();
+    assert_centroid(&xdmf(&bricks, &topology("Mixed", &stream)).faces(&patch), 2, CENTROID, "in a stream");
+    // Tetrahedra under a quadrilateral.
+    let mut tetrahedra = Mesh::of(Shape::Tet, 4, Order::BottomTopUpright);
+    let below: Vec<usize> =
+        [[0.0, 0.0], [1.0, 0.0], [1.0, 2.0], [0.0, 2.0]].map(|[x, y]| tetrahedra.node([x, y, 0.0])).into();
+    let cells = columns(&rows(&tetrahedra.cells, 1), 4);
+    let patch = tetrahedra.patch();
+    let quadrilateral = ("QU4", columns(&rows(&[below], 1), 4));
+    let found = med(&tetrahedra, &[("TE4", cells.clone()), quadrilateral.clone()]).faces(&patch);
+    assert_centroid(&found, 4, CENTROID, "a quadrilateral on tetrahedra");
+    // One of the two tetrahedra below it is gone.
+    let is_left = |cell: &&Vec<usize>| cell.iter().filter(|node| tetrahedra.points[**node][2] == 0.0).count() < 3;
+    let first = tetrahedra.cells.iter().position(|cell| !is_left(&cell)).expect("a tetrahedron with a face below");
+    let mut cut = tetrahedra.cells.clone();
+    cut.remove(first);
+    let found = med(&tetrahedra, &[("TE4", columns(&rows(&cut, 1), 4)), quadrilateral]).faces(&patch);
+    assert_unknown(&found, "in part", "half a quadrilateral");
+}
+
+/// Eight triangles between the corners, the middles of the edges and the centre of a face of a brick of 27 nodes.
+#[test]
+fn surfaces_between_middles_of_edges_lie_on_the_face() {
+    let mesh = Mesh::of(Shape::Brick, 27, Order::BottomTopUpright);
+    let at = |x: f64, y: f64| mesh.points.iter().position(|p| *p == [x, y, 0.0]).expect("a node");
+    let ring = [(0.0, 0.0), (0.5, 0.0), (1.0, 0.0), (1.0, 1.0), (1.0, 2.0), (0.5, 2.0), (0.0, 2.0), (0.0, 1.0)];
+    let centre = at(0.5, 1.0);
+    let triangle = |k: usize| {
+        let ((a, b), (c, d)) = (ring[k], ring[(k + 1) % 8]);
+        vec![centre, at(a, b), at(c, d)]
+    };
+    let triangles: Vec<Vec<usize>> = (0..8).map(triangle).collect();
+    let cells = ("H27", columns(&rows(&mesh.cells, 1), 27));
+    let found = med(&mesh, &[cells, ("TR3", columns(&rows(&triangles, 1), 3))]).faces(&mesh.patch());
+    assert_centroid(&found, 2, CENTROID, "eight triangles on a face");
+}
+
+/// Where one half of a mesh is a brick and the other one tetrahedra, the face between them is inside.
+#[test]
+fn faces_between_bricks_and_tetrahedra_do_not_count() {
+    let mut mesh = Mesh::of(Shape::Brick, 8, Order::BottomTopUpright);
+    let cut = Mesh::of(Shape::Tet, 4, Order::BottomTopUpright);
+    let mut to_mesh =
+        |cell: &Vec<usize>| -> Vec<usize> { cell.iter().map(|node| mesh.node(cut.points[*node])).collect() };
+    let tetrahedra: Vec<Vec<usize>> = cut.cells[6..].iter().map(&mut to_mesh).collect();
+    let numbers = |n: usize| columns(&rows(&tetrahedra[..n], 1), 4);
+    let brick = ("HE8", columns(&rows(&mesh.cells[..1], 1), 8));
+    let written = med(&mesh, &[brick.clone(), ("TE4", numbers(6))]);
+    let between = mesh.patch_where(|[x, ..]| x == 1.0);
+    assert_eq!(written.faces(&between).expect("read"), [], "nothing of the plane is outside");
+    let whole = written.faces(&mesh.patch_where(|_| true));
+    assert_centroid(&whole, 5 + 10, [1.5, 1.0, 0.5], "the outside of both halves");
+    // Skin on the inner face is what a user put there.
+    let plane: Vec<usize> = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]
+        .map(|[y, z]| mesh.points.iter().position(|p| *p == [1.0, y, z]).expect("a node"))
+        .into();
+    let skin = ("QU4", columns(&rows(&[plane], 1), 4));
+    let found = med(&mesh, &[brick.clone(), ("TE4", numbers(6)), skin]).faces(&between);
+    assert_centroid(&found, 1, [1.0, 1.0, 0.5], "a surface between the halves");
+    // A tetrahedron with a face on the brick is gone: half of that face is outside.
+    let on_brick = |cell: &Vec<usize>| cell.iter().filter(|node| mesh.points[**node][0] == 1.0).count() == 3;
+    let first = tetrahedra.iter().position(on_brick).expect("a tetrahedron at the brick");
+    let mut left = tetrahedra.clone();
+    left.remove(first);
+    let found = med(&mesh, &[brick, ("TE4", columns(&rows(&left, 1), 4))]).faces(&between);
+    assert_unknown(&found, "in part", "half a face");
+}
+
 /// Bricks with corners drawn onto others are wedges.
 #[test]
 fn collapsed_cells_have_the_faces_that_are_left() {
@@ -366,25 +484,23 @@ fn without_known_faces_nothing_is_claimed() {
     let none = |written: &Written, what: &str| assert_eq!(written.faces(&patches).expect(what), [], "{what}");
     none(&med(&mesh, &[]), "no cells");
     none(&med(&mesh, &[("SE2", vec![1, 2])]), "lines");
-    none(&med(&mesh, &[("HE8", numbers.clone()), ("POE", vec![1, 2])]), "polyhedra besides");
-    none(&moab(&mesh, "Polyhedron", (2, vec![11, 12])), "polyhedra");
-    none(&moab(&mesh, "Hex9", (9, vec![11; 9])), "bricks of nine nodes");
-    none(&xdmf(&mesh, &topology("3DSMesh", &[])), "a structured grid");
-    none(&xdmf(&mesh, &topology("Mixed", &[3, 3, 0, 1, 2])), "polygons");
-    none(
-        &xdmf(
-            &mesh,
-            "<Topology TopologyType=\"Hexahedron\"><DataItem Format=\"HDF\">/etc/a.h5:/c</DataItem></Topology>",
-        ),
-        "outside",
-    );
+    let unknown = |written: &Written, why: &str| assert_unknown(&written.faces(&patches), why, why);
+    unknown(&med(&mesh, &[("HE8", numbers.clone()), ("POE", vec![1, 2])]), "cells of type POE");
+    unknown(&moab(&mesh, "Polyhedron", (2, vec![11, 12])), "cells of type Polyhedron");
+    unknown(&moab(&mesh, "Hex9", (9, vec![11; 9])), "cells of type Hex9");
+    unknown(&xdmf(&mesh, &topology("3DSMesh", &[])), "a Topology of type 3DSMesh");
+    for code in [3, 16, 49, 51, 58, 64, 71] {
+        unknown(&xdmf(&mesh, &topology("Mixed", &[code, 3, 0, 1, 2])), &format!("cells of type {code}"));
+    }
+    let outside = "<Topology TopologyType=\"Hexahedron\"><DataItem Format=\"HDF\">/etc/a.h5:/c</DataItem></Topology>";
+    unknown(&xdmf(&mesh, outside), "outside the folder");
     let corners = mesh.patch_where(|[x, y, z]| z == 0.0 && (x == 0.0) == (y == 0.0));
     assert_eq!(med(&mesh, &[("HE8", numbers)]).faces(&corners).expect("read"), [], "nodes without a face between them");
     // Nodes of edges in an order that is none of the known.
     let mut shuffled = Mesh::of(Shape::Brick, 20, Order::BottomTopUpright);
     shuffled.cells.iter_mut().for_each(|cell| cell[8..12].rotate_left(1));
     let found = med(&shuffled, &[("H20", columns(&rows(&shuffled.cells, 1), 20))]).faces(&shuffled.patch());
-    assert_eq!(found.expect("read"), [], "an order of its own");
+    assert_unknown(&found, "in an order that no format has", "an order of its own");
 }
 
 #[test]
@@ -428,7 +544,9 @@ fn connectivity_that_cannot_be_right_is_refused() {
     );
     assert_eq!(code(&xdmf(&mesh, &topology("Mixed", &[2]))), Err("E-HDF5-SHAPE"), "a line without its length");
     assert_eq!(code(&xdmf(&mesh, &topology("Mixed", &[2, i64::MAX]))), Err("E-HDF5-SHAPE"), "a line without end");
-    assert_eq!(code(&xdmf(&mesh, &topology("Mixed", &[10, 0]))), Err("E-HDF5-TYPE"), "no kind of cell");
+    for none in [i64::MIN, -1, 0, 10, 15, 17, 33, 42, 47, 59, 63, 72, 99, i64::MAX] {
+        assert_eq!(code(&xdmf(&mesh, &topology("Mixed", &[none, 0]))), Err("E-HDF5-TYPE"), "{none}: no kind of cell");
+    }
     let words = topology("Hexahedron", &[0; 8]).replace("0 0", "0 x");
     assert_eq!(code(&xdmf(&mesh, &words)), Err("E-HDF5-TYPE"));
 }
@@ -448,7 +566,11 @@ fn random_connectivity_never_panics() {
         let numbers: Vec<i64> = (0..40 * n_nodes).map(|_| random(n)).collect();
         let one = numbers.iter().map(|number| number + 1).collect();
         let found = med(&mesh, &[(kind.med, one)]).faces(&patches).expect("nodes that are there");
-        assert!(found.iter().all(|faces| faces.centroid.iter().all(|x| x.is_finite())), "{found:?}");
+        let is_finite = |found: &PatchFaces| match &found.faces {
+            Faces::Known { centroid, .. } => centroid.iter().all(|x| x.is_finite()),
+            Faces::Unknown { reason } => !reason.is_empty(),
+        };
+        assert!(found.iter().all(is_finite), "{found:?}");
         let stream: Vec<i64> = (0..60).map(|_| random(52)).collect();
         let _ = xdmf(&mesh, &topology("Mixed", &stream)).faces(&patches);
     }
@@ -464,7 +586,8 @@ fn faces_are_counted_against_the_memory() {
     let triangles: Vec<Vec<usize>> = triples.collect();
     let bytes = (triangles.len() * 3 * 16) as u64;
     let written = med(&mesh, &[("TR3", columns(&rows(&triangles, 1), 3))]);
-    assert_eq!(written.faces(&patches).expect("room")[0].n_faces, triangles.len());
+    let Faces::Known { count, .. } = written.faces(&patches).expect("room")[0].faces else { panic!("no faces") };
+    assert_eq!(count, triangles.len());
     let outcome = written.faces_within(&patches, Some(bytes + (triangles.len() * 100) as u64));
     assert!(matches!(outcome, Err(Error::MemoryRead { .. })), "{outcome:?}");
 }

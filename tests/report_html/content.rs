@@ -14,6 +14,20 @@ use super::{by_id, parse, report_of_all_checks, sample, text};
 const SCOPE: &str =
     "Proves that the reduction reproduces the supplied K and M. Does not validate the finite element model.";
 
+/// Where the cells of a mesh are of a kind that is not read, summary and page say so in the place of the centroid.
+#[test]
+fn faces_that_are_not_known_are_told_with_the_reason() {
+    let mut report = sample::passing_report();
+    let reason = "the mesh has what supel does not read, cells of type POE";
+    let at = report.body.reduction.interfaces.iter_mut().flat_map(|interface| &mut interface.at);
+    at.for_each(|at| at.faces_unknown = at.faces.take().map(|_| reason.to_owned()));
+    let told = format!("the mean of its nodes; the centroid of its faces is not known: {reason}");
+    let one_line = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(one_line(&html(&report)).contains(&told), "{}", html(&report));
+    let summary = supel::report::summary(&report, supel::report::Paint::Plain);
+    assert!(one_line(&summary).contains(&told), "{summary}");
+}
+
 #[test]
 fn first_page_has_all_that_is_signed_for() {
     let mut report = sample::passing_report();

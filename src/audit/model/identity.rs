@@ -11,6 +11,7 @@ use crate::audit::jobs::differences;
 use crate::audit::kept_job::band;
 use crate::audit::version::kept_job;
 use crate::dofs::Direction;
+use crate::error::Result;
 use crate::input::InputFacts;
 use crate::job::{Boundary, Job};
 use crate::partition::{DofOrigin, InterfaceNode, Partition, ReducedDof};
@@ -250,13 +251,13 @@ pub(super) fn statements(
 }
 
 /// M-26: the job kept in the file asks for what the job at hand asks for, and in the same way.
-pub(super) fn jobs(superelement: &Superelement, job: &Job) -> Vec<Check> {
+pub(super) fn jobs(superelement: &Superelement, job: &Job) -> Result<Vec<Check>> {
     let name = "the job kept in it is the job";
     let equation = "number of keys that decide what is made and differ; paths may differ";
     let Some(kept) = kept_job(superelement) else {
-        return vec![flaw(name, equation, &["it is of another version".to_owned()])];
+        return Ok(vec![flaw(name, equation, &["it is of another version".to_owned()])]);
     };
-    let found = differences(&kept, job);
+    let found = differences(&kept, job)?;
     let way = flaw("it was made in the way of the job", "number of keys that decide how and differ", &found.way);
-    vec![flaw(name, equation, &found.wanted), Check { fail_above: Check::NEVER, ..way }]
+    Ok(vec![flaw(name, equation, &found.wanted), Check { fail_above: Check::NEVER, ..way }])
 }

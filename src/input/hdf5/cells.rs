@@ -1,7 +1,8 @@
 //! Cells of a mesh in one of the formats that live in HDF5, as far as the faces of patches need them.
 //!
 //! A mesh with cells of a kind that is not known here, polygons and polyhedra among them, tells nothing of outer faces: then no face
-//! is known. Neither is one of an `.hmf`, whose kinds of cells are texts of attributes, which are not read.
+//! is known, and the report says which kind it is. Neither is one of an `.hmf`, whose kinds of cells are texts of attributes, which
+//! are not read.
 
 use super::dataset::Dataset;
 use super::faces::{Cell, Gathered, Shape};
@@ -20,26 +21,29 @@ pub(super) enum Kind {
 }
 
 /// Whether all cells of a mesh are of kinds that are known.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Known {
     All,
-    NotAll,
+    /// What the mesh has that is not read, in words.
+    Not(String),
 }
 
-/// The groups of `kinds` with what each of them holds by `kind_of` its name; none where one is unknown.
+/// The groups of `kinds` with what each of them holds by `kind_of` its name, or the one that is unknown.
 pub(super) fn known_groups<'a>(
     kinds: Option<Group<'a>>,
     kind_of: fn(&str) -> Kind,
-) -> Result<Option<Vec<(Group<'a>, Cell)>>> {
+) -> Result<std::result::Result<Vec<(Group<'a>, Cell)>, Known>> {
     let mut known = Vec::new();
     for group in kinds.map(|kinds| kinds.groups()).transpose()?.unwrap_or_default() {
-        match kind_of(group.name().rsplit('/').next().unwrap_or_default()) {
+        let name = group.name();
+        let name = name.rsplit('/').next().unwrap_or_default();
+        match kind_of(name) {
             Kind::Faced(cell) => known.push((group, cell)),
             Kind::Faceless => {}
-            Kind::Unknown => return Ok(None),
+            Kind::Unknown => return Ok(Err(Known::Not(format!("cells of type {name}")))),
         }
     }
-    Ok(Some(known))
+    Ok(Ok(known))
 }
 
 /// The kind of a shape with so many nodes.

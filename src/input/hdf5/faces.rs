@@ -1,23 +1,28 @@
 //! The faces of patches, gathered from the cells of a mesh in whatever format it is.
 //!
-//! A face belongs to a patch when all its nodes do. Cells of surfaces are faces; of volume cells those are that occur once. Two cells
-//! on the sides of a face have all its nodes, so that only faces of patches have to be kept, and a mesh is read once.
+//! A face belongs to a patch when all its nodes do. Of volume cells those are faces that occur once; cells of surfaces are where no
+//! outer face of a volume cell is, see [`covering`]. Two cells on the sides of a face have all its nodes, so that only faces of patches
+//! have to be kept, and a mesh is read once.
 
 mod area;
 mod cell;
+mod covering;
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use area::{Moments, moments};
 pub(super) use cell::{Cell, Shape};
+use covering::{Found, Skin, Volumes, counted};
 
 use super::super::allowance::{Allowance, Claim};
-use super::super::patch::{Patch, PatchFaces, Patches};
+use super::super::patch::{Faces, Patch, PatchFaces, Patches};
 use crate::error::Result;
 
 /// Bytes of a face that is kept.
-const FACE: u64 = 256;
+const FACE: u64 = 384;
+/// Bytes of a face while faces of different kinds are compared.
+const COMPARED: u64 = 256;
 /// Bytes of a node's place in its patch.
 const MEMBER: u64 = 8;
 /// Faces after which their memory is claimed.
@@ -38,22 +43,6 @@ pub(super) struct Gathered<'a> {
     /// Faces of these patches have nodes that are on no edge as far as any order tells.
     is_unclear: Vec<bool>,
     claim: Claim<'a>,
-}
-
-/// A face of a patch.
-struct Found {
-    moments: Moments,
-    kind: Kind,
-}
-
-/// Where a face was found.
-enum Kind {
-    /// It is a cell of a surface.
-    Surface,
-    /// It occurs once, at the volume cell with these corners.
-    Outer(Vec<usize>),
-    /// It lies between two volume cells.
-    Inner,
 }
 
 impl<'a> Gathered<'a> {
@@ -86,7 +75,7 @@ impl<'a> Gathered<'a> {
                 continue;
             }
             match self.moments_of(cell, nodes, face) {
-                Nodes::InPatch(moments) => self.keep((patch, cell), nodes, (face, moments))?,
+                Nodes::InPatch(moments, others) => self.keep((patch, cell), nodes, (face, moments, others))?,
                 Nodes::Unclear => self.is_unclear[patch as usize] = true,
                 Nodes::Elsewhere => {}
             }
@@ -98,18 +87,27 @@ impl<'a> Gathered<'a> {
         &mut self,
         (patch, cell): (u32, Cell),
         nodes: &[usize],
-        (face, moments): (&[usize], Moments),
+        (face, moments, others): (&[usize], Moments, Vec<usize>),
     ) -> Result<()> {
-        let key = sorted(face.iter().map(|corner| nodes[*corner]).collect());
+        let mut corners: Vec<usize> = Vec::with_capacity(face.len());
+        for corner in face.iter().map(|corner| nodes[*corner]) {
+            if !corners.contains(&corner) {
+                corners.push(corner);
+            }
+        }
+        let key = sorted(corners.clone());
         if key.len() < 3 {
             // A corner of the cell was drawn onto another one, and with it the face onto an edge.
             return Ok(());
         }
         let owner = || sorted(nodes[..cell.n_corners()].to_vec());
         if let Some(found) = self.faces.get_mut(&(patch, key.clone())) {
-            match &found.kind {
-                _ if cell.is_surface() => found.kind = Kind::Surface,
-                Kind::Outer(first) if *first != owner() => found.kind = Kind::Inner,
+            match &found.volumes {
+                _ if cell.is_surface() => found.skin = Skin::There,
+                Volumes::None => {
+                    *found = Found { corners, others, moments, skin: Skin::There, volumes: Volumes::One(owner()) };
+                }
+                Volumes::One(first) if *first != owner() => found.volumes = Volumes::Two,
                 _ => {}
             }
             return Ok(());
@@ -117,8 +115,11 @@ impl<'a> Gathered<'a> {
         if self.faces.len().is_multiple_of(FACES_PER_CLAIM) {
             self.claim.add(FACE * FACES_PER_CLAIM as u64)?;
         }
-        let kind = if cell.is_surface() { Kind::Surface } else { Kind::Outer(owner()) };
-        self.faces.insert((patch, key), Found { moments, kind });
+        let (skin, volumes) = match cell.is_surface() {
+            true => (Skin::There, Volumes::None),
+            false => (Skin::None, Volumes::One(owner())),
+        };
+        self.faces.insert((patch, key), Found { corners, others, moments, skin, volumes });
         Ok(())
     }
 
@@ -130,33 +131,35 @@ impl<'a> Gathered<'a> {
             return Nodes::Elsewhere;
         };
         if cell.n_nodes() == cell.n_corners() {
-            return Nodes::InPatch(moments(&corners, &[]));
+            return Nodes::InPatch(moments(&corners, &[]), Vec::new());
         }
         let ends = |at: usize| [face[at], face[(at + 1) % face.len()]];
-        let middles_in = |edges: &cell::Edges| -> Option<Vec<[f64; 3]>> {
+        let middles_in = |edges: &cell::Edges| -> Option<(Vec<usize>, Vec<[f64; 3]>)> {
             let middle = |at: usize| {
                 let [a, b] = ends(at);
                 let edge = edges.iter().position(|edge| *edge == [a, b] || *edge == [b, a])?;
-                place(cell.n_corners() + edge)
+                let node = cell.n_corners() + edge;
+                Some((nodes[node], place(node)?))
             };
             (0..face.len()).map(middle).collect()
         };
-        let known: Vec<Vec<[f64; 3]>> = cell.orders().iter().filter_map(middles_in).collect();
-        let fit = |middles: &&Vec<[f64; 3]>| misfit(&corners, middles);
-        let Some(middles) = known.iter().min_by(|a, b| fit(a).total_cmp(&fit(b))) else { return Nodes::Elsewhere };
+        let known: Vec<(Vec<usize>, Vec<[f64; 3]>)> = cell.orders().iter().filter_map(middles_in).collect();
+        let fit = |(_, middles): &&(Vec<usize>, Vec<[f64; 3]>)| misfit(&corners, middles);
+        let best = known.iter().min_by(|a, b| fit(a).total_cmp(&fit(b)));
+        let Some((others, middles)) = best else { return Nodes::Elsewhere };
         if misfit(&corners, middles) > NEAR_MIDDLE {
             return Nodes::Unclear;
         }
+        let mut others = others.clone();
         let has_centre = face.len() == 4 || cell.is_surface();
-        let mut central = (cell.first_central()..cell.n_nodes()).map(place).peekable();
-        if has_centre && central.peek().is_some() {
+        if has_centre && cell.first_central() < cell.n_nodes() {
             let middle = mean(middles);
             let size = (0..face.len()).map(|at| distance(corners[at], middle)).fold(0.0, f64::max);
-            if !central.flatten().any(|node| distance(node, middle) <= NEAR_MIDDLE * size) {
-                return Nodes::Elsewhere;
-            }
+            let is_centre = |node: &usize| place(*node).is_some_and(|at| distance(at, middle) <= NEAR_MIDDLE * size);
+            let Some(centre) = (cell.first_central()..cell.n_nodes()).find(is_centre) else { return Nodes::Elsewhere };
+            others.push(nodes[centre]);
         }
-        Nodes::InPatch(moments(&corners, middles))
+        Nodes::InPatch(moments(&corners, middles), others)
     }
 
     /// Where a node of the file is relative to the first node of a patch, if it belongs to it.
@@ -167,28 +170,50 @@ impl<'a> Gathered<'a> {
     }
 
     /// The centroids of the patches that have faces.
-    pub(super) fn into_centroids(self) -> Vec<PatchFaces> {
-        let mut sums = vec![(0, Moments::default()); self.patches.list.len()];
-        for ((patch, _), found) in &self.faces {
-            let (n_faces, sum) = &mut sums[*patch as usize];
-            if !matches!(found.kind, Kind::Inner) {
-                *n_faces += 1;
-                *sum = sum.plus(found.moments);
-            }
-        }
-        let centroid = |((patch, is_unclear), (n_faces, sum)): ((&Patch, bool), (usize, Moments))| {
-            let from = patch.positions.first()?;
-            let centroid = std::array::from_fn(|axis| from[axis] + sum.first[axis] / sum.area);
-            let is_known = !is_unclear && sum.area > 0.0;
-            is_known.then(|| PatchFaces { interface: patch.interface.clone(), n_faces, centroid })
+    ///
+    /// # Errors
+    /// [`crate::error::Error::MemoryRead`].
+    pub(super) fn into_centroids(self) -> Result<Vec<PatchFaces>> {
+        self.claim.add(COMPARED * self.faces.len() as u64)?;
+        let mut of_patch: Vec<Vec<&Found>> = vec![Vec::new(); self.patches.list.len()];
+        self.faces.iter().for_each(|((patch, _), found)| of_patch[*patch as usize].push(found));
+        let known = |((patch, is_unclear), faces): ((&Patch, &bool), &Vec<&Found>)| {
+            let unknown = |reason: &str| Some(Faces::Unknown { reason: reason.to_owned() });
+            let faces = match counted(faces) {
+                _ if *is_unclear => unknown("nodes of edges come in an order that no format has")?,
+                None => unknown("cells of one kind cover faces of another in part")?,
+                Some(counted) => centroid(patch, &counted)?,
+            };
+            Some(PatchFaces { interface: patch.interface.clone(), faces })
         };
-        self.patches.list.iter().zip(self.is_unclear.iter().copied()).zip(sums).filter_map(centroid).collect()
+        Ok(self.patches.list.iter().zip(&self.is_unclear).zip(&of_patch).filter_map(known).collect())
     }
+
+    /// Every patch with the reason why no face is known.
+    pub(super) fn unknown(&self, reason: &str) -> Vec<PatchFaces> {
+        let unknown = |patch: &Patch| PatchFaces {
+            interface: patch.interface.clone(),
+            faces: Faces::Unknown { reason: reason.to_owned() },
+        };
+        self.patches.list.iter().map(unknown).collect()
+    }
+}
+
+/// The area-weighted centroid of faces; none where they have no area.
+fn centroid(patch: &Patch, faces: &[&Found]) -> Option<Faces> {
+    let from = patch.positions.first()?;
+    let mut sum = Moments::default();
+    for found in faces {
+        sum = sum.plus(found.moments);
+    }
+    let centroid = std::array::from_fn(|axis| from[axis] + sum.first[axis] / sum.area);
+    (sum.area > 0.0).then_some(Faces::Known { count: faces.len(), centroid })
 }
 
 /// What is known of the nodes of a face whose corners are in a patch.
 enum Nodes {
-    InPatch(Moments),
+    /// All are in it: area and first moment, and the nodes that are no corners.
+    InPatch(Moments, Vec<usize>),
     /// One of its nodes is not in the patch.
     Elsewhere,
     /// All may be in it, in an order that is not known.

@@ -8,7 +8,10 @@ use crate::error::Result;
 
 pub(super) fn read(root: &Group<'_>, faces: &mut Gathered<'_>) -> Result<Known> {
     let step = med::step(&med::mesh(root)?)?;
-    let Some(kinds) = known_groups(step.find_group("MAI")?, kind_of)? else { return Ok(Known::NotAll) };
+    let kinds = match known_groups(step.find_group("MAI")?, kind_of)? {
+        Ok(kinds) => kinds,
+        Err(unknown) => return Ok(unknown),
+    };
     for (group, cell) in kinds {
         let connectivity = group.dataset("NOD")?;
         let numbers = connectivity.integers()?;

@@ -8,7 +8,10 @@ use crate::error::Result;
 pub(super) fn read(root: &Group<'_>, faces: &mut Gathered<'_>) -> Result<Known> {
     let tstt = root.group("tstt")?;
     let first = tstt.dataset("nodes/coordinates")?.integer_attribute("start_id")?.unwrap_or(1);
-    let Some(kinds) = known_groups(tstt.find_group("elements")?, kind_of)? else { return Ok(Known::NotAll) };
+    let kinds = match known_groups(tstt.find_group("elements")?, kind_of)? {
+        Ok(kinds) => kinds,
+        Err(unknown) => return Ok(unknown),
+    };
     for (group, cell) in kinds {
         let connectivity = group.dataset("connectivity")?;
         let shape = connectivity.shape()?;

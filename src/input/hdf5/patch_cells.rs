@@ -29,7 +29,10 @@ pub(crate) fn read_faces(path: &Path, patches: &Patches, allowance: &Allowance) 
             Ok((faces, known))
         })?
     };
-    Ok(if known == Known::All { faces.into_centroids() } else { Vec::new() })
+    match known {
+        Known::All => faces.into_centroids(),
+        Known::Not(what) => Ok(faces.unknown(&format!("the mesh has what supel does not read, {what}"))),
+    }
 }
 
 fn read_format(h5: &H5<'_>, faces: &mut Gathered<'_>) -> Result<Known> {
@@ -39,6 +42,6 @@ fn read_format(h5: &H5<'_>, faces: &mut Gathered<'_>) -> Result<Known> {
     }
     match root.member("tstt")? {
         Some(Member::Group) => moab_cells::read(&root, faces),
-        _ => Ok(Known::NotAll),
+        _ => Ok(Known::Not("a table of cells in the layout of .hmf".to_owned())),
     }
 }

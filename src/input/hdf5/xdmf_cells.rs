@@ -29,17 +29,22 @@ pub(super) fn read(path: &Path, allowance: &Allowance, faces: &mut Gathered<'_>)
             // It stands in the document a second time.
             continue;
         }
-        let Some(topology) = Topology::of(node) else { return Ok(Known::NotAll) };
+        let topology = match Topology::of(node) {
+            Ok(topology) => topology,
+            Err(what) => return Ok(Known::Not(what)),
+        };
         if topology.cells == Cells::Of(Kind::Faceless) || !seen.insert((topology.kind, topology.content)) {
             continue;
         }
-        let Some(numbers) = topology.numbers(path, allowance, &of_numbers)? else { return Ok(Known::NotAll) };
+        let Some(numbers) = topology.numbers(path, allowance, &of_numbers)? else {
+            return Ok(Known::Not("a Topology whose numbers lie outside the folder".to_owned()));
+        };
         let known = match topology.cells {
             Cells::Of(Kind::Faced(cell)) => topology.add_table(faces, cell, (path, &numbers))?,
-            Cells::Of(_) => Known::NotAll,
+            Cells::Of(_) => Known::Not(format!("a Topology of type {}", topology.kind)),
             Cells::Mixed => topology.add_stream(faces, (path, &numbers))?,
         };
-        if known == Known::NotAll {
+        if known != Known::All {
             return Ok(known);
         }
     }
@@ -65,33 +70,39 @@ struct Topology<'a> {
 }
 
 impl<'a> Topology<'a> {
-    /// None where it is one that is not known here.
-    fn of(node: Node<'a, '_>) -> Option<Self> {
-        let kind = node.attribute("TopologyType").or_else(|| node.attribute("Type"))?;
+    /// What it is in words where it is one that is not known here.
+    fn of(node: Node<'a, '_>) -> std::result::Result<Self, String> {
+        let kind = node.attribute("TopologyType").or_else(|| node.attribute("Type"));
+        let kind = kind.ok_or("a Topology without a type")?;
         let cells = cells_of(kind);
-        let first = node.attribute("BaseOffset").map_or(Some(0), |offset| offset.trim().parse().ok())?;
+        if cells == Cells::Of(Kind::Unknown) {
+            return Err(format!("a Topology of type {kind}"));
+        }
+        let offset = node.attribute("BaseOffset");
+        let first = offset.map_or(Ok(0), |offset| {
+            offset.trim().parse().map_err(|_| "a Topology with a BaseOffset that is no number")
+        })?;
         let mut items = node.children().filter(|child| child.tag_name().name() == "DataItem");
-        let (item, None) = (items.next(), items.next()) else { return None };
+        let (item, None) = (items.next(), items.next()) else {
+            return Err("a Topology with several data items".to_owned());
+        };
         let Some(item) = item else {
             // A cloud of points needs no numbers.
             let is_none = cells == Cells::Of(Kind::Faceless);
-            return is_none.then_some(Self { kind, cells, is_hdf5: false, content: "", dimensions: None, first });
+            let points = Self { kind, cells, is_hdf5: false, content: "", dimensions: None, first };
+            return if is_none { Ok(points) } else { Err("a Topology without a data item".to_owned()) };
         };
         let is_uniform = item.attribute("ItemType").is_none_or(|kind| kind == "Uniform");
-        if cells == Cells::Of(Kind::Unknown)
-            || node.has_attribute("Order")
-            || item.has_attribute("Reference")
-            || !is_uniform
-        {
-            return None;
+        if node.has_attribute("Order") || item.has_attribute("Reference") || !is_uniform {
+            return Err("a Topology with an order of its own, a reference or a computed item".to_owned());
         }
         let is_hdf5 = match item.attribute("Format").unwrap_or("XML").to_ascii_uppercase().as_str() {
             "HDF" => true,
             "XML" => false,
-            _ => return None,
+            other => return Err(format!("a Topology in the format {other}")),
         };
         let (content, dimensions) = (item.text().unwrap_or("").trim(), item.attribute("Dimensions"));
-        Some(Self { kind, cells, is_hdf5, content, dimensions, first })
+        Ok(Self { kind, cells, is_hdf5, content, dimensions, first })
     }
 
     /// All numbers of the data item; none where they lie outside the folder, where nothing is read.
@@ -150,7 +161,7 @@ impl<'a> Topology<'a> {
             let (found, length) = match self.coded(*code, numbers.get(at + 1), (path, at))? {
                 Coded::Cell(cell) => (Some(cell), 1 + cell.n_nodes()),
                 Coded::Faceless(length) => (None, length),
-                Coded::Unknown => return Ok(Known::NotAll),
+                Coded::Unknown => return Ok(Known::Not(format!("cells of type {code}"))),
             };
             let Some(end) = at.checked_add(length).filter(|end| *end <= numbers.len()) else {
                 let expected = format!("{length} for the cell that begins at value {at}");
@@ -190,8 +201,8 @@ impl<'a> Topology<'a> {
             41 => cell(Shape::Wedge, 18),
             48 => cell(Shape::Brick, 20),
             50 => cell(Shape::Brick, 27),
-            // Polygons, polyhedra, bricks of 24 nodes and of higher order.
-            3 | 16 | 49 | 51.. => Coded::Unknown,
+            // Polygons, polyhedra, bricks of 24 nodes, of higher order and spectral ones: the last numbers that a version has.
+            3 | 16 | 49 | 51..=58 | 64..=71 => Coded::Unknown,
             _ => {
                 let (path, object, found) = (path.to_owned(), self.source(), format!("the code {code} at value {at}"));
                 return Err(Error::Hdf5Type { path, object, found, expected: "a kind of cell" });

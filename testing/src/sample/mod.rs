@@ -100,6 +100,7 @@ fn body() -> ReportBody {
                         position: [0.25, 0.0, -1.5e-3],
                         origin: PositionOrigin::MeanOfNodes,
                         faces: Some(FacesReport { count: 80, centroid: [0.25, 3e-3, -5.5e-3], distance: 5e-3 }),
+                        faces_unknown: None,
                     }],
                 },
                 InterfaceReport {

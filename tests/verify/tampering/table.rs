@@ -180,7 +180,7 @@ impl Sound<'_> {
         if !audit::is_of_this_version(altered) {
             return Seen::Refused;
         }
-        match audit::reproduced(altered, self.superelement, self.job).verdict() {
+        match audit::reproduced(altered, self.superelement, self.job).expect("names in UTF-8").verdict() {
             Verdict::Fail => Seen::Fails,
             _ => Seen::of(against),
         }

@@ -1,5 +1,7 @@
 //! The job document: what is accepted, and the one clear message for each mistake.
 
+mod by_schema;
+
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
@@ -87,7 +89,7 @@ fn message(document: &Value) -> String {
 }
 
 fn schema() -> jsonschema::Validator {
-    let schema: Value = serde_json::from_str(include_str!("../schemas/job.schema.json")).expect("schema is JSON");
+    let schema: Value = serde_json::from_str(include_str!("../../schemas/job.schema.json")).expect("schema is JSON");
     jsonschema::validator_for(&schema).expect("schema is a schema")
 }
 
@@ -185,6 +187,11 @@ fn values_of_the_wrong_kind_are_located() {
     assert!(wrong("origin   = [0, 0, 12.5]", "origin = \"middle\"").contains("\"centroid\" or [x, y, z]"));
     assert!(wrong("radius = 5", "inner_radius = 5").contains("missing field `radius`"));
     assert!(wrong("[write]", "[write").starts_with("job.toml:40:"));
+    insta::assert_snapshot!(wrong("{ up_to_hz = 1000 }", "[3, 4]"), @"job.toml:28: `reduction.modes` is a list – expected a table with keys of count, up_to_hz");
+    insta::assert_snapshot!(wrong("12.5]", "12.5, 0]"), @"job.toml:14: `interface[0].origin` is a list of 4 – expected 3");
+    insta::assert_snapshot!(wrong("\"none\"", "{ none = {} }"), @"job.toml:37: `run.certify` is a table – expected a text, a number, a list or a word, as docs/job.md says");
+    insta::assert_snapshot!(message(&with("/model/dofs", Value::Null)), @"job.json: `model.dofs` is null – expected a value, or the key left out");
+    insta::assert_snapshot!(message(&json!([1, 2])), @"job.json: the job is a list – expected a table with keys of interface, model, reduction, run, scene, write");
     let error = Job::parse("{\n \"model\": }", Path::new("job.json")).expect_err("not JSON");
     assert_eq!(error.to_string(), "job.json:2: expected value");
 }
@@ -323,9 +330,51 @@ fn names_of_outputs_say_what_they_are() {
         message(&with("/write/superelement", "x.h5".into())),
         "`write.superelement` is x.h5 – expected a name that ends in .supel"
     );
-    assert!(matches!(read(&with("/write/superelement", "out/.supel".into())), Err(Error::OutputName { .. })));
+    for name in ["out/.supel", "x.supel/", "x.supel/.", ".supel", "supel", ""] {
+        assert!(matches!(read(&with("/write/superelement", name.into())), Err(Error::OutputName { .. })), "{name}");
+    }
     for (key, name) in [("/write/report", "x.txt"), ("/write/html", "x.htm"), ("/write/junit", ".xml")] {
         assert!(matches!(read(&with(key, name.into())), Err(Error::OutputName { .. })), "{key}");
+    }
+}
+
+/// Names that JSON cannot hold are refused with their key before a file is looked at, wherever in the path they are.
+#[cfg(unix)]
+#[test]
+fn names_that_are_not_utf8_are_refused() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let folder = OsStr::from_bytes(b"/home/J\xf6rg/model");
+    let error = read(&small()).expect("a job").resolve(Path::new(folder)).expect_err("a folder");
+    assert_eq!((error.code(), error.class()), ("E-NAME", ErrorClass::Usage));
+    assert_eq!(
+        error.to_string(),
+        "`model.stiffness` is \"/home/J\\xF6rg/model/K.mtx\" – expected a name in UTF-8, as the report and the superelement \
+         keep names – rename \"J\\xF6rg\""
+    );
+    type Change = fn(&mut Job, PathBuf);
+    let changes: [(&str, Change); 8] = [
+        ("model.stiffness", |job, path| job.model.stiffness = path),
+        ("model.mass", |job, path| job.model.mass = path),
+        ("model.dofs", |job, path| job.model.dofs = Some(path)),
+        ("model.nodes", |job, path| job.model.nodes = Some(path)),
+        ("write.superelement", |job, path| job.write.superelement = path),
+        ("write.report", |job, path| job.write.report = Some(path)),
+        ("write.html", |job, path| job.write.html = Some(path)),
+        ("write.junit", |job, path| job.write.junit = Some(path)),
+    ];
+    for (key, change) in changes {
+        let ending = match key {
+            "write.superelement" => "supel",
+            "write.report" => "json",
+            "write.html" => "html",
+            _ => "xml",
+        };
+        let mut job = read(&small()).expect("a job");
+        change(&mut job, PathBuf::from(OsStr::from_bytes(&[b"x\xff.", ending.as_bytes()].concat())));
+        job.validate().expect("the ending is right");
+        let error = job.resolve(Path::new("/a")).expect_err(key);
+        assert!(matches!(&error, Error::NameNotText { key: found, .. } if *found == key), "{key}: {error}");
     }
 }
 

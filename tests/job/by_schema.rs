@@ -1,0 +1,229 @@
+//! Every value of jobs with every key, replaced by every kind of value: the schema and the program accept the same ones.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use serde_json::{Map, Value, json};
+use supel::error::{Error, Result};
+use supel::job::Job;
+
+use super::schema;
+
+/// Jobs that together have every key. No number that the changes put in crosses another one: corners of a box stay in order.
+fn jobs() -> Vec<Value> {
+    let regions = [
+        json!({ "box": { "min": [-9.5, -9.5, -9.5], "max": [9.5, 9.5, 9.5] } }),
+        json!({ "plane": { "point": [0.25, 1.25, 2.25], "normal": [0.5, 0.5, 0.5], "tolerance": 0.25 } }),
+        json!({ "cylinder": { "from": [0.25, 0.5, 0.75], "to": [3.25, 4.25, 5.25], "radius": 9.5, "inner_radius": 0.25 } }),
+        json!({ "sphere": { "center": [0.25, 1.25, 2.25], "radius": 0.25 } }),
+    ];
+    let job = |interfaces: Value, modes: Value, recovered: Value| {
+        json!({
+            "model": {
+                "stiffness": "K.mtx", "mass": "M.mtx", "dofs": "m.dof", "nodes": "n.csv", "symmetric": "lower", "duplicates": "refuse",
+                "drop_empty": true, "units": "mm", "held_rotations": ["rx", "rz"],
+                "expect": { "mass": 2.5, "cg": [0.25, 1.25, 2.25] },
+            },
+            "interface": interfaces,
+            "reduction": { "method": "herting", "modes": modes, "eigensolver": "arpack" },
+            "scene": { "band_hz": [0.25, 500.5], "boundaries": ["free", "fix:hub", "mass:hub", "mass:hub=2.5"], "damping": { "ratio": 0.25 } },
+            "run": { "certify": "full", "memory_gib": 4.5, "precision": "mixed" },
+            "write": {
+                "superelement": "x.supel", "report": "x.json", "html": "x.html", "junit": "x.xml",
+                "recovery": { "nodes": recovered, "precision": "single" },
+            },
+        })
+    };
+    let labels = json!([{ "name": "hub", "nodes": [7, 8], "coupling": "direct", "dofs": ["ux", "rz"] }]);
+    let mut jobs = vec![
+        job(labels, json!({ "count": 5 }), json!([4, 6])),
+        job(json!([{ "name": "hub", "nodes": { "rows": [3, 5] } }]), json!({ "up_to_hz": 100.5 }), json!("group:SKIN")),
+        job(
+            json!([{ "name": "hub", "nodes": "group:HUB", "coupling": "rigid", "origin": "centroid" }]),
+            json!({ "count": 5 }),
+            json!("group:SKIN"),
+        ),
+    ];
+    jobs.extend(regions.map(|region| {
+        let hub = json!([{ "name": "hub", "nodes": { "within": region }, "coupling": "rigid", "origin": [0.25, 1.25, 2.25] }]);
+        job(hub, json!({ "count": 5 }), json!({ "within": { "sphere": { "center": [0.25, 1.25, 2.25], "radius": 0.25 } } }))
+    }));
+    jobs
+}
+
+/// What is put in the place of every value.
+fn values() -> Vec<Value> {
+    vec![
+        Value::Null,
+        json!(true),
+        json!(0),
+        json!(-1),
+        json!(1.5),
+        json!(-0.5),
+        json!(7),
+        json!(""),
+        json!(" "),
+        json!("x"),
+        json!("nan"),
+        json!("group:"),
+        json!("group:X"),
+        json!("mass:hub=0"),
+        json!("mass:hub=-2"),
+        json!("mass:hub=nan"),
+        json!("mass:hub=1e"),
+        json!("mass:hub=+.5e-3"),
+        json!([]),
+        json!([1.5]),
+        json!([1, 2, 3]),
+        json!(["ux"]),
+        json!(["ux", "ux"]),
+        json!(["x"]),
+        json!([null]),
+        json!([[]]),
+        json!({}),
+        json!({ "zzz": 1 }),
+        json!({ "none": {} }),
+        json!({ "none": null }),
+    ]
+}
+
+/// The places of all values of a document, the document itself first.
+fn places(value: &Value, place: &str, found: &mut Vec<String>) {
+    found.push(place.to_owned());
+    match value {
+        Value::Object(fields) => fields.iter().for_each(|(key, value)| places(value, &format!("{place}/{key}"), found)),
+        Value::Array(items) => {
+            items.iter().enumerate().for_each(|(at, item)| places(item, &format!("{place}/{at}"), found));
+        }
+        _ => {}
+    }
+}
+
+/// The job with one thing changed, in every way.
+fn changed(job: &Value) -> Vec<Value> {
+    let (mut all, mut cases) = (Vec::new(), Vec::new());
+    places(job, "", &mut all);
+    for place in all {
+        let mut put = |value: Value| {
+            let mut case = job.clone();
+            *case.pointer_mut(&place).expect("a place") = value;
+            cases.push(case);
+        };
+        values().into_iter().for_each(&mut put);
+        match job.pointer(&place).expect("a place") {
+            Value::Object(fields) => {
+                let with =
+                    |key: &str| fields.iter().map(|(k, v)| (k.clone(), v.clone())).chain([(key.to_owned(), json!(1))]);
+                put(Value::Object(with("zzz").collect()));
+                for key in fields.keys() {
+                    put(Value::Object(
+                        fields.iter().filter(|(k, _)| *k != key).map(|(k, v)| (k.clone(), v.clone())).collect(),
+                    ));
+                }
+                // Values by position, without their keys.
+                put(Value::Array(fields.values().cloned().collect()));
+            }
+            Value::Array(items) => {
+                put(Value::Array(items[1..].to_vec()));
+                put(Value::Array([&items[..], &items[..1]].concat()));
+                put(Value::Object(
+                    items.iter().enumerate().map(|(at, item)| (at.to_string(), item.clone())).collect::<Map<_, _>>(),
+                ));
+            }
+            _ => {}
+        }
+    }
+    cases
+}
+
+/// Whether an error is about two keys that do not go together, which a schema of single values cannot tell.
+fn is_about_two_keys(error: &Error) -> bool {
+    matches!(
+        error,
+        Error::SceneInterface { .. }
+            | Error::InterfaceConflict { .. }
+            | Error::InterfaceOverlap { .. }
+            | Error::InterfaceTwice { .. }
+    )
+}
+
+fn accepted(text: &str, path: &str) -> Result<()> {
+    Job::parse(text, Path::new(path))?.validate()
+}
+
+#[test]
+fn schema_and_program_agree_on_every_value() {
+    let schema = schema();
+    let (mut n_accepted, mut n_cases, mut disagreements) = (0, 0, Vec::new());
+    let mut cases: BTreeSet<String> = BTreeSet::new();
+    for job in jobs() {
+        assert!(schema.is_valid(&job), "{job:#}");
+        cases.extend(changed(&job).iter().map(Value::to_string));
+    }
+    for text in &cases {
+        let case: Value = serde_json::from_str(text).expect("JSON");
+        let is_valid = schema.is_valid(&case);
+        let mut programs = vec![accepted(text, "job.json")];
+        // TOML has no null.
+        programs.extend(
+            toml::to_string(&case).ok().filter(|_| !text.contains("null")).map(|text| accepted(&text, "job.toml")),
+        );
+        for found in programs {
+            n_cases += 1;
+            n_accepted += usize::from(found.is_ok());
+            let is_allowed = found.as_ref().is_err_and(is_about_two_keys);
+            if is_valid != found.is_ok() && !is_allowed {
+                disagreements.push(format!("{is_valid} by the schema, {found:?}: {text}"));
+            }
+        }
+    }
+    assert!(
+        disagreements.is_empty(),
+        "{} of {n_cases}, first {:#?}",
+        disagreements.len(),
+        &disagreements[..disagreements.len().min(12)]
+    );
+    assert!(n_cases > 5000 && n_accepted > 200, "{n_accepted} of {n_cases} are accepted");
+}
+
+/// The jobs have every key, so that every key was changed.
+#[test]
+fn the_changed_jobs_have_every_key() {
+    fn keys(part: &Value, found: &mut BTreeSet<String>) {
+        match part {
+            Value::Object(fields) => fields.values().for_each(|value| keys(value, found)),
+            Value::Array(items) => items.iter().for_each(|item| keys(item, found)),
+            _ => {}
+        }
+        found.extend(part["properties"].as_object().into_iter().flat_map(|keys| keys.keys().cloned()));
+    }
+    let mut wanted = BTreeSet::new();
+    keys(&supel::job::schema(), &mut wanted);
+    let mut there = Vec::new();
+    jobs().iter().for_each(|job| places(job, "", &mut there));
+    let there: BTreeSet<&str> = there.iter().filter_map(|place| place.rsplit('/').next()).collect();
+    let missing: Vec<&String> = wanted.iter().filter(|key| !there.contains(key.as_str())).collect();
+    assert!(missing.is_empty() && wanted.len() > 40, "{missing:?} of {}", wanted.len());
+}
+
+/// TOML has numbers that JSON has not.
+#[test]
+fn numbers_that_are_none_are_refused_everywhere() {
+    let mut n_numbers = 0;
+    for job in jobs() {
+        let mut all = Vec::new();
+        places(&job, "", &mut all);
+        for place in all.iter().filter(|place| job.pointer(place).is_some_and(Value::is_number)) {
+            let mut marked = job.clone();
+            *marked.pointer_mut(place).expect("a place") = json!(123_456.5);
+            let text = toml::to_string(&marked).expect("TOML");
+            for none in ["nan", "-nan", "inf", "-inf"] {
+                let case = text.replace("123456.5", none);
+                assert_ne!(case, text);
+                assert!(accepted(&case, "job.toml").is_err(), "{place} = {none}");
+            }
+            n_numbers += 1;
+        }
+    }
+    assert!(n_numbers > 50, "{n_numbers}");
+}
