@@ -1094,8 +1094,8 @@ pub enum Error {
     },
     /// The job kept in a superelement is none that this version can run.
     #[error(
-        "{}: the job kept in the file is none of {} {} – found one of another version, or none – run that version, or take \
-         the job document itself",
+        "{}: the job kept in the file is none of {} {} – found one of another version, or none – run that version, or give \
+         the job by verify --job",
         path.display(), env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION")
     )]
     KeptJob {

@@ -363,7 +363,7 @@ codes! {
         "run that version, or compare with `verify --job` alone";
     KeptJob => "E-KEPT-JOB", Usage,
         "`verify --reproduce` or `inspect --job` of a file that keeps no job of this version",
-        "run the version that made it, or take the job document itself";
+        "run the version that made it, or give the job by `verify --job`";
     Threads => "E-THREADS", Resources,
         "the working threads cannot be started",
         "ask for fewer with `--threads`";
