@@ -4,6 +4,7 @@
 #[path = "../end_to_end/place.rs"]
 mod place;
 
+mod degenerate;
 mod document;
 mod healthy;
 mod model;
