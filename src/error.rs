@@ -1508,7 +1508,7 @@ pub enum Error {
     SturmPivot,
     /// Lanczos did not converge.
     #[error(
-        "the eigensolver stalled after {restarts} restarts – found {converged} converged modes – ask for fewer modes or a narrower band"
+        "the eigensolver stalled after {restarts} restarts – found {converged} converged modes – ask for another number of modes or another band, or set the other eigensolver in the job"
     )]
     LanczosStalled {
         /// Restarts done.
@@ -1545,7 +1545,7 @@ pub enum Error {
     EigensolverMissing,
     /// The second eigensolver failed.
     #[error(
-        "ARPACK failed with status {status} after {converged} converged modes – leave reduction.eigensolver (reduce --eigensolver) out to use lanczos"
+        "ARPACK failed with status {status} after {converged} converged modes – set eigensolver = \"lanczos\" in the job"
     )]
     Arpack {
         /// Its `info`.

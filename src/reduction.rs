@@ -18,7 +18,7 @@ use crate::basis::Basis;
 use crate::dense;
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
-use crate::sparse::{SparseMatrix, panels, product};
+use crate::sparse::{SparseMatrix, absolute_energy, panels, product};
 
 /// The reduced matrices, in scaled units.
 #[derive(Clone, Debug)]
@@ -40,7 +40,8 @@ pub struct Reduction {
 /// What was measured before it was mended.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Projection {
-    /// max |K̂_Bη| / √(K_BB K̂_ηη) over all entries (M-13); of a rigid component, max |K̂_BB| / √(K_BB K_BB).
+    /// max |K̂_Bη| / √(K_BB K̂_ηη) over all entries (M-13); of a rigid component, max |K̂| / √(t_i t_j) with t the terms it is the
+    /// rounding of.
     pub block_coupling: f64,
     /// The entry it is reached at.
     pub block_coupling_at: (usize, usize),
@@ -56,9 +57,9 @@ impl Reduction {
         let (mut stiffness, mut mass) =
             rayon::join(|| project(&partition.stiffness, basis), || project(&partition.mass, basis));
         let n_b = partition.n_interface();
-        // K̂Û = 0 with a regular Û: the component is rigid, and what was projected is rounding.
-        let is_rigid = n_b > 0 && rigid.count() == basis.n_reduced();
-        let rounding = is_rigid.then(|| clear_all(&mut stiffness, partition));
+        // K̂Û = 0 with a regular Û: the component is rigid as far as its coordinates go, and what was projected is rounding.
+        let is_rigid = rigid.count() == basis.n_reduced();
+        let rounding = is_rigid.then(|| clear_all(&mut stiffness, partition, basis));
         let mut measured = Projection {
             stiffness_asymmetry: dense::symmetrise(&mut stiffness),
             mass_asymmetry: dense::symmetrise(&mut mass),
@@ -148,11 +149,15 @@ fn clear_rigid_body(stiffness: &mut Mat<f64>, n_rigid: usize) -> Worst {
     clear(stiffness, [0..r, 0..n_rigid], |_, _| size)
 }
 
-/// Sets K̂ of a rigid component to zero and says how large it was, relative to the diagonal of K_BB, of whose terms it is the
-/// rounding.
-fn clear_all(stiffness: &mut Mat<f64>, partition: &Partition) -> Worst {
+/// Sets K̂ of a rigid component to zero and says how large it was, relative to what it is the rounding of: the diagonal of K_BB,
+/// or without an interface the terms |Ψ|ᵀ|K||Ψ| of its rigid-body modes.
+fn clear_all(stiffness: &mut Mat<f64>, partition: &Partition, basis: &Basis) -> Worst {
     let r = stiffness.nrows();
-    clear(stiffness, [0..r, 0..r], |i, j| (uncondensed(partition, i) * uncondensed(partition, j)).abs().sqrt())
+    let sizes: Vec<f64> = match partition.n_interface() {
+        0 => absolute_energy(&partition.stiffness, basis.dynamic_modes.as_ref()),
+        _ => (0..r).map(|i| uncondensed(partition, i)).collect(),
+    };
+    clear(stiffness, [0..r, 0..r], |i, j| (sizes[i] * sizes[j]).abs().sqrt())
 }
 
 /// Sets K̂_Bη to zero and says how large it was, relative to the diagonal: for an interface dof that of K_BB, of whose

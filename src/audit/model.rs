@@ -16,6 +16,7 @@ mod bars;
 mod columns;
 mod combined;
 mod comparison;
+mod dependence;
 mod entries;
 mod full;
 mod identity;
@@ -108,7 +109,7 @@ impl<'a> Reference<'a> {
         let mut audit = self.identity(superelement, &file)?;
         let checks = &mut audit.checks;
         checks.push(bars::frequencies(&file, &self.asked, self.partition.precision));
-        checks.push(bars::error_bars(superelement, &self.asked));
+        checks.push(bars::error_bars(superelement, &file, &self.asked));
         checks.push(self.motions.count(&file));
         if file.n_b != self.partition.n_interface() {
             audit.notes.push("the interface of the job has another number of dofs: no matrix was compared".to_owned());
@@ -131,13 +132,17 @@ impl<'a> Reference<'a> {
         checks.extend(identity::jobs(superelement, self.job)?);
         checks.push(identity::interface(superelement, self.partition));
         checks.push(identity::statements(superelement, (self.partition, self.job), &self.motions));
+        audit.notes.extend(self.asked.note());
+        let checks = &mut audit.checks;
         checks.push(self.asked.backward_error());
         checks.extend(self.asked.count());
         checks.push(identity::n_modes(superelement, &self.asked));
         checks.push(identity::modal_coordinates(superelement, &self.projected, self.asked.boundary));
         checks.push(self.solves());
         match condition_of(file.m.as_ref())? < SINGULAR {
-            true => checks.extend(identity::dropped(superelement, &self.projected, self.asked.boundary)),
+            true => {
+                checks.extend(identity::dropped(superelement, (&self.projected, self.partition), self.asked.boundary))
+            }
             false => audit.notes.push(
                 "its mass is singular: which columns depend on those that were kept is not seen in it".to_owned(),
             ),
@@ -154,7 +159,14 @@ impl<'a> Reference<'a> {
                 let relief = (!self.motions.has_unit() && file.n_b > 0).then(|| self.motions.combination(file).0);
                 let mixing = file.mixing.as_ref().filter(|_| !is_modal).map(Mat::as_ref);
                 let freedom = Freedom { kept: &kept, groups: &self.asked.groups, relief, mixing };
-                combination(file, projected, &freedom)
+                combination(file, projected, &freedom).unwrap_or_else(|| {
+                    audit.notes.push(
+                        "modes of one cluster may turn without the interface seeing it: of its matrices only the interface was \
+                         compared"
+                            .to_owned(),
+                    );
+                    Combination::of_interface(projected)
+                })
             }
             None => {
                 audit.notes.push(

@@ -117,9 +117,22 @@ fn backward_error(content: &Content<'_>, lambda: f64, q: &[f64]) -> f64 {
     dense::norm(dense::column(residual.as_ref(), 0)) / (size * motion.sqrt())
 }
 
-/// x with the least ‖A x − f‖; A has at least as many rows as columns.
+/// x with the least ‖A x − f‖; A has at least as many rows as columns. Where columns vanish or are the same, because the interface
+/// has modes of its own at this frequency, x is the shortest such.
 fn least_squares(a: MatRef<'_, f64>, f: MatRef<'_, f64>) -> Mat<f64> {
-    a.qr().solve_lstsq(f)
+    let x = a.qr().solve_lstsq(f);
+    if x.is_all_finite() {
+        return x;
+    }
+    let Ok(svd) = a.thin_svd() else { return x };
+    let singular: Vec<f64> = svd.S().column_vector().iter().copied().collect();
+    let least = a.nrows() as f64 * f64::EPSILON * singular.first().copied().unwrap_or(0.0);
+    let mut parts = dense::product(svd.U().transpose(), f);
+    for (i, value) in singular.iter().enumerate() {
+        let factor = if *value > least { 1.0 / value } else { 0.0 };
+        parts.row_mut(i).iter_mut().for_each(|part| *part *= factor);
+    }
+    dense::product(svd.V(), parts.as_ref())
 }
 
 /// The inertia-relief coordinates: slot among the modal ones and number of the rigid-body mode.

@@ -18,7 +18,7 @@ pub struct Basis {
     pub dynamic_modes: Mat<f64>,
     /// What each column of Ψ_D is.
     pub coordinates: Vec<DynamicCoordinate>,
-    /// Upper triangular R, n_η × (n_η + dropped): named column j = Σ_i Ψ_D[:, i] R_ij.
+    /// R, n_η × (n_η + dropped): named column j = Σ_i Ψ_D[:, i] R_ij; upper triangular in the columns that were kept.
     pub mixing: Mat<f64>,
     /// Number, among the named columns, of each column that was kept.
     pub kept: Vec<usize>,

@@ -2,12 +2,12 @@
 
 use faer::prelude::ReborrowMut;
 use faer::{Mat, MatRef};
-use rayon::prelude::*;
 
 use super::orthonormal::orthonormalised;
+use super::rounding::{INDEPENDENT, clear_rounding, clear_unloaded};
 use crate::constraint::ConstraintModes;
 use crate::dense;
-use crate::eigen::{Modes, mass_qr};
+use crate::eigen::{Modes, mass_qr, rows_with_mass};
 use crate::factor::SolveOperator;
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
@@ -45,9 +45,9 @@ pub struct DynamicColumns {
     pub coordinates: Vec<DynamicCoordinate>,
 }
 
-/// Length a unit column must keep after the columns before it are taken out. Healthy bases keep 10⁻³ to 10⁻²; at 10⁻⁸
-/// half the digits of the column are rounding.
-const INDEPENDENT: f64 = 1e-8;
+/// Lengths asked for instead in a complete basis, where any columns that are independent span the whole interior: the largest
+/// that leaves as many. A column that keeps little is put together from large parts of little, and its name is lost in rounding.
+const CLEARLY_INDEPENDENT: [f64; 4] = [1e-4, 1e-5, 1e-6, 1e-7];
 /// Columns orthogonalised together.
 const PANEL: usize = 8;
 
@@ -82,23 +82,13 @@ pub fn mode_acceleration_columns(
     // The modes of the file, not the orthonormal ones: a coordinate then answers to one named unit acceleration.
     let inertia = product(&partition.mass, rigid.modes.as_ref());
     columns.as_mut().subcols_mut(0, n_r).copy_from(inertia.as_ref().subrows(0, n_i));
+    clear_unloaded(partition, rigid, columns.as_mut().subcols_mut(0, n_r));
     factor.solve_in_place(columns.as_mut().subcols_mut(0, n_r));
     let (x_i, x_b) = (modes.shapes.as_ref().subrows(0, n_i), modes.shapes.as_ref().subrows(n_i, n_b));
     let mut accelerated = columns.as_mut().subcols_mut(n_r, modes.count());
     accelerated.copy_from(x_i);
     dense::add_product(accelerated.rb_mut(), -1.0, constraint.modes.as_ref(), x_b);
-    let stiffness = partition.internal().stiffness.diagonal();
-    let length = |column: &[f64]| column.iter().zip(&stiffness).map(|(x, k)| k.abs() * x * x).sum::<f64>().sqrt();
-    let of_psi_s: Vec<f64> = (0..n_b).map(|b| length(dense::column(constraint.modes.as_ref(), b))).collect();
-    accelerated.par_col_chunks_mut(1).enumerate().for_each(|(j, column)| {
-        let column = dense::column_mut(column, 0);
-        let following = dense::column(x_b, j).iter().zip(&of_psi_s).map(|(x, length)| x.abs() * length).sum::<f64>();
-        // The interior follows the interface statically: what is left is rounding of X_I and Ψ_S X_B, which scaled to unit length
-        // would be a column that no one asked for.
-        if length(column) <= INDEPENDENT * (length(dense::column(x_i, j)) + following) {
-            column.fill(0.0);
-        }
-    });
+    clear_rounding(partition, constraint, modes, accelerated);
     let relief = (0..n_r).map(DynamicCoordinate::InertiaRelief);
     DynamicColumns { columns, coordinates: relief.chain((0..modes.count()).map(DynamicCoordinate::FreeFree)).collect() }
 }
@@ -121,12 +111,42 @@ pub(super) fn independent(named: DynamicColumns, mass: Leading<'_>) -> Independe
             let kept = (0..modes.ncols()).collect();
             Independent { modes, coordinates: named.coordinates, mixing, kept, dropped: Vec::new() }
         }
-        None => by_panels(named, mass),
+        None => {
+            let found = by_panels(&named, mass, INDEPENDENT);
+            let is_complete = found.kept.len() == rows_with_mass(mass);
+            if !is_complete || found.least_share() > CLEARLY_INDEPENDENT[0] {
+                return found;
+            }
+            let mut clearer = CLEARLY_INDEPENDENT.into_iter().map(|least| by_panels(&named, mass, least));
+            let clearest = clearer.find(|other| other.kept.len() == found.kept.len()).unwrap_or(found);
+            clearest.with_whole_mixing(&named, mass)
+        }
     }
 }
 
-/// The independent columns where columns may depend on each other.
-fn by_panels(named: DynamicColumns, mass: Leading<'_>) -> Independent {
+impl Independent {
+    /// The same in a complete basis: a column that was left out has parts in columns behind it, too.
+    fn with_whole_mixing(mut self, named: &DynamicColumns, mass: Leading<'_>) -> Self {
+        let left_out: Vec<usize> = (0..named.columns.ncols()).filter(|j| !self.kept.contains(j)).collect();
+        let columns = dense::columns(named.columns.as_ref(), &left_out);
+        let parts = dense::gram(self.modes.as_ref(), product(mass, columns.as_ref()).as_ref());
+        for (j, part) in left_out.into_iter().zip(parts.col_iter()) {
+            self.mixing.as_mut().col_mut(j).copy_from(part);
+        }
+        self
+    }
+
+    /// The smallest share of its length that a column kept without the columns before it.
+    fn least_share(&self) -> f64 {
+        let share = |(slot, named): (usize, &usize)| {
+            self.mixing[(slot, *named)].abs() / dense::norm(dense::column(self.mixing.as_ref(), *named))
+        };
+        self.kept.iter().enumerate().map(share).fold(1.0, f64::min)
+    }
+}
+
+/// The independent columns where columns may depend on each other: those that keep more than `least` of their length.
+fn by_panels(named: &DynamicColumns, mass: Leading<'_>, least: f64) -> Independent {
     let (n, total) = (named.columns.nrows(), named.columns.ncols());
     let mut basis = Mat::zeros(n, total);
     let mut mixing = Mat::zeros(total, total);
@@ -136,7 +156,7 @@ fn by_panels(named: DynamicColumns, mass: Leading<'_>) -> Independent {
         let mut panel = named.columns.as_ref().subcols(start, width).to_owned();
         let lengths = scale_to_unit_mass(&mut panel, mass);
         let size = kept.len();
-        let step = orthonormal_panel(basis.as_ref().subcols(0, size), panel, mass);
+        let step = orthonormal_panel(basis.as_ref().subcols(0, size), panel, (mass, least));
         for j in 0..width {
             let coordinate = named.coordinates[start + j];
             for i in 0..size {
@@ -186,7 +206,7 @@ struct Step {
 }
 
 /// panel = basis · coefficients + block · coupling, twice over for orthogonality to rounding.
-fn orthonormal_panel(basis: MatRef<'_, f64>, panel: Mat<f64>, mass: Leading<'_>) -> Step {
+fn orthonormal_panel(basis: MatRef<'_, f64>, panel: Mat<f64>, (mass, independent): (Leading<'_>, f64)) -> Step {
     let width = panel.ncols();
     let mut block = panel;
     let mut coefficients = Mat::zeros(basis.ncols(), width);
@@ -198,7 +218,7 @@ fn orthonormal_panel(basis: MatRef<'_, f64>, panel: Mat<f64>, mass: Leading<'_>)
         dense::add_product(block.as_mut(), -1.0, basis, c.as_ref());
         dense::add_product(coefficients.as_mut(), 1.0, c.as_ref(), coupling.as_ref());
         let mut image = product(mass, block.as_ref());
-        let least = if pass == 0 { INDEPENDENT } else { 0.0 };
+        let least = if pass == 0 { independent } else { 0.0 };
         let r = mass_qr(&mut block, &mut image, least, &mut dependent);
         if pass == 0 {
             remaining = (0..width).map(|j| r[(j, j)]).collect();

@@ -11,6 +11,7 @@ mod basis;
 mod dynamic;
 mod orthonormal;
 mod retained_columns;
+mod rounding;
 
 pub use basis::Basis;
 pub use dynamic::{DroppedColumn, DynamicCoordinate};

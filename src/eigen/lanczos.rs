@@ -265,13 +265,13 @@ impl<'a> KrylovBasis<'a> {
         self.coupling = Mat::zeros(self.n_next(), count);
     }
 
-    /// Replaces V by its best Ritz vectors, or makes room where a band turns out to hold many modes.
+    /// Replaces V by its best Ritz vectors, or makes room where a band or a cluster turns out to hold many modes.
     fn restart(&mut self, goal: Goal) -> Result<()> {
         let ritz = self.ritz()?;
         let (n, block) = (self.vectors.nrows(), self.n_next());
         let sigma = self.problem.operator.shift();
         let n_wanted = match goal {
-            Goal::Lowest(Wanted::Count(count)) => count,
+            Goal::Lowest(Wanted::Count(count)) => ritz.to_end_of_cluster(count, sigma),
             Goal::Lowest(Wanted::UpTo(limit)) => {
                 (0..ritz.n_finite()).take_while(|j| !is_above(ritz.lambda(*j, sigma), limit)).count()
             }

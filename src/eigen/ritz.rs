@@ -40,16 +40,25 @@ impl Ritz {
         are_clustered(self.lambda(a, sigma), self.lambda(b, sigma))
     }
 
-    /// How many pairs answer the request, or none while the request is not answered.
-    pub(super) fn count_wanted(&self, wanted: Wanted, sigma: f64) -> Option<usize> {
+    /// A number of leading pairs, and the rest of the cluster that it would cut, as far as that shows.
+    pub(super) fn to_end_of_cluster(&self, mut count: usize, sigma: f64) -> usize {
         let n_finite = self.n_finite();
-        let mut count = match wanted {
-            Wanted::Count(count) => count,
-            Wanted::UpTo(limit) => (0..n_finite).find(|j| is_above(self.lambda(*j, sigma), limit))?,
-        };
         while count > 0 && count < n_finite && self.same_cluster(count - 1, count, sigma) {
             count += 1;
         }
+        count
+    }
+
+    /// How many pairs answer the request, or none while the request is not answered.
+    pub(super) fn count_wanted(&self, wanted: Wanted, sigma: f64) -> Option<usize> {
+        let n_finite = self.n_finite();
+        let count = self.to_end_of_cluster(
+            match wanted {
+                Wanted::Count(count) => count,
+                Wanted::UpTo(limit) => (0..n_finite).find(|j| is_above(self.lambda(*j, sigma), limit))?,
+            },
+            sigma,
+        );
         let settled = count < n_finite
             && (0..count).all(|j| self.is_converged(j))
             && self.residuals[count] <= NEXT_TOLERANCE * self.theta[count].abs();

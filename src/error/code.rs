@@ -480,7 +480,7 @@ codes! {
         "ask for one mode more or less";
     LanczosStalled => "E-STALLED", NumericalLimit,
         "the eigensolver stalled",
-        "ask for fewer modes or a narrower band";
+        "ask for another number of modes or another band, or set the other `eigensolver` in the job";
     Mechanism => "E-MECHANISM", ModelPhysics,
         "motions without energy in addition to the rigid-body modes",
         "close hinges and sliding joints or give them stiffness";
@@ -492,7 +492,7 @@ codes! {
         "use the eigensolver `lanczos` or rebuild with the feature `arpack`";
     Arpack => "E-ARPACK", NumericalLimit,
         "ARPACK failed",
-        "use the eigensolver `lanczos`";
+        "set `eigensolver = \"lanczos\"` in the job";
     SuperelementFile => "E-SUPERELEMENT", InputData,
         "a file is not a superelement, or cannot be made one",
         "the message says what is wrong with it; write it again with `supel reduce`";

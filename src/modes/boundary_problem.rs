@@ -95,8 +95,7 @@ impl<'a> BoundaryProblem<'a> {
         let Component { partition, analysis, .. } = self.component;
         self.refuse_massless()?;
         let factor = ShiftedFactor::new(analysis, partition.pencil(), sigma)?;
-        self.refuse_on_eigenvalue(factor.count)?;
-        Ok(factor)
+        if self.is_off(factor.count) { Ok(factor) } else { Err(Error::SturmPivot) }
     }
 
     /// A motion without stiffness and mass makes K − σM singular at every σ.
@@ -108,12 +107,12 @@ impl<'a> BoundaryProblem<'a> {
         }
     }
 
-    fn refuse_on_eigenvalue(&self, count: InertiaCount) -> Result<()> {
-        let is_off = match self.boundary {
+    /// Whether a shift lies off the eigenvalues as far as the factor tells by itself.
+    fn is_off(&self, count: InertiaCount) -> bool {
+        match self.boundary {
             Boundary::FixedInterface => count.is_off_clamped(),
             Boundary::FreeInterface => count.is_off_clamped() && count.is_off_free(),
-        };
-        if is_off { Ok(()) } else { Err(Error::SturmPivot) }
+        }
     }
 
     /// Counts the elastic eigenvalues below a shift above zero.
@@ -121,10 +120,20 @@ impl<'a> BoundaryProblem<'a> {
     /// # Errors
     /// As [`Self::factor_at`].
     pub fn count_below(&self, sigma: f64) -> Result<ElasticCount> {
+        match self.count_at(sigma)? {
+            (count, true) => count,
+            (_, false) => Err(Error::SturmPivot),
+        }
+    }
+
+    /// The same count wherever the shift lies, and whether it lies off the eigenvalues as far as the factor tells by itself.
+    ///
+    /// # Errors
+    /// A rigid-body motion of a free component has no mass; no memory for the count; σ hits an eigenvalue exactly.
+    pub(super) fn count_at(&self, sigma: f64) -> Result<(Result<ElasticCount>, bool)> {
         self.refuse_massless()?;
         let count = count_below(self.component.analysis, self.component.partition.pencil(), sigma)?;
-        self.refuse_on_eigenvalue(count)?;
-        self.elastic(count)
+        Ok((self.elastic(count), self.is_off(count)))
     }
 
     /// Without the rigid-body modes: they lie below any shift above zero, and a count that says otherwise is wrong.

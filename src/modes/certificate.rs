@@ -171,13 +171,18 @@ fn certify_modes(
             return Ok(certificate);
         }
     }
-    let mut best: Option<Certificate> = None;
+    let (mut best, mut near): (Option<Certificate>, Vec<Certificate>) = (None, Vec::new());
     let mut failure = Error::SturmPivot;
     let places = far.into_iter().chain(PLACES.into_iter().map(|place| modes.shift_above(place)));
     for (attempt, sigma) in places.enumerate() {
-        match problem.count_below(sigma) {
-            Ok(count) => {
+        let counted = problem.count_at(sigma).and_then(|(count, is_off)| Ok((count?, is_off)));
+        match counted {
+            Ok((count, is_off)) => {
                 let certificate = Certificate { n_factorisations: attempt + 1, ..judge(problem, modes, count) };
+                if !is_off {
+                    near.push(certificate);
+                    continue;
+                }
                 let is_certain = certificate.doubt() <= 1.0;
                 if best.as_ref().is_none_or(|best| certificate.doubt() < best.doubt()) {
                     best = Some(certificate);
@@ -189,7 +194,16 @@ fn certify_modes(
             Err(error) => failure = error,
         }
     }
-    best.ok_or(failure)
+    best.or_else(|| agreed(near)).ok_or(failure)
+}
+
+/// The first of some counts at shifts so near to eigenvalues that their factors do not tell by themselves on which side: they are counts
+/// where no known eigenvalue is within the rounding of any of them, and all say the same. One eigenvalue more would have to lie
+/// at every place.
+fn agreed(near: Vec<Certificate>) -> Option<Certificate> {
+    let n_counted = near.first()?.n_counted;
+    let agree = near.iter().all(|other| other.n_counted == n_counted && other.doubt() <= 1.0);
+    (near.len() >= PLACES.len() && agree).then(|| near.into_iter().next()).flatten()
 }
 
 /// Compares the counts up to an upper end with the modes.

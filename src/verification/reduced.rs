@@ -16,9 +16,9 @@ use crate::sparse::{Leading, panels};
 
 /// The size of the terms that the reduced matrices are summed from: rounding of an entry is ε times these.
 pub(super) struct Terms {
-    /// max (|Ψ|ᵀ|K||Ψ|)_ii / K_BB,ii of the interface columns.
+    /// max (|Ψ|ᵀ|K||Ψ|)_ii / K_BB,ii of the interface columns; without an interface as for the dynamic ones.
     interface: f64,
-    /// max (|Ψ|ᵀ|K||Ψ|)_jj / K̂_jj of the dynamic columns.
+    /// max (|Ψ|ᵀ|K||Ψ|)_jj / K̂_jj of the dynamic columns; without an interface over the largest K̂_jj, which M-13 divides by there.
     dynamic: f64,
     /// The largest of all, relative to the largest entry of K̂.
     largest: f64,
@@ -31,6 +31,8 @@ impl Terms {
         let (partition, k) = (evidence.partition, &evidence.reduction.stiffness);
         let n_b = partition.n_interface();
         let (mut dynamic, mut largest) = (1.0f64, 0.0f64);
+        // Rigid-body modes have no energy of their own.
+        let highest = (n_b == 0).then(|| (0..k.nrows()).fold(0.0f64, |max, j| max.max(k[(j, j)])));
         for i in 0..n_b {
             let uncondensed = partition.stiffness.get(partition.n_internal + i, partition.n_internal + i);
             largest = largest.max(evidence.constraint.cancellation * uncondensed.copied().unwrap_or(0.0));
@@ -39,7 +41,9 @@ impl Terms {
             let panel = evidence.basis.dynamic_modes.as_ref().get(.., columns.clone());
             for (column, terms) in columns.zip(absolute_energy(partition.internal().stiffness, panel)) {
                 let at = n_b + column;
-                dynamic = dynamic.max(terms / k[(at, at)].abs());
+                let energy = highest.unwrap_or_else(|| k[(at, at)].abs());
+                // Where there is no energy at all, M-13 divides by the terms themselves.
+                dynamic = if energy > 0.0 { dynamic.max(terms / energy) } else { dynamic };
                 largest = largest.max(terms);
             }
         }
@@ -50,7 +54,7 @@ impl Terms {
         let terms = [psi_s, psi_d].map(|columns| largest_terms(partition.internal().mass, columns));
         let mass = &evidence.reduction.mass;
         Self {
-            interface: evidence.constraint.cancellation,
+            interface: if n_b == 0 { dynamic } else { evidence.constraint.cancellation },
             dynamic,
             largest,
             mass: terms[0].max(terms[1]) / mass.norm_max().max(f64::MIN_POSITIVE),

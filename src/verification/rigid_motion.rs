@@ -109,7 +109,9 @@ pub(super) fn carried_by_interface(evidence: &Evidence<'_>) -> Check {
         let size = |u: MatRef<'_, f64>, scale: &[f64]| {
             dense::column(u, j).iter().zip(scale).fold(0.0f64, |max, (value, d)| max.max((value * d).abs()))
         };
-        let largest = if size(u_i, internal) > 0.0 { size(u_i, internal) } else { size(u_b, interface) };
+        let [inner, outer] = [size(u_i, internal), size(u_b, interface)];
+        // Modes of the matrices have rounding there instead of nothing.
+        let largest = if inner > NOISE_FACTOR * f64::EPSILON * outer { inner } else { outer };
         for (i, (value, d)) in dense::column(defect.as_ref(), j).iter().zip(internal).enumerate() {
             worst.take((value * d).abs() / largest, j, i);
         }

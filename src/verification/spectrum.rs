@@ -10,6 +10,7 @@ use crate::dense;
 use crate::eigen::{rayleigh_quotients, zero};
 use crate::error::Result;
 use crate::job::Boundary;
+use crate::rigid::zero_modes;
 
 /// Eigenvalues of the reduced pencil with its interface free, and under the boundary of the retained modes.
 pub(super) struct Spectrum {
@@ -49,6 +50,10 @@ impl Spectrum {
         let n_looked_at = n_pencil + evidence.rigid.n_grey + 1;
         let spectral = Spectral::if_definite(k_held.as_ref(), m, lambda)?;
         let is_definite = spectral.is_some();
+        if !is_definite {
+            // Whether K itself is at fault, or its digits, says the full model.
+            zero_modes(evidence.partition)?;
+        }
         let (free, shapes) = spectral.map_or((Vec::new(), Mat::zeros(k.nrows(), 0)), |s| s.lowest(n_looked_at));
         let same_boundary = match evidence.retained.boundary {
             Boundary::FreeInterface => free.get(n_pencil..).unwrap_or_default().to_vec(),
@@ -78,8 +83,8 @@ impl Spectrum {
         })
     }
 
-    /// How far below zero the lowest eigenvalue lies, relative to the first elastic one; not a number where the reduced pencil is
-    /// too far from definite to have a spectrum.
+    /// How far below zero the lowest eigenvalue lies, relative to the first elastic one; one, which it is at least, where the
+    /// reduced pencil is too far from definite to have a spectrum.
     pub(super) fn negative_share(&self) -> f64 {
         match (self.free.first(), self.first_elastic()) {
             (Some(lowest), _) if *lowest >= 0.0 => 0.0,
@@ -88,7 +93,8 @@ impl Spectrum {
             (Some(lowest), None) => -lowest,
             // Coordinates without mass have no spectrum.
             (None, _) if self.is_definite => 0.0,
-            (None, _) => f64::NAN,
+            // K̂ + αM̂ is not definite with α the first elastic eigenvalue: some λ lies below −α.
+            (None, _) => 1.0,
         }
     }
 
@@ -98,16 +104,12 @@ impl Spectrum {
     }
 
     /// What the energy of a motion is compared with: the eigenvalue of the reduced model of this number, from zero, or the
-    /// highest elastic one where there are not so many; not a number where the reduced pencil is too far from definite to have
-    /// a spectrum.
+    /// highest elastic one where there are not so many.
     ///
-    /// Without any elastic eigenvalue, what the full model shows of itself serves: the first eigenvalue with the interface held.
+    /// Without any elastic eigenvalue, or without a spectrum because the reduced pencil is too far from definite, what the full model shows of itself serves: the first eigenvalue with the interface held.
     /// As many interface dofs as rigid-body motions then hold the component, and that is not above the first elastic one
     /// (Cauchy). None where that is not known either.
     pub(super) fn scale(&self, index: usize) -> Option<f64> {
-        if self.free.is_empty() {
-            return Some(f64::NAN);
-        }
         let elastic = self.free.get(self.n_zero_of_pencil..).unwrap_or_default();
         self.free.get(index.max(self.n_zero_of_pencil)).or(elastic.last()).copied().or(self.of_full)
     }

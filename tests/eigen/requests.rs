@@ -74,3 +74,15 @@ fn same_request_gives_the_same_bits() {
     let second = component.modes(Wanted::Count(15), supel::job::Eigensolver::Lanczos);
     assert!(first.shapes == second.shapes && first.lambda == second.lambda && first.work == second.work);
 }
+
+/// A basis for eight modes has no room for them all until it is seen that they are one cluster.
+#[test]
+fn count_that_ends_in_a_wide_cluster_takes_all_of_it() {
+    let mut lambda = vec![1.0];
+    lambda.extend((0..72).map(|i| 2.0 * (1.0 + 1.4e-10 * f64::from(i))));
+    lambda.extend((0..400).map(|i| 3.0 + f64::from(i)));
+    let component = Component::new(&known(&lambda, 5));
+    for count in [2, 4, 8, 40] {
+        assert_eq!(component.modes(Wanted::Count(count), supel::job::Eigensolver::Lanczos).count(), 73, "{count}");
+    }
+}

@@ -102,7 +102,7 @@ fn eigensolver_that_does_not_converge() {
     let operator = Unreliable { n: 200, random: SplitMix64::new(1).into() };
     let error = refusal(elastic_modes(problem, &operator, request));
     assert!(matches!(error, Error::LanczosStalled { restarts: 1.., .. }), "{error}");
-    assert_says(&error, ErrorClass::NumericalLimit, &["restarts", "ask for fewer modes"]);
+    assert_says(&error, ErrorClass::NumericalLimit, &["restarts", "ask for another number of modes"]);
 }
 
 /// Magnitudes far from one are only units.

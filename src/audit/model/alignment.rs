@@ -44,8 +44,8 @@ pub(super) struct Combination {
     pub(super) amplified: Mat<f64>,
 }
 
-/// B.
-pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedom<'_>) -> Combination {
+/// B; none where the modes of a group may turn without being seen, and the matrices with them.
+pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedom<'_>) -> Option<Combination> {
     let (p, n_named, n_eta) = (projected.n_probes(), projected.named.len(), freedom.kept.len());
     let seen = seen(file, projected, freedom.mixing);
     let mut turned = Mat::zeros(n_named, n_eta);
@@ -66,7 +66,12 @@ pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedo
             Named::Rigid(_) | Named::Mode(_) => {
                 let [mine, files] =
                     [(&seen[0], &columns), (&seen[1], &slots)].map(|(a, at)| dense::columns(a.as_ref(), at));
-                place(&columns, &slots, nearest_rotation(mine.as_ref(), files.as_ref()).as_ref());
+                if turns_unseen(projected, &columns, mine.as_ref()) {
+                    return None;
+                }
+                let [mine, files] = completed(mine.as_ref(), files.as_ref());
+                let turn = nearest_rotation(mine.as_ref(), files.as_ref());
+                place(&columns, &slots, turn.as_ref().subcols(0, slots.len()));
             }
         }
     }
@@ -84,10 +89,10 @@ pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedo
         whole.as_mut().submatrix_mut(p, p, n_named, n_eta).copy_from(of_named);
         whole
     };
-    Combination {
+    Some(Combination {
         columns: with_probes(Mat::identity(p, p), &turned),
         amplified: with_probes(Mat::zeros(p, p), &amplified),
-    }
+    })
 }
 
 impl Combination {
@@ -158,6 +163,55 @@ fn stacked(parts: Vec<MatRef<'_, f64>>) -> Mat<f64> {
         at += part.nrows();
     }
     all
+}
+
+/// Whether modes of one group may turn so that nothing sees it and their energies and inertias change: ZᵀA is not μZᵀ for the
+/// combinations Z that are not seen. Accelerated modes do that whose cluster reaches into the interface.
+fn turns_unseen(projected: &Projected, columns: &[usize], mine: MatRef<'_, f64>) -> bool {
+    /// Square of a share below which a combination is not seen: what is seen of it is rounding.
+    const UNSEEN: f64 = 1e-14;
+    /// Relative change of an energy that a turn makes: no less than the width of a cluster.
+    const CHANGED: f64 = 1e-6;
+    let Ok((seen, vectors)) = dense::symmetric_eigen(dense::gram(mine, mine).as_ref()) else { return true };
+    let most = UNSEEN * seen.last().copied().unwrap_or(0.0);
+    let n_unseen = seen.iter().take_while(|square| **square <= most).count();
+    // One alone has nothing to turn into.
+    if n_unseen < 2 {
+        return false;
+    }
+    let z = vectors.as_ref().subcols(0, n_unseen);
+    let first = projected.n_probes();
+    [&projected.stiffness, &projected.mass].into_iter().any(|form| {
+        let n = columns.len();
+        let a = Mat::from_fn(n, n, |i, j| form.matrix[(first + columns[i], first + columns[j])]);
+        let mut change = dense::product(a.as_ref(), z);
+        let mean = dense::dots(z, change.as_ref()).into_iter().sum::<f64>() / n_unseen as f64;
+        change -= z * faer::Scale(mean);
+        change.norm_max() > CHANGED * (0..n).fold(0.0, |most: f64, i| most.max(a[(i, i)]))
+    })
+}
+
+/// A and the columns B of a file with, where it left out some of a group, what is seen of those: for [B D] = A Q with an orthogonal
+/// Q the product D Dᵀ is A Aᵀ − B Bᵀ, whose leading eigenvectors make a D but for its own turns.
+fn completed(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> [Mat<f64>; 2] {
+    let n_left_out = a.ncols().saturating_sub(b.ncols());
+    if n_left_out == 0 {
+        return [a.to_owned(), b.to_owned()];
+    }
+    let both = dense::side_by_side(a, b);
+    // Where more is seen than there are columns, what they span is enough, and no orthonormal change of it turns them.
+    let seen = if both.nrows() > both.ncols() { both.qr().thin_R().to_owned() } else { both };
+    let (a, b) = seen.as_ref().split_at_col(a.ncols());
+    let square = |x: MatRef<'_, f64>| dense::product(x, x.transpose());
+    let difference = square(a) - square(b);
+    let Ok((values, vectors)) = dense::symmetric_eigen(difference.as_ref()) else {
+        return [a.to_owned(), b.to_owned()];
+    };
+    let first = values.len().saturating_sub(n_left_out);
+    let left_out = Mat::from_fn(a.nrows(), n_left_out, |i, j| {
+        if first + j < values.len() { values[first + j].max(0.0).sqrt() * vectors[(i, first + j)] } else { 0.0 }
+    });
+    [a.to_owned(), dense::side_by_side(b, left_out.as_ref())]
 }
 
 /// The orthonormal columns R that bring A R nearest to B (Schönemann 1966): U Vᵀ of AᵀB = U Σ Vᵀ.

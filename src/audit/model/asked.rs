@@ -10,7 +10,7 @@ use super::full::Full;
 use super::interior::Interior;
 use crate::dense;
 use crate::eigen::{CLUSTER_GAP, Factored, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::factor::{Analysis, SolveOperator, WholeCount, whole_count};
 use crate::job::{Boundary, Eigensolver, ReductionJob};
 use crate::modes::mode_wish;
@@ -46,6 +46,8 @@ pub(super) struct AskedModes {
     wanted: Wanted,
     n_zero: usize,
     count: Option<WholeCount>,
+    /// Why the modes were found again by the eigensolver of the job, where the other one failed.
+    other_failed: Option<String>,
     /// What few digits leave of the backward error of a mode that is kept apart from motions which K does not quite let pass: half a
     /// unit of the last digit in every entry.
     of_digits: f64,
@@ -64,6 +66,7 @@ impl AskedModes {
             wanted,
             n_zero: 0,
             count: None,
+            other_failed: None,
             of_digits: 0.0,
         }
     }
@@ -112,8 +115,16 @@ impl AskedModes {
         partition: &Partition,
     ) -> Result<Self> {
         let wanted = mode_wish(job.modes, partition);
-        let request = ModeRequest { wanted, eigensolver: other_than(job.eigensolver), seed: SEED };
-        let modes = elastic_modes(problem, &Factored::new(factor, sigma), request)?;
+        let by = |eigensolver: Eigensolver| {
+            elastic_modes(problem, &Factored::new(factor, sigma), ModeRequest { wanted, eigensolver, seed: SEED })
+        };
+        let (modes, other_failed) = match by(other_than(job.eigensolver)) {
+            // From other start vectors and another factor the eigensolver of the job is a witness too.
+            Err(error @ (Error::Arpack { .. } | Error::LanczosStalled { .. })) => {
+                (by(job.eigensolver)?, Some(error.to_string()))
+            }
+            found => (found?, None),
+        };
         let lacking = lacking(problem, (factor, sigma), &modes);
         let groups = clusters(&modes, sigma);
         let angles = angles(&modes, sigma, (&lacking, &groups));
@@ -131,6 +142,7 @@ impl AskedModes {
             wanted,
             n_zero: 0,
             count: None,
+            other_failed,
             of_digits,
         })
     }
@@ -147,6 +159,14 @@ impl AskedModes {
         let is_bare = self.modes.lambda.is_empty() && self.modes.next.is_none();
         let sigma = if is_bare { PLACE * first } else { self.modes.shift_above(PLACE) };
         Ok(Self { count: Some(whole_count(analysis, pencil, sigma)?), ..self })
+    }
+
+    /// What to say where the other eigensolver failed.
+    pub(super) fn note(&self) -> Option<String> {
+        let error = self.other_failed.as_ref()?;
+        // The advice is for those who chose the eigensolver.
+        let what = error.split(" – ").next().unwrap_or(error);
+        Some(format!("{what}; the modes were found again by the eigensolver of the job, from other start vectors"))
     }
 
     /// All of it but the shapes, which are the largest part.

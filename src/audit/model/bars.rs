@@ -43,7 +43,7 @@ pub(super) fn frequencies(file: &Scaled, asked: &AskedModes, precision: Precisio
 
 /// M-09: error bars are those of the modes found again. The share of the data is one of shapes and matrices alone; what the residual
 /// adds is another eigensolver's own and may be anything up to a bound.
-pub(super) fn error_bars(superelement: &Superelement, asked: &AskedModes) -> Check {
+pub(super) fn error_bars(superelement: &Superelement, file: &Scaled, asked: &AskedModes) -> Check {
     /// Relative difference of the share of the data: shapes that differ by rounding have the same.
     const SAME_SHAPES: f64 = 1e-6;
     /// Relative difference of a bar that no turn of a shape excuses.
@@ -64,10 +64,12 @@ pub(super) fn error_bars(superelement: &Superelement, asked: &AskedModes) -> Che
         else {
             continue;
         };
-        let Some(error) = asked.modes.errors.get(mode) else { continue };
+        let (Some(error), Some(stated)) = (asked.modes.errors.get(mode), file.lambda.get(mode)) else { continue };
         let of_residual = error.residual_bar.max(asked.residual_bars[mode]);
+        // A bar is what roundings make of an energy over λ, and λ may be known to a few digits only: energies are compared.
+        let same_lambda = stated / asked.lambda()[mode];
         let found = match error_bar_hz {
-            Some(bar) => outside(2.0 * bar / frequency_hz, error.data_bar, NOISE_FACTOR * of_residual),
+            Some(bar) => outside(2.0 * bar / frequency_hz * same_lambda, error.data_bar, NOISE_FACTOR * of_residual),
             None if error.relative_bar.is_finite() => f64::INFINITY,
             None => 0.0,
         };
@@ -79,7 +81,7 @@ pub(super) fn error_bars(superelement: &Superelement, asked: &AskedModes) -> Che
     Check {
         id: "M-09",
         name: "error bars are those of the full model",
-        equation: "max distance of 2 bar/f from [data, data + residual], relative to the nearer end",
+        equation: "max distance of (2 bar/f)(f_stated/f)² from [data, data + residual], relative to the nearer end",
         value,
         limits,
         fail_above: (FAR * limits.value()).min(NO_BAR),

@@ -90,10 +90,21 @@ fn bound(form: &Form, (i, j): (usize, usize), order: Order) -> f64 {
 }
 
 /// What an entry of a coordinate is relative to. Of an interface that just holds the component nothing is left of K̂ but rounding
-/// of its terms, which then stand for it.
-fn size(form: &Form, i: usize) -> f64 {
-    let (norm, terms) = (form.matrix[(i, i)].max(0.0).sqrt(), form.terms[i]);
-    if norm * norm > BOTH * f64::EPSILON * terms * terms { norm } else { terms }
+/// of its terms, which then stand for it. The column of a free mass has not even terms: all that moves with it is rounding of the
+/// correction (24), a motion of the component, and the largest terms stand for those.
+fn sizes(form: &Form) -> Vec<f64> {
+    let largest = form.terms.iter().fold(0.0f64, |max, terms| max.max(*terms));
+    let size = |(i, terms): (usize, &f64)| {
+        let norm = form.matrix[(i, i)].max(0.0).sqrt();
+        if *terms <= BOTH * f64::EPSILON * largest {
+            largest
+        } else if norm * norm > BOTH * f64::EPSILON * terms * terms {
+            norm
+        } else {
+            *terms
+        }
+    };
+    form.terms.iter().enumerate().map(size).collect()
 }
 
 /// A matrix of the file, its interface rows mixed as the probes are, against the form of the columns made again.
@@ -104,6 +115,7 @@ pub(super) fn compared(
     name: &dyn Fn(usize) -> String,
 ) -> Check {
     let mut worst = Worst::default();
+    let sizes = sizes(expected);
     for j in 0..found.ncols() {
         for i in 0..=j {
             let is_stationary = kind == Kind::Energy && i < n_stationary && j < n_stationary;
@@ -112,7 +124,7 @@ pub(super) fn compared(
             let entry = if is_coupling { 0.0 } else { expected.matrix[(i, j)] };
             let difference = (found[(i, j)] - entry).abs();
             let bound = bound(expected, (i, j), if is_stationary { Order::Second } else { Order::First });
-            worst.take((i, j), (difference, bound, size(expected, i) * size(expected, j)));
+            worst.take((i, j), (difference, bound, sizes[i] * sizes[j]));
         }
     }
     let (id, what, equation) = match kind {

@@ -11,6 +11,7 @@ use crate::audit::jobs::differences;
 use crate::audit::kept_job::band;
 use crate::audit::version::kept_job;
 use crate::dofs::Direction;
+use crate::eigen::rows_with_mass;
 use crate::error::Result;
 use crate::input::InputFacts;
 use crate::job::{Boundary, Job};
@@ -169,9 +170,14 @@ pub(super) fn modal_coordinates(superelement: &Superelement, projected: &Project
     flaw("modal coordinates are those of the method", "number of columns missing, repeated or out of order", &flaws)
 }
 
-/// M-06: a column that was left out has to depend on those that were kept before it.
-pub(super) fn dropped(superelement: &Superelement, projected: &Projected, boundary: Boundary) -> Option<Check> {
-    /// A column keeps 1e-8 of its length at most; what its square tells of it ends at the root of ε.
+/// M-06: a column that was left out has to depend on those that were kept before it. Where those that were kept are as many as the
+/// interior has rows with mass they span all there is, and nothing is left of any other.
+pub(super) fn dropped(
+    superelement: &Superelement,
+    (projected, partition): (&Projected, &Partition),
+    boundary: Boundary,
+) -> Option<Check> {
+    /// A column keeps 1e-8 of its length at most, and its shape is that of another eigensolver.
     const LEFT: f64 = 1e-6;
     /// The most that rounding excuses: a column of which a hundredth is left is another one.
     const LARGEST_LEFT: f64 = 1e-2;
@@ -179,15 +185,19 @@ pub(super) fn dropped(superelement: &Superelement, projected: &Projected, bounda
     if columns.is_empty() {
         return None;
     }
-    let kept = places(superelement, projected, boundary)?;
+    let mut kept = places(superelement, projected, boundary)?;
+    kept.sort_unstable();
+    let is_complete = kept.len() == rows_with_mass(partition.internal().mass);
+    let span = projected.dependence.span(&kept);
     let (mut worst, mut rounding) = ((0.0, None), 0.0f64);
-    for column in columns {
+    for column in columns.iter().filter(|_| !is_complete) {
         let named = named(&column.column, boundary)?;
         let at = projected.named.iter().position(|known| *known == named)?;
-        let before: Vec<usize> = kept.iter().copied().filter(|other| *other < at).collect();
-        rounding = rounding.max(projected.rounding_of_share(at, &before));
+        let n_others = kept.partition_point(|other| *other < at);
+        rounding = rounding.max(projected.rounding_of_share(at, &kept[..n_others]));
         // What lies within the error of the column is not known to be there.
-        let left = (projected.remaining(at, &before) - projected.doubt(at)).max(0.0) * projected.length(at).min(1.0);
+        let remaining = projected.dependence.remaining(at, span.as_ref().subcols(0, n_others));
+        let left = (remaining - projected.doubt(at)).max(0.0) * projected.length(at).min(1.0);
         if crate::dense::worse(left, worst.0) {
             worst = (left, Some(format!("{named:?}").to_lowercase()));
         }

@@ -10,6 +10,7 @@
 use faer::{Mat, MatRef};
 
 use super::columns::{Columns, Named};
+use super::dependence::Dependence;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::partition::Partition;
 use crate::sparse::energies_of_terms;
@@ -52,6 +53,8 @@ pub(super) struct Projected {
     pub(super) motions: Option<Mat<f64>>,
     /// The largest error of a static answer relative to itself.
     pub(super) residual: f64,
+    /// How far the named columns depend on each other.
+    pub(super) dependence: Dependence,
 }
 
 impl Projected {
@@ -65,8 +68,9 @@ impl Projected {
         let is_modal = columns.probes.ncols() == 0;
         let motions =
             unit.filter(|_| is_modal).map(|unit| dense::gram(product(&partition.mass, unit).as_ref(), shapes));
+        let dependence = Dependence::of(&partition.mass, shapes.subcols(n_probes, columns.named.len()));
         let Columns { probes, named, residual, .. } = columns;
-        Self { probes, named, stiffness, mass, gravity, recovery, motions, residual }
+        Self { probes, named, stiffness, mass, gravity, recovery, motions, residual, dependence }
     }
 
     /// p.
@@ -90,39 +94,13 @@ impl Projected {
         }
     }
 
-    /// What rounding of products with M makes of that share: ε of the terms of each column, whose sum the square of the share is off by.
+    /// What rounding of products with M makes of the share of its length that a column keeps without others: ε of the terms of each.
     pub(super) fn rounding_of_share(&self, column: usize, others: &[usize]) -> f64 {
         let square = |place: &usize| {
             let at = self.n_probes() + place;
             self.mass.terms[at].powi(2) / self.mass.matrix[(at, at)].max(f64::MIN_POSITIVE)
         };
-        (NOISE_FACTOR * f64::EPSILON * others.iter().chain([&column]).map(square).sum::<f64>()).sqrt()
-    }
-
-    /// The share of its length in the mass that a named column keeps once others are taken out of it.
-    pub(super) fn remaining(&self, column: usize, others: &[usize]) -> f64 {
-        /// Square of a share below which a column among the others is rounding.
-        const DEPENDENT: f64 = 1e-14;
-        let at: Vec<usize> = others.iter().chain([&column]).map(|place| self.n_probes() + place).collect();
-        let gram = |i: usize, j: usize| self.mass.matrix[(at[i], at[j])];
-        let length = |i: usize| gram(i, i).max(f64::MIN_POSITIVE).sqrt();
-        // Cholesky of the Gram matrix of unit columns; what is left on the diagonal are the squares of the shares.
-        let n = at.len();
-        let mut lower = Mat::<f64>::zeros(n, n);
-        let mut left = 0.0;
-        for j in 0..n {
-            let product =
-                |i: usize, k: usize, lower: &Mat<f64>| (0..k).map(|l| lower[(i, l)] * lower[(j, l)]).sum::<f64>();
-            left = gram(j, j) / length(j).powi(2) - product(j, j, &lower);
-            if left <= DEPENDENT {
-                continue;
-            }
-            lower[(j, j)] = left.sqrt();
-            for i in j + 1..n {
-                lower[(i, j)] = (gram(i, j) / (length(i) * length(j)) - product(i, j, &lower)) / lower[(j, j)];
-            }
-        }
-        left.max(0.0).sqrt()
+        NOISE_FACTOR * f64::EPSILON * others.iter().chain([&column]).map(square).sum::<f64>()
     }
 }
 

@@ -17,8 +17,7 @@ use crate::dense;
 use crate::dofs::Direction;
 use crate::factor::SolveOperator;
 use crate::model::Site;
-use crate::sparse::absolute_energy;
-use crate::sparse::product;
+use crate::sparse::{absolute_energy, diagonal, product};
 
 /// Dofs up to which an interface without coordinates is shown dof by dof.
 const SHOWN: usize = 24;
@@ -83,8 +82,13 @@ fn compared(
 ) -> InterfaceStatics {
     let (full, uncondensed) = full_stiffness(evidence, factor, interface, motions.shapes.as_ref());
     let reduced = reduced_stiffness(evidence, interface, motions.shapes.as_ref());
-    // A free mass has no stiffness to be measured by; it takes the largest there is.
-    let largest = uncondensed.iter().fold(0.0f64, |max, value| max.max(*value));
+    // A free mass has no stiffness to be measured by; it takes the largest of its interface, or of the component where the whole
+    // interface is free: what the correction of (24) rounds there is a motion of the component.
+    let largest_of = |sizes: &[f64]| sizes.iter().fold(0.0f64, |max, value| max.max(*value));
+    let largest = match largest_of(&uncondensed) {
+        0.0 => largest_of(&diagonal(&evidence.partition.stiffness)),
+        largest => largest,
+    };
     let own = |i: usize| if uncondensed[i] > 0.0 { uncondensed[i] } else { largest };
     let mut relative_difference = 0.0;
     for j in 0..full.ncols() {

@@ -1,0 +1,141 @@
+//! Components with something that is nothing: a mode of the interface alone, a whole basis, an interface without stiffness, no
+//! elastic coordinate at all. Each is reduced, and what was made is verified by itself and against its job.
+
+use supel::cli::ExitCode;
+use supel_models::frame::{Inertia, Section, frame};
+use supel_models::model::Assembler;
+use supel_models::{Ends, Material, Model, brick, spring};
+
+use crate::place::{Place, supel};
+
+/// Reduces and verifies in both ways; gives what `verify --job` said.
+#[track_caller]
+fn agree(place: &Place, flags: &[String], rest: &str) -> String {
+    place.reduce(flags, rest).expect(ExitCode::Done);
+    supel(&["verify", &place.text("x.supel")]).expect(ExitCode::Done);
+    let job = supel(&["inspect", &place.text("x.supel"), "--job"]).expect(ExitCode::Done).out;
+    place.write("kept.json", job.as_bytes());
+    supel(&["verify", &place.text("x.supel"), "--job", &place.text("kept.json")]).expect(ExitCode::Done).out
+}
+
+/// Springs between rows and to the ground, and masses, without coordinates.
+fn springs(masses: &[f64], grounded: &[(u32, f64)], between: &[(u32, u32, f64)]) -> Model {
+    let (mut stiffness, mut mass) = (Assembler::default(), Assembler::default());
+    (0..).zip(masses).for_each(|(row, value)| mass.add(row, row, *value));
+    grounded.iter().for_each(|(row, value)| stiffness.add(*row, *row, *value));
+    for &(i, j, value) in between {
+        for (row, column, sign) in [(i, i, 1.0), (j, j, 1.0), (i, j, -1.0), (j, i, -1.0)] {
+            stiffness.add(row, column, sign * value);
+        }
+    }
+    Model { n: masses.len(), ..Model::node_major(Vec::new(), &[], stiffness, mass) }
+}
+
+/// How many coordinates a superelement has and how many columns were left out.
+fn sizes(place: &Place) -> (usize, usize) {
+    let superelement = place.superelement("x.supel");
+    (superelement.n_coordinates(), superelement.metadata().dropped.len())
+}
+
+#[test]
+fn mode_that_lives_in_the_interface_is_left_out() {
+    // The softest oscillator is the interface.
+    let place = Place::with(&springs(&[1.0; 5], &[(0, 2.0), (1, 4.0), (2, 5.0), (3, 6.0), (4, 3.0)], &[]));
+    agree(&place, &place.matrix_flags(), "--interface r=rows:0 --method herting --modes 4");
+    assert_eq!(sizes(&place), (1 + 3, 1));
+    // Five of one frequency: whichever modes were found, one combination of them is the interface.
+    let place = Place::with(&springs(&[1.0; 5], &[0, 1, 2, 3, 4].map(|row| (row, 4.0)), &[]));
+    agree(&place, &place.matrix_flags(), "--interface r=rows:0 --method herting --modes 2");
+    assert_eq!(sizes(&place), (1 + 4, 1));
+    // A second body is interface altogether. λ is 2 − 2 cos(jπ/12) of the first and 2 − 2 cos(jπ/5) of the second: of the four
+    // lowest one is the second's.
+    let chain = |from: u32, n: u32| (from..from + n - 1).map(|row| (row, row + 1, 1.0));
+    let place = Place::with(&springs(&[1.0; 17], &[], &chain(0, 12).chain(chain(12, 5)).collect::<Vec<_>>()));
+    let rows = "--interface r=rows:0,11,12,13,14,15,16 --method herting --modes 4";
+    agree(&place, &place.matrix_flags(), rows);
+    let kept = place.superelement("x.supel").metadata().coordinates.len();
+    // Inertia relief of the first body, three of its modes.
+    assert_eq!((kept, sizes(&place).1), (7 + 1 + 3, 2));
+}
+
+/// All modes of a bar of square section: pairs of one frequency, and interfaces that leave fewer dofs than there are modes.
+#[test]
+fn whole_basis_is_verified_whatever_was_left_out() {
+    let place = Place::with(&brick([4, 2, 2], [0.2, 0.06, 0.06], &Material::STEEL_SI));
+    let job = |rest: &str| {
+        format!(
+            "[model]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\ndofs = \"dofs.txt\"\nnodes = \"nodes.csv\"\n\
+             [[interface]]\nname = \"a\"\nnodes = [1, 6, 11, 16, 21, 26, 31, 36, 41]\ncoupling = \"rigid\"\n\
+             [[interface]]\nname = \"b\"\n{rest}\n\
+             [reduction]\nmethod = \"herting\"\nmodes = {{ up_to_hz = 1e9 }}\n[write]\nsuperelement = \"x.supel\"\n"
+        )
+    };
+    let two_rotations = "nodes = [5, 10, 15, 20, 25, 30, 35, 40, 45]\ncoupling = \"rigid\"\ndofs = [\"rx\", \"ry\"]\n\
+                         origin = [-0.428182, 0.880638, -0.736914]";
+    let few_directions = "nodes = [10, 5, 20, 45, 25, 40]\ncoupling = \"direct\"\ndofs = [\"uz\", \"uy\"]";
+    for (rest, n) in [(two_rotations, 135 - 54 + 12), (few_directions, 135 - 27 + 6)] {
+        place.write("job.toml", job(rest).as_bytes());
+        let path = place.text("job.toml");
+        supel(&["reduce", &path]).expect(ExitCode::Done);
+        assert_eq!(sizes(&place).0, n, "as many coordinates as the model has dofs");
+        supel(&["verify", &place.text("x.supel")]).expect(ExitCode::Done);
+        supel(&["verify", &place.text("x.supel"), "--job", &path]).expect(ExitCode::Done);
+    }
+}
+
+#[test]
+fn interface_with_mass_and_no_stiffness_agrees() {
+    let chain: Vec<_> = (0..11).map(|row| (row, row + 1, 1.0)).collect();
+    let place = Place::with(&springs(&[1.0; 13], &[], &chain));
+    for method in ["herting", "craig-bampton"] {
+        let rest = format!("--interface ends=rows:0,11 --interface free=rows:12 --method {method} --modes 3");
+        agree(&place, &place.matrix_flags(), &rest);
+    }
+}
+
+#[test]
+fn rigid_body_motion_alone_is_a_superelement() {
+    let place = Place::with_brick();
+    for flags in [place.model_flags(), place.matrix_flags()] {
+        for method in ["herting", "craig-bampton"] {
+            agree(&place, &flags, &format!("--method {method} --modes 0"));
+            assert_eq!(sizes(&place), (6, 0));
+        }
+    }
+}
+
+/// Two bending modes 7·10⁻⁶ apart, of which one is asked for: there are shifts between them.
+#[test]
+fn count_between_two_near_frequencies() {
+    let nodes: Vec<[f64; 3]> = (0..13).map(|i| [f64::from(i) / 12.0, 0.0, 0.0]).collect();
+    let edges: Vec<[usize; 2]> = (0..12).map(|i| [i, i + 1]).collect();
+    let round = Section::round(0.01);
+    let section = Section { second_moment_z: round.second_moment_y * (1.0 + 7e-6), ..round };
+    let place = Place::with(&frame(&nodes, &edges, &section, &Material::STEEL_SI, Inertia::Consistent));
+    let rest = "--interface a=1 --interface b=13 --method herting --modes 1";
+    agree(&place, &place.model_flags(), rest);
+    // Both ends and inertia relief: the pair is no cluster.
+    assert_eq!(sizes(&place), (12 + 6 + 1, 0));
+}
+
+/// Forty oscillators that are one cluster, which ARPACK does not find its way out of.
+#[test]
+fn cluster_that_the_other_eigensolver_fails_on_is_verified_by_the_same() {
+    let between: Vec<_> = (0..39).map(|row| (row, row + 1, 1e-3)).collect();
+    let grounded: Vec<_> = (0..40).map(|row| (row, 1e6)).collect();
+    let place = Place::with(&springs(&[1.0; 40], &grounded, &between));
+    let told = agree(&place, &place.matrix_flags(), "--interface r=rows:0 --method herting --modes 3");
+    if cfg!(feature = "arpack") {
+        assert!(told.contains("the modes were found again"), "{told}");
+    }
+}
+
+/// A hinge as soft as 10⁻⁹ of what it connects: its frequency has few digits, and its error bar says so to more of them.
+#[test]
+fn error_bar_of_a_frequency_of_few_digits_is_found_again() {
+    let chain = |from: u32| (from..from + 9).map(|row| (row, row + 1, 1.3));
+    let between: Vec<_> = chain(0).chain(chain(10)).chain([(9, 10, 1.3e-9)]).collect();
+    let masses: Vec<f64> = (0..20).map(|i| 1.0 + 0.1 * f64::from(i % 7)).collect();
+    let place = Place::with(&springs(&masses, &[], &between));
+    agree(&place, &place.matrix_flags(), "--interface r=rows:0 --method craig-bampton --modes 4");
+}
