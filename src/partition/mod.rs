@@ -16,6 +16,7 @@ mod metis;
 mod minimum_degree;
 mod noise;
 mod ordering;
+mod origin;
 #[expect(clippy::module_inception, reason = "the partition is what the folder makes")]
 mod partition;
 mod problem;

@@ -6,6 +6,7 @@
 #[path = "../chain/mod.rs"]
 mod chain;
 mod faults;
+mod mass;
 #[path = "../end_to_end/place.rs"]
 #[allow(dead_code, reason = "other tests use the rest")]
 mod place;
