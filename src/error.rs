@@ -1254,6 +1254,20 @@ pub enum Error {
         /// Where the forces are largest.
         dof: String,
     },
+    /// Most nodes are coupled with other nodes in M than in K.
+    #[error(
+        "the mass couples {n_apart} of {n_nodes} {what} with other {what} than the stiffness does, the first at {first} – expected the same neighbours, because elements have stiffness and mass at the same nodes – write both matrices with their rows in one order, that of the dof map"
+    )]
+    MassInAnotherOrder {
+        /// Nodes that share less than half of their neighbours.
+        n_apart: usize,
+        /// Nodes of the model.
+        n_nodes: usize,
+        /// `nodes`, or `rows` without a dof map.
+        what: &'static str,
+        /// The first of them.
+        first: String,
+    },
     /// A rigid-body motion whose energy is negative beyond rounding.
     #[error(
         "a rigid-body motion has the negative energy {energy:.1e} – expected zero within {noise:.1e} – a Sturm count finds {count} eigenvalues below half of it: the stiffness is indefinite; check preload and negative springs"
@@ -1385,6 +1399,35 @@ pub enum Error {
         first: String,
         /// Second owner.
         second: String,
+    },
+    /// A rigid patch about a point far outside of the part.
+    #[error(
+        "interface {interface:?}: its origin ({}) is {} times the size of the part away from its nodes – expected a point near their mean ({}) – give the origin in the unit of the coordinates, or leave it out for the mean",
+        place(*origin),
+        quantity(*ratio, 2),
+        place(*middle)
+    )]
+    OriginTooFar {
+        /// The interface.
+        interface: String,
+        /// Its origin.
+        origin: [f64; 3],
+        /// Its distance from the mean of the patch over the size of the part.
+        ratio: f64,
+        /// The mean of the patch.
+        middle: [f64; 3],
+    },
+    /// Rigid patches that tie all nodes.
+    #[error(
+        "interface {interface:?}: a rigid patch of {n_nodes} nodes ties the whole component – found {n_rigid} degrees of freedom for {n_rigid} rigid-body motions – expected nodes that are free to deform – leave nodes out of the patch; a rigid part needs no superelement"
+    )]
+    WhollyRigid {
+        /// The interface.
+        interface: String,
+        /// Nodes of its patch.
+        n_nodes: usize,
+        /// Rigid-body motions.
+        n_rigid: usize,
     },
     /// A patch that cannot move in all directions of its node.
     #[error(
@@ -1654,4 +1697,9 @@ fn forecast(available: u64, [factors, matrices, vectors]: [u64; 3], in_single: O
     format!(
         "the run needs {needed} – largest first: {largest_first} – {available} are available – free memory, raise run.memory_gib, or {advice}"
     )
+}
+
+/// A point, to six digits.
+fn place(point: [f64; 3]) -> String {
+    point.map(|x| quantity(x, 6)).join(", ")
 }

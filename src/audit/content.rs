@@ -9,6 +9,7 @@ use crate::dense::{self, NOISE_FACTOR};
 use crate::error::Result;
 use crate::job::{Boundary, Job};
 use crate::verification::check::Limits;
+use crate::verification::force;
 use crate::verification::limits::{self, Judged, Known, LARGEST_EXCUSE};
 
 /// A superelement with its matrices unpacked.
@@ -101,8 +102,23 @@ impl<'a> Content<'a> {
     }
 
     /// Limits of a force of rigid-body motion, in the scales of K̂ + λ₁M̂.
+    ///
+    /// Bars of modes with the interface held do not show what few digits make of rigid-body motion. A reduction knows, and
+    /// its limit is on record.
     pub(super) fn force_limits(&self) -> Judged {
-        limits::of_force(self.noise.size(), 1.0)
+        let judged = limits::of_force(self.noise.size(), 1.0);
+        match self.noise {
+            Noise::OfFile(noise) if self.recorded_limit("M-12") > judged.limits.value() => {
+                limits::of_unexplained_force(noise.max(self.recorded_limit("M-12") / NOISE_FACTOR))
+            }
+            _ => judged,
+        }
+    }
+
+    /// The largest limit on record of the checks of one identifier.
+    fn recorded_limit(&self, id: &str) -> f64 {
+        let checks = self.superelement.metadata().verification.checks.iter().filter(|check| check.id == id);
+        checks.fold(0.0, |most, check| most.max(check.limit))
     }
 
     /// Limits of the relative difference of two frequencies of one mode.
@@ -119,11 +135,6 @@ impl<'a> Content<'a> {
     /// ‖D v‖.
     pub(super) fn force_norm(&self, v: &[f64]) -> f64 {
         dense::norm(&v.iter().zip(&self.scale).map(|(v, d)| v * d).collect::<Vec<f64>>())
-    }
-
-    /// ‖D⁻¹ v‖.
-    pub(super) fn motion_norm(&self, v: &[f64]) -> f64 {
-        dense::norm(&v.iter().zip(&self.scale).map(|(v, d)| v / d).collect::<Vec<f64>>())
     }
 
     /// The name of a coordinate.
@@ -184,8 +195,7 @@ fn by_own_bars(superelement: &Superelement, first: f64) -> f64 {
 
 /// The first eigenvalue of the reduced pencil beyond its rigid-body modes, with its interface free; `near` is one of its modes.
 fn first_elastic((k, m): (MatRef<'_, f64>, MatRef<'_, f64>), n_r: usize, near: Option<f64>) -> Result<f64> {
-    let ratios = (0..k.nrows()).filter(|i| k[(*i, *i)] > 0.0 && m[(*i, *i)] > 0.0).map(|i| k[(i, i)] / m[(i, i)]);
-    let Some(near) = near.or_else(|| ratios.reduce(f64::min)) else { return Ok(1.0) };
+    let Some(near) = near.or_else(|| force::lowest_ratio(k, m)) else { return Ok(1.0) };
     let values = eigenvalues(k, m, near)?;
     Ok(values.get(n_r).copied().filter(|value| *value > 0.0).unwrap_or(near))
 }

@@ -6,6 +6,7 @@ use supel_runtime::{Coordinate, Generator, RigidBodyModes, Superelement};
 
 use super::content::Content;
 use super::flaw::flaw;
+use super::mass::is_of_a_body;
 use super::record;
 use super::rigid_motion::is_nearly_unit;
 use super::version::{applied, is_of_this_version};
@@ -251,7 +252,7 @@ fn with_method(content: &Content<'_>) -> Vec<String> {
     let found = [
         (tensors.mixing.is_some() != is_mixed, "mixing"),
         (
-            metadata.model.mass_properties.is_some() != is_classical,
+            metadata.model.mass_properties.is_some() != (is_classical && is_of_a_body(content.m_f.as_ref())),
             "gravity without mass properties, or these without it",
         ),
         (!is_classical && is_geometric, "no gravity"),

@@ -1,10 +1,12 @@
 //! Mass properties and the loads of gravity: M-16, M-18.
 
+use faer::{Mat, MatRef};
 use supel_runtime::{MassProperties, RigidBodyModes, mass_properties};
 
 use super::content::{Content, unpacked};
 use super::rigid_motion::is_nearly_unit;
 use crate::dense::{self, NOISE_FACTOR};
+use crate::verification;
 use crate::verification::check::{Check, Limits};
 
 /// M-16: ÛᵀM̂Û against the rigid-body mass of the full model.
@@ -46,8 +48,8 @@ fn rounding(content: &Content<'_>) -> f64 {
     NOISE_FACTOR * f64::EPSILON * (0..u.ncols()).map(|j| terms(j) / content.m_f[(j, j)]).fold(0.0, f64::max)
 }
 
-/// Mass properties by M̂ and Û, where Û is the six unit motions.
-fn properties(content: &Content<'_>) -> Option<MassProperties> {
+/// ÛᵀM̂Û of the six motions of the body, where Û is unit motions.
+fn mass_of_unit_motions(content: &Content<'_>) -> Option<Mat<f64>> {
     let metadata = content.superelement.metadata();
     let is_unit = metadata.model.rigid_body_modes == RigidBodyModes::Geometric || is_nearly_unit(content);
     if !is_unit || content.n_rigid() < 6 {
@@ -55,8 +57,24 @@ fn properties(content: &Content<'_>) -> Option<MassProperties> {
     }
     // Mechanisms come behind the motions of the body.
     let u = content.u.as_ref().subcols(0, 6);
-    let m_f = dense::gram(u, dense::product(content.m.as_ref(), u).as_ref());
+    Some(dense::gram(u, dense::product(content.m.as_ref(), u).as_ref()))
+}
+
+/// Mass properties by M̂ and Û, where Û is the six unit motions.
+fn properties(content: &Content<'_>) -> Option<MassProperties> {
+    let m_f = mass_of_unit_motions(content)?;
     mass_properties(&supel_runtime::Matrix::from_fn(6, 6, |i, j| m_f[(i, j)]))
+}
+
+/// Whether the first six motions of a rigid-body mass are those of one mass with one centre, which has mass properties.
+pub(super) fn is_of_a_body(m_f: MatRef<'_, f64>) -> bool {
+    let (n_rigid, m_f) = (m_f.ncols(), |i: usize, j: usize| m_f[(i, j)]);
+    n_rigid >= 6 && mass_properties(&supel_runtime::Matrix::from_fn(6, 6, m_f)).is_some()
+}
+
+/// M-16: what Û moves is a body. Roundings of few digits in M are in M̂, and nothing in a file tells how many there were.
+pub(super) fn of_a_body(content: &Content<'_>) -> Option<Check> {
+    mass_of_unit_motions(content).map(|m_f| verification::of_a_body(m_f.as_ref(), 0.0))
 }
 
 /// The radius of gyration: the length that a shift of the centre is compared with.
@@ -78,6 +96,11 @@ fn described(properties: &MassProperties) -> String {
 pub(super) fn stated(content: &Content<'_>) -> Option<Check> {
     let stated = content.superelement.metadata().model.mass_properties?;
     let found = properties(content);
+    // The inertia about the centre is what is left of that about the origin, which may be far away, and of m c²: two numbers
+    // of the size of the first, in the words of the file and here.
+    let remoteness = |found: &MassProperties| distance(found.center_of_mass, [0.0; 3]) / gyration(found);
+    let cancelled = found.as_ref().map_or(0.0, |found| 4.0 * (1.0 + remoteness(found).powi(2)));
+    let limits = Limits { engineering: 1e-8, arithmetic: rounding(content) * cancelled, data: 0.0 };
     let value = found.as_ref().map_or(f64::NAN, |found| {
         let size = gyration(found);
         let inertia = (0..9).map(|k| (found.inertia[k / 3][k % 3] - stated.inertia[k / 3][k % 3]).abs());
@@ -93,8 +116,7 @@ pub(super) fn stated(content: &Content<'_>) -> Option<Check> {
         name: "stated mass properties are those of M̂",
         equation: "max |m/m_stated − 1|, |c − c_stated| / i, |J − J_stated| / (m i²), i radius of gyration",
         value,
-        // The inertia about the centre is what is left of that about the origin, which may be far away.
-        limits: Limits { engineering: 1e-8, ..Limits::default() },
+        limits: limits.capped(1.0, 0.0),
         fail_above: 1e-6,
         worst: found.as_ref().map(described),
     })

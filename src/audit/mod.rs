@@ -105,6 +105,7 @@ fn checked(content: &Content<'_>) -> Result<Audit> {
     audit.checks.extend(named_modes::mixing(content));
     audit.checks.extend(named_modes::residual(content));
     audit.checks.extend(mass::rigid_body_mass(content));
+    audit.checks.extend(mass::of_a_body(content));
     audit.checks.extend(mass::stated(content));
     audit.checks.extend(mass::expected(content));
     audit.checks.extend(mass::gravity(content));

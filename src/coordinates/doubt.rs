@@ -71,7 +71,7 @@ fn costly_rotations(motions: &Motions<'_>, nodes: &Nodes, body: &Body, held: &[D
         let is_witness = |row: &usize| is_free || nodes.is_witness(*row, axis);
         let witnesses: Vec<usize> = body.rows.iter().copied().filter(is_witness).collect();
         let residual = |motion: usize| motions.residual(body, &witnesses, motion);
-        let noise = (0..FIRST_ROTATION).map(residual).fold(motions.rounding(), f64::max);
+        let noise = (0..FIRST_ROTATION).map(residual).fold(motions.rounding().max(body.lever_rounding), f64::max);
         let has_energy = is_free && turning_costs(motions, body, rotation);
         let residual = residual(rotation);
         let is_costly = residual > NOTICEABLE * noise || has_energy;

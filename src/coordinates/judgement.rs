@@ -13,6 +13,9 @@ use supel_runtime::MOTIONS;
 /// Share of the Rayleigh quotient of the first elastic mode that rounded coordinates may cost. Five digits of a plate of
 /// thickness 1:1000 cost 3·10⁻³, one node of a block moved by a hundredth costs 2.5·10⁻² (catalogue I-18, I-19).
 const ROUNDED: f64 = 1e-2;
+/// Share of the energy of the first elastic mode up to which springs that hold rotations are soft: those of a thousandth of its
+/// frequency. The component is nearly free, and W-GROUNDED says how nearly.
+const SOFTLY_HELD: f64 = 1e-6;
 /// How far the worst node may stand out from the median one. Rounding is of one size everywhere: the largest of a million
 /// normal numbers is 7 times the median one, and digits may be lost unevenly by some 10. A node out of place by a hundredth
 /// stands out by 10³ to 10⁴.
@@ -78,7 +81,7 @@ impl Case<'_> {
         let Some(worst) = doubts.iter().max_by(|a, b| cost(a).total_cmp(&cost(b))) else {
             return Ok(CoordinateFit::Exact);
         };
-        let cost = self.of_first_elastic(cost(&worst), zeros);
+        let cost = of_first_elastic(cost(&worst), zeros.first_elastic(0));
         let n_touched: usize = doubts.iter().map(|doubt| doubt.n_touched).sum();
         // Where supports touch most rows, the others prove too little; where they touch none, there are no supports.
         let is_unexplained = zeros.count() > self.n_explained
@@ -127,6 +130,9 @@ impl Case<'_> {
         }
         let is_free = worst.costly.iter().any(|costly| costly.is_free);
         if is_free && zeros.count() <= self.n_explained {
+            if cost.energy <= SOFTLY_HELD {
+                return Ok(CoordinateFit::Exact);
+            }
             let (rotations, n_zero) = (named(&rotations), zeros.count());
             return Err(Error::RotationsHeld { rotations, n_zero, energy: cost.energy, dof: at });
         }
@@ -153,7 +159,9 @@ impl Case<'_> {
         let Self { motions, .. } = self;
         let body = &motions.bodies[doubt.body];
         if doubt.costly.iter().any(|costly| costly.is_free) {
-            return self.of_first_elastic(self.free[doubt.body].largest_quotient, zeros);
+            // Rotations that springs hold have eigenvalues of their own below those of the elastic modes.
+            let n_held = self.n_of_right_coordinates().saturating_sub(zeros.count());
+            return of_first_elastic(self.free[doubt.body].largest_quotient, zeros.first_elastic(n_held));
         }
         let stiffness = crate::sparse::diagonal(&motions.model.stiffness);
         let share = |costly: &Costly| {
@@ -163,11 +171,6 @@ impl Case<'_> {
         };
         let energy = doubt.costly.iter().map(share).fold(0.0, f64::max);
         Cost { energy, of: "what turning the held component costs", expected: ROUNDED }
-    }
-
-    fn of_first_elastic(&self, quotient: f64, zeros: &Zeros) -> Cost {
-        let energy = zeros.first_elastic.map_or(f64::INFINITY, |lambda| quotient / lambda);
-        Cost { energy, of: "the energy of the first elastic mode", expected: ROUNDED }
     }
 
     /// Whether a motion of a body by the coordinates costs more than rounding.
@@ -191,6 +194,11 @@ struct Cost {
     of: &'static str,
     /// What rounding of coordinates may cost.
     expected: f64,
+}
+
+fn of_first_elastic(quotient: f64, first: Option<f64>) -> Cost {
+    let energy = first.map_or(f64::INFINITY, |lambda| quotient / lambda);
+    Cost { energy, of: "the energy of the first elastic mode", expected: ROUNDED }
 }
 
 /// Names of the axes.

@@ -24,6 +24,16 @@ pub(super) struct Body {
     /// Its rows, ascending.
     pub(super) rows: Vec<usize>,
     pub(super) frame: Frame,
+    /// Rounding of its levers relative to its size: coordinates far from the origin have that of their distance.
+    pub(super) lever_rounding: f64,
+}
+
+impl Body {
+    fn of(sites: &[Site], rows: Vec<usize>) -> Self {
+        let frame = Frame::of(sites, &rows);
+        let far = rows.iter().flat_map(|row| sites[*row].position).fold(0.0f64, |max, x| max.max(x.abs()));
+        Self { frame, lever_rounding: f64::EPSILON * far / frame.size, rows }
+    }
 }
 
 impl<'a> Motions<'a> {
@@ -32,9 +42,9 @@ impl<'a> Motions<'a> {
         for (row, body) in model.bodies.of_row.iter().enumerate() {
             rows[*body as usize].push(row);
         }
-        let bodies: Vec<Body> = rows.into_iter().map(|rows| Body { frame: Frame::of(sites, &rows), rows }).collect();
+        let bodies: Vec<Body> = rows.into_iter().map(|rows| Body::of(sites, rows)).collect();
         let mut centred = Mat::zeros(sites.len(), 6);
-        for Body { rows, frame } in &bodies {
+        for Body { rows, frame, .. } in &bodies {
             for row in rows {
                 let motion = sites[*row].rigid_motion_about(frame.centre);
                 for (j, value) in motion.into_iter().enumerate() {

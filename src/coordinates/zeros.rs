@@ -8,7 +8,7 @@ use crate::dense;
 use crate::error::{Error, Result};
 use crate::factor::count_below;
 use crate::partition::{DofOrigin, Partition};
-use crate::rigid::{moving_directions, zero_modes};
+use crate::rigid::{ZeroModes, moving_directions, zero_modes};
 
 /// A shift just above zero, in units of what rounding of the data can make of a zero eigenvalue: as many as an eigenvalue may
 /// be off by rounding of the factorisation before a sign is wrong.
@@ -53,14 +53,14 @@ pub(super) struct Zeros {
     pub(super) shapes: Mat<f64>,
     /// M times them.
     pub(super) momenta: Mat<f64>,
-    /// The first eigenvalue above zero.
-    pub(super) first_elastic: Option<f64>,
+    /// The first eigenvalues above zero, ascending.
+    elastic: Vec<f64>,
 }
 
 impl Zeros {
     /// By inverse iteration on the whole pencil.
     pub(super) fn of(whole: &Partition) -> Result<Self> {
-        let (zero, first_elastic, _) = zero_modes(whole)?;
+        let ZeroModes { rigid: zero, elastic, .. } = zero_modes(whole)?;
         let by_row = |a: &Mat<f64>| {
             let mut rows = Mat::zeros(a.nrows(), a.ncols());
             for (dof, reduced) in whole.dofs.iter().enumerate() {
@@ -69,7 +69,12 @@ impl Zeros {
             }
             rows
         };
-        Ok(Self { shapes: by_row(&zero.orthonormal), momenta: by_row(&zero.mass_orthonormal), first_elastic })
+        Ok(Self { shapes: by_row(&zero.orthonormal), momenta: by_row(&zero.mass_orthonormal), elastic })
+    }
+
+    /// The first eigenvalue that is elastic where some above zero are those of motions that springs hold.
+    pub(super) fn first_elastic(&self, n_held: usize) -> Option<f64> {
+        self.elastic.get(n_held).or(self.elastic.last()).copied()
     }
 
     pub(super) fn count(&self) -> usize {

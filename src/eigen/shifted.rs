@@ -35,6 +35,9 @@ const FIRST_SHIFT: f64 = 1e-6;
 const ROUNDINGS_OF_DATA: f64 = 10.0;
 /// Refactorisations before the shift is taken as it is.
 const MAX_ROUNDS: usize = 4;
+/// How much farther from zero a shift is tried where K − σM is not definite, and how often.
+const RETREAT: f64 = 10.0;
+const MAX_RETREATS: usize = 3;
 /// −σ may lie between these multiples of the first elastic eigenvalue.
 const WINDOW: std::ops::RangeInclusive<f64> = 1e-2..=10.0;
 /// Modes looked at first; doubled while all of them are zero modes.
@@ -58,10 +61,19 @@ pub fn shifted<'a>(
 ) -> Result<Shifted<'a>> {
     let mut sigma = first_shift(problem);
     let mut count = LOOK_AT;
-    let mut round = 1;
+    let is_binary = problem.precision.stiffness <= f64::EPSILON;
+    let (mut round, mut n_retreats) = (1, 0);
     loop {
-        let factor = Cholesky::new(analysis, problem.pencil(), sigma, name)
-            .map_err(|error| few_digits(error, analysis, problem.stiffness, problem.precision.stiffness))?;
+        let factor = match Cholesky::new(analysis, problem.pencil(), sigma, name) {
+            // Rounding of ties far above all else may be larger than a shift that suits the softest modes.
+            Err(Error::NotDefinite { .. }) if is_binary && n_retreats < MAX_RETREATS => {
+                (sigma, n_retreats) = (RETREAT * sigma, n_retreats + 1);
+                continue;
+            }
+            found => {
+                found.map_err(|error| few_digits(error, analysis, problem.stiffness, problem.precision.stiffness))?
+            }
+        };
         let request = ModeRequest { wanted: Wanted::Count(count), eigensolver: Eigensolver::Lanczos, seed: SEED };
         let lowest = elastic_modes(problem, &Factored::new(&factor, sigma), request)?;
         let n_zero = n_zero(&lowest);
@@ -70,10 +82,10 @@ pub fn shifted<'a>(
             count *= 2;
         }
         let first_elastic = lowest.lambda.get(n_zero).copied().or(lowest.next);
-        let settled = first_elastic.is_none_or(|lambda| WINDOW.contains(&(-sigma / lambda)));
+        let settled = n_retreats > 0 || first_elastic.is_none_or(|lambda| WINDOW.contains(&(-sigma / lambda)));
         if (settled && !all_zero) || round == MAX_ROUNDS {
             refuse_negative(analysis, problem, (&lowest, first_elastic))?;
-            return Ok(Shifted { factor, sigma, lowest, n_zero, n_factorisations: round });
+            return Ok(Shifted { factor, sigma, lowest, n_zero, n_factorisations: round + n_retreats });
         }
         if let Some(lambda) = first_elastic.filter(|lambda| *lambda > 0.0) {
             sigma = -lambda;

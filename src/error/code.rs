@@ -403,6 +403,9 @@ codes! {
     RotationsHeld => "E-ROTATIONS-HELD", InputData,
         "K lets the component move in every direction but not turn",
         "check map, order of nodes, local frames and the state of the coordinates; look for springs between distant nodes; where supports hold rotations alone, list them in `model.held_rotations`";
+    MassInAnotherOrder => "E-MASS-ORDER", InputData,
+        "M couples other nodes than K",
+        "write K and M with their rows in one order, that of the dof map";
     NegativeRigidEnergy => "E-NEG-RIGID", ModelPhysics,
         "a rigid-body motion has negative energy, and a count finds the eigenvalue",
         "check preload and negative springs";
@@ -445,6 +448,12 @@ codes! {
     DofTwice => "E-DOF-TWICE", InputData,
         "two interfaces claim one dof",
         "take it out of one of them";
+    OriginTooFar => "E-ORIGIN-FAR", InputData,
+        "the origin of a rigid patch is more than a hundred times the size of the part away from it",
+        "give the origin in the unit of the coordinates, or leave it out for the mean of the nodes";
+    WhollyRigid => "E-WHOLLY-RIGID", ModelPhysics,
+        "rigid patches tie all nodes, and nothing elastic is left",
+        "leave nodes out of the patch; a rigid part needs no superelement";
     PatchRank => "E-PATCH-RANK", InputData,
         "a rigid patch cannot follow all motions of its node",
         "add nodes off the line, or list fewer dofs";

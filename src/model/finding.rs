@@ -1,6 +1,7 @@
 //! What the checks of a model found that is not an error: remarks and warnings, one sentence each.
 
-use crate::dofs::Direction;
+use crate::dofs::{Direction, RowNames};
+use crate::number::quantity;
 
 /// Above this relative asymmetry a finding becomes a warning; below it the asymmetry is rounding of the producer.
 pub const ASYMMETRY_WARN: f64 = 1e-12;
@@ -25,8 +26,17 @@ pub enum Finding {
     },
     /// Rows without stiffness that carry mass: free particles, each a zero mode.
     FreeParticles {
+        /// Their numbers, from zero.
+        rows: Vec<usize>,
+        /// What the first of them is called.
+        first: String,
+    },
+    /// Nodes that M couples with other nodes than K does.
+    MassCouplesOthers {
         /// How many.
-        n_rows: usize,
+        n_apart: usize,
+        /// Of how many.
+        n_nodes: usize,
         /// The first of them.
         first: String,
     },
@@ -74,6 +84,15 @@ pub enum Finding {
         /// The rotations, `rx` to `rz`.
         rotations: Vec<Direction>,
     },
+    /// A rigid patch whose origin is far outside of the part.
+    OriginFar {
+        /// The interface.
+        interface: String,
+        /// Its origin.
+        origin: [f64; 3],
+        /// Its distance from the mean of the patch over the size of the part.
+        ratio: f64,
+    },
     /// Interface dofs with mass and no stiffness.
     HangingInterface {
         /// What the first is called.
@@ -84,18 +103,26 @@ pub enum Finding {
 }
 
 impl Finding {
+    /// Rows that are free particles, where there are any.
+    pub fn free_particles(rows: Vec<usize>, names: RowNames<'_>) -> Option<Self> {
+        let first = names.full(*rows.first()?);
+        Some(Self::FreeParticles { rows, first })
+    }
+
     /// The code of the warning that a finding is, or nothing where it is a remark.
     pub fn warning(&self) -> Option<&'static str> {
         match self {
             Self::Symmetrised { asymmetry, .. } => (*asymmetry > ASYMMETRY_WARN).then_some("W-UNSYMMETRIC"),
             Self::MasslessRows { .. } => None,
             Self::FreeParticles { .. } => Some("W-FREE-PARTICLE"),
+            Self::MassCouplesOthers { .. } => Some("W-MASS-ORDER"),
             Self::Penalties { .. } => Some("W-PENALTY"),
             Self::NegativeMassByRounding { .. } => Some("W-NEGATIVE-MASS"),
             Self::ConstrainedInterface { .. } => Some("W-CONSTRAINED-INTERFACE"),
             Self::CoordinatesUntested { .. } | Self::MotionsUncounted => Some("W-COORD-UNTESTED"),
             Self::MassByDirection { .. } => Some("W-MASS-DIRECTION"),
             Self::RotationsFree { .. } => Some("W-NOT-HELD"),
+            Self::OriginFar { .. } => Some("W-ORIGIN-FAR"),
             Self::HangingInterface { .. } => Some("W-HANGING"),
         }
     }
@@ -111,9 +138,14 @@ impl std::fmt::Display for Finding {
                 )
             }
             Self::MasslessRows { n_rows } => write!(f, "{n_rows} rows have no mass: their frequencies are infinite"),
-            Self::FreeParticles { n_rows, first } => {
-                write!(f, "{n_rows} rows have mass and no stiffness, the first is {first}: free particles")
+            Self::FreeParticles { rows, first } => {
+                write!(f, "{} rows have mass and no stiffness, the first is {first}: free particles", rows.len())
             }
+            Self::MassCouplesOthers { n_apart, n_nodes, first } => write!(
+                f,
+                "the mass couples {n_apart} of {n_nodes} nodes with other nodes than the stiffness does, the first at {first}: check that \
+                 the rows of both matrices are in one order"
+            ),
             Self::Penalties { n_rows, first, ratio } => write!(
                 f,
                 "{n_rows} rows have a stiffness of {PENALTY:.0e} times the median and more, at most {ratio:.0e} times at {first}: penalties \
@@ -155,6 +187,13 @@ impl std::fmt::Display for Finding {
                     rotations.join(", ")
                 )
             }
+            Self::OriginFar { interface, origin, ratio } => write!(
+                f,
+                "the origin ({}) of interface {interface:?} is {} times the size of the part away from its nodes: check its unit; digits are \
+                 lost on so long a lever",
+                origin.map(|x| quantity(x, 6)).join(", "),
+                quantity(*ratio, 2)
+            ),
             Self::HangingInterface { dof, n_dofs } => {
                 write!(f, "{n_dofs} interface dofs have mass and no stiffness, the first is {dof}: they move freely")
             }

@@ -8,6 +8,7 @@ mod bodies;
 mod definite;
 mod finding;
 mod fit;
+mod mass_order;
 mod scaling;
 mod site;
 mod symmetry;
@@ -78,8 +79,8 @@ impl Model {
     /// Checks and scales what was read.
     ///
     /// # Errors
-    /// Unsymmetric matrices, empty rows, negative or zero diagonals, no mass or an indefinite one, swapped K and M, numbers
-    /// near the ends of the range of double precision.
+    /// Unsymmetric matrices, empty rows, negative or zero diagonals, no mass or an indefinite one, swapped K and M, rows of M in
+    /// another order than those of K, numbers near the ends of the range of double precision.
     ///
     /// # Panics
     /// If K and M differ in size, which reading has ruled out.
@@ -96,6 +97,7 @@ impl Model {
         assert!(stiffness.rows() == mass.rows(), "K has {} rows, M has {}", stiffness.rows(), mass.rows());
         check_not_swapped(&stiffness, &mass, dofs.as_deref())?;
         check_diagonals(&stiffness, &mass, names, &mut findings)?;
+        findings.extend(mass_order::compared(&stiffness, &mass, dofs.as_deref(), names)?);
         clear_negative_rounding(&mut mass);
         let scaling = Scaling::take_out(&mut stiffness, &mut mass)?;
         let (is_definite, bodies) = rayon::join(
@@ -247,8 +249,7 @@ fn check_diagonals(
     };
     note(massless, |n_rows| Finding::MasslessRows { n_rows });
     note(rounding, |n_rows| Finding::NegativeMassByRounding { n_rows });
-    let of_particles = |first: &usize| Finding::FreeParticles { n_rows: particles.len(), first: names.full(*first) };
-    findings.extend(particles.first().map(of_particles));
+    findings.extend(Finding::free_particles(particles, names));
     findings.extend(penalties(&k_diag, names));
     Ok(())
 }

@@ -7,7 +7,7 @@ use crate::factor::Refinement;
 use crate::job::{Boundary, Precision};
 use crate::rigid::RigidSource;
 use crate::verification::check::Verdict;
-use crate::verification::{LARGEST_OF_MESHES, Penalties};
+use crate::verification::{LARGEST_OF_MESHES, Penalties, penalties as penalties_of};
 
 /// Relative error bar of a frequency above which a warning names the digits of the data: what a modal test resolves, the
 /// limit of M-09.
@@ -96,15 +96,16 @@ pub(super) fn mixed_precision(results: &Results<'_>) -> Option<Warning> {
 pub(super) fn penalties(results: &Results<'_>) -> Option<Warning> {
     let is_missed = results.checks().iter().any(|check| matches!(check.verdict(), Verdict::Warn | Verdict::Fail));
     let findings = &results.evidence.partition.model.findings;
-    let named = !is_missed || findings.iter().any(|finding| finding.warning() == Some("W-PENALTY"));
-    let Penalties { n_rows, stiffest, ratio, noise, asked, noise_without } =
-        results.findings.penalties.as_ref().filter(|_| !named)?;
+    let is_named = findings.iter().any(|finding| finding.warning() == Some("W-PENALTY"));
+    // The search reads K once for every few modes.
+    let found = (is_missed && !is_named).then(|| penalties_of(&results.evidence, results.findings.first_elastic));
+    let Penalties { n_rows, stiffest, ratio, noise, asked, noise_without } = found.flatten()?;
     Some(Warning {
         code: "W-PENALTY",
         message: format!(
             "{n_rows} rows are more than {LARGEST_OF_MESHES} times stiffer than rows they are coupled with, up to {ratio:.0e} times at \
-             {stiffest}: their terms cancel and leave energies known to {noise:.0e}, where {asked:.0e} is asked for and {noise_without:.0e} is \
-             had without them; tie dofs by elimination, or by a smaller penalty"
+             {stiffest}: ties, or elements much thinner than the rest; their terms cancel and leave energies known to {noise:.0e}, where \
+             {asked:.0e} is asked for and {noise_without:.0e} is had without them; tie dofs by elimination, or by a smaller penalty"
         ),
     })
 }
@@ -133,11 +134,17 @@ pub(super) fn data_precision(results: &Results<'_>) -> Option<Warning> {
     let uncertain: Vec<String> = of_free.chain(of_modes).flatten().collect();
     let first = uncertain.first()?;
     let [stiffness, mass] = &results.input.matrices;
+    // Sixteen digits are all that a number in double precision has.
+    let advice = if stiffness.digits.min(mass.digits) >= 16 {
+        "double precision has no more for stiffnesses of such different size: make stiff ties and thin elements softer or leave them out"
+    } else {
+        "write the matrices with all their digits, and stiffnesses of like size"
+    };
     Some(Warning {
         code: "W-DATA-PRECISION",
         message: format!(
             "{} digits of the stiffness and {} of the mass leave {} frequencies less certain than {WANTED:.0e}, {first}; \
-             write the matrices with all their digits, and stiffnesses of like size",
+             {advice}",
             stiffness.digits,
             mass.digits,
             uncertain.len()

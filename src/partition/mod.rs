@@ -19,6 +19,7 @@ mod missing_directions;
 mod node_catalogue;
 mod noise;
 mod ordering;
+mod origin;
 #[expect(clippy::module_inception, reason = "the partition is what the folder makes")]
 mod partition;
 mod problem;

@@ -16,8 +16,8 @@ use crate::sparse::{Leading, SparseMatrix};
 
 use super::interface_node::InterfaceNode;
 use super::roundings::{PatchEntries, Roundings};
-use super::transformation::{DofOrigin, ReducedDof, Transformation};
-use super::{congruence, interface, missing_directions, ordering};
+use super::transformation::{DofOrigin, ReducedDof, Transformation, TransformationRow};
+use super::{congruence, interface, missing_directions, ordering, origin};
 
 /// Most interface dofs: the two reduced matrices alone take 6.4 GB then, and decomposing them days.
 pub const LARGEST_INTERFACE: usize = 20_000;
@@ -62,12 +62,14 @@ impl Partition {
     /// matrices of the model go as those of the partition come.
     ///
     /// # Errors
-    /// Interface nodes that do not exist, repeat, or lack the dofs asked for; a patch that cannot carry a rotation.
+    /// Interface nodes that do not exist, repeat, or lack the dofs asked for; a patch that cannot carry a rotation, or whose origin is
+    /// far outside of the part.
     ///
     /// # Panics
     /// Where the pattern of K or M is not symmetric, which that of a checked model is.
     pub fn new(model: Model, interfaces: &[InterfaceJob]) -> Result<Self> {
         let resolved = interface::resolve(&model, interfaces)?;
+        let far_origins = origin::far_origins(&model, &resolved)?;
         let transformation = Transformation::new(&model, &resolved)?;
         let order = ordering::elimination_order(&model, &transformation)?;
         let transformation = transformation.permuted(&order);
@@ -76,7 +78,8 @@ impl Partition {
         if n_interface > LARGEST_INTERFACE {
             return Err(Error::InterfaceTooLarge { n_interface, limit: LARGEST_INTERFACE });
         }
-        let (facts, mut findings) = (model.facts(), missing_directions::constrained_nodes(&model, &resolved));
+        let (mut facts, mut findings) = (model.facts(), missing_directions::constrained_nodes(&model, &resolved));
+        facts.findings = untied(facts.findings, &transformation, &model);
         let stiffness = congruence::congruence(&model.stiffness, &transformation);
         let cancellation = congruence::cancellation(&model.stiffness, &stiffness, &transformation);
         let patches = PatchEntries::of(&model.stiffness, &transformation);
@@ -84,6 +87,7 @@ impl Partition {
         let mass = congruence::congruence(&model.mass, &transformation);
         drop(model.mass);
         let interface = resolved.into_nodes();
+        findings.extend(far_origins);
         findings.extend(hanging_dofs(&stiffness, &transformation, (&interface, &facts.rows)));
         Ok(Self {
             cancellation,
@@ -160,6 +164,19 @@ impl Partition {
         let block = |matrix| Leading::new(matrix, self.n_internal);
         Pencil::new(block(&self.stiffness), block(&self.mass))
     }
+}
+
+/// The findings of a model without the particles that a rigid patch ties to others. A patch that no stiffness reaches is one of
+/// [`hanging_dofs`].
+fn untied(findings: Vec<Finding>, transformation: &Transformation, model: &Model) -> Vec<Finding> {
+    let is_free = |row: &usize| matches!(transformation.rows[*row], TransformationRow::Dof(_));
+    let of_finding = |finding| match finding {
+        Finding::FreeParticles { rows, .. } => {
+            Finding::free_particles(rows.into_iter().filter(is_free).collect(), model.names())
+        }
+        finding => Some(finding),
+    };
+    findings.into_iter().filter_map(of_finding).collect()
 }
 
 /// Interface dofs that no stiffness reaches; the model has seen to it that they have mass.

@@ -75,7 +75,7 @@ impl<'a> CheckLine<'a> {
             value: check.value,
             limit: check.limits.value(),
             active_limit: check.is_judged().then(|| check.limits.active()),
-            fail_above: if check.fail_above == Check::NEVER { f64::INFINITY } else { check.fail_above },
+            fail_above: if check.fail_above == Check::NEVER { f64::INFINITY } else { check.fails_above() },
             margin: if check.is_judged() { check.margin() } else { f64::NAN },
             verdict: check.verdict(),
             worst: check.worst.as_deref(),

@@ -91,7 +91,7 @@ fn of_check(check: &Check, warnings: JunitWarnings) -> Outcome {
     let worst = check.worst.as_ref().map(|worst| format!("worst: {worst}"));
     let limits = if check.is_judged() {
         let source = words::active_limit(check.limits.active());
-        let fails = match check.fail_above {
+        let fails = match check.fails_above() {
             Check::NEVER => "never fails".to_owned(),
             fail_above => format!("fails above {}", scientific(fail_above, 3)),
         };

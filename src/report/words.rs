@@ -131,7 +131,7 @@ pub fn unmet_check(check: &Check) -> String {
     let at = check.worst.as_ref().map(|worst| format!(" – {worst}")).unwrap_or_default();
     let found = number::scientific(check.value, 2);
     let expected = if check.verdict() == Verdict::Fail {
-        format!("{limit}, failing above {}", number::scientific(check.fail_above, 1))
+        format!("{limit}, failing above {}", number::scientific(check.fails_above(), 1))
     } else {
         limit
     };

@@ -19,14 +19,23 @@ use crate::sparse::{product, product_and_terms};
 /// # Errors
 /// K − σM is not definite for a negative σ; the eigensolver fails.
 pub fn from_matrices(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
-    zero_modes(partition).map(|(rigid, _, n_factorisations)| (rigid, n_factorisations))
+    zero_modes(partition).map(|found| (found.rigid, found.n_factorisations))
 }
 
-/// The zero modes with the first eigenvalue above zero and the factorisations they took.
+/// The zero modes with what was found above them.
+pub(crate) struct ZeroModes {
+    pub(crate) rigid: RigidBodyModes,
+    /// Eigenvalues above zero, ascending: the first ones, or none where there are none.
+    pub(crate) elastic: Vec<f64>,
+    /// Factorisations it took.
+    pub(crate) n_factorisations: usize,
+}
+
+/// The zero modes with the first eigenvalues above zero.
 ///
 /// # Errors
 /// As [`from_matrices`].
-pub(crate) fn zero_modes(partition: &Partition) -> Result<(RigidBodyModes, Option<f64>, usize)> {
+pub(crate) fn zero_modes(partition: &Partition) -> Result<ZeroModes> {
     let analysis = Analysis::new(partition.pencil())?;
     let problem = partition.free_problem();
     let found = shifted(&analysis, problem, &|step| partition.name_of(step))?;
@@ -35,10 +44,10 @@ pub(crate) fn zero_modes(partition: &Partition) -> Result<(RigidBodyModes, Optio
     let (forces, terms) = product_and_terms(&partition.stiffness, orthonormal.as_ref());
     let magnitudes = energies_of_terms(orthonormal.as_ref(), terms.as_ref());
     let largest_residual = residuals(forces.as_ref(), terms.as_ref()).into_iter().fold(0.0, f64::max);
-    let first_elastic = found.lowest.lambda.get(found.n_zero).copied().or(found.lowest.next);
+    let elastic: Vec<f64> = found.lowest.lambda[found.n_zero..].iter().copied().chain(found.lowest.next).collect();
     // A rounding E turns a zero mode towards an elastic one x by xᵀEq / λ, and xᵀEq is what it makes of the energies of the two.
     let level = found.lowest.errors[..found.n_zero].iter().map(|error| error.zero_level).fold(0.0, f64::max);
-    let angle = first_elastic.map_or(0.0, |lambda| level / lambda);
+    let angle = elastic.first().map_or(0.0, |lambda| level / lambda);
     let mut energy = RigidEnergy { largest_residual, angle, ..RigidEnergy::default() };
     for (j, magnitude) in magnitudes.iter().enumerate() {
         let (q, force) = (dense::column(orthonormal.as_ref(), j), dense::column(forces.as_ref(), j));
@@ -56,7 +65,7 @@ pub(crate) fn zero_modes(partition: &Partition) -> Result<(RigidBodyModes, Optio
         is_classical: false,
         energy,
     };
-    Ok((rigid, first_elastic, found.n_factorisations))
+    Ok(ZeroModes { rigid, elastic, n_factorisations: found.n_factorisations })
 }
 
 /// Relative error bar of the first elastic eigenvalue up to which mechanisms below it are counted: what is lost in rounding is then

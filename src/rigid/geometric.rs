@@ -137,7 +137,7 @@ fn is_free_to_k(partition: &Partition, energies: &[f64], noise: f64) -> Result<b
         return Ok(false);
     }
     match algebraic::zero_modes(partition) {
-        Ok((zero, ..)) => Ok(zero.count() >= energies.len()),
+        Ok(zero) => Ok(zero.rigid.count() >= energies.len()),
         // Whether K is definite is for others to say.
         Err(Error::IndefiniteStiffness { .. } | Error::NotDefinite { .. } | Error::DigitsTooFew { .. }) => Ok(false),
         Err(error) => Err(error),

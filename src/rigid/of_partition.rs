@@ -3,7 +3,7 @@
 use super::algebraic::from_matrices;
 use super::geometric;
 use super::rigid_body_modes::RigidBodyModes;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::partition::Partition;
 
 /// The rigid-body modes, and the factorisations they took: from coordinates none.
@@ -11,12 +11,13 @@ use crate::partition::Partition;
 /// Without an interface there is no S in which mechanisms would show, so that a free component is counted by its matrices too.
 ///
 /// # Errors
-/// The errors of [`from_coordinates`] and [`from_matrices`].
+/// The errors of [`from_coordinates`] and [`from_matrices`]; rigid patches that leave nothing elastic.
 pub fn rigid_body_modes(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
     let Some(sites) = partition.sites() else {
         return from_matrices(partition);
     };
     let rigid = geometric::rigid_body_modes(partition, &sites)?;
+    refuse_wholly_rigid(partition, &rigid)?;
     if partition.n_interface() > 0 || rigid.count() == 0 {
         return Ok((rigid, 0));
     }
@@ -24,6 +25,16 @@ pub fn rigid_body_modes(partition: &Partition) -> Result<(RigidBodyModes, usize)
     let n_mechanisms = every.count().saturating_sub(rigid.count());
     let rigid = if n_mechanisms > 0 { RigidBodyModes { n_mechanisms, ..every } } else { rigid };
     Ok((rigid, n_factorisations))
+}
+
+/// Patches of all nodes leave no stiffness but rounding, of which nothing follows.
+fn refuse_wholly_rigid(partition: &Partition, rigid: &RigidBodyModes) -> Result<()> {
+    match partition.interface.iter().find(|node| node.coupling.is_patch()) {
+        Some(patch) if partition.n_dofs() == rigid.count() => {
+            Err(Error::WhollyRigid { interface: patch.name.clone(), n_nodes: patch.n_nodes, n_rigid: rigid.count() })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The rigid-body modes from the coordinates, or `None` where the model has none.

@@ -60,6 +60,9 @@ impl Limits {
     }
 }
 
+/// How many times its limit a value is at least where a check fails.
+const FAR_ABOVE: f64 = 2.0;
+
 /// What a check says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -89,7 +92,7 @@ pub struct Check {
     pub value: f64,
     /// What it is judged by.
     pub limits: Limits,
-    /// Above this the check fails; between the limit and this it warns.
+    /// The figure of the check above which it fails, unless that is near its limit: [`Check::fails_above`].
     pub fail_above: f64,
     /// Where the value is worst: a mode, a node and direction, a column.
     pub worst: Option<String>,
@@ -105,11 +108,17 @@ impl Check {
             Verdict::Info
         } else if self.limits.value().is_finite() && self.value <= self.limits.value() {
             Verdict::Pass
-        } else if self.fail_above.is_finite() && self.value <= self.fail_above {
+        } else if self.fail_above.is_finite() && self.value <= self.fails_above() {
             Verdict::Warn
         } else {
             Verdict::Fail
         }
+    }
+
+    /// Above this the check fails; between the limit and this it warns. Limits that arithmetic or data excuse may reach the figure at
+    /// which a check fails, and a value just above them is no worse than one just below.
+    pub fn fails_above(&self) -> f64 {
+        if self.is_judged() { self.fail_above.max(FAR_ABOVE * self.limits.value()) } else { self.fail_above }
     }
 
     /// False where there is no limit and the value is only shown.

@@ -4,7 +4,6 @@ use super::check::Check;
 use super::evidence::Evidence;
 use super::grounding::{self, Grounding};
 use super::loads::{self, EffectiveMasses};
-use super::penalty::{self, Penalties};
 use super::rigid_body::{self, MassRoutes};
 use super::{completeness, conditioning, eigenpairs, enclosed, mass, reduced, rigid_motion, solves, spectrum};
 use crate::error::Result;
@@ -16,8 +15,8 @@ pub struct Findings {
     pub checks: Vec<Check>,
     /// The component as a rigid body, in scaled units.
     pub rigid_body: RigidBody,
-    /// Rows whose stiffness takes the digits that checks ask for.
-    pub penalties: Option<Penalties>,
+    /// The first elastic eigenvalue, where one is known.
+    pub first_elastic: Option<f64>,
 }
 
 /// The component as a rigid body.
@@ -66,11 +65,16 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
         checks.push(rigid_motion::carried_by_interface(evidence));
     }
     checks.push(rigid_motion::null_space(evidence));
+    checks.push(rigid_motion::force(evidence, &spectrum));
     checks.push(rigid_motion::zero_modes(evidence, &spectrum));
     checks.push(reduced::block_coupling(evidence, &terms));
     checks.push(reduced::pair_residual(evidence));
     checks.push(reduced::frequency_difference(evidence, &spectrum));
     checks.push(mass::preserved(evidence));
+    if evidence.rigid.is_classical {
+        let m_f = evidence.reduction.rigid_body_mass.as_ref();
+        checks.push(mass::of_a_body(m_f, evidence.partition.precision.mass));
+    }
     checks.extend(rigid_body.routes.as_ref().map(|routes| rigid_body::routes_agree(evidence, &spectrum, routes)));
     checks.extend(mass::expected(evidence));
     checks.extend(loads::accelerations(evidence, condition));
@@ -78,6 +82,5 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     checks.extend(conditioning::conditioning(evidence, condition)?);
     checks.push(reduced::symmetry(evidence, &terms));
     checks.push(reduced::definiteness(evidence, &spectrum));
-    let penalties = penalty::penalties(evidence, spectrum.first_elastic());
-    Ok(Findings { checks, rigid_body, penalties })
+    Ok(Findings { checks, rigid_body, first_elastic: spectrum.first_elastic() })
 }

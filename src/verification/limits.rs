@@ -71,6 +71,12 @@ pub(crate) fn of_force(noise: f64, share_of_data: f64) -> Judged {
     of_nothing(noise, share_of_data, HELD)
 }
 
+/// Limits of such a force in a file alone, whose digits could explain more than its error bars tell.
+pub(crate) fn of_unexplained_force(noise: f64) -> Judged {
+    let Judged { limits, fail_above } = of_force(noise, 1.0);
+    Judged { limits, fail_above: fail_above.max(LARGEST_EXPLAINED_ENERGY) }
+}
+
 fn of_nothing(noise: f64, share_of_data: f64, fails_at: f64) -> Judged {
     let noise = NOISE_FACTOR * noise;
     let (arithmetic, data) = (noise * (1.0 - share_of_data), noise * share_of_data);

@@ -3,7 +3,7 @@
 use faer::MatRef;
 
 use super::check::{Check, Limits};
-use super::evidence::{Evidence, rigid_name};
+use super::evidence::{Evidence, NAMES, rigid_name};
 use super::rigid_body::mass_difference;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::number::quantity;
@@ -38,6 +38,44 @@ fn rounding(evidence: &Evidence<'_>) -> f64 {
     };
     let share = |j: usize| terms(j) / evidence.reduction.rigid_body_mass[(j, j)];
     NOISE_FACTOR * f64::EPSILON * (0..u.ncols()).map(share).fold(0.0, f64::max)
+}
+
+/// Deviation of a rigid-body mass from that of a body above which it has no mass properties: text of six digits leaves 10⁻⁶.
+const LIKE_A_BODY: f64 = 1e-5;
+/// Deviation at which the mass is no body's: with rows of M in another order masses differ by some hundredths and more.
+const UNLIKE_A_BODY: f64 = 1e-3;
+
+/// M-16: M_F = [m I, −m c̃; m c̃, J] in six unit motions, whatever the body is. Nothing else is one mass with one centre.
+///
+/// `precision` is the relative size of the last digit of M. A direction with another mass than the others comes of rows of M in another
+/// order than those of K, of mass that acts in one direction, and of wrong coordinates.
+pub(crate) fn of_a_body(m_f: MatRef<'_, f64>, precision: f64) -> Check {
+    let mass = (m_f[(0, 0)] + m_f[(1, 1)] + m_f[(2, 2)]) / 3.0;
+    let inertia = (m_f[(3, 3)] + m_f[(4, 4)] + m_f[(5, 5)]) / 3.0;
+    let mut worst = (0.0, None);
+    for i in 0..3 {
+        for j in 0..3 {
+            let of_translations = m_f[(i, j)] - if i == j { mass } else { 0.0 };
+            // What is not antisymmetric, compared with the largest first moment of such an inertia; a point mass has none.
+            let of_both = 0.5 * (m_f[(i, 3 + j)] + m_f[(j, 3 + i)]);
+            let first_moment = if inertia > 0.0 { of_both.abs() / (mass * inertia).sqrt() } else { 0.0 };
+            for (error, other) in [(of_translations.abs() / mass, NAMES[j]), (first_moment, NAMES[3 + j])] {
+                if dense::worse(error, worst.0) {
+                    worst = (error, Some(format!("{} and {other}", NAMES[i])));
+                }
+            }
+        }
+    }
+    let data = if precision > f64::EPSILON { NOISE_FACTOR * precision } else { 0.0 };
+    Check {
+        id: "M-16",
+        name: "mass is that of a body",
+        equation: "max |M_tt − m I|_ij / m, |M_tr + M_trᵀ|_ij / 2√(m J), in M_F of the unit motions",
+        value: worst.0,
+        limits: Limits { engineering: LIKE_A_BODY, arithmetic: 0.0, data }.capped(0.0, UNLIKE_A_BODY),
+        fail_above: UNLIKE_A_BODY,
+        worst: worst.1,
+    }
 }
 
 /// M-16 against what the job expects.

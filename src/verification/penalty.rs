@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! u |x_i| (|K||x|)_i        what rounding of row i makes of the energy of a motion x of unit modal mass, u the precision of K
-//! c_i                       how many times stiffer row i is than the softest row that it is coupled with
+//! c_i                       how many times stiffer row i is than the softest row that it is coupled with, directly or over one stiff row
 //! ```
 //! What a penalty costs is not known from its size: one that holds a dof costs nothing, for nothing moves there, and one that ties two
 //! moving dofs costs its size times ε, because its terms cancel. So the roundings of the motions are added up as they are and with
@@ -15,6 +15,7 @@ use super::eigenpairs;
 use super::evidence::Evidence;
 use super::limits::{ENERGY_ASKED, FREQUENCY_ASKED};
 use crate::dense;
+use crate::dofs::Direction;
 use crate::partition::Partition;
 use crate::sparse::{Leading, diagonal, panels, product_and_terms};
 
@@ -53,7 +54,7 @@ struct Worst {
 }
 
 /// Stiff rows that cost the rigid-body motions or the modes digits that are asked for; `first` is the first elastic eigenvalue.
-pub(super) fn penalties(evidence: &Evidence<'_>, first: Option<f64>) -> Option<Penalties> {
+pub fn penalties(evidence: &Evidence<'_>, first: Option<f64>) -> Option<Penalties> {
     let (partition, retained) = (evidence.partition, evidence.retained);
     let n = partition.n_dofs();
     let mut contrast = contrasts(partition);
@@ -112,30 +113,56 @@ fn of_motion(cost: &[f64], contrast: &[f64], asked: f64) -> Option<Worst> {
     is_costly.then(|| Worst { excess: noise / asked, noise, asked, noise_without, rows: rows() })
 }
 
-/// How many times stiffer each row is than the softest one it is coupled with, by stiffness and by stiffness over mass: the second
+/// How many times stiffer each row is than the softest one it is coupled with, directly or over a stiff row: a node that nothing but ties
+/// hold, as a mass at the end of a rigid link, has none but stiff neighbours. Over more rows than one the stiff part of a structure of
+/// two materials would be a tie.
+fn contrasts(partition: &Partition) -> Vec<f64> {
+    let contrast = Contrast::of(partition);
+    let direct: Vec<f64> = (0..partition.n_dofs()).map(|row| contrast.over(row, |_| 1.0)).collect();
+    let of_stiff = |row: usize| if direct[row] >= LARGEST_OF_MESHES { direct[row] } else { 1.0 };
+    (0..partition.n_dofs()).map(|row| contrast.over(row, of_stiff)).collect()
+}
+
+/// Stiffness of rows compared with that of rows they are coupled with, by stiffness and by stiffness over mass: the second
 /// alone takes a heavy neighbour for a soft one. Translations are compared with translations and rotations with rotations, as far as
 /// that is known: a slender beam is far stiffer against stretching than against rotation of its ends.
-fn contrasts(partition: &Partition) -> Vec<f64> {
-    let (k, m) = (diagonal(&partition.stiffness), diagonal(&partition.mass));
-    let ratio = |i: usize, j: usize| {
-        let of_stiffness = k[i] / k[j];
-        if m[i] > 0.0 && m[j] > 0.0 { of_stiffness.min(of_stiffness * m[j] / m[i]) } else { of_stiffness }
-    };
-    let kind = |i: usize| {
-        let dof = &partition.dofs[i];
-        let direction = dof.dof.map(|dof| dof.direction).or(dof.site.map(|site| site.direction));
-        direction.map(crate::dofs::Direction::is_rotation)
-    };
-    let is_like = |i: usize, j: usize| kind(i).is_none() || kind(j).is_none() || kind(i) == kind(j);
-    let of_row = |i: usize| {
-        let coupled = partition
-            .pencil()
-            .stiffness
-            .entries(i)
-            .filter(|(j, value)| *j != i && *value != 0.0 && k[*j] > 0.0 && is_like(i, *j));
-        coupled.fold(1.0, |most: f64, (j, _)| most.max(ratio(i, j)))
-    };
-    (0..k.len()).map(of_row).collect()
+struct Contrast<'a> {
+    partition: &'a Partition,
+    /// K_ii.
+    stiffness: Vec<f64>,
+    /// M_ii.
+    mass: Vec<f64>,
+}
+
+impl<'a> Contrast<'a> {
+    fn of(partition: &'a Partition) -> Self {
+        Self { partition, stiffness: diagonal(&partition.stiffness), mass: diagonal(&partition.mass) }
+    }
+
+    /// How many times stiffer a row is than the softest that it is coupled with, times what that one is stiffer than others.
+    fn over(&self, row: usize, beyond: impl Fn(usize) -> f64) -> f64 {
+        let entries = self.partition.pencil().stiffness.entries(row);
+        let is_coupled = |(other, value): &(usize, f64)| *other != row && *value != 0.0 && self.is_like(row, *other);
+        let coupled = entries.filter(is_coupled);
+        coupled.fold(1.0, |most: f64, (other, _)| most.max(self.ratio(row, other) * beyond(other)))
+    }
+
+    fn ratio(&self, row: usize, other: usize) -> f64 {
+        let (k, m) = (&self.stiffness, &self.mass);
+        let of_stiffness = k[row] / k[other];
+        if m[row] > 0.0 && m[other] > 0.0 { of_stiffness.min(of_stiffness * m[other] / m[row]) } else { of_stiffness }
+    }
+
+    /// Whether both are translations or both rotations, as far as that is known, and the other one has stiffness.
+    fn is_like(&self, row: usize, other: usize) -> bool {
+        let kind = |row: usize| {
+            let dof = &self.partition.dofs[row];
+            let direction = dof.dof.map(|dof| dof.direction).or(dof.site.map(|site| site.direction));
+            direction.map(Direction::is_rotation)
+        };
+        let (a, b) = (kind(row), kind(other));
+        self.stiffness[other] > 0.0 && (a.is_none() || b.is_none() || a == b)
+    }
 }
 
 #[cfg(test)]

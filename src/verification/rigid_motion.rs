@@ -4,6 +4,7 @@ use faer::MatRef;
 
 use super::check::{Check, Limits};
 use super::evidence::{Evidence, coordinate_name, reduced_norms, rigid_name, share_of_data};
+use super::force;
 use super::grounding::{Grounding, Restraint};
 use super::limits::{self, Judged, Known};
 use super::residual::Worst;
@@ -38,14 +39,18 @@ pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[
 /// Limits of an energy that should be zero. They come from the error bars of the modes and from what few digits make of rigid-body motion
 /// itself, which the bars of modes with the interface held do not show. Without either they come from the moduli of its terms.
 pub(super) fn energy_limits(evidence: &Evidence<'_>, first: f64) -> Judged {
+    limits::of_energy(energy_noise(evidence, first), share_of_data(evidence.partition))
+}
+
+/// What rounding makes of an energy, relative to the first elastic eigenvalue.
+fn energy_noise(evidence: &Evidence<'_>, first: f64) -> f64 {
     let modes = &evidence.retained.modes;
     let known = modes.lambda.iter().zip(&modes.errors);
     let known = known.map(|(lambda, error)| Known { lambda: *lambda, relative_bar: error.data_bar });
-    let noise = match modes.count() {
+    match modes.count() {
         0 => evidence.partition.cancellation * evidence.rigid.energy.noise / first,
         _ => limits::noise(known, first).max(noise_of_digits(evidence.partition, evidence.rigid) / first),
-    };
-    limits::of_energy(noise, share_of_data(evidence.partition))
+    }
 }
 
 /// M-05, residual.
@@ -152,6 +157,18 @@ pub(super) fn null_space(evidence: &Evidence<'_>) -> Check {
         fail_above: limits.value().max(NOT_FREE),
         worst: worst.1,
     }
+}
+
+/// M-12, force, as the verification of the file measures it.
+pub(super) fn force(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check {
+    let (k, m) = (evidence.reduction.stiffness.as_ref(), evidence.reduction.mass.as_ref());
+    let known = spectrum.first_elastic();
+    let first = known.or_else(|| force::lowest_ratio(k, m)).unwrap_or(1.0);
+    let noise = known.map_or(0.0, |first| energy_noise(evidence, first));
+    let judged = limits::of_force(noise, share_of_data(evidence.partition));
+    let u = evidence.reduction.rigid_body_modes.as_ref();
+    let name = |mode: usize, at: usize| format!("{}, {}", rigid_name(evidence, mode), coordinate_name(evidence, at));
+    force::of_rigid_motion((k, m, u), first, judged, &name)
 }
 
 /// M-12, number of zero modes.

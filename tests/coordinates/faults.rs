@@ -103,7 +103,7 @@ fn with_labels(model: &Model, number: impl Fn(usize, usize) -> usize) -> Model {
     with_dofs(model, |(node, direction)| (labels[number(at(node), n)], direction))
 }
 
-fn shuffled(n: usize) -> Vec<usize> {
+pub(crate) fn shuffled(n: usize) -> Vec<usize> {
     let mut order: Vec<usize> = (0..n).collect();
     let mut random = SplitMix64::new(3);
     (1..n).rev().for_each(|k| order.swap(k, (random.uniform() * (k + 1) as f64) as usize));

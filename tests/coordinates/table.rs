@@ -11,7 +11,7 @@ const METHODS: [&str; 2] = ["herting", "craig-bampton"];
 /// How the two ends of the block are coupled.
 const COUPLINGS: [&str; 3] = ["direct", "rigid", "both"];
 
-fn listed(labels: &[i64]) -> String {
+pub(crate) fn listed(labels: &[i64]) -> String {
     labels.iter().map(ToString::to_string).collect::<Vec<_>>().join(",")
 }
 
@@ -33,7 +33,7 @@ fn reduced(model: &Model, of: &Model, coupling: &str, method: &str) -> (Place, E
 }
 
 /// The code of the refusal, or the warnings of the report.
-fn said(place: &Place, ended: &Ended) -> String {
+pub(crate) fn said(place: &Place, ended: &Ended) -> String {
     if let Some(code) = ended.err.strip_prefix("supel: error[").and_then(|rest| rest.split_once(']')) {
         return code.0.to_owned();
     }

@@ -1,5 +1,6 @@
 //! The whole way, from files on disk to files on disk, through the command line.
 
+mod alike;
 mod failures;
 mod few_digits;
 mod foreign_names;

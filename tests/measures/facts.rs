@@ -4,7 +4,7 @@ use faer::Mat;
 use supel::basis::Basis;
 use supel::job::Method;
 use supel::reduction::Reduction;
-use supel::verification::check::{ActiveLimit, Verdict};
+use supel::verification::check::{ActiveLimit, Check, Limits, Verdict};
 use supel_models::{Ends, Material, bar, bar_spectrum, brick, spring, spring_spectrum};
 
 use crate::chain::{direct, rows};
@@ -135,4 +135,21 @@ fn reduced_stiffness_of_a_free_component_is_never_factored_as_if_it_were_definit
         let condition = of("M-23").find(|check| check.name.contains("elastic stiffness")).expect("a line");
         assert!(condition.value < 1e6, "{condition:?}");
     });
+}
+
+/// Limits that arithmetic or data set may have reached the figure at which a check fails.
+#[test]
+fn a_value_just_above_its_limit_never_fails() {
+    let of = |value: f64, engineering: f64, arithmetic: f64| {
+        let limits = Limits { engineering, arithmetic, data: 0.0 };
+        Check { id: "M-14", name: "", equation: "", value, limits, fail_above: 1e3 * engineering, worst: None }
+            .verdict()
+    };
+    assert_eq!([1e-9, 2e-9, 1.1e-6].map(|value| of(value, 1e-9, 0.0)), [Verdict::Pass, Verdict::Warn, Verdict::Fail]);
+    assert_eq!(
+        [1e-5, 1.9e-5, 2.1e-5].map(|value| of(value, 1e-9, 1e-5)),
+        [Verdict::Pass, Verdict::Warn, Verdict::Fail]
+    );
+    // A count that should be zero has no figure near it.
+    assert_eq!(of(1.0, 0.0, 0.0), Verdict::Fail);
 }

@@ -149,7 +149,7 @@ fn rows_without_mass_and_free_particles_are_findings() {
     assert_eq!(model.findings, [Finding::MasslessRows { n_rows: 9 }]);
     let particle = models::Model { stiffness: Vec::new(), ..spring(1, Ends::Free) };
     let model = Model::new(input(&join(&spring(3, Ends::Fixed), &particle, &[]))).expect("a free particle");
-    assert_eq!(model.findings, [Finding::FreeParticles { n_rows: 1, first: "row 4 (node 4 ux)".to_owned() }]);
+    assert_eq!(model.findings, [Finding::FreeParticles { rows: vec![3], first: "row 4 (node 4 ux)".to_owned() }]);
     assert_eq!(model.bodies.n_bodies, 2);
 }
 

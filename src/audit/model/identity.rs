@@ -233,7 +233,7 @@ pub(super) fn statements(
     expect(metadata.model.n_dofs == partition.model.n_dofs as u64, "another number of degrees of freedom");
     let rigid = if motions.is_geometric() { RigidBodyModes::Geometric } else { RigidBodyModes::Algebraic };
     expect(metadata.model.rigid_body_modes == rigid, "rigid-body modes of another kind");
-    expect(metadata.model.mass_properties.is_some() == motions.is_classical(), "mass properties");
+    expect(metadata.model.mass_properties.is_some() == motions.is_of_a_body(), "mass properties");
     expect(tensors.gravity.is_some() == motions.is_classical(), "gravity");
     expect(tensors.damping.is_none(), "damping");
     expect(tensors.load_vectors.is_none(), "load vectors");

@@ -5,6 +5,7 @@ use faer::{Mat, MatRef};
 
 use super::full::Full;
 use super::scaled::Scaled;
+use crate::audit::mass::is_of_a_body;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::rigid::{RigidBodyModes, RigidSource};
 use crate::sparse::diagonal;
@@ -28,6 +29,8 @@ pub(super) struct KnownMotions {
     /// The unit motions, where the file's are those.
     unit: Option<UnitMotions>,
     meaning: Meaning,
+    /// Whether they move one mass with one centre.
+    is_of_a_body: bool,
     /// Rounding of K relative to the first elastic eigenvalue: what a displacement may be off by.
     rounding: f64,
     /// Limits of what zero modes of K differ by from the motions of the coordinates: roundings turn them towards elastic ones.
@@ -84,6 +87,7 @@ impl KnownMotions {
                 (false, true) => Meaning::Classical,
                 (false, false) => Meaning::Zero,
             },
+            is_of_a_body: given.is_classical && is_of_a_body(given.rigid_body_mass(&partition.mass).as_ref()),
             rounding,
             of_zero_modes: match partition.has_few_digits() {
                 true => Limits { engineering: 1e-9, arithmetic: rounding, data: turn },
@@ -100,6 +104,11 @@ impl KnownMotions {
     /// Whether mass and the directions of gravity are known: one free body with coordinates.
     pub(super) fn is_classical(&self) -> bool {
         self.meaning != Meaning::Zero
+    }
+
+    /// Whether the file has mass properties to state.
+    pub(super) fn is_of_a_body(&self) -> bool {
+        self.is_of_a_body
     }
 
     /// Whether inertia relief answers the unit motions, whatever they are called.

@@ -1,0 +1,131 @@
+//! M with its rows in another order than those of K, to which map and coordinates belong: never verified where it can be seen.
+
+use supel::cli::ExitCode;
+use supel_models::Model;
+use supel_models::model::{Assembler, Entry};
+
+use crate::faults::{block, shuffled};
+use crate::place::{Ended, Place, supel};
+use crate::table::{listed, said};
+
+/// The block with another mass.
+fn with_mass(model: &Model, mass: Vec<Entry>) -> Model {
+    let mut sorted = Assembler::default();
+    sorted.extend(mass);
+    Model { mass: sorted.finish(), ..model.clone() }
+}
+
+/// The mass with row `place(r)` where row r was.
+fn moved(model: &Model, place: impl Fn(u32) -> u32) -> Model {
+    with_mass(model, model.mass.iter().map(|(row, col, value)| (place(*row), place(*col), *value)).collect())
+}
+
+/// Nodes of three rows each, renumbered.
+fn nodes_moved(model: &Model, node: impl Fn(u32) -> u32) -> Model {
+    moved(model, |row| 3 * node(row / 3) + row % 3)
+}
+
+/// All rows along x first, then all along y, then all along z.
+fn direction_by_direction(model: &Model) -> Model {
+    let n_nodes = model.n as u32 / 3;
+    moved(model, |row| row % 3 * n_nodes + row / 3)
+}
+
+/// The block with its mass on the diagonal, as lumping by row sums makes it.
+fn lumped() -> Model {
+    let model = block();
+    let sums = model.mass.iter().filter(|(row, col, _)| row % 3 == col % 3).map(|(row, _, value)| (*row, *row, *value));
+    with_mass(&model, sums.collect())
+}
+
+/// Reduces a model at the ends of the block; warnings fail.
+fn reduced(model: &Model, coupling: &str, rest: &str) -> (Place, Ended) {
+    let place = Place::with(model);
+    let ends = [&model.groups["XMIN"], &model.groups["XMAX"]].map(|labels| listed(labels));
+    let flags = format!("--{coupling} first={} --{coupling} second={} --modes 5 {rest}", ends[0], ends[1]);
+    let ended = place.reduce(&place.model_flags(), &flags);
+    (place, ended)
+}
+
+#[track_caller]
+fn assert_said(model: &Model, expected: &str) {
+    for coupling in ["interface", "rigid-interface"] {
+        for method in ["herting", "craig-bampton"] {
+            let (place, ended) = reduced(model, coupling, &format!("--strict --method {method}"));
+            assert_eq!(said(&place, &ended), expected, "{coupling}, {method}: {}{}", ended.out, ended.err);
+        }
+    }
+}
+
+#[test]
+fn nodes_of_a_consistent_mass_in_another_order() {
+    let order = shuffled(block().n / 3);
+    assert_said(&nodes_moved(&block(), |node| order[node as usize] as u32), "E-MASS-ORDER");
+    assert_said(&direction_by_direction(&block()), "E-MASS-ORDER");
+    // Without a map the rows tell.
+    let anonymous = Model { dofs: Vec::new(), ..direction_by_direction(&block()) };
+    let place = Place::with(&anonymous);
+    let ended =
+        place.reduce(&place.matrix_flags(), "--interface ends=rows:0,1,2,3,4,5,6,7,8 --modes 5 --method herting");
+    assert_eq!(said(&place, &ended), "E-MASS-ORDER", "{}", ended.err);
+}
+
+#[test]
+fn two_nodes_of_a_consistent_mass_exchanged() {
+    let exchanged = nodes_moved(&block(), |node| match node {
+        20 => 66,
+        66 => 20,
+        node => node,
+    });
+    assert_said(&exchanged, "W-MASS-ORDER");
+}
+
+/// A diagonal mass couples nothing; that masses differ with direction is all there is to see, and all who look see it.
+#[test]
+fn a_lumped_mass_direction_by_direction() {
+    assert_said(&lumped(), "verified");
+    let wrong = direction_by_direction(&lumped());
+    assert_said(&wrong, "M-16");
+    let (place, ended) = reduced(&wrong, "rigid-interface", "--method herting --allow-unverified");
+    assert_eq!(ended.code, ExitCode::CheckFailed, "{}", ended.out);
+    let file = place.text("x.supel");
+    place.write("job.json", supel(&["inspect", &file, "--job"]).out.as_bytes());
+    for rest in [&[][..], &["--job", &place.text("job.json")]] {
+        let verified = supel(&[&["verify", &file, "--json"], rest].concat());
+        let document: serde_json::Value = serde_json::from_str(&verified.out).expect("JSON");
+        let checks = document["checks"].as_array().expect("checks").iter();
+        let failed =
+            checks.filter(|check| check["verdict"] == "fail").map(|check| check["name"].as_str().expect("a name"));
+        assert_eq!(
+            failed.collect::<Vec<_>>(),
+            ["mass is that of a body", "no check failed when it was made"],
+            "{rest:?}"
+        );
+    }
+}
+
+/// Nodes of a lumped mass permuted: no order contradicts K, and the page says so.
+#[test]
+fn nodes_of_a_lumped_mass_in_another_order_are_not_seen() {
+    let order = shuffled(block().n / 3);
+    assert_said(&nodes_moved(&lumped(), |node| order[node as usize] as u32), "verified");
+    let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/what-the-report-proves.md"));
+    assert!(page.expect("the page").contains("the nodes of a lumped mass are in the order of those of the stiffness"));
+}
+
+/// Mass that couples nodes which no element joins: what a fluid adds at one face, and an instrument over distant nodes.
+#[test]
+fn mass_of_no_element_is_sound() {
+    let model = block();
+    let added = |nodes: &[i64]| {
+        let rows: Vec<u32> =
+            nodes.iter().flat_map(|node| (0..3).map(move |axis| 3 * (*node as u32 - 1) + axis)).collect();
+        let of = |(row, col): (u32, u32)| (row, col, if row == col { 3.0 } else { 1.0 });
+        let pairs = rows.iter().flat_map(|row| rows.iter().map(move |col| (*row, *col)));
+        pairs.filter(|(row, col)| row % 3 == col % 3).map(of).collect::<Vec<Entry>>()
+    };
+    for nodes in [model.groups["ZMAX"].clone(), vec![3, 80]] {
+        let mass = model.mass.iter().copied().chain(added(&nodes)).collect();
+        assert_said(&with_mass(&model, mass), "verified");
+    }
+}
