@@ -41,7 +41,10 @@ pub enum Error {
         source: std::io::Error,
     },
     /// The folder of an output is none.
-    #[error("{}: cannot be written: the folder {} {reason} – create it, or give the output another place", path.display(), folder.display())]
+    #[error(
+        "{}: cannot be written: the folder {} {reason} – create it, or give the output another place",
+        path.display(), folder.display()
+    )]
     NoFolder {
         /// The file.
         path: PathBuf,
@@ -52,8 +55,8 @@ pub enum Error {
     },
     /// An output has its name, but the system did not confirm that it is on the disk.
     #[error(
-        "{}: written, but the system did not confirm that it is on the disk: {source} – it may not outlive a power cut – \
-         write it again or sync the disk",
+        "{}: written, but the system did not confirm that it is on the disk: {source} – it may not outlive a power \
+        cut – write it again or sync the disk",
         path.display()
     )]
     NotSynced {
@@ -79,13 +82,17 @@ pub enum Error {
         source: std::io::Error,
     },
     /// A path is a folder, a pipe or a device.
-    #[error("{}: not a regular file; give the path of a file on disk", path.display())]
+    #[error("{}: not a regular file – give the path of a file on disk", path.display())]
     NotAFile {
         /// The path.
         path: PathBuf,
     },
     /// A file was written, cut or exchanged while it was read.
-    #[error("{}: changed while it was read – expected one size, time and file from beginning to end – wait until it is written and run again", path.display())]
+    #[error(
+        "{}: changed while it was read – expected one size, time and file from beginning to end – wait until it is \
+        written and run again",
+        path.display()
+    )]
     Changed {
         /// The file.
         path: PathBuf,
@@ -100,7 +107,8 @@ pub enum Error {
     },
     /// What a file holds does not fit into the memory.
     #[error(
-        "{}: what was read so far needs {} with the matrices made of it – {} are available – free memory, raise run.memory_gib or reduce a smaller model",
+        "{}: what was read so far needs {} with the matrices made of it – {} are available – free memory, raise \
+        run.memory_gib or reduce a smaller model",
         path.display(), bytes(*needed), bytes(*available)
     )]
     MemoryRead {
@@ -124,7 +132,7 @@ pub enum Error {
         advice: &'static str,
     },
     /// Gzipped data ends early or is damaged.
-    #[error("{}: the gzipped data are damaged or cut short ({source}); copy or create the file again", path.display())]
+    #[error("{}: the gzipped data are damaged or cut short – {source} – copy or create the file again", path.display())]
     GzipDamaged {
         /// The file.
         path: PathBuf,
@@ -133,8 +141,9 @@ pub enum Error {
     },
     /// Gzipped data inflate to more than a matrix can.
     #[error(
-        "{}: the gzipped data inflate to more than {limit} times their size ({compressed} bytes gave {inflated}); \
-         no table of numbers does this, check where the file comes from", path.display()
+        "{}: the gzipped data inflate too far – found {inflated} bytes from {compressed} – expected at most {limit} \
+        times their size, which tables of numbers keep to – check where the file comes from",
+        path.display()
     )]
     GzipInflation {
         /// The file.
@@ -148,7 +157,8 @@ pub enum Error {
     },
     /// A line is longer than any line of numbers.
     #[error(
-        "{}:{line}: line longer than {limit} bytes; expected lines of a few numbers, is this a text file?",
+        "{}:{line}: a line longer than {limit} bytes – expected lines of a few numbers – check that this is a text \
+        file",
         path.display()
     )]
     LineTooLong {
@@ -160,7 +170,7 @@ pub enum Error {
         limit: usize,
     },
     /// A text file holds no data.
-    #[error("{}: the file holds no data; expected {expected}", path.display())]
+    #[error("{}: the file holds no data – expected {expected}", path.display())]
     NoData {
         /// The file.
         path: PathBuf,
@@ -169,8 +179,9 @@ pub enum Error {
     },
     /// The first line of a matrix file is neither a Matrix Market banner nor numbers.
     #[error(
-        "{}:{line}: not a matrix: found `{found}`, expected `%%MatrixMarket matrix coordinate real symmetric` \
-         or lines `row column value`", path.display()
+        "{}:{line}: not a matrix – found `{found}` – expected `%%MatrixMarket matrix coordinate real symmetric` or \
+        lines `row column value`",
+        path.display()
     )]
     MatrixBanner {
         /// The file.
@@ -182,8 +193,9 @@ pub enum Error {
     },
     /// A Matrix Market flavour that no stiffness or mass matrix needs.
     #[error(
-        "{}:{line}: Matrix Market flavour `{found}` is not read; \
-         supported are `coordinate real` and `coordinate integer`, each `symmetric` or `general`", path.display()
+        "{}:{line}: a Matrix Market flavour that is not read – found `{found}` – expected `coordinate real` or \
+        `coordinate integer`, each `symmetric` or `general`",
+        path.display()
     )]
     MatrixFlavour {
         /// The file.
@@ -195,7 +207,7 @@ pub enum Error {
     },
     /// The size line of a Matrix Market file cannot be read.
     #[error(
-        "{}:{line}: size line: found `{found}`, expected three whole numbers `rows columns entries`",
+        "{}:{line}: size line – found `{found}` – expected three whole numbers `rows columns entries`",
         path.display()
     )]
     MatrixSizeLine {
@@ -207,7 +219,11 @@ pub enum Error {
         found: String,
     },
     /// A matrix is rectangular.
-    #[error("{}:{line}: the matrix has {rows} rows and {cols} columns; stiffness and mass are square", path.display())]
+    #[error(
+        "{}:{line}: the matrix has {rows} rows and {cols} columns – expected as many of both, as stiffness and mass \
+        have",
+        path.display()
+    )]
     MatrixNotSquare {
         /// The file.
         path: PathBuf,
@@ -219,7 +235,7 @@ pub enum Error {
         cols: u64,
     },
     /// A matrix without rows, or with more than can be numbered.
-    #[error("{}:{line}: the matrix has {n} rows; expected 1 to {limit}", path.display())]
+    #[error("{}:{line}: the matrix has {n} rows – expected 1 to {limit}", path.display())]
     MatrixOrder {
         /// The file.
         path: PathBuf,
@@ -232,8 +248,8 @@ pub enum Error {
     },
     /// Nearly all rows of a large matrix are empty.
     #[error(
-        "{}: a matrix of {n} rows with only {entries} entries; nearly all rows would be empty, \
-         check its size line and indices",
+        "{}: a matrix of {n} rows with only {entries} entries – expected hardly any empty rows – check its size line \
+        and indices",
         path.display()
     )]
     MatrixMostlyEmpty {
@@ -245,7 +261,7 @@ pub enum Error {
         entries: u64,
     },
     /// A field of an entry is not a number.
-    #[error("{}:{line}: {field} of an entry: found `{found}`, expected {expected}", path.display())]
+    #[error("{}:{line}: {field} of an entry – found `{found}` – expected {expected}", path.display())]
     EntryField {
         /// The file.
         path: PathBuf,
@@ -259,7 +275,10 @@ pub enum Error {
         expected: &'static str,
     },
     /// A line has more fields than an entry.
-    #[error("{}:{line}: found `{found}` after the value; expected `row column value` and nothing else", path.display())]
+    #[error(
+        "{}:{line}: found `{found}` after the value – expected `row column value` and nothing else",
+        path.display()
+    )]
     EntryExcess {
         /// The file.
         path: PathBuf,
@@ -270,7 +289,7 @@ pub enum Error {
     },
     /// An index lies outside the matrix.
     #[error(
-        "{}:{line}: {field} {found} lies outside the matrix; indices count from 1, expected 1 to {n}",
+        "{}:{line}: {field} {found} lies outside the matrix – expected 1 to {n}, because indices count from 1",
         path.display()
     )]
     EntryIndex {
@@ -286,7 +305,7 @@ pub enum Error {
         n: u64,
     },
     /// A value is infinite or not a number.
-    #[error("{}:{line}: entry ({row}, {col}) is `{found}`; expected a finite number", path.display())]
+    #[error("{}:{line}: entry ({row}, {col}) is `{found}` – expected a finite number", path.display())]
     NonFinite {
         /// The file.
         path: PathBuf,
@@ -300,7 +319,11 @@ pub enum Error {
         found: String,
     },
     /// A matrix file holds fewer entries than it declares, or its bare size line is wrong.
-    #[error("{}: the size line declares {declared} entries, found {found}; the file may be cut short", path.display())]
+    #[error(
+        "{}: entries are missing – found {found} – expected the {declared} that the size line declares – the file may \
+        be cut short: write or copy it again",
+        path.display()
+    )]
     EntryCount {
         /// The file.
         path: PathBuf,
@@ -310,7 +333,11 @@ pub enum Error {
         found: u64,
     },
     /// A matrix file goes on after all entries have come.
-    #[error("{}:{line}: more entries than the {declared} that the size line declares", path.display())]
+    #[error(
+        "{}:{line}: more entries than declared – expected the {declared} of the size line – write or copy the file \
+        again",
+        path.display()
+    )]
     EntriesSurplus {
         /// The file.
         path: PathBuf,
@@ -321,8 +348,8 @@ pub enum Error {
     },
     /// Entries of a matrix repeat a position, and the job refuses that.
     #[error(
-        "{}: {count} entries repeat a position; expected each position once, as --strict or model.duplicates = \"refuse\" asks: \
-         assemble the matrix, or take that back to have them added",
+        "{}: {count} entries repeat a position – expected each position once, as --strict or model.duplicates = \
+        \"refuse\" asks – assemble the matrix, or take that back to have them added",
         path.display()
     )]
     Duplicates {
@@ -333,9 +360,9 @@ pub enum Error {
     },
     /// A matrix declared symmetric has entries on both sides of the diagonal.
     #[error(
-        "{}: declared symmetric, but entries lie on both sides of the diagonal, ({}, {}) and ({}, {}); \
-         expected one triangle: remove the other, declare the matrix general, or say which holds: model.symmetric = \"lower\" \
-         or \"upper\" (reduce --symmetric)",
+        "{}: declared symmetric – found entries on both sides of the diagonal, ({}, {}) and ({}, {}) – expected one \
+        triangle – remove the other, declare the matrix general, or say which holds: model.symmetric = \"lower\" or \
+        \"upper\" (reduce --symmetric)",
         path.display(), lower.0, lower.1, upper.0, upper.1
     )]
     DoubleTriangle {
@@ -348,8 +375,8 @@ pub enum Error {
     },
     /// K and M are one matrix.
     #[error(
-        "stiffness {} and mass {} hold one matrix – expected two, because every frequency of the pencil would be 1 rad/s – give the file of \
-         the other one",
+        "stiffness {} and mass {} hold one matrix – expected two, because every frequency of the pencil would be 1 \
+        rad/s – give the file of the other one",
         stiffness.display(), mass.display()
     )]
     SameMatrix {
@@ -360,7 +387,7 @@ pub enum Error {
     },
     /// K and M differ in size.
     #[error(
-        "stiffness {} has {n_stiffness} rows and mass {} has {n_mass}; expected the same degrees of freedom in both",
+        "stiffness {} has {n_stiffness} rows and mass {} has {n_mass} – expected the same degrees of freedom in both",
         stiffness.display(), mass.display()
     )]
     SizeMismatch {
@@ -374,7 +401,7 @@ pub enum Error {
         n_mass: usize,
     },
     /// A table lacks a column.
-    #[error("{}: no column `{column}`: found the header `{found}`, expected {expected}", path.display())]
+    #[error("{}: no column `{column}` – found the header `{found}` – expected {expected}", path.display())]
     TableColumn {
         /// The file.
         path: PathBuf,
@@ -386,7 +413,7 @@ pub enum Error {
         expected: &'static str,
     },
     /// A table cannot be split into rows and fields.
-    #[error("{}:{line}: row of {found} fields; expected {expected} as in the header", path.display())]
+    #[error("{}:{line}: a row of {found} fields – expected {expected} as in the header", path.display())]
     TableRow {
         /// The file.
         path: PathBuf,
@@ -398,7 +425,7 @@ pub enum Error {
         expected: u64,
     },
     /// A field of a table cannot be read.
-    #[error("{}:{line}: column `{column}`: found `{found}`, expected {expected}", path.display())]
+    #[error("{}:{line}: column `{column}` – found `{found}` – expected {expected}", path.display())]
     TableField {
         /// The file.
         path: PathBuf,
@@ -412,7 +439,7 @@ pub enum Error {
         expected: &'static str,
     },
     /// A node is listed twice.
-    #[error("{}:{line}: node {node} again, first at line {first_line}; expected each node once", path.display())]
+    #[error("{}:{line}: node {node} again, first at line {first_line} – expected each node once", path.display())]
     NodeRepeated {
         /// The file.
         path: PathBuf,
@@ -425,7 +452,8 @@ pub enum Error {
     },
     /// A node lies so far away, or all so near to each other, that squares of their coordinates leave the range of double precision.
     #[error(
-        "{}: coordinate {} of node {node} is {value:e} – expected sizes between 2^-{bits} and 2^{bits} – check the number, or write the nodes in other units",
+        "{}: coordinate {} of node {node} is {value:e} – expected sizes between 2^-{bits} and 2^{bits} – check the \
+        number, or write the nodes in other units",
         path.display(), ["x", "y", "z"][*axis % 3]
     )]
     NodeRange {
@@ -441,7 +469,7 @@ pub enum Error {
         bits: u32,
     },
     /// A line of a dof map is not `node.direction`.
-    #[error("{}:{line}: found `{found}`; expected `node.direction`, for example 412.1", path.display())]
+    #[error("{}:{line}: found `{found}` – expected `node.direction`, for example 412.1", path.display())]
     DofText {
         /// The file.
         path: PathBuf,
@@ -451,7 +479,7 @@ pub enum Error {
         found: String,
     },
     /// A direction of a dof map does not exist.
-    #[error("{}:{line}: node {node} has direction `{found}`; expected {expected}", path.display())]
+    #[error("{}:{line}: node {node} has direction `{found}` – expected {expected}", path.display())]
     DofDirection {
         /// The file.
         path: PathBuf,
@@ -466,8 +494,9 @@ pub enum Error {
     },
     /// Two rows of a dof map are the same degree of freedom.
     #[error(
-        "{}: rows {first_row} and {row} are both {direction} of node {node}; {repeated} repeat a dof – expected every degree of freedom \
-         once (rows count from 1; programs that expand shells or beams into solids repeat labels) – renumber the nodes, or {BY_ROWS}",
+        "{}: rows {first_row} and {row} are both {direction} of node {node}, and {repeated} repeat a dof – expected \
+        every degree of freedom once (rows count from 1; programs that expand shells or beams into solids repeat \
+        labels) – renumber the nodes, or {BY_ROWS}",
         path.display()
     )]
     DofRepeated {
@@ -485,7 +514,7 @@ pub enum Error {
         repeated: String,
     },
     /// The rows of a dof map are numbered, but not in order.
-    #[error("{}:{line}: row number `{found}`; expected {expected}, the rows of the matrices in order", path.display())]
+    #[error("{}:{line}: row number `{found}` – expected {expected}, the rows of the matrices in order", path.display())]
     DofRowOrder {
         /// The file.
         path: PathBuf,
@@ -498,7 +527,7 @@ pub enum Error {
     },
     /// A dof map is longer or shorter than the matrices.
     #[error(
-        "{}: the dof map has {found} rows, the matrices have {n}; expected one row for each of theirs",
+        "{}: the dof map has {found} rows – expected {n}, one for each of the matrices",
         path.display()
     )]
     DofCount {
@@ -511,8 +540,9 @@ pub enum Error {
     },
     /// A dof map names a node that has no position.
     #[error(
-        "{}: row {row} is at node {node}, which {} does not list; {missing} have no position – expected one for every node of the map \
-         (rows count from 1; programs that expand shells or beams into solids make nodes of their own) – add the nodes, or {BY_ROWS}",
+        "{}: row {row} is at node {node}, which {} does not list, and {missing} have no position – expected one for \
+        every node of the map (rows count from 1; programs that expand shells or beams into solids make nodes of \
+        their own) – add the nodes, or {BY_ROWS}",
         path.display(), nodes.display()
     )]
     DofNodeMissing {
@@ -529,8 +559,9 @@ pub enum Error {
     },
     /// Without a dof map, the counts do not say what the rows are.
     #[error(
-        "the matrices have {n} rows and {} lists {n_nodes} nodes, neither three nor six rows a node; \
-         give a dof map (a file with `node.direction` for each row)", nodes.display()
+        "the matrices have {n} rows and {} lists {n_nodes} nodes – expected three or six rows a node – give a dof map \
+        (a file with `node.direction` for each row)",
+        nodes.display()
     )]
     DofOrderUnknown {
         /// The file of the nodes.
@@ -542,7 +573,7 @@ pub enum Error {
     },
     /// A file needs a part of the program that was left out when it was built.
     #[error(
-        "{}: this program was built without `{feature}`, which this file needs; rebuild with --features {feature}",
+        "{}: this program was built without `{feature}`, which this file needs – rebuild with --features {feature}",
         path.display()
     )]
     FeatureMissing {
@@ -580,7 +611,8 @@ pub enum Error {
     },
     /// The HDF5 library did not come to an end with a file.
     #[error(
-        "{}: the HDF5 library was still reading it after {seconds} s – expected an end long before – the file may be damaged: look at it with h5dump, write or copy it again",
+        "{}: the HDF5 library was still reading it after {seconds} s – expected an end long before – the file may be \
+        damaged: look at it with h5dump, write or copy it again",
         path.display()
     )]
     Hdf5Time {
@@ -591,7 +623,8 @@ pub enum Error {
     },
     /// The child process that reads HDF5 first was ended from outside.
     #[error(
-        "{}: the child process that read it first was ended by signal {signal} – the system does so when memory runs out – free memory and run again",
+        "{}: the child process that read it first was ended by signal {signal} – the system does so when memory runs \
+        out – free memory and run again",
         path.display()
     )]
     RehearsalKilled {
@@ -601,7 +634,7 @@ pub enum Error {
         signal: i32,
     },
     /// The child process that reads HDF5 first could not be started.
-    #[error("no child process can be started to read the HDF5 input first: {source}")]
+    #[error("no child process can be started to read the HDF5 input first – {source}")]
     Rehearsal {
         /// What the system said.
         source: std::io::Error,
@@ -627,7 +660,10 @@ pub enum Error {
         kind: &'static str,
     },
     /// A path in the file leads through a soft or external link.
-    #[error("{}:{object}: a soft or external link, and links are not followed – give the path of the object itself", path.display())]
+    #[error(
+        "{}:{object}: a soft or external link, and links are not followed – give the path of the object itself",
+        path.display()
+    )]
     Hdf5Link {
         /// The file.
         path: PathBuf,
@@ -648,7 +684,7 @@ pub enum Error {
     /// A dataset is compressed in a way that is not read.
     #[error(
         "{}:{object}: stored through filter {filter} – expected none, shuffle, fletcher32 or one deflate (gzip) – \
-         rewrite it with `h5repack -f GZIP=4`",
+        rewrite it with `h5repack -f GZIP=4`",
         path.display()
     )]
     Hdf5Filter {
@@ -661,8 +697,8 @@ pub enum Error {
     },
     /// A dataset promises more values than its stored bytes can hold.
     #[error(
-        "{}:{object}: promises {promised} – its stored bytes can hold at most {available} bytes – \
-         the file is damaged or the dataset was never written",
+        "{}:{object}: promises {promised} – its stored bytes can hold at most {available} bytes – the file is damaged \
+        or the dataset was never written",
         path.display()
     )]
     Hdf5Size {
@@ -676,7 +712,10 @@ pub enum Error {
         available: u64,
     },
     /// Groups are nested deeper, or there are more of them, than any real file has.
-    #[error("{}:{object}: more than {limit} {counted} – the file is damaged or its groups contain themselves", path.display())]
+    #[error(
+        "{}:{object}: more than {limit} {counted} – the file is damaged or its groups contain themselves",
+        path.display()
+    )]
     Hdf5Depth {
         /// The file.
         path: PathBuf,
@@ -727,8 +766,8 @@ pub enum Error {
     },
     /// There is no sparse matrix where one was looked for.
     #[error(
-        "{}:{group}: no sparse matrix – found {} – expected a MATLAB v7.3 or PETSc (`MATLAB_sparse`), anndata, h5sparse or \
-         Exudyn group, or one with data, indices and indptr",
+        "{}:{group}: no sparse matrix – found {} – expected a MATLAB v7.3 or PETSc (`MATLAB_sparse`), anndata, \
+        h5sparse or Exudyn group, or one with data, indices and indptr",
         path.display(), listed(holds)
     )]
     Hdf5NoMatrix {
@@ -761,7 +800,10 @@ pub enum Error {
         group: String,
     },
     /// A stiffness or mass matrix that is not square, or larger than 32-bit row numbers allow.
-    #[error("{}:{group}: found a matrix of {n_rows} × {n_cols} – expected a square one of at most {} rows", path.display(), u32::MAX)]
+    #[error(
+        "{}:{group}: found a matrix of {n_rows} × {n_cols} – expected a square one of at most {} rows",
+        path.display(), u32::MAX
+    )]
     Hdf5NotSquare {
         /// The file.
         path: PathBuf,
@@ -803,7 +845,10 @@ pub enum Error {
         last: i64,
     },
     /// A matrix entry that is not a finite number.
-    #[error("{}:{dataset}: the entry of row {row}, column {col} (both from 0) is {value} – expected a finite number", path.display())]
+    #[error(
+        "{}:{dataset}: the entry of row {row}, column {col} (both from 0) is {value} – expected a finite number",
+        path.display()
+    )]
     Hdf5NotFinite {
         /// The file.
         path: PathBuf,
@@ -818,7 +863,8 @@ pub enum Error {
     },
     /// A file in which no known mesh was found.
     #[error(
-        "{}: no mesh that can be read – found {} – expected .hmf (/domain/grid/Geometry), XDMF, .med (/ENS_MAA) or .h5m (/tstt)",
+        "{}: no mesh that can be read – found {} – expected .hmf (/domain/grid/Geometry), XDMF, .med (/ENS_MAA) or \
+        .h5m (/tstt)",
         path.display(), listed(holds)
     )]
     MeshUnknown {
@@ -852,7 +898,10 @@ pub enum Error {
         expected: &'static str,
     },
     /// A coordinate that is not a finite number.
-    #[error("{}:{object}: coordinate {} of node {label} is {value} – expected a finite number", path.display(), ["x", "y", "z"][*axis % 3])]
+    #[error(
+        "{}:{object}: coordinate {} of node {label} is {value} – expected a finite number",
+        path.display(), ["x", "y", "z"][*axis % 3]
+    )]
     MeshNotFinite {
         /// The file.
         path: PathBuf,
@@ -884,7 +933,10 @@ pub enum Error {
         source: roxmltree::Error,
     },
     /// An XDMF file with more names than any mesh has, whose look-up would take for ever.
-    #[error("{}:{line}: more than {limit} {counted} – expected a few, as programs write them – write the file again", path.display())]
+    #[error(
+        "{}:{line}: more than {limit} {counted} – expected a few, as programs write them – write the file again",
+        path.display()
+    )]
     XdmfSize {
         /// The file.
         path: PathBuf,
@@ -897,7 +949,8 @@ pub enum Error {
     },
     /// An XDMF file names a data file outside its own folder.
     #[error(
-        "{}: refers to data in {reference} – expected a `file.h5:/path` in the folder of the XDMF file – move the data there",
+        "{}: refers to data in {reference} – expected a `file.h5:/path` in the folder of the XDMF file – move the \
+        data there",
         path.display()
     )]
     XdmfReference {
@@ -1015,7 +1068,8 @@ pub enum Error {
     },
     /// A document cannot be written as JSON.
     #[error(
-        "{what} cannot be written as JSON: {source} – expected names in UTF-8 – rename files and folders that have others"
+        "{what} cannot be written as JSON: {source} – expected names in UTF-8 – rename files and folders that have \
+        others"
     )]
     NotJson {
         /// The document.
@@ -1049,7 +1103,10 @@ pub enum Error {
         input: PathBuf,
     },
     /// Two outputs would be written over each other.
-    #[error("`{key}` is {}, the same file as `{other}` – expected a file of its own – give one of them another name", path.display())]
+    #[error(
+        "`{key}` is {}, the same file as `{other}` – expected a file of its own – give one of them another name",
+        path.display()
+    )]
     OutputTwice {
         /// The key of the later output.
         key: &'static str,
@@ -1059,7 +1116,10 @@ pub enum Error {
         other: &'static str,
     },
     /// The name of an output is taken by something that is not a file.
-    #[error("{}: not a regular file – expected a name that is free or that of a file – give the output another name", path.display())]
+    #[error(
+        "{}: not a regular file – expected a name that is free or that of a file – give the output another name",
+        path.display()
+    )]
     OutputKind {
         /// The path.
         path: PathBuf,
@@ -1072,7 +1132,7 @@ pub enum Error {
         flags: Vec<&'static str>,
     },
     /// The text of a flag cannot be understood.
-    #[error("{flag} {text}: expected {expected}")]
+    #[error("{flag} {text} – expected {expected}")]
     FlagText {
         /// The flag.
         flag: &'static str,
@@ -1083,8 +1143,9 @@ pub enum Error {
     },
     /// A superelement of another version is to be made again.
     #[error(
-        "{}: made by {found}, this is {} {} – only the same version gives the same bytes; run that one, or compare by \
-         verify --job without --reproduce", path.display(), env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION")
+        "{}: made by {found}, this is {} {} – only the same version gives the same bytes – run that one, or compare \
+        by verify --job without --reproduce", path.display(), env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"
+        )
     )]
     OtherVersion {
         /// The file.
@@ -1094,8 +1155,8 @@ pub enum Error {
     },
     /// The job kept in a superelement is none that this version can run.
     #[error(
-        "{}: the job kept in the file is none of {} {} – found one of another version, or none – run that version, or give \
-         the job by verify --job",
+        "{}: the job kept in the file is none of {} {} – found one of another version, or none – run that version, or \
+        give the job by verify --job",
         path.display(), env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION")
     )]
     KeptJob {
@@ -1112,7 +1173,9 @@ pub enum Error {
     },
     /// A matrix is not symmetric.
     #[error(
-        "the {matrix} matrix is not symmetric – worst at {place} – found a relative difference of {asymmetry:.1e} – expected below 1e-6 – leave out follower forces, gyroscopic and friction terms; where the file lacks part of a triangle, take the other one: model.symmetric = \"lower\" or \"upper\" (reduce --symmetric)"
+        "the {matrix} matrix is not symmetric – worst at {place} – found a relative difference of {asymmetry:.1e} – \
+        expected below 1e-6 – leave out follower forces, gyroscopic and friction terms; where the file lacks part of \
+        a triangle, take the other one: model.symmetric = \"lower\" or \"upper\" (reduce --symmetric)"
     )]
     Unsymmetric {
         /// `stiffness` or `mass`.
@@ -1124,8 +1187,8 @@ pub enum Error {
     },
     /// K and M are exchanged.
     #[error(
-        "stiffness and mass are exchanged – a unit translation meets no force at {:.0} % of the rows of the stiffness and at {:.0} % \
-         of the mass – expected the reverse – exchange the two files",
+        "stiffness and mass are exchanged – a unit translation meets no force at {:.0} % of the rows of the stiffness \
+        and at {:.0} % of the mass – expected the reverse – exchange the two files",
         100.0 * in_stiffness,
         100.0 * in_mass
     )]
@@ -1142,7 +1205,8 @@ pub enum Error {
     NoMass,
     /// A mass matrix that gives some motion a negative kinetic energy.
     #[error(
-        "the mass matrix is indefinite – {place} – found a kinetic energy of {energy:.1e} relative to its diagonal – expected none below zero – check point masses, offsets and the coupling terms of the mass"
+        "the mass matrix is indefinite – {place} – found a kinetic energy of {energy:.1e} relative to its diagonal – \
+        expected none below zero – check point masses, offsets and the coupling terms of the mass"
     )]
     IndefiniteMass {
         /// The entry or the dof where it is worst, in words.
@@ -1152,7 +1216,8 @@ pub enum Error {
     },
     /// A matrix whose numbers, or whose frequencies, leave the range of double precision.
     #[error(
-        "{what} leaves the range of double precision – found 2^{exponent} – expected between 2^-960 and 2^1000 – write the matrices in other units"
+        "{what} leaves the range of double precision – found 2^{exponent} – expected between 2^-960 and 2^1000 – \
+        write the matrices in other units"
     )]
     UnitRange {
         /// What is too large or too small.
@@ -1162,7 +1227,9 @@ pub enum Error {
     },
     /// Recovered shapes that single precision cannot hold.
     #[error(
-        "the shapes of `write.recovery` leave the range of single precision – the largest entry is {largest:.1e} – expected between 2^{low} and 2^{high} – set its precision to \"double\", or write the matrices in other units"
+        "the shapes of `write.recovery` leave the range of single precision – the largest entry is {largest:.1e} – \
+        expected between 2^{low} and 2^{high} – set its precision to \"double\", or write the matrices in other \
+        units"
     )]
     RecoveryRange {
         /// The largest entry.
@@ -1174,7 +1241,8 @@ pub enum Error {
     },
     /// Rows without stiffness and mass.
     #[error(
-        "{n_rows} rows have neither stiffness nor mass – the first is row {row}{dof} – expected none – leave unused and constrained dofs out of both matrices, or drop these rows: model.drop_empty = true (reduce --drop-empty)"
+        "{n_rows} rows have neither stiffness nor mass – the first is row {row}{dof} – expected none – leave unused \
+        and constrained dofs out of both matrices, or drop these rows: model.drop_empty = true (reduce --drop-empty)"
     )]
     EmptyRows {
         /// How many.
@@ -1186,7 +1254,8 @@ pub enum Error {
     },
     /// A zero on the diagonal of K in a row that is not empty.
     #[error(
-        "row {row}{dof} of the stiffness has a zero diagonal and other entries – expected a positive diagonal – this is a constraint multiplier; eliminate constraints before exporting the matrices"
+        "row {row}{dof} of the stiffness has a zero diagonal and other entries – expected a positive diagonal – this \
+        is a constraint multiplier: eliminate constraints before exporting the matrices"
     )]
     MultiplierRow {
         /// The row, from one.
@@ -1196,7 +1265,8 @@ pub enum Error {
     },
     /// A negative diagonal entry of K.
     #[error(
-        "row {row}{dof} of the stiffness has the diagonal {value:.3e} – expected a positive one – the structure is unstable or preloaded beyond buckling"
+        "row {row}{dof} of the stiffness has the diagonal {value:.3e} – expected a positive one – the structure is \
+        unstable or preloaded beyond buckling"
     )]
     NegativeStiffness {
         /// The row, from one.
@@ -1208,7 +1278,8 @@ pub enum Error {
     },
     /// A negative diagonal entry of M.
     #[error(
-        "row {row}{dof} of the mass has the diagonal {value:.3e} – expected none below zero – check point masses and offsets of the model"
+        "row {row}{dof} of the mass has the diagonal {value:.3e} – expected none below zero – check point masses and \
+        offsets of the model"
     )]
     NegativeMass {
         /// The row, from one.
@@ -1220,7 +1291,10 @@ pub enum Error {
     },
     /// Coordinates or a dof map that do not belong to K.
     #[error(
-        "the coordinates do not belong to the stiffness – it has {n_zero} motions without energy, of which the coordinates explain {n_explained}; by them {motions} cost up to {} of {of}, most of it at {dof} – expected below {} – check units, axes and local node frames, the order of nodes and rows, and the state that the coordinates are of, or leave the nodes out",
+        "the coordinates do not belong to the stiffness – it has {n_zero} motions without energy, of which the \
+        coordinates explain {n_explained}; by them {motions} cost up to {} of {of}, most of it at {dof} – expected \
+        below {} – check units, axes and local node frames, the order of nodes and rows, and the state that the \
+        coordinates are of, or leave the nodes out",
         quantity(*energy, 2), quantity(*expected, 2)
     )]
     CoordinatesDoNotFit {
@@ -1241,7 +1315,11 @@ pub enum Error {
     },
     /// Rotations that cost energy in a body that can move freely in every direction.
     #[error(
-        "the stiffness lets the component move in every direction but not turn – {rotations} cost up to {} of the energy of the first elastic mode, most of it at {dof}, and {n_zero} motions cost none – expected free rotations, because no support holds a rotation and no translation of a solid – check the dof map, the order of nodes, local node frames and the state that the coordinates are of; where supports hold rotations alone, list these in model.held_rotations",
+        "the stiffness lets the component move in every direction but not turn – {rotations} cost up to {} of the \
+        energy of the first elastic mode, most of it at {dof}, and {n_zero} motions cost none – expected free \
+        rotations, because no support holds a rotation and no translation of a solid – check the dof map, the order \
+        of nodes, local node frames and the state that the coordinates are of; where supports hold rotations alone, \
+        list these in model.held_rotations",
         quantity(*energy, 2)
     )]
     RotationsHeld {
@@ -1256,7 +1334,9 @@ pub enum Error {
     },
     /// Most nodes are coupled with other nodes in M than in K.
     #[error(
-        "the mass couples {n_apart} of {n_nodes} {what} with other {what} than the stiffness does, the first at {first} – expected the same neighbours, because elements have stiffness and mass at the same nodes – write both matrices with their rows in one order, that of the dof map"
+        "the mass couples {n_apart} of {n_nodes} {what} with other {what} than the stiffness does, the first at \
+        {first} – expected the same neighbours, because elements have stiffness and mass at the same nodes – write \
+        both matrices with their rows in one order, that of the dof map"
     )]
     MassInAnotherOrder {
         /// Nodes that share less than half of their neighbours.
@@ -1270,7 +1350,8 @@ pub enum Error {
     },
     /// A rigid-body motion whose energy is negative beyond rounding.
     #[error(
-        "a rigid-body motion has the negative energy {energy:.1e} – expected zero within {noise:.1e} – a Sturm count finds {count} eigenvalues below half of it: the stiffness is indefinite; check preload and negative springs"
+        "a rigid-body motion has the negative energy {energy:.1e} – expected zero within {noise:.1e} – a Sturm count \
+        finds {count} eigenvalues below half of it: the stiffness is indefinite – check preload and negative springs"
     )]
     NegativeRigidEnergy {
         /// Its Rayleigh quotient, scaled.
@@ -1282,7 +1363,8 @@ pub enum Error {
     },
     /// A rigid-body motion that moves no mass.
     #[error(
-        "a rigid-body motion moves no mass – found a modal mass of {relative_mass:.1e} relative to the largest – expected above 1e-12 – give the massless part of the model its mass"
+        "a rigid-body motion moves no mass – found a modal mass of {relative_mass:.1e} relative to the largest – \
+        expected above 1e-12 – give the massless part of the model its mass"
     )]
     MasslessRigidMotion {
         /// Its modal mass over the largest.
@@ -1290,7 +1372,8 @@ pub enum Error {
     },
     /// A motion, no rigid-body motion, with neither energy nor mass.
     #[error(
-        "a motion has neither stiffness nor mass – it is largest at {dof} – expected one of them for every motion – give the dof stiffness or mass, or leave it out of both matrices"
+        "a motion has neither stiffness nor mass – it is largest at {dof} – expected one of them for every motion – \
+        give the dof stiffness or mass, or leave it out of both matrices"
     )]
     MasslessMechanism {
         /// The dof it moves most.
@@ -1298,7 +1381,9 @@ pub enum Error {
     },
     /// Free modes of a component that can move as a rigid body without moving mass.
     #[error(
-        "a rigid-body motion moves no mass while the interface is free – it is largest at {dof} – expected mass in every rigid-body motion, without which free modes are not defined – give the nodes rotary inertia, or keep fixed-interface modes (method = \"craig-bampton\")"
+        "a rigid-body motion moves no mass while the interface is free – it is largest at {dof} – expected mass in \
+        every rigid-body motion, without which free modes are not defined – give the nodes rotary inertia, or keep \
+        fixed-interface modes (method = \"craig-bampton\")"
     )]
     MasslessFreeMotion {
         /// The dof it moves most.
@@ -1306,7 +1391,8 @@ pub enum Error {
     },
     /// A small dense eigenproblem did not converge.
     #[error(
-        "a dense eigenproblem of order {n} did not converge – its matrix holds values that are not finite – check the magnitudes of the input"
+        "a dense eigenproblem of order {n} did not converge – its matrix holds values that are not finite – check the \
+        magnitudes of the input"
     )]
     DenseEigen {
         /// Its order.
@@ -1314,7 +1400,8 @@ pub enum Error {
     },
     /// An interface too large for dense matrices.
     #[error(
-        "the interface has {n_interface} dofs – expected at most {limit}, because the reduced matrices are dense – take fewer interface nodes or couple their patches rigidly"
+        "the interface has {n_interface} dofs – expected at most {limit}, because the reduced matrices are dense – \
+        take fewer interface nodes or couple their patches rigidly"
     )]
     InterfaceTooLarge {
         /// Dofs of the interface.
@@ -1324,7 +1411,8 @@ pub enum Error {
     },
     /// Nodes asked for where the model has none.
     #[error(
-        "interface {interface:?} names nodes – the model has no dof map or no nodes – give model.dofs and model.nodes (reduce --dofs, reduce --nodes); an interface may also list rows by number"
+        "interface {interface:?} names nodes – the model has no dof map or no nodes – give model.dofs and model.nodes \
+        (reduce --dofs, reduce --nodes); an interface may also list rows by number"
     )]
     SelectionNeedsNodes {
         /// The interface.
@@ -1332,7 +1420,8 @@ pub enum Error {
     },
     /// A rigid patch without coordinates.
     #[error(
-        "interface {interface:?} is rigid – its nodes have no coordinates – expected a node table or mesh with every node of the patch"
+        "interface {interface:?} is rigid – its nodes have no coordinates – expected a node table or mesh with every \
+        node of the patch"
     )]
     RigidNeedsCoordinates {
         /// The interface.
@@ -1350,7 +1439,8 @@ pub enum Error {
     },
     /// A selection without nodes.
     #[error(
-        "interface {interface:?} selects no node – expected at least one – check the list or the region against the coordinates"
+        "interface {interface:?} selects no node – expected at least one – check the list or the region against the \
+        coordinates"
     )]
     EmptyInterface {
         /// The interface.
@@ -1358,7 +1448,8 @@ pub enum Error {
     },
     /// A node without rows in the matrices.
     #[error(
-        "interface {interface:?}: node {node} has no row in the matrices – expected a free dof – the node is constrained, unused or not in the dof map"
+        "interface {interface:?}: node {node} has no row in the matrices – expected a free dof – the node is \
+        constrained, unused or not in the dof map"
     )]
     InterfaceNodeWithoutRows {
         /// The interface.
@@ -1368,7 +1459,8 @@ pub enum Error {
     },
     /// A dof the node does not have.
     #[error(
-        "interface {interface:?}: {dof} does not exist – expected a direction the node has – solids have no rotations; use coupling = \"rigid\" or list the dofs"
+        "interface {interface:?}: {dof} does not exist – expected a direction the node has – solids have no \
+        rotations; use coupling = \"rigid\" or list the dofs"
     )]
     DofMissing {
         /// The interface.
@@ -1377,7 +1469,11 @@ pub enum Error {
         dof: crate::dofs::Dof,
     },
     /// A row number beyond the matrices.
-    #[error("interface {interface:?}: row {row} {found} – expected one of 0 to {} with stiffness or mass – rows count from zero, as in the files", n.saturating_sub(1))]
+    #[error(
+        "interface {interface:?}: row {row} {found} – expected one of 0 to {} with stiffness or mass – rows count \
+        from zero, as in the files",
+        n.saturating_sub(1)
+    )]
     InterfaceRow {
         /// The interface.
         interface: String,
@@ -1390,7 +1486,8 @@ pub enum Error {
     },
     /// A dof that two interface nodes claim.
     #[error(
-        "{dof} belongs to interface {first:?} and to interface {second:?} – expected one owner – take it out of one of them"
+        "{dof} belongs to interface {first:?} and to interface {second:?} – expected one owner – take it out of one \
+        of them"
     )]
     DofTwice {
         /// The dof.
@@ -1402,7 +1499,8 @@ pub enum Error {
     },
     /// A rigid patch about a point far outside of the part.
     #[error(
-        "interface {interface:?}: its origin ({}) is {} times the size of the part away from its nodes – expected a point near their mean ({}) – give the origin in the unit of the coordinates, or leave it out for the mean",
+        "interface {interface:?}: its origin ({}) is {} times the size of the part away from its nodes – expected a \
+        point near their mean ({}) – give the origin in the unit of the coordinates, or leave it out for the mean",
         place(*origin),
         quantity(*ratio, 2),
         place(*middle)
@@ -1419,7 +1517,9 @@ pub enum Error {
     },
     /// Rigid patches that tie all nodes.
     #[error(
-        "interface {interface:?}: a rigid patch of {n_nodes} nodes ties the whole component – found {n_rigid} degrees of freedom for {n_rigid} rigid-body motions – expected nodes that are free to deform – leave nodes out of the patch; a rigid part needs no superelement"
+        "interface {interface:?}: a rigid patch of {n_nodes} nodes ties the whole component – found {n_rigid} degrees \
+        of freedom for {n_rigid} rigid-body motions – expected nodes that are free to deform – leave nodes out of \
+        the patch; a rigid part needs no superelement"
     )]
     WhollyRigid {
         /// The interface.
@@ -1431,7 +1531,8 @@ pub enum Error {
     },
     /// A patch that cannot move in all directions of its node.
     #[error(
-        "interface {interface:?}: its {n_rows} rows can follow only {rank} of {expected} motions of a rigid node – expected three nodes that are not in line – add nodes to the patch or list fewer dofs"
+        "interface {interface:?}: its {n_rows} rows can follow only {rank} of {expected} motions of a rigid node – \
+        expected three nodes that are not in line – add nodes to the patch or list fewer dofs"
     )]
     PatchRank {
         /// The interface.
@@ -1445,7 +1546,9 @@ pub enum Error {
     },
     /// A body without interface that nothing holds.
     #[error(
-        "{n_floating} of the {n_bodies} bodies of the model float free of every interface – the first holds {dof} – expected an interface node on each, or a support – add an interface node there, connect the body or leave it out"
+        "{n_floating} of the {n_bodies} bodies of the model float free of every interface – the first holds {dof} – \
+        expected an interface node on each, or a support – add an interface node there, connect the body or leave it \
+        out"
     )]
     FloatingBody {
         /// How many.
@@ -1457,7 +1560,8 @@ pub enum Error {
     },
     /// The interface leaves a rigid-body motion free.
     #[error(
-        "the interface can react only {rank} of the {n_rigid} rigid-body motions{motion} – expected all – add interface nodes off that axis or give the nodes rotations"
+        "the interface can react only {rank} of the {n_rigid} rigid-body motions{motion} – expected all – add \
+        interface nodes off that axis or give the nodes rotations"
     )]
     InterfaceRank {
         /// Motions it reacts.
@@ -1469,7 +1573,9 @@ pub enum Error {
     },
     /// The digits of K leave open what the reduction rests on.
     #[error(
-        "the digits of the stiffness do not tell {what} – its entries are known to {precision:.0e} of themselves – expected entries whose last digit does not decide that – write the stiffness with more digits, best in binary"
+        "the digits of the stiffness do not tell {what} – its entries are known to {precision:.0e} of themselves – \
+        expected entries whose last digit does not decide that – write the stiffness with more digits, best in \
+        binary"
     )]
     DigitsTooFew {
         /// What is open.
@@ -1479,7 +1585,8 @@ pub enum Error {
     },
     /// A pivot of a matrix that should be definite was not positive.
     #[error(
-        "the stiffness is not positive definite with {} – elimination stopped at {dof} – expected a positive pivot – the structure has a mechanism there or is unstable, or a penalty far above all else takes its digits",
+        "the stiffness is not positive definite with {} – elimination stopped at {dof} – expected a positive pivot – \
+        the structure has a mechanism there or is unstable, or a penalty far above all else takes its digits",
         held_words(boundary)
     )]
     NotDefinite {
@@ -1490,7 +1597,9 @@ pub enum Error {
     },
     /// Eigenvalues of K below zero.
     #[error(
-        "the stiffness has {count} negative eigenvalues with {}, by a Sturm count – expected none – the component is preloaded beyond buckling, has negative springs, or its matrix lacks digits, which a penalty far above all else takes too; reduce it at a smaller preload",
+        "the stiffness has {count} negative eigenvalues with {}, by a Sturm count – expected none – the component is \
+        preloaded beyond buckling, has negative springs, or its matrix lacks digits, which a penalty far above all \
+        else takes too; reduce it at a smaller preload",
         held_words(boundary)
     )]
     IndefiniteStiffness {
@@ -1515,7 +1624,8 @@ pub enum Error {
     },
     /// The forecast of a comparison with the full matrices exceeds the memory there is.
     #[error(
-        "the comparison with the full matrices needs {} – {} are available – free memory, raise run.memory_gib of the job, or verify the file by itself",
+        "the comparison with the full matrices needs {} – {} are available – free memory, raise run.memory_gib of the \
+        job, or verify the file by itself",
         bytes(*needed), bytes(*available)
     )]
     MemoryComparison {
@@ -1532,7 +1642,9 @@ pub enum Error {
     },
     /// Conjugate gradients did not bring a solve down to rounding.
     #[error(
-        "a solve with the factor kept in single precision stays inaccurate – right-hand side {column} of its block, residual {residual:.1e} of its terms in the worst row after {steps} steps of conjugate gradients – expected {aim:.1e} – use precision = \"double\""
+        "a solve with the factor kept in single precision stays inaccurate – right-hand side {column} of its block, \
+        residual {residual:.1e} of its terms in the worst row after {steps} steps of conjugate gradients – expected \
+        {aim:.1e} – use precision = \"double\""
     )]
     NotRefined {
         /// The right-hand side, from zero.
@@ -1551,7 +1663,8 @@ pub enum Error {
     SturmPivot,
     /// Lanczos did not converge.
     #[error(
-        "the eigensolver stalled after {restarts} restarts – found {converged} converged modes – ask for another number of modes or another band, or set the other eigensolver in the job"
+        "the eigensolver stalled after {restarts} restarts – found {converged} converged modes – ask for another \
+        number of modes or another band, or set the other eigensolver in the job"
     )]
     LanczosStalled {
         /// Restarts done.
@@ -1561,7 +1674,8 @@ pub enum Error {
     },
     /// More zero-energy motions than rigid-body modes.
     #[error(
-        "the component is a mechanism – found {n_more} motions without energy in addition to the {n_rigid} rigid-body modes – expected none – close hinges and sliding joints or give them stiffness"
+        "the component is a mechanism – found {n_more} motions without energy in addition to the {n_rigid} rigid-body \
+        modes – expected none – close hinges and sliding joints or give them stiffness"
     )]
     Mechanism {
         /// Rigid-body modes.
@@ -1571,7 +1685,9 @@ pub enum Error {
     },
     /// The modes found are not all there are.
     #[error(
-        "modes are missing below {below_hz:.6} Hz – found {found}, the Sturm count says {counted} – neither another start nor slices of the band found more – use reduction.eigensolver = \"arpack\" (reduce --eigensolver) to compare"
+        "modes are missing below {below_hz:.6} Hz – found {found}, the Sturm count says {counted} – neither another \
+        start nor slices of the band found more – use reduction.eigensolver = \"arpack\" (reduce --eigensolver) to \
+        compare"
     )]
     ModesMissing {
         /// Frequency of the shift.
@@ -1583,12 +1699,14 @@ pub enum Error {
     },
     /// The second eigensolver is not built in.
     #[error(
-        "the eigensolver arpack needs the feature \"arpack\", which this program was built without – leave reduction.eigensolver (reduce --eigensolver) out"
+        "the eigensolver arpack needs the feature \"arpack\", which this program was built without – leave \
+        reduction.eigensolver (reduce --eigensolver) out"
     )]
     EigensolverMissing,
     /// The second eigensolver failed.
     #[error(
-        "ARPACK failed with status {status} after {converged} converged modes – set eigensolver = \"lanczos\" in the job"
+        "ARPACK failed with status {status} after {converged} converged modes – set eigensolver = \"lanczos\" in the \
+        job"
     )]
     Arpack {
         /// Its `info`.
@@ -1695,7 +1813,8 @@ fn forecast(available: u64, [factors, matrices, vectors]: [u64; 3], in_single: O
         None => parts[0].2.to_owned(),
     };
     format!(
-        "the run needs {needed} – largest first: {largest_first} – {available} are available – free memory, raise run.memory_gib, or {advice}"
+        "the run needs {needed} – largest first: {largest_first} – {available} are available – free memory, raise \
+        run.memory_gib, or {advice}"
     )
 }
 

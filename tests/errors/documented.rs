@@ -77,6 +77,21 @@ fn every_error_has_its_line() {
     }
 }
 
+/// A message reads what – where – found – expected – what to do, with dashes between its parts.
+#[test]
+fn messages_have_one_grammar() {
+    let source = include_str!("../../src/error.rs");
+    let messages: Vec<&str> =
+        source.split("#[error(").skip(1).map(|rest| rest.split(")]").next().unwrap_or("")).collect();
+    assert!(messages.len() >= Error::CODES.len() - 2, "{} messages", messages.len());
+    for message in messages {
+        let words = message.split_whitespace().filter(|word| *word != "\\").collect::<Vec<_>>().join(" ");
+        for other in ["; expected", ", expected", ": expected", "; found", ": found", ", found"] {
+            assert!(!words.contains(other), "{other:?} for a dash in {words}");
+        }
+    }
+}
+
 #[test]
 fn codes_are_unique_and_say_what_they_are() {
     let codes: BTreeSet<&str> = Error::CODES.iter().map(|entry| entry.code).collect();
