@@ -4,7 +4,7 @@
 use supel::cli::ExitCode;
 use supel_models::frame::{Inertia, Section, frame};
 use supel_models::model::Assembler;
-use supel_models::{Ends, Material, Model, brick, spring};
+use supel_models::{Material, Model, brick};
 
 use crate::place::{Place, supel};
 
@@ -128,14 +128,4 @@ fn cluster_that_the_other_eigensolver_fails_on_is_verified_by_the_same() {
     if cfg!(feature = "arpack") {
         assert!(told.contains("the modes were found again"), "{told}");
     }
-}
-
-/// A hinge as soft as 10⁻⁹ of what it connects: its frequency has few digits, and its error bar says so to more of them.
-#[test]
-fn error_bar_of_a_frequency_of_few_digits_is_found_again() {
-    let chain = |from: u32| (from..from + 9).map(|row| (row, row + 1, 1.3));
-    let between: Vec<_> = chain(0).chain(chain(10)).chain([(9, 10, 1.3e-9)]).collect();
-    let masses: Vec<f64> = (0..20).map(|i| 1.0 + 0.1 * f64::from(i % 7)).collect();
-    let place = Place::with(&springs(&masses, &[], &between));
-    agree(&place, &place.matrix_flags(), "--interface r=rows:0 --method craig-bampton --modes 4");
 }
