@@ -141,11 +141,9 @@ impl std::fmt::Display for Finding {
             Self::FreeParticles { rows, first } => {
                 write!(f, "{} rows have mass and no stiffness, the first is {first}: free particles", rows.len())
             }
-            Self::MassCouplesOthers { n_apart, n_nodes, first } => write!(
-                f,
-                "the mass couples {n_apart} of {n_nodes} nodes with other nodes than the stiffness does, the first at {first}: check that \
-                 the rows of both matrices are in one order"
-            ),
+            Self::MassCouplesOthers { n_apart, n_nodes, first } => {
+                f.write_str(&couples_others([*n_apart, *n_nodes], first))
+            }
             Self::Penalties { n_rows, first, ratio } => write!(
                 f,
                 "{n_rows} rows have a stiffness of {PENALTY:.0e} times the median and more, at most {ratio:.0e} times at {first}: penalties \
@@ -187,16 +185,26 @@ impl std::fmt::Display for Finding {
                     rotations.join(", ")
                 )
             }
-            Self::OriginFar { interface, origin, ratio } => write!(
-                f,
-                "the origin ({}) of interface {interface:?} is {} times the size of the part away from its nodes: check its unit; digits are \
-                 lost on so long a lever",
-                origin.map(|x| quantity(x, 6)).join(", "),
-                quantity(*ratio, 2)
-            ),
+            Self::OriginFar { interface, origin, ratio } => f.write_str(&origin_far(interface, *origin, *ratio)),
             Self::HangingInterface { dof, n_dofs } => {
                 write!(f, "{n_dofs} interface dofs have mass and no stiffness, the first is {dof}: they move freely")
             }
         }
     }
+}
+
+fn couples_others([n_apart, n_nodes]: [usize; 2], first: &str) -> String {
+    format!(
+        "the mass couples {n_apart} of {n_nodes} nodes with other nodes than the stiffness does, the first at {first}: check that the \
+         rows of both matrices are in one order"
+    )
+}
+
+fn origin_far(interface: &str, origin: [f64; 3], ratio: f64) -> String {
+    format!(
+        "the origin ({}) of interface {interface:?} is {} times the size of the part away from its nodes: check its unit; digits are \
+         lost on so long a lever",
+        origin.map(|x| quantity(x, 6)).join(", "),
+        quantity(ratio, 2)
+    )
 }
