@@ -209,8 +209,8 @@ pub const CATALOGUE: &[Entry] = &[
         "M-16",
         Proof::Measured,
         Recorded::Always(1),
-        "Mass, centre of mass and inertia of the reduced model are those of the full one; where the job names the expected \
-         ones, they are compared as well.",
+        "Mass, centre of mass and inertia of the reduced model are those of the full one, and those of a body: the same mass \
+         in every direction. Where the job names the expected ones, they are compared as well.",
         "Reduced against full: see M-11. Against the job: units, a missing part, density, or coordinates in other units.",
     ),
     line(
