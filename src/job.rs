@@ -21,7 +21,7 @@ pub use interface::{Coupling, InterfaceJob, NodeSelection, Origin, Region};
 pub use method::{Boundary, Columns, Method};
 pub use recovery::RecoveryJob;
 pub use scene::{DampingJob, SceneJob, Support};
-pub use schema::schema;
+pub use schema::{Role, schema};
 pub use types::{
     Certify, Duplicates, Expectation, Job, ModeSelection, ModelJob, Precision, ReductionJob, RunJob, WriteJob,
 };

@@ -3,26 +3,7 @@
 use serde_json::Value;
 
 use crate::error::{Error, Result};
-use crate::job::Job;
-
-/// Keys of which two jobs may differ and still make the same superelement: where files are, which may move, and how much memory
-/// there is. Repeated entries are added or refused, which gives the same matrix or none.
-const OF_THE_PLACE: [&str; 10] = [
-    "model.stiffness",
-    "model.mass",
-    "model.dofs",
-    "model.nodes",
-    "model.duplicates",
-    "run.memory_gib",
-    "write.superelement",
-    "write.report",
-    "write.html",
-    "write.junit",
-];
-/// Files of which it matters whether there is one.
-const OPTIONAL_FILES: [&str; 2] = ["model.dofs", "model.nodes"];
-/// Keys that say how the same result is found and proved.
-const OF_THE_WAY: [&str; 3] = ["reduction.eigensolver", "run.certify", "run.precision"];
+use crate::job::{Job, Role, schema};
 
 /// What two jobs differ in.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -42,13 +23,14 @@ pub(super) fn differences(one: &Job, other: &Job) -> Result<Differences> {
     let mut keys = Vec::new();
     compare(&document(one)?, &document(other)?, "", &mut keys);
     let mut found = Differences::default();
+    let schema = schema();
     for (key, is_missing) in keys {
-        let matters = is_missing && OPTIONAL_FILES.contains(&key.as_str());
-        if OF_THE_PLACE.contains(&key.as_str()) && !matters {
-            continue;
+        match Role::of(&schema, &key) {
+            Role::Place => {}
+            Role::PlaceOfOne if !is_missing => {}
+            Role::Way => found.way.push(key),
+            Role::Result | Role::PlaceOfOne => found.wanted.push(key),
         }
-        let list = if OF_THE_WAY.contains(&key.as_str()) { &mut found.way } else { &mut found.wanted };
-        list.push(key);
     }
     Ok(found)
 }

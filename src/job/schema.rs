@@ -16,6 +16,38 @@ pub fn schema() -> Value {
     schema
 }
 
+/// What a key of the job decides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// What is made.
+    Result,
+    /// Where files are, or how they are to be read: nothing of the superelement.
+    Place,
+    /// Where a file is of which it matters whether there is one.
+    PlaceOfOne,
+    /// How the same result is found and proved.
+    Way,
+}
+
+impl Role {
+    /// The role of a key, by `run.certify` for instance. Keys inside lists decide what is made.
+    pub fn of(schema: &Value, key: &str) -> Self {
+        let mut tables = alternatives(schema, schema);
+        let mut word = None;
+        for step in key.split('.') {
+            let values: Vec<&Value> = tables.iter().filter_map(|table| table.get("properties")?.get(step)).collect();
+            word = values.iter().find_map(|value| value.get("x-role")?.as_str());
+            tables = values.into_iter().flat_map(|value| alternatives(schema, value)).collect();
+        }
+        match word {
+            Some("place") => Self::Place,
+            Some("place-of-one") => Self::PlaceOfOne,
+            Some("way") => Self::Way,
+            _ => Self::Result,
+        }
+    }
+}
+
 /// What may stand at a place of a job.
 pub(super) struct Allowed {
     /// The keys of every table that may; none where no table belongs.

@@ -1,4 +1,8 @@
 //! The parts of a job document.
+//!
+//! `x-role` of a key says what it decides where it is not the result: `place`, where files are or how they are to be read, which
+//! changes nothing; `place-of-one`, that of a file of which it matters whether there is one; `way`, how the result is found and
+//! proved.
 
 use crate::dofs::Direction;
 use crate::sparse::Triangle;
@@ -41,24 +45,28 @@ pub struct Job {
 pub struct ModelJob {
     /// File of K; inside an HDF5 file a group follows the colon: `model.h5:/K`.
     #[schemars(length(min = 1))]
+    #[schemars(extend("x-role" = "place"))]
     pub stiffness: PathBuf,
     /// File of M.
     #[schemars(length(min = 1))]
+    #[schemars(extend("x-role" = "place"))]
     pub mass: PathBuf,
     /// File that says which node and direction each row is.
     #[schemars(length(min = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-role" = "place-of-one"))]
     pub dofs: Option<PathBuf>,
     /// File of the nodes: a table or a mesh.
     #[schemars(length(min = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-role" = "place-of-one"))]
     pub nodes: Option<PathBuf>,
     /// The triangle of K and M that holds, where the other is incomplete.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub symmetric: Option<Triangle>,
     /// What becomes of entries that repeat a position.
     #[serde(default, skip_serializing_if = "Duplicates::are_added")]
-    #[schemars(extend("default" = "add"))]
+    #[schemars(extend("default" = "add", "x-role" = "place"))]
     pub duplicates: Duplicates,
     /// Whether rows without stiffness and mass are dropped; they are an error otherwise.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -127,6 +135,7 @@ pub struct ReductionJob {
     pub modes: ModeSelection,
     /// Which eigensolver finds them.
     #[serde(default)]
+    #[schemars(extend("x-role" = "way"))]
     pub eigensolver: Eigensolver,
 }
 
@@ -213,14 +222,16 @@ impl Precision {
 pub struct RunJob {
     /// Certificate of completeness.
     #[serde(default)]
+    #[schemars(extend("x-role" = "way"))]
     pub certify: Certify,
     /// Memory the run may use, in GiB; what the machine has free where absent.
     #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-role" = "place"))]
     pub memory_gib: Option<f64>,
     /// How the factor is kept.
     #[serde(default, skip_serializing_if = "Precision::is_double")]
-    #[schemars(extend("default" = "double"))]
+    #[schemars(extend("default" = "double", "x-role" = "way"))]
     pub precision: Precision,
 }
 
@@ -230,18 +241,22 @@ pub struct RunJob {
 pub struct WriteJob {
     /// The superelement file.
     #[schemars(regex(pattern = r"[^/]\.supel$"))]
+    #[schemars(extend("x-role" = "place"))]
     pub superelement: PathBuf,
     /// The report; next to the superelement as `name.report.json` where absent.
     #[schemars(regex(pattern = r"[^/]\.json$"))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-role" = "place"))]
     pub report: Option<PathBuf>,
     /// The report as a page for people, where it is wanted.
     #[schemars(regex(pattern = r"[^/]\.html$"))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-role" = "place"))]
     pub html: Option<PathBuf>,
     /// The checks as JUnit XML, where they are wanted.
     #[schemars(regex(pattern = r"[^/]\.xml$"))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-role" = "place"))]
     pub junit: Option<PathBuf>,
     /// Displacements inside the component that the superelement can recover, where they are wanted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
