@@ -125,7 +125,7 @@ pub(super) fn independent(named: DynamicColumns, mass: Leading<'_>) -> Independe
 }
 
 impl Independent {
-    /// The same in a complete basis: a column that was left out has parts in columns behind it, too.
+    /// The mixing of a complete basis, where a column that was left out has parts in columns behind it, too.
     fn with_whole_mixing(mut self, named: &DynamicColumns, mass: Leading<'_>) -> Self {
         let left_out: Vec<usize> = (0..named.columns.ncols()).filter(|j| !self.kept.contains(j)).collect();
         let columns = dense::columns(named.columns.as_ref(), &left_out);

@@ -126,7 +126,8 @@ impl<'a> BoundaryProblem<'a> {
         }
     }
 
-    /// The same count wherever the shift lies, and whether it lies off the eigenvalues as far as the factor tells by itself.
+    /// Counts as [`Self::count_below`] does, wherever the shift lies, and says whether it lies off the eigenvalues as far as the
+    /// factor tells by itself.
     ///
     /// # Errors
     /// A rigid-body motion of a free component has no mass; no memory for the count; σ hits an eigenvalue exactly.

@@ -26,7 +26,7 @@ impl Report {
     ///
     /// # Errors
     ///
-    /// Those of [`Self::to_json`]; [`Error::Write`], [`Error::NotSynced`], or [`Error::OutputKind`] where `path` is a folder or a device.
+    /// The errors of [`Self::to_json`]; [`Error::Write`], [`Error::NotSynced`], or [`Error::OutputKind`] where `path` is a folder or a device.
     pub fn write(&self, path: &Path) -> Result<()> {
         StagedFile::write(path, self.to_json()?.as_bytes()).and_then(StagedFile::commit).map_err(Error::of_writing)
     }

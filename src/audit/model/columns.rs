@@ -55,9 +55,9 @@ pub(super) struct Columns {
 /// The motions of the component as a rigid body.
 #[derive(Clone, Copy)]
 pub(super) struct Motions<'a> {
-    /// Those that the constraint modes are made to carry.
+    /// Motions that the constraint modes are made to carry.
     pub(super) carried: &'a RigidBodyModes,
-    /// Those that inertia relief answers: as many as there are zero modes.
+    /// Motions that inertia relief answers: as many as there are zero modes.
     pub(super) relieved: MatRef<'a, f64>,
     /// Where those come from: by the coordinates they are exact, and rounding turns zero modes of K.
     pub(super) source: RigidSource,
