@@ -176,7 +176,7 @@ pub const CATALOGUE: &[Entry] = &[
     line(
         "M-12",
         Proof::Measured,
-        Recorded::Always(2),
+        Recorded::Always(3),
         "The reduced stiffness gives no force under rigid-body motion and has no other motion without force: in the \
          simulation the component neither sticks to the ground nor falls apart.",
         "Too many zero modes mean a mechanism in the model, too few mean grounding; see M-05.",
