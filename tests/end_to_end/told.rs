@@ -117,7 +117,7 @@ fn maps_that_cannot_be_used_say_which_rows_and_how_to_go_on() {
     place.write("dofs.txt", repeated.join("\n").as_bytes());
     let by_rows = "give interfaces as rows from zero, as in reduce --interface hub=rows:0,1,2";
     let ended = place.reduce(&place.model_flags(), FOOT);
-    let which = "rows 1 and 61 are both ux of node 1; 12 rows (61, 62, 63, 64, …) repeat a dof";
+    let which = "rows 1 and 61 are both ux of node 1, and 12 rows (61, 62, 63, 64, …) repeat a dof";
     assert_says(&ended, ExitCode::InputData, &["E-MAP-REPEATED", which, by_rows]);
 
     let made: Vec<String> = lines.iter().map(|line| line.replace("45.", "10045.")).collect();

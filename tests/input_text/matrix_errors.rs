@@ -91,7 +91,7 @@ fn a_flavour_that_is_not_read() {
     for (flavour, word) in flavours {
         let error = error_of(format!("%%MatrixMarket matrix {flavour}\n1 1 1\n1 1 1\n"));
         assert!(matches!(&error, Error::MatrixFlavour { found, .. } if found == word), "{error}");
-        assert_names(&error, "supported are `coordinate real`");
+        assert_names(&error, "expected `coordinate real`");
     }
 }
 

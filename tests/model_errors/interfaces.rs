@@ -47,7 +47,7 @@ fn nodes_of_a_model_without_nodes() {
         let name = job.name.clone();
         let error = refused(&anonymous(), &[job]);
         assert!(matches!(&error, Error::SelectionNeedsNodes { interface } if *interface == name), "{error}");
-        assert_says(&error, ErrorClass::InputData, &[&name, "give --dofs and --nodes"]);
+        assert_says(&error, ErrorClass::InputData, &[&name, "give model.dofs and model.nodes"]);
     }
 }
 

@@ -29,8 +29,8 @@ fn i_15_maps_that_do_not_fit() {
     map_refused("E-MAP-DIRECTION", &["dofs.txt:7", "node 3", "`7`", "1 to 6"], |lines| lines[6] = "3.7".into());
     map_refused("E-MAP-TEXT", &["dofs.txt:7", "`three`"], |lines| lines[6] = "three".into());
     map_refused("E-MAP-REPEATED", &["rows 5 and 7", "node 2"], |lines| lines[6] = lines[4].clone());
-    map_refused("E-MAP-COUNT", &["134 rows", "matrices have 135"], |lines| drop(lines.pop()));
-    map_refused("E-MAP-COUNT", &["136 rows", "matrices have 135"], |lines| lines.push("46.1".into()));
+    map_refused("E-MAP-COUNT", &["134 rows", "expected 135"], |lines| drop(lines.pop()));
+    map_refused("E-MAP-COUNT", &["136 rows", "expected 135"], |lines| lines.push("46.1".into()));
 }
 
 /// A map in another order than the matrices: row numbers give it away, and without them the coordinates do.

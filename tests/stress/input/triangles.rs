@@ -38,7 +38,7 @@ fn i_05_one_triangle_or_both() {
         assert_is_the_chain(&place);
     }
     let doubled = with_entries("symmetric", |_, _| true);
-    let parts = ["declared symmetric", "(2, 1) and (1, 2)", "--symmetric lower or upper"];
+    let parts = ["declared symmetric", "(2, 1) and (1, 2)", "model.symmetric = \"lower\" or \"upper\""];
     assert_refused(&doubled, &reduce_chain(&doubled), "E-DOUBLE-TRIANGLE", &parts);
     let ended = doubled.reduce(&doubled.matrix_flags(), &format!("{CHAIN} --symmetric lower"));
     assert_done(&doubled, &ended, &[]);
@@ -50,7 +50,7 @@ fn i_05_one_triangle_or_both() {
 fn i_06_half_a_triangle_missing() {
     for (triangle, missing) in [("lower", (3, 4)), ("upper", (4, 3))] {
         let place = with_entries("general", |row, col| (row, col) != missing);
-        let parts = ["5.0e-1", "where the file lacks part of a triangle", "--symmetric lower or upper"];
+        let parts = ["5.0e-1", "where the file lacks part of a triangle", "model.symmetric = \"lower\" or \"upper\""];
         assert_refused(&place, &reduce_chain(&place), "E-UNSYMMETRIC", &parts);
         let ended = place.reduce(&place.matrix_flags(), &format!("{CHAIN} --symmetric {triangle}"));
         assert_done(&place, &ended, &[]);
