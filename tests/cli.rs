@@ -262,9 +262,9 @@ fn mistakes_on_the_command_line_are_usage_errors() {
     let place = Workplace::new();
     let job = place.job();
     insta::assert_snapshot!(refused(&["reduce", "--stiffness", "K.mtx"]), @"supel: error[E-FLAGS]: no job document, and without one --mass, --method, --up-to-hz or --modes, --output are missing – give a job document or these flags");
-    insta::assert_snapshot!(refused(&["reduce", &job, "--interface", "hub"]), @"supel: error[E-FLAG-TEXT]: --interface hub: expected NAME=NODES, as in hub=12,17,19");
-    insta::assert_snapshot!(refused(&["reduce", &job, "--interface", "hub=HUB"]), @"supel: error[E-FLAG-TEXT]: --interface hub=HUB: expected node labels, group:NAME or rows:0,1,2 after the =");
-    insta::assert_snapshot!(refused(&["reduce", &job, "--interface", "hub=rows:-1"]), @"supel: error[E-FLAG-TEXT]: --interface hub=rows:-1: expected row numbers from zero, as in hub=rows:0,1,2");
+    insta::assert_snapshot!(refused(&["reduce", &job, "--interface", "hub"]), @"supel: error[E-FLAG-TEXT]: --interface hub – expected NAME=NODES, as in hub=12,17,19");
+    insta::assert_snapshot!(refused(&["reduce", &job, "--interface", "hub=HUB"]), @"supel: error[E-FLAG-TEXT]: --interface hub=HUB – expected node labels, group:NAME or rows:0,1,2 after the =");
+    insta::assert_snapshot!(refused(&["reduce", &job, "--interface", "hub=rows:-1"]), @"supel: error[E-FLAG-TEXT]: --interface hub=rows:-1 – expected row numbers from zero, as in hub=rows:0,1,2");
     insta::assert_snapshot!(refused(&["reduce", &job, "--up-to-hz", "-3"]), @"supel: error[E-ARG]: `reduction.modes.up_to_hz` is -3 – expected a positive number");
     assert!(refused(&["reduce", &job, "--up-to-hz", "3", "--modes", "4"]).contains("cannot be used with"));
     assert!(refused(&["reduce", &job, "--threads", "0"]).contains("--threads"));
