@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, criterion_group, criterion_main};
 use faer::Mat;
-use supel::basis::Basis;
+use supel::basis::{Basis, retained_columns};
 use supel::constraint::{ConstraintModes, constraint_modes};
 use supel::factor::{Analysis, Cholesky, SolveOperator};
 use supel::job::Job;
@@ -112,8 +112,8 @@ fn measure(criterion: &mut Criterion, family: Family, folder: &Path) {
     let component = prepared.component(&analysis, &factor, &constraint);
     group.bench_function(id("Lanczos"), |b| b.iter(|| prepared.lowest_modes(component)));
     let retained = prepared.lowest_modes(component);
-    let basis =
-        Basis::new(&constraint, supel::basis::retained_columns(component, &retained), partition.internal().mass);
+    let columns = retained_columns(component, job.reduction.method, &retained);
+    let basis = Basis::new(&constraint, columns, partition.internal().mass);
     group.bench_function(id("project"), |b| b.iter(|| Reduction::new(partition, &basis, rigid)));
 
     let outcome = supel::reduce(job, supel::memory_forecast::Resources::default(), &mut ()).expect("reduced");

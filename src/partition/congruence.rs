@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::transformation::{DofOrigin, Transformation, TransformationRow};
+use super::transformation::{DofOrigin, Transformation};
+use super::transformation_row::TransformationRow;
 use crate::sparse::{RowStorage, SparseMatrix, filled};
 
 /// Rows worth a thread of their own: tens of microseconds of work.

@@ -28,10 +28,12 @@ mod rigid_patch;
 mod roundings;
 mod sites;
 mod transformation;
+mod transformation_row;
 
 pub use interface::{patches, recovered_rows};
 pub use interface_node::InterfaceNode;
 pub use noise::CHANCE_OF_MORE;
 pub use partition::{LARGEST_INTERFACE, Partition};
 pub use problem::EntriesAt;
-pub use transformation::{DofOrigin, ReducedDof, Transformation, TransformationRow};
+pub use transformation::{DofOrigin, ReducedDof, Transformation};
+pub use transformation_row::TransformationRow;

@@ -7,7 +7,8 @@ use rayon::prelude::*;
 
 use super::metis::{Graph, nested_dissection};
 use super::minimum_degree::{minimum_degree, work};
-use super::transformation::{DofOrigin, ReducedDof, Transformation, TransformationRow};
+use super::transformation::{DofOrigin, ReducedDof, Transformation};
+use super::transformation_row::TransformationRow;
 use crate::error::Result;
 use crate::model::Model;
 

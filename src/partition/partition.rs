@@ -16,7 +16,8 @@ use crate::sparse::{Leading, SparseMatrix};
 
 use super::interface_node::InterfaceNode;
 use super::roundings::{PatchEntries, Roundings};
-use super::transformation::{DofOrigin, ReducedDof, Transformation, TransformationRow};
+use super::transformation::{DofOrigin, ReducedDof, Transformation};
+use super::transformation_row::TransformationRow;
 use super::{congruence, interface, missing_directions, ordering, origin};
 
 /// Most interface dofs: the two reduced matrices alone take 6.4 GB then, and decomposing them days.

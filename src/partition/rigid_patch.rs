@@ -3,6 +3,7 @@
 use super::interface_node::{InterfaceNode, Resolved, Rows};
 use super::node_catalogue::NodeCatalogue;
 use super::sites::Sites;
+use super::transformation_row::TransformationRow;
 use crate::dense::rank_of_rows;
 use crate::dofs::Direction;
 use crate::error::{Error, Result};
@@ -47,7 +48,7 @@ pub(super) fn moves(sites: &Sites<'_>, (node, rows): (&InterfaceNode, &[usize]),
     rows.iter().any(|row| sites.lever(*row, position)[direction as usize] != 0.0)
 }
 
-/// How the rows of a patch follow the dofs of its node, `columns` by direction: each row's dofs and factors.
+/// How the rows of a patch follow the dofs of its node, `columns` by direction.
 ///
 /// # Errors
 /// [`Error::PatchRank`] where the rows do not follow all of them independently.
@@ -55,7 +56,7 @@ pub(super) fn tied_rows(
     sites: &Sites<'_>,
     (node, rows): (&InterfaceNode, &[usize]),
     columns: [Option<u32>; 6],
-) -> Result<Vec<Box<[(u32, f64)]>>> {
+) -> Result<Vec<TransformationRow>> {
     let position = node.position.unwrap_or_default();
     let levers: Vec<[f64; 6]> = rows.iter().map(|row| sites.lever(*row, position)).collect();
     let rank = rank_of_rows(&levers, PATCH_RANK_TOLERANCE);
@@ -65,7 +66,8 @@ pub(super) fn tied_rows(
     }
     let entries_of = |lever: &[f64; 6]| {
         let entries = lever.iter().zip(columns).filter(|(factor, _)| **factor != 0.0);
-        entries.filter_map(|(factor, column)| column.map(|column| (column, *factor))).collect()
+        let entries = entries.filter_map(|(factor, column)| column.map(|column| (column, *factor)));
+        TransformationRow::Tied(entries.collect())
     };
     Ok(levers.iter().map(entries_of).collect())
 }

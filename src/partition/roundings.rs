@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::transformation::{DofOrigin, ReducedDof, Transformation, TransformationRow};
+use super::transformation::{DofOrigin, ReducedDof, Transformation};
+use super::transformation_row::TransformationRow;
 use crate::sparse::SparseMatrix;
 
 /// Entries of a unit of parallel work, at least: fixed, so that sums never depend on the number of threads.

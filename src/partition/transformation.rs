@@ -7,6 +7,7 @@
 use super::interface_node::{InterfaceNode, Interfaces, Resolved, Rows};
 use super::rigid_patch;
 use super::sites::Sites;
+use super::transformation_row::TransformationRow;
 use crate::dofs::{Direction, Dof, FileRows};
 use crate::error::Result;
 use crate::model::{Model, Site};
@@ -53,30 +54,6 @@ pub struct Transformation {
     pub dofs: Vec<ReducedDof>,
     /// The entries of each row.
     pub rows: Vec<TransformationRow>,
-}
-
-/// One row of T.
-#[derive(Clone, Debug, PartialEq)]
-pub enum TransformationRow {
-    /// The row is a dof of the partition itself.
-    Dof(u32),
-    /// The row follows the interface node of a patch.
-    Tied(Box<[(u32, f64)]>),
-}
-
-impl TransformationRow {
-    /// The entries of the row.
-    pub fn entries(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
-        let single = match self {
-            Self::Dof(dof) => Some((*dof, 1.0)),
-            Self::Tied(_) => None,
-        };
-        let several = match self {
-            Self::Dof(_) => &[],
-            Self::Tied(entries) => &**entries,
-        };
-        single.into_iter().chain(several.iter().copied())
-    }
 }
 
 impl Transformation {
@@ -195,7 +172,7 @@ impl Builder<'_> {
         }
         let tied = rigid_patch::tied_rows(&self.sites, (&resolved.node, rows), columns)?;
         for (row, entries) in rows.iter().zip(tied) {
-            self.rows[*row] = TransformationRow::Tied(entries);
+            self.rows[*row] = entries;
         }
         Ok(())
     }

@@ -131,7 +131,11 @@ fn i_09_indices_outside() {
 
 #[test]
 fn i_10_counts_that_are_wrong() {
-    stiffness_refused(format!("{HEAD}5 5 1\n1 1 1\n2 2 1\n"), "E-NNZ-SURPLUS", &["K.mtx:4", "more entries than declared", "expected the 1 of the size line"]);
+    stiffness_refused(
+        format!("{HEAD}5 5 1\n1 1 1\n2 2 1\n"),
+        "E-NNZ-SURPLUS",
+        &["K.mtx:4", "more entries than declared", "expected the 1 of the size line"],
+    );
     for declared in ["3", "1000000000000000000"] {
         let text = format!("{HEAD}5 5 {declared}\n1 1 1\n2 2 1\n");
         stiffness_refused(text, "E-NNZ", &[&format!("declares {declared} entries, found 2"), "cut short"]);

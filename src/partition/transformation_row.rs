@@ -1,0 +1,25 @@
+//! A row of the transformation T.
+
+/// One row of T.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TransformationRow {
+    /// The row is a dof of the partition itself.
+    Dof(u32),
+    /// The row follows the interface node of a patch.
+    Tied(Box<[(u32, f64)]>),
+}
+
+impl TransformationRow {
+    /// The entries of the row.
+    pub fn entries(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
+        let single = match self {
+            Self::Dof(dof) => Some((*dof, 1.0)),
+            Self::Tied(_) => None,
+        };
+        let several = match self {
+            Self::Dof(_) => &[],
+            Self::Tied(entries) => &**entries,
+        };
+        single.into_iter().chain(several.iter().copied())
+    }
+}
