@@ -11,6 +11,9 @@
 //! rows alone two have, a seventh and a tenth of their rows. With nodes of M permuted all nodes are apart but for a few, and most of them
 //! with rows direction by direction.
 //!
+//! An order changes no count: the mass of the elements couples as many pairs of nodes as their stiffness. Where M couples fewer, a
+//! lumped mass with that of a fluid between pairs of nodes for instance, other neighbours are no sign of an order.
+//!
 //! A diagonal mass couples nothing, and no order of it contradicts K here.
 
 use rayon::prelude::*;
@@ -20,6 +23,9 @@ use crate::dofs::{Dof, RowNames};
 use crate::error::{Error, Result};
 use crate::model::node_of_row;
 use crate::sparse::SparseMatrix;
+
+/// Pairs of nodes that M couples, of those that K couples, from which on M is taken for the mass of the elements.
+const LEAST_SHARE_OF_PAIRS: f64 = 0.75;
 
 /// Nodes whose neighbours in M are others than in K.
 struct Apart {
@@ -66,13 +72,19 @@ impl Apart {
             found
         };
         let by_mass: Vec<Vec<u32>> = (0..n_nodes).into_par_iter().map(|node| neighbours(mass, node)).collect();
+        // Nodes that M couples with nothing tell nothing.
+        let with_mass = |node: usize| {
+            let mut found = if by_mass[node].is_empty() { Vec::new() } else { neighbours(stiffness, node) };
+            found.retain(|other| !by_mass[*other as usize].is_empty());
+            found
+        };
+        let by_stiffness: Vec<Vec<u32>> = (0..n_nodes).into_par_iter().map(with_mass).collect();
+        let n_pairs = |by: &[Vec<u32>]| by.iter().map(Vec::len).sum::<usize>() as f64;
+        if n_pairs(&by_mass) < LEAST_SHARE_OF_PAIRS * n_pairs(&by_stiffness) {
+            return Self { nodes: Vec::new(), n_nodes };
+        }
         let is_apart = |node: &u32| {
-            let of_mass = &by_mass[*node as usize];
-            if of_mass.is_empty() {
-                return false;
-            }
-            let mut of_stiffness = neighbours(stiffness, *node as usize);
-            of_stiffness.retain(|other| !by_mass[*other as usize].is_empty());
+            let (of_mass, of_stiffness) = (&by_mass[*node as usize], &by_stiffness[*node as usize]);
             let n_shared = of_stiffness.iter().filter(|other| of_mass.binary_search(other).is_ok()).count();
             2 * n_shared < of_mass.len() && 2 * n_shared < of_stiffness.len()
         };
@@ -116,7 +128,9 @@ mod tests {
         assert_eq!(n_apart(&natural, &chain([0, 4, 1, 5, 2, 6, 3, 7])), N);
         // A diagonal mass, a mass element over distant nodes, and the added mass of a fluid at all nodes are sound.
         let every: Vec<(usize, usize)> = (0..N).flat_map(|i| (0..i).map(move |j| (i, j))).collect();
-        for sound in [coupling(&[]), coupling(&[(0, 7)]), coupling(&every)] {
+        // So is the mass of a fluid between pairs of nodes that are no neighbours.
+        let pairs = [(0, 4), (1, 5), (2, 6), (3, 7)];
+        for sound in [coupling(&[]), coupling(&[(0, 7)]), coupling(&every), coupling(&pairs)] {
             assert_eq!(n_apart(&natural, &sound), 0);
         }
     }
