@@ -36,7 +36,8 @@ impl Job {
         validation::validate(self)
     }
 
-    /// This job with paths relative to `folder` made absolute.
+    /// This job with paths relative to `folder` made absolute, their folders without `..` and links: the superelement keeps the way
+    /// from its own folder to the inputs, which is counted in names of folders.
     ///
     /// # Errors
     ///
@@ -45,7 +46,8 @@ impl Job {
     pub fn resolve(mut self, folder: &Path) -> Result<Self> {
         for (key, path) in self.paths_mut() {
             let joined = folder.join(&*path);
-            *path = std::path::absolute(&joined).map_err(|source| Error::Read { path: joined, source })?;
+            let absolute = std::path::absolute(&joined).map_err(|source| Error::Read { path: joined, source })?;
+            *path = in_real_folder(absolute);
             if path.to_str().is_none() {
                 return Err(Error::NameNotText { key, path: path.clone() });
             }
@@ -68,4 +70,10 @@ impl Job {
         ];
         paths.into_iter().filter_map(|(key, path)| Some((key, path?)))
     }
+}
+
+/// A path with the folders that exist named as the file system knows them. The last name stays: it may be a link of its own.
+fn in_real_folder(path: PathBuf) -> PathBuf {
+    let real = |folder: &Path| Some(folder.canonicalize().ok()?.join(path.strip_prefix(folder).ok()?));
+    path.ancestors().skip(1).find_map(real).unwrap_or_else(|| path.clone())
 }

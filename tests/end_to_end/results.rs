@@ -24,6 +24,14 @@ fn the_job_kept_in_a_file_runs_from_any_folder() {
     let flags = "--interface foot=1,11,31,41 --method herting --modes 4";
     place.reduce(&place.model_flags(), flags).expect(ExitCode::Done);
     let made = place.bytes("x.supel");
+    // An output named by a way through another folder keeps the same way to the inputs.
+    std::fs::create_dir(place.path("inner")).expect("a folder");
+    let output = place.text("inner/../x.supel");
+    let model = place.model_flags();
+    let mut args: Vec<&str> = vec!["reduce", "--output", &output];
+    args.extend(model.iter().map(String::as_str).chain(flags.split_whitespace()));
+    supel(&args).expect(ExitCode::Done);
+    assert!(place.bytes("x.supel") == made, "the same file, by another name of its folder");
     let job = supel(&["inspect", &place.text("x.supel"), "--job"]).expect(ExitCode::Done).out;
     elsewhere.write("job.json", job.as_bytes());
     std::fs::remove_file(place.path("x.supel")).expect("removed");

@@ -86,8 +86,8 @@ fn messages_have_one_grammar() {
     assert!(messages.len() >= Error::CODES.len() - 2, "{} messages", messages.len());
     for message in messages {
         let words = message.split_whitespace().filter(|word| *word != "\\").collect::<Vec<_>>().join(" ");
-        // What was found may be the first thing to say of a line.
-        let words = words.trim_start_matches("\"{}:{line}: ");
+        // What was found may be the first thing to say of a line or an object.
+        let words = words.trim_start_matches("\"{}:{line}: ").trim_start_matches("\"{}:{object}: ");
         for other in ["; expected", ", expected", ": expected", "; found", ": found", ", found"] {
             assert!(!words.contains(other), "{other:?} for a dash in {words}");
         }

@@ -68,7 +68,9 @@ fn an_output_that_is_an_input() {
         std::fs::hard_link(place.path(input), place.path(&twin)).expect("a name");
         for name in [input, &link, &twin, &format!("folder/{input}"), &format!("../{}/{input}", folder_name(&place))] {
             let path = place.text(name);
-            refused(&place, &["reduce", &place.text("job.json"), flag, &path], "E-OVERWRITE", &[role, &path]);
+            // The message names the real folder.
+            let real = if name.contains('/') { place.text(input) } else { path.clone() };
+            refused(&place, &["reduce", &place.text("job.json"), flag, &path], "E-OVERWRITE", &[role, &real]);
         }
         std::fs::remove_file(place.path(&link)).expect("removed");
         std::fs::remove_file(place.path(&twin)).expect("removed");
