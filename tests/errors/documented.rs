@@ -87,7 +87,8 @@ fn messages_have_one_grammar() {
     for message in messages {
         let words = message.split_whitespace().filter(|word| *word != "\\").collect::<Vec<_>>().join(" ");
         // What was found may be the first thing to say of a line or an object.
-        let words = words.trim_start_matches("\"{}:{line}: ").trim_start_matches("\"{}:{object}: ");
+        let is_place = |(place, _): &(&str, &str)| place.starts_with("\"{}") && !place.contains(' ');
+        let words = words.split_once(": ").filter(is_place).map_or(words.as_str(), |(_, rest)| rest);
         for other in ["; expected", ", expected", ": expected", "; found", ": found", ", found"] {
             assert!(!words.contains(other), "{other:?} for a dash in {words}");
         }
