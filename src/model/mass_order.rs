@@ -26,6 +26,8 @@ use crate::sparse::SparseMatrix;
 
 /// Pairs of nodes that M couples, of those that K couples, from which on M is taken for the mass of the elements.
 const LEAST_SHARE_OF_PAIRS: f64 = 0.75;
+/// Pairs of rows likewise: the mass of a solid couples a row with one of three rows of a node, its stiffness with all three.
+const LEAST_SHARE_OF_ROWS: f64 = LEAST_SHARE_OF_PAIRS / 3.0;
 
 /// Nodes whose neighbours in M are others than in K.
 struct Apart {
@@ -45,7 +47,8 @@ pub(super) fn compared(
     names: RowNames<'_>,
 ) -> Result<Option<Finding>> {
     let of_row = node_of_row(mass.rows(), dofs);
-    let Apart { nodes, n_nodes } = Apart::of(stiffness, mass, &of_row);
+    let least_share = if dofs.is_some() { LEAST_SHARE_OF_PAIRS } else { LEAST_SHARE_OF_ROWS };
+    let Apart { nodes, n_nodes } = Apart::of(stiffness, mass, &of_row, least_share);
     let row_of = |node: &u32| of_row.iter().position(|of_row| of_row == node);
     let Some(first) = nodes.first().and_then(row_of).map(|row| names.full(row)) else { return Ok(None) };
     let what = if dofs.is_some() { "nodes" } else { "rows" };
@@ -56,7 +59,7 @@ pub(super) fn compared(
 }
 
 impl Apart {
-    fn of(stiffness: &SparseMatrix, mass: &SparseMatrix, of_row: &[u32]) -> Self {
+    fn of(stiffness: &SparseMatrix, mass: &SparseMatrix, of_row: &[u32], least_share: f64) -> Self {
         let n_nodes = of_row.iter().max().map_or(0, |max| *max as usize + 1);
         let mut rows = vec![Vec::new(); n_nodes];
         of_row.iter().enumerate().for_each(|(row, node)| rows[*node as usize].push(row));
@@ -80,7 +83,7 @@ impl Apart {
         };
         let by_stiffness: Vec<Vec<u32>> = (0..n_nodes).into_par_iter().map(with_mass).collect();
         let n_pairs = |by: &[Vec<u32>]| by.iter().map(Vec::len).sum::<usize>() as f64;
-        if n_pairs(&by_mass) < LEAST_SHARE_OF_PAIRS * n_pairs(&by_stiffness) {
+        if n_pairs(&by_mass) < least_share * n_pairs(&by_stiffness) {
             return Self { nodes: Vec::new(), n_nodes };
         }
         let is_apart = |node: &u32| {
@@ -118,7 +121,7 @@ mod tests {
 
     fn n_apart(stiffness: &SparseMatrix, mass: &SparseMatrix) -> usize {
         let nodes: Vec<u32> = (0..N as u32).collect();
-        Apart::of(stiffness, mass, &nodes).nodes.len()
+        Apart::of(stiffness, mass, &nodes, LEAST_SHARE_OF_PAIRS).nodes.len()
     }
 
     #[test]
