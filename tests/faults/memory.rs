@@ -137,6 +137,8 @@ fn reduce_from_hdf5_without_memory() {
             // The library recurses until its stack ends where one of some two hundred allocations of its own start fails. They are
             // made from memory that the program has asked for before, so that only a test has them fail.
             None if ended.err.contains("overflowed its stack") => n_crashed += 1,
+            // At a few others it calls exit(-1), which nothing catches.
+            Some(255) if ended.err.is_empty() => n_crashed += 1,
             _ => panic!("{what}"),
         }
     }
