@@ -89,7 +89,7 @@ fn i_14_what_no_matrix_is() {
     let bomb = [stiffness().as_bytes(), &b"%\n".repeat(4 << 20)].concat();
     refused(&gzip(&bomb), "E-GZIP-BOMB", &["1000 times", "at most 1000 times"]);
     refused(&[0; 4096], "E-BANNER", &["not a matrix"]);
-    refused(&[0xff; 1 << 18], "E-LINE", &["is this a text file?"]);
+    refused(&[0xff; 1 << 18], "E-LINE", &["check that this is a text file"]);
 }
 
 /// At every byte: what is cut off is missed, or was not needed.

@@ -138,7 +138,11 @@ fn i_10_counts_that_are_wrong() {
     );
     for declared in ["3", "1000000000000000000"] {
         let text = format!("{HEAD}5 5 {declared}\n1 1 1\n2 2 1\n");
-        stiffness_refused(text, "E-NNZ", &[&format!("declares {declared} entries, found 2"), "cut short"]);
+        stiffness_refused(
+            text,
+            "E-NNZ",
+            &[&format!("found 2 – expected the {declared} that the size line declares"), "cut short"],
+        );
     }
 }
 
