@@ -10,6 +10,7 @@ use std::ffi::OsStr;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
 use supel_runtime::FileError;
 
 use crate::number::{bytes, quantity};
@@ -1777,7 +1778,14 @@ impl fmt::Display for Suggested<'_> {
     }
 }
 
-/// Names for a message: the first few, and how many more there are.
+/// A document as a JSON value; `what` is what an error calls it.
+///
+/// # Errors
+/// [`Error::NotJson`] where a path in it is not UTF-8.
+pub(crate) fn json_value(what: &'static str, document: &impl Serialize) -> Result<serde_json::Value> {
+    serde_json::to_value(document).map_err(|source| Error::NotJson { what, source })
+}
+
 /// What was held while a matrix was factored; a component need not have an interface.
 pub(crate) fn held_words(boundary: &str) -> &'static str {
     if boundary == "held" { "the interface held" } else { "no interface held" }
@@ -1788,6 +1796,7 @@ fn not_text(path: &Path) -> &OsStr {
     path.iter().find(|part| part.to_str().is_none()).unwrap_or(path.as_os_str())
 }
 
+/// Names for a message: the first few, and how many more there are.
 fn listed(names: &[String]) -> String {
     const SHOWN: usize = 12;
     match names.len() {

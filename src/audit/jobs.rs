@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::error::{Error, Result};
+use crate::error::{Result, json_value};
 use crate::job::{Job, Role, schema};
 
 /// What two jobs differ in.
@@ -17,11 +17,10 @@ pub(super) struct Differences {
 /// The keys in which two jobs differ, by their dotted names.
 ///
 /// # Errors
-/// [`Error::NotJson`] where the path of a file is not UTF-8.
+/// [`crate::error::Error::NotJson`] where the path of a file is not UTF-8.
 pub(super) fn differences(one: &Job, other: &Job) -> Result<Differences> {
-    let document = |job: &Job| serde_json::to_value(job).map_err(|source| Error::NotJson { what: "the job", source });
     let mut keys = Vec::new();
-    compare(&document(one)?, &document(other)?, "", &mut keys);
+    compare(&json_value("the job", one)?, &json_value("the job", other)?, "", &mut keys);
     let mut found = Differences::default();
     let schema = schema();
     for (key, is_missing) in keys {

@@ -9,14 +9,14 @@ use supel_runtime::{Matrix, Superelement, Tensors};
 use super::flaw::flaw;
 use super::jobs::differences;
 use super::version::kept_job;
-use crate::error::{Error, Result};
+use crate::error::{Result, json_value};
 use crate::job::Job;
 use crate::verification::check::Check;
 
 /// M-26: the file has the bytes of a superelement made again by `job`.
 ///
 /// # Errors
-/// [`Error::NotJson`] where the job names a file that is not UTF-8.
+/// [`crate::error::Error::NotJson`] where the job names a file that is not UTF-8.
 pub fn reproduced(superelement: &Superelement, again: &Superelement, job: &Job) -> Result<Check> {
     let equation = "number of tensors and fields that differ from those of the same job run again";
     Ok(flaw("the same job makes it again", equation, &different_parts(superelement, again, job)?))
@@ -37,10 +37,7 @@ fn different_parts(superelement: &Superelement, again: &Superelement, job: &Job)
     };
     let mut parts = Vec::new();
     tensors(superelement.tensors(), again.tensors(), &mut parts);
-    let document = |superelement: &Superelement| {
-        let what = "the metadata of a superelement";
-        serde_json::to_value(superelement.metadata()).map_err(|source| Error::NotJson { what, source })
-    };
+    let document = |superelement: &Superelement| json_value("the metadata of a superelement", superelement.metadata());
     fields(&document(superelement)?, &document(&again)?, "", &mut parts);
     if parts.is_empty() {
         match (superelement.to_bytes(), again.to_bytes()) {

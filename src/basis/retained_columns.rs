@@ -5,8 +5,7 @@ use crate::job::{Columns, Method};
 use crate::modes::{Component, Retained};
 
 /// The columns of Ψ_D of the retained modes. A free component without interface has its rigid-body and elastic modes. Of others
-/// Craig and Bampton keep the fixed-interface modes as they are (38), Herting's
-/// method accelerates the free-free ones (23), (37).
+/// Craig and Bampton keep the fixed-interface modes as they are (38), Herting's method accelerates the free-free ones (23), (37).
 pub fn retained_columns(component: Component<'_>, method: Method, retained: &Retained) -> DynamicColumns {
     let Component { partition, factor, rigid, constraint, .. } = component;
     match method.columns() {

@@ -9,7 +9,7 @@ use super::answer::Terminal;
 use super::command::{InspectAnswer, InspectCommand};
 use super::exit_code::ExitCode;
 use super::verify::job_of_file;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, json_value};
 use crate::regular_file;
 use crate::report::{inspection, value_text};
 
@@ -32,14 +32,12 @@ pub(super) fn run(command: &InspectCommand, terminal: &mut Terminal<'_>) -> Resu
 /// The job kept in the file. Its paths, which are relative to the folder of the file there, are absolute here, so that the answer is a job
 /// in whatever folder it is written to.
 fn job(superelement: &Superelement, path: &Path) -> Result<Value> {
-    let job = job_of_file(superelement, path)?;
-    serde_json::to_value(job).map_err(|source| Error::NotJson { what: "the job", source })
+    json_value("the job", &job_of_file(superelement, path)?)
 }
 
 /// Everything but the matrices.
 fn document(superelement: &Superelement) -> Result<Value> {
-    let metadata = serde_json::to_value(superelement.metadata());
-    let metadata = metadata.map_err(|source| Error::NotJson { what: "the metadata of a superelement", source })?;
+    let metadata = json_value("the metadata of a superelement", superelement.metadata())?;
     let tensors = superelement.tensors();
     let n_inertia_relief = superelement
         .metadata()

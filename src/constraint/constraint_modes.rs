@@ -7,7 +7,7 @@ use super::schur_complement::condensed_stiffness;
 use crate::dense;
 use crate::factor::Cholesky;
 use crate::partition::Partition;
-use crate::rigid::{RigidBodyModes, scales, unit_motions};
+use crate::rigid::{RigidBodyModes, unit_motions};
 
 /// Ψ_S with what it took to make it exact.
 #[derive(Clone, Debug)]
@@ -23,8 +23,6 @@ pub struct ConstraintModes {
     pub cancellation: f64,
     /// Error of equation (24) as solved: max |Ψ_S U_B − U_I| / max |U_I|.
     pub raw_rigid_error: f64,
-    /// Error of equation (24) after the correction, and the dof it is worst at.
-    pub rigid_error: (f64, usize),
 }
 
 /// Ψ_S = −K_II⁻¹ K_IB (23), then Ψ_S ← Ψ_S + (U_I − Ψ_S U_B) U_B⁺.
@@ -34,15 +32,11 @@ pub struct ConstraintModes {
 pub fn constraint_modes(partition: &Partition, factor: &Cholesky<'_>, rigid: &RigidBodyModes) -> ConstraintModes {
     let (n_i, n_b) = (partition.n_internal, partition.n_interface());
     let mut modes = factor.follow_border(Mat::<f64>::identity(n_b, n_b).as_ref());
-    let u_i = rigid.orthonormal.as_ref().subrows(0, n_i);
-    let u_b = rigid.orthonormal.as_ref().subrows(n_i, n_b);
-    let scale = scales(partition);
     let mut raw_rigid_error = 0.0;
     let mut carried = Carried::nothing(n_b);
     // Without an interface there is nothing to be carried.
-    let is_carried = rigid.count() > 0 && n_b > 0;
-    if is_carried {
-        raw_rigid_error = rigid_error(&scale, modes.as_ref(), (u_i, u_b)).0;
+    if rigid.count() > 0 && n_b > 0 {
+        raw_rigid_error = rigid_error(partition, modes.as_ref(), rigid.orthonormal.as_ref()).value;
         // Any basis of the motions serves; those of unit length U_B⁺ can tell apart whatever the mass they move.
         let unit = unit_motions(partition, rigid).unwrap_or_else(|_| rigid.orthonormal.clone());
         let (u_i, u_b) = unit.as_ref().split_at_row(n_i);
@@ -50,7 +44,6 @@ pub fn constraint_modes(partition: &Partition, factor: &Cholesky<'_>, rigid: &Ri
         carried = Carried { motions: u_b.to_owned(), lift: left_inverse(partition, u_b) };
         dense::add_product(modes.as_mut(), 1.0, defect.as_ref(), carried.lift.as_ref());
     }
-    let rigid_error = if is_carried { rigid_error(&scale, modes.as_ref(), (u_i, u_b)) } else { (0.0, 0) };
     let (stiffness, cancellation) = condensed_stiffness(partition, modes.as_ref());
-    ConstraintModes { modes, carried, stiffness, cancellation, raw_rigid_error, rigid_error }
+    ConstraintModes { modes, carried, stiffness, cancellation, raw_rigid_error }
 }

@@ -3,8 +3,9 @@
 use faer::linalg::solvers::SolveLstsq;
 use faer::{Mat, MatMut, MatRef};
 
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::partition::Partition;
+use crate::rigid::scales;
 
 /// The correction of Ψ_S as the interface sees it.
 ///
@@ -46,27 +47,36 @@ pub(super) fn defect(modes: MatRef<'_, f64>, u_i: MatRef<'_, f64>, u_b: MatRef<'
     defect
 }
 
-/// Largest defect of a rigid-body mode relative to the largest displacement of the mode, both in the scales of the dofs, and
-/// where it is.
+/// The largest defect of equation (24), and where it is.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RigidError {
+    /// max |Ψ_S U_B − U_I| / max |U_I| of one rigid-body mode, both in the scales of the dofs.
+    pub value: f64,
+    /// The rigid-body mode and the internal dof; absent where there is no defect at all.
+    pub at: Option<(usize, usize)>,
+}
+
+/// Largest defect of a rigid-body mode relative to the largest displacement of the mode.
 ///
-/// A mode that moves interface dofs alone, that of a free mass at the interface, is measured by those.
-pub(super) fn rigid_error(
-    scale: &[f64],
-    modes: MatRef<'_, f64>,
-    (u_i, u_b): (MatRef<'_, f64>, MatRef<'_, f64>),
-) -> (f64, usize) {
+/// Rounding of a dof is relative to its own scale, and a motion may be small in the dofs of the largest one. A mode that moves
+/// interface dofs alone, that of a free mass at the interface, is measured by those; modes of the matrices have rounding
+/// inside instead of nothing.
+pub fn rigid_error(partition: &Partition, modes: MatRef<'_, f64>, u: MatRef<'_, f64>) -> RigidError {
+    let (u_i, u_b) = u.split_at_row(partition.n_internal);
     let defect = defect(modes, u_i, u_b);
-    let (internal, interface) = scale.split_at(u_i.nrows());
-    let mut worst = (0.0, 0);
+    let scale = scales(partition);
+    let (internal, interface) = scale.split_at(partition.n_internal);
+    let mut worst = RigidError::default();
     for j in 0..defect.ncols() {
         let size = |u: MatRef<'_, f64>, scale: &[f64]| {
             dense::column(u, j).iter().zip(scale).fold(0.0f64, |max, (value, d)| max.max((value * d).abs()))
         };
-        let largest = if size(u_i, internal) > 0.0 { size(u_i, internal) } else { size(u_b, interface) };
+        let [inner, outer] = [size(u_i, internal), size(u_b, interface)];
+        let largest = if inner > NOISE_FACTOR * f64::EPSILON * outer { inner } else { outer };
         for (i, (value, d)) in dense::column(defect.as_ref(), j).iter().zip(internal).enumerate() {
             let error = (value * d).abs() / largest;
-            if dense::worse(error, worst.0) {
-                worst = (error, i);
+            if dense::worse(error, worst.value) {
+                worst = RigidError { value: error, at: Some((j, i)) };
             }
         }
     }

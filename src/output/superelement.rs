@@ -9,7 +9,7 @@ use supel_runtime::{self as file, Coordinate, Matrix, Metadata, Superelement, Te
 use super::recovery::recovery;
 use super::results::Results;
 use crate::basis::DynamicCoordinate;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, json_value};
 use crate::job::{Boundary, Job, ModeSelection};
 use crate::partition::DofOrigin;
 use crate::verification::check::{Check, Verdict};
@@ -204,7 +204,7 @@ fn job_document(job: &Job) -> Result<serde_json::Value> {
     relative(&mut job.write.superelement);
     job.write.report.as_mut().map(relative);
     (job.write.html, job.write.junit) = (None, None);
-    serde_json::to_value(job).map_err(|source| Error::NotJson { what: "the job", source })
+    json_value("the job", &job)
 }
 
 /// The way from a folder to a path: up to where the two part, then down.

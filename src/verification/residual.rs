@@ -85,7 +85,7 @@ pub(super) struct Residuals {
 #[derive(Clone, Copy)]
 pub(super) struct Worst {
     pub(super) value: f64,
-    at: Option<(usize, usize)>,
+    pub(super) at: Option<(usize, usize)>,
 }
 
 impl Worst {

@@ -1,7 +1,5 @@
 //! Rigid-body motion passes through the model, the basis and the reduced stiffness: M-05, M-11, M-12.
 
-use faer::MatRef;
-
 use super::check::{Check, Limits};
 use super::evidence::{Evidence, coordinate_name, reduced_norms, rigid_name, share_of_data};
 use super::force;
@@ -9,8 +7,9 @@ use super::grounding::{Grounding, Restraint};
 use super::limits::{self, Judged, Known};
 use super::residual::Worst;
 use super::spectrum::{NOT_FREE, Spectrum, zero_level};
+use crate::constraint::rigid_error;
 use crate::dense::{self, NOISE_FACTOR};
-use crate::rigid::{noise_of_digits, scales};
+use crate::rigid::noise_of_digits;
 
 /// M-05, energy. The value is shown and not judged where no elastic mode is known to compare it with.
 pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[Grounding]) -> Check {
@@ -101,26 +100,9 @@ fn strained(grounding: &[Grounding], measure: impl Fn(&Grounding) -> f64) -> Opt
 
 /// M-11, equation (24), measured on the basis.
 pub(super) fn carried_by_interface(evidence: &Evidence<'_>) -> Check {
-    let n_i = evidence.partition.n_internal;
-    let (u_i, u_b) = evidence.rigid.orthonormal.as_ref().split_at_row(n_i);
-    let mut defect = u_i.to_owned();
-    dense::add_product(defect.as_mut(), -1.0, evidence.basis.constraint_modes.as_ref(), u_b);
-    // Rounding of a dof is relative to its own scale, and a motion may be small in the dofs of the largest one.
-    let scale = scales(evidence.partition);
-    let (internal, interface) = scale.split_at(n_i);
-    let mut worst = Worst::none();
-    for j in 0..defect.ncols() {
-        // The mode of a free mass at the interface moves nothing else; it is measured by the mass.
-        let size = |u: MatRef<'_, f64>, scale: &[f64]| {
-            dense::column(u, j).iter().zip(scale).fold(0.0f64, |max, (value, d)| max.max((value * d).abs()))
-        };
-        let [inner, outer] = [size(u_i, internal), size(u_b, interface)];
-        // Modes of the matrices have rounding there instead of nothing.
-        let largest = if inner > NOISE_FACTOR * f64::EPSILON * outer { inner } else { outer };
-        for (i, (value, d)) in dense::column(defect.as_ref(), j).iter().zip(internal).enumerate() {
-            worst.take((value * d).abs() / largest, j, i);
-        }
-    }
+    let motions = evidence.rigid.orthonormal.as_ref();
+    let found = rigid_error(evidence.partition, evidence.basis.constraint_modes.as_ref(), motions);
+    let worst = Worst { value: found.value, at: found.at };
     let raw = evidence.constraint.raw_rigid_error;
     Check {
         id: "M-11",
