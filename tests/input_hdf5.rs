@@ -9,7 +9,8 @@ use hdf5_metno::{File, Group};
 use supel::dofs::Nodes;
 use supel::error::{Error, ErrorClass};
 use supel::input::MatrixInput;
-use supel::input::hdf5::{MatrixRole, read_matrix, read_nodes};
+use supel::input::MatrixRole;
+use supel::input::hdf5::{read_matrix, read_nodes};
 use tempfile::TempDir;
 
 const K: [[f64; 3]; 3] = [[2.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]];

@@ -6,6 +6,8 @@ use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
 use super::banner::excerpt;
+use super::file_start::FileStart;
+use super::format::{DirectionBase, DofMapFormat, Format, ReadDofs, Sureness};
 use super::source::{Source, read_error};
 use super::table::{FirstLine, Row, Table, is_node_column, open_first_line};
 use crate::dofs::{Direction, Dof, DofMap, Nodes};
@@ -16,27 +18,22 @@ const DIRECTIONS: &str = "1 to 6 for ux, uy, uz, rx, ry, rz";
 const DIRECTIONS_FROM_ZERO: &str = "0 to 5 for ux, uy, uz, rx, ry, rz, as the column counts from zero";
 const DIRECTIONS_OR_NAMES: &str = "1 to 6 or ux, uy, uz, rx, ry, rz";
 
-/// A dof map and how its directions were numbered.
-pub(super) struct ReadDofs {
-    /// The degree of freedom of every row, as far as the matrices have rows.
-    pub(super) dofs: DofMap,
-    /// Rows in the file.
-    pub(super) n_rows: usize,
-    /// How directions are numbered.
-    pub(super) base: DirectionBase,
+/// Lines `node.direction` and tables, plain or gzipped.
+pub(super) struct DofText;
+
+impl Format for DofText {
+    fn sureness(&self, _: &FileStart<'_>) -> Sureness {
+        Sureness::Possible
+    }
 }
 
-/// The number of the direction ux.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum DirectionBase {
-    /// Directions count from 0.
-    Zero,
-    /// Directions count from 1, or have names.
-    One,
+impl DofMapFormat for DofText {
+    fn read(&self, path: &Path, n: usize) -> Result<ReadDofs> {
+        read(path, n)
+    }
 }
 
-/// Reads the map of a model of n dofs, plain or gzipped. More rows than n are counted, not kept.
-pub(super) fn read(path: &Path, n: usize) -> Result<ReadDofs> {
+fn read(path: &Path, n: usize) -> Result<ReadDofs> {
     let first = open_first_line(path, EXPECTED)?;
     let is_table = first.text.contains(|c: char| c.is_alphabetic() || matches!(c, ',' | ';' | '\t'));
     let read = if is_table { read_table(path, first, n)? } else { read_lines(path, first, n)? };

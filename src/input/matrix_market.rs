@@ -10,9 +10,11 @@ use rayon::prelude::*;
 use super::MatrixInput;
 use super::allowance::{Allowance, Claim};
 use super::banner::{Head, HeadReader, square_order};
-use super::blocks::{BLOCK_BYTES, LastLine, for_each_batch};
+use super::blocks::{BLOCK_BYTES, for_each_batch};
 use super::digits::{significant_digits, written_digits};
 use super::entries::{Entries, Fault, MIN_LINE_BYTES, parse_entries};
+use super::file_start::FileStart;
+use super::format::{Format, MatrixFormat, MatrixSource, OrderSource, ReadMatrix, Sureness};
 use super::gathering::{Gathered, Gathering};
 use crate::error::{Error, Result};
 use crate::sparse::Triangle;
@@ -23,28 +25,29 @@ const FREE_ORDER: u64 = 1 << 20;
 /// Rows for each entry that a larger matrix may have, so that the row pointers stay within a multiple of the file.
 const MAX_ROWS_PER_ENTRY: u64 = 100;
 
-/// A matrix read from text.
-pub(super) struct TextMatrix {
-    /// The matrix.
-    pub(super) input: MatrixInput,
-    /// Where its order comes from.
-    pub(super) order: OrderSource,
-    /// Whether the last line is complete.
-    pub(super) last_line: LastLine,
+/// How a file with a banner begins, in whatever case.
+const BANNER: &[u8] = b"%%MatrixMarket";
+
+/// Matrix Market, and bare triplets: every file that is nothing else.
+pub(super) struct TextMatrix;
+
+impl Format for TextMatrix {
+    fn sureness(&self, start: &FileStart<'_>) -> Sureness {
+        let text = start.head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&start.head);
+        let begins = text.get(..BANNER.len()).is_some_and(|begin| begin.eq_ignore_ascii_case(BANNER));
+        if begins { Sureness::Certain } else { Sureness::Possible }
+    }
 }
 
-/// Where the order of a matrix comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum OrderSource {
-    /// The size line.
-    SizeLine,
-    /// The largest index.
-    LargestIndex,
+impl MatrixFormat for TextMatrix {
+    fn read(&self, source: &MatrixSource<'_>) -> Result<ReadMatrix> {
+        read(&source.file, source.triangle, source.allowance)
+    }
 }
 
 /// Reads a matrix from text, plain or gzipped.
 /// With a `triangle` asked for, entries on both sides of the diagonal of a matrix declared symmetric are let pass.
-pub(super) fn read(path: &Path, triangle: Option<Triangle>, allowance: &Allowance) -> Result<TextMatrix> {
+fn read(path: &Path, triangle: Option<Triangle>, allowance: &Allowance) -> Result<ReadMatrix> {
     read_in_blocks(path, triangle, BLOCK_BYTES, allowance)
 }
 
@@ -54,7 +57,7 @@ fn read_in_blocks(
     triangle: Option<Triangle>,
     block_bytes: usize,
     allowance: &Allowance,
-) -> Result<TextMatrix> {
+) -> Result<ReadMatrix> {
     let mut reading = Reading {
         path,
         head_reader: HeadReader::new(path),
@@ -89,7 +92,7 @@ fn read_in_blocks(
     claim.set(ENTRY_BYTES * matrix.nnz() as u64 + ROW_BYTES * u64::from(n))?;
     let digits = significant_digits(matrix.data()).min(digits_as_written.unwrap_or(u32::MAX));
     let input = MatrixInput { matrix, notes, digits, path: path.to_owned(), digest: ending.digest };
-    Ok(TextMatrix { input, order, last_line: ending.last_line })
+    Ok(ReadMatrix { input, order, last_line: ending.last_line })
 }
 
 /// What was read so far.
@@ -203,9 +206,10 @@ fn check_emptiness(path: &Path, n: u32, n_entries: usize) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::input::blocks::LastLine;
 
     /// A file of lines of many lengths, and what reading it in one block gives.
-    fn sample(folder: &Path) -> (std::path::PathBuf, TextMatrix) {
+    fn sample(folder: &Path) -> (std::path::PathBuf, ReadMatrix) {
         let mut text = String::from("\u{feff}%%MatrixMarket matrix coordinate real symmetric\n% rows\n\n40 40 120\n");
         for k in 0..120_u32 {
             let row = k * 7 % 40 + 1;

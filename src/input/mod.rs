@@ -10,10 +10,13 @@ mod dof_map;
 mod empty_rows;
 mod entries;
 mod facts;
+mod file_start;
+mod format;
+mod formats;
 mod gathering;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
-mod kind;
+mod hdf5_format;
 mod matrix_market;
 mod model_files;
 mod node_table;
@@ -27,8 +30,7 @@ mod unsupported_format;
 pub use allowance::Allowance;
 pub use digits::significant_digits;
 pub use facts::{InputFacts, MatrixFacts};
-pub use kind::{files, hdf5_file};
-pub use model_files::{Input, read, read_hdf5_parts, read_within, start_hdf5};
+pub use model_files::{Input, files, hdf5_file, read, read_hdf5_parts, read_within, start_hdf5};
 pub use note::InputNote;
 pub use patch::{Faces, Patch, PatchFaces, Patches};
 pub use patch_faces::{Cells, has_mean_origin, patch_faces};
@@ -51,4 +53,23 @@ pub struct MatrixInput {
     pub path: PathBuf,
     /// BLAKE3 digest of the file's bytes, lower-case hexadecimal.
     pub digest: String,
+}
+
+/// What a matrix is wanted for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MatrixRole {
+    /// The stiffness matrix K.
+    Stiffness,
+    /// The mass matrix M.
+    Mass,
+}
+
+impl MatrixRole {
+    /// What messages call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Stiffness => "stiffness",
+            Self::Mass => "mass",
+        }
+    }
 }

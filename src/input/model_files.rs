@@ -1,17 +1,14 @@
-//! The files of a finite element model: which reader each one needs, and whether they fit together.
+//! The files of a finite element model: which there are, what they hold, and whether it fits together.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::allowance::Allowance;
 use super::blocks::LastLine;
-use super::dof_map::{self, DirectionBase};
-use super::kind::{hdf5_location, is_hdf5_mesh};
-use super::matrix_market::{OrderSource, TextMatrix};
-#[cfg(feature = "hdf5")]
+use super::format::{DirectionBase, MatrixSource, OrderSource, ReadMatrix};
+use super::hdf5_format::split_group;
 use super::patch::Patches;
-use super::unsupported_format::Wanted;
-use super::{Cells, InputNote, MatrixInput, empty_rows, matrix_market, node_table, unsupported_format};
+use super::{Cells, InputNote, MatrixInput, MatrixRole, dof_map, empty_rows, formats};
 use crate::dofs::{DofMap, FileRows, Nodes};
 use crate::error::{Error, Result};
 use crate::job::{Duplicates, ModelJob};
@@ -56,8 +53,8 @@ pub fn read(model: &ModelJob) -> Result<Input> {
 /// [`Error::Duplicates`] where the job refuses them.
 pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
     let mut notes = Vec::new();
-    let of = |role| read_matrix(model, role, allowance);
-    let (stiffness, mass) = rayon::join(|| of(Role::Stiffness), || of(Role::Mass));
+    let of = |role| read_matrix(&matrix_source(model, role, allowance));
+    let (stiffness, mass) = rayon::join(|| of(MatrixRole::Stiffness), || of(MatrixRole::Mass));
     let (mut stiffness, mut mass) = fit_matrices(stiffness?, mass?, &mut notes)?;
     for matrix in [&mut stiffness, &mut mass] {
         refuse_duplicates(matrix, model.duplicates)?;
@@ -102,69 +99,72 @@ pub fn start_hdf5() -> Result<()> {
     Ok(())
 }
 
+/// Every file of a model with what it is, those that its files refer to among them. Files that cannot be read are listed all the same.
+pub fn files(model: &ModelJob) -> Vec<(&'static str, PathBuf)> {
+    let matrix = |path: &Path| split_group(path).0;
+    let mut files = vec![("the stiffness", matrix(&model.stiffness)), ("the mass", matrix(&model.mass))];
+    files.extend(model.dofs.clone().map(|path| ("the dof map", path)));
+    if let Some(nodes) = &model.nodes {
+        files.push(("the nodes", nodes.clone()));
+        let referenced = formats::of_nodes(nodes).map(|format| format.referenced_files(nodes)).unwrap_or_default();
+        files.extend(referenced.into_iter().map(|path| ("the data of the nodes", path)));
+    }
+    files
+}
+
+/// The first file of a model that the HDF5 library reads, where one is.
+pub fn hdf5_file(model: &ModelJob) -> Option<PathBuf> {
+    let matrices = [&model.stiffness, &model.mass].into_iter().map(|path| split_group(path).0);
+    let matrices = matrices.filter(|file| formats::of_matrix(file).is_ok_and(|format| format.is_parsed_in_c()));
+    let nodes = model.nodes.iter().filter(|file| formats::of_nodes(file).is_ok_and(|format| format.is_parsed_in_c()));
+    matrices.chain(nodes.cloned()).next()
+}
+
 /// Reads the files of a model that need the HDF5 library, and discards what was read.
 ///
 /// # Errors
 /// A file that cannot be read or whose content is wrong.
 pub fn read_hdf5_parts(model: &ModelJob, cells: Cells, allowance: &Allowance) -> Result<()> {
-    let is_hdf5 = |path: &Path| hdf5_location(path).is_some();
-    if is_hdf5(&model.stiffness) {
-        read_matrix(model, Role::Stiffness, allowance)?;
+    for role in [MatrixRole::Stiffness, MatrixRole::Mass] {
+        let source = matrix_source(model, role, allowance);
+        if formats::of_matrix(&source.file)?.is_parsed_in_c() {
+            read_matrix(&source)?;
+        }
     }
-    if is_hdf5(&model.mass) {
-        read_matrix(model, Role::Mass, allowance)?;
+    let Some(path) = model.nodes.as_deref() else { return Ok(()) };
+    let format = formats::of_nodes(path)?;
+    if !format.is_parsed_in_c() {
+        return Ok(());
     }
-    let Some(path) = model.nodes.as_deref().filter(|path| is_hdf5_mesh(path)) else { return Ok(()) };
     let n_nodes = read_nodes(path, allowance, &mut BTreeMap::new())?.labels.len();
     match cells {
-        Cells::Wanted => read_all_cells(path, n_nodes, allowance),
+        Cells::Wanted => format.read_faces(path, &Patches { n_nodes, list: Vec::new() }, allowance).map(drop),
         Cells::Unwanted => Ok(()),
     }
 }
 
-/// A matrix from whichever kind of file.
-enum Matrix {
-    Text(TextMatrix),
-    Hdf5(MatrixInput),
-}
-
-/// Which matrix of the pencil a file is read for; names inside an HDF5 file are matched against it.
-#[derive(Clone, Copy)]
-enum Role {
-    Stiffness,
-    Mass,
-}
-
-fn read_matrix(model: &ModelJob, role: Role, allowance: &Allowance) -> Result<Matrix> {
+fn matrix_source<'a>(model: &ModelJob, role: MatrixRole, allowance: &'a Allowance) -> MatrixSource<'a> {
     let path = match role {
-        Role::Stiffness => &model.stiffness,
-        Role::Mass => &model.mass,
+        MatrixRole::Stiffness => &model.stiffness,
+        MatrixRole::Mass => &model.mass,
     };
-    match hdf5_location(path) {
-        Some((file, group)) => {
-            unchanged(&file, || read_hdf5_matrix(&file, group.as_deref(), role, allowance)).map(Matrix::Hdf5)
-        }
-        None => unchanged(path, || {
-            unsupported_format::refuse(path, Wanted::Matrix)?;
-            matrix_market::read(path, model.symmetric, allowance)
-        })
-        .map(Matrix::Text),
-    }
+    let (file, group) = split_group(path);
+    MatrixSource { file, group, role, triangle: model.symmetric, allowance }
+}
+
+fn read_matrix(source: &MatrixSource<'_>) -> Result<ReadMatrix> {
+    unchanged(&source.file, || formats::of_matrix(&source.file)?.read(source))
 }
 
 /// Digests by the role of a file.
 type Digests = BTreeMap<&'static str, String>;
 
 fn read_nodes(path: &Path, allowance: &Allowance, digests: &mut Digests) -> Result<Nodes> {
-    let (nodes, of_nodes) = unchanged(path, || {
-        let nodes = if is_hdf5_mesh(path) {
-            read_hdf5_nodes(path, allowance, digests)?
-        } else {
-            unsupported_format::refuse(path, Wanted::Table)?;
-            node_table::read(path, allowance)?
-        };
-        Ok((nodes, digest(path)?))
+    let (nodes, of_data, of_nodes) = unchanged(path, || {
+        let (nodes, of_data) = formats::of_nodes(path)?.read(path, allowance)?;
+        Ok((nodes, of_data, digest(path)?))
     })?;
+    digests.extend(of_data.map(|digest| ("nodes_data", digest)));
     digests.insert("nodes", of_nodes);
     refuse_out_of_range(path, &nodes)?;
     Ok(nodes)
@@ -187,46 +187,12 @@ fn refuse_out_of_range(path: &Path, nodes: &Nodes) -> Result<()> {
     Err(Error::NodeRange { path: path.to_owned(), node: nodes.labels[node], axis, value, bits: BITS })
 }
 
-#[cfg(feature = "hdf5")]
-fn read_hdf5_matrix(path: &Path, group: Option<&str>, role: Role, allowance: &Allowance) -> Result<MatrixInput> {
-    let role = match role {
-        Role::Stiffness => super::hdf5::MatrixRole::Stiffness,
-        Role::Mass => super::hdf5::MatrixRole::Mass,
-    };
-    super::hdf5::read_matrix_within(path, group, role, allowance)
-}
-
-#[cfg(feature = "hdf5")]
-fn read_hdf5_nodes(path: &Path, allowance: &Allowance, digests: &mut Digests) -> Result<Nodes> {
-    let (nodes, of_data) = super::hdf5::read_nodes_within(path, allowance)?;
-    digests.extend(of_data.map(|digest| ("nodes_data", digest)));
-    Ok(nodes)
-}
-
-/// Reads the cells of a mesh for no patch.
-#[cfg(feature = "hdf5")]
-fn read_all_cells(path: &Path, n_nodes: usize, allowance: &Allowance) -> Result<()> {
-    let patches = Patches { n_nodes, list: Vec::new() };
-    super::hdf5::read_faces(path, &patches, allowance).map(drop)
-}
-
-#[cfg(not(feature = "hdf5"))]
-fn read_all_cells(_: &Path, _: usize, _: &Allowance) -> Result<()> {
-    Ok(())
-}
-
-#[cfg(not(feature = "hdf5"))]
-fn read_hdf5_matrix(path: &Path, _: Option<&str>, _: Role, _: &Allowance) -> Result<MatrixInput> {
-    Err(Error::FeatureMissing { path: path.to_owned(), feature: "hdf5" })
-}
-
-#[cfg(not(feature = "hdf5"))]
-fn read_hdf5_nodes(path: &Path, _: &Allowance, _: &mut Digests) -> Result<Nodes> {
-    Err(Error::FeatureMissing { path: path.to_owned(), feature: "hdf5" })
-}
-
 /// Brings K and M to one order, which only a matrix without a size line allows, and notes what each needed.
-fn fit_matrices(stiffness: Matrix, mass: Matrix, notes: &mut Vec<InputNote>) -> Result<(MatrixInput, MatrixInput)> {
+fn fit_matrices(
+    stiffness: ReadMatrix,
+    mass: ReadMatrix,
+    notes: &mut Vec<InputNote>,
+) -> Result<(MatrixInput, MatrixInput)> {
     let (stiffness, stiffness_order) = take_notes(stiffness, notes);
     let (mass, mass_order) = take_notes(mass, notes);
     let (n_stiffness, n_mass) = (stiffness.matrix.rows(), mass.matrix.rows());
@@ -243,19 +209,14 @@ fn fit_matrices(stiffness: Matrix, mass: Matrix, notes: &mut Vec<InputNote>) -> 
     Ok((stiffness, mass))
 }
 
-fn take_notes(matrix: Matrix, notes: &mut Vec<InputNote>) -> (MatrixInput, OrderSource) {
-    let (input, order) = match matrix {
-        Matrix::Hdf5(input) => (input, OrderSource::SizeLine),
-        Matrix::Text(TextMatrix { input, order, last_line }) => {
-            if order == OrderSource::LargestIndex {
-                notes.push(InputNote::OrderFromIndices { path: input.path.clone(), n: input.matrix.rows() });
-            }
-            if last_line == LastLine::Open {
-                notes.push(InputNote::OpenLastLine { path: input.path.clone() });
-            }
-            (input, order)
-        }
-    };
+fn take_notes(matrix: ReadMatrix, notes: &mut Vec<InputNote>) -> (MatrixInput, OrderSource) {
+    let ReadMatrix { input, order, last_line } = matrix;
+    if order == OrderSource::LargestIndex {
+        notes.push(InputNote::OrderFromIndices { path: input.path.clone(), n: input.matrix.rows() });
+    }
+    if last_line == LastLine::Open {
+        notes.push(InputNote::OpenLastLine { path: input.path.clone() });
+    }
     if input.notes.n_duplicates > 0 {
         notes.push(InputNote::Duplicates { path: input.path.clone(), count: input.notes.n_duplicates });
     }
@@ -298,8 +259,7 @@ fn extend(input: MatrixInput, n: usize, notes: &mut Vec<InputNote>) -> MatrixInp
 }
 
 fn read_dofs(path: &Path, n: usize, nodes: Option<(&Nodes, &Path)>, notes: &mut Vec<InputNote>) -> Result<DofMap> {
-    unsupported_format::refuse(path, Wanted::Table)?;
-    let read = dof_map::read(path, n)?;
+    let read = formats::of_dof_map(path)?.read(path, n)?;
     if read.n_rows != n {
         return Err(Error::DofCount { path: path.to_owned(), found: read.n_rows, n });
     }

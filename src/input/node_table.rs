@@ -4,6 +4,8 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use super::allowance::Allowance;
+use super::file_start::FileStart;
+use super::format::{Format, NodeFormat, Sureness};
 use super::table::{Table, is_node_column, open_first_line};
 use crate::dofs::Nodes;
 use crate::error::{Error, Result};
@@ -15,8 +17,22 @@ const NODE: u64 = 64;
 /// Rows after which their memory is claimed.
 const ROWS_PER_CLAIM: usize = 1 << 8;
 
-/// Reads a node table, plain or gzipped.
-pub(super) fn read(path: &Path, allowance: &Allowance) -> Result<Nodes> {
+/// Tables of nodes, plain or gzipped.
+pub(super) struct NodeTable;
+
+impl Format for NodeTable {
+    fn sureness(&self, _: &FileStart<'_>) -> Sureness {
+        Sureness::Possible
+    }
+}
+
+impl NodeFormat for NodeTable {
+    fn read(&self, path: &Path, allowance: &Allowance) -> Result<(Nodes, Option<String>)> {
+        read(path, allowance).map(|nodes| (nodes, None))
+    }
+}
+
+fn read(path: &Path, allowance: &Allowance) -> Result<Nodes> {
     let claim = allowance.claim(path);
     let mut table = Table::new(path, open_first_line(path, EXPECTED)?);
     let label_column = table.require("node", EXPECTED, is_node_column)?;

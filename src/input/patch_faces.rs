@@ -2,10 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Allowance;
 use super::patch::{PatchFaces, Patches};
+use super::{Allowance, formats};
 use crate::error::Result;
 use crate::job::{InterfaceJob, Job, ModelJob, NodeSelection, Origin};
+use crate::regular_file::unchanged;
 
 /// Whether the cells of a mesh are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -19,7 +20,12 @@ pub enum Cells {
 impl Cells {
     /// What the interfaces of a job may need, and the file of its nodes may have.
     pub fn of(job: &Job) -> Self {
-        let is_mesh = job.model.nodes.as_deref().is_some_and(super::kind::is_hdf5_mesh);
+        let is_mesh = job
+            .model
+            .nodes
+            .as_deref()
+            .and_then(|path| formats::of_nodes(path).ok())
+            .is_some_and(|format| format.has_cells());
         if is_mesh && job.interfaces.iter().any(has_mean_origin) { Self::Wanted } else { Self::Unwanted }
     }
 }
@@ -36,21 +42,14 @@ pub fn has_mean_origin(interface: &InterfaceJob) -> bool {
 /// Cells that cannot be those of the nodes, a file that cannot be read or changes meanwhile, more data than `allowance` has room for.
 pub fn patch_faces(model: &ModelJob, patches: &Patches, allowance: &Allowance) -> Result<Vec<PatchFaces>> {
     match &model.nodes {
-        Some(path) if !patches.list.is_empty() => of_mesh(path, patches, allowance),
+        Some(path) if !patches.list.is_empty() => {
+            let format = formats::of_nodes(path)?;
+            if format.has_cells() {
+                unchanged(path, || format.read_faces(path, patches, allowance))
+            } else {
+                Ok(Vec::new())
+            }
+        }
         _ => Ok(Vec::new()),
     }
-}
-
-#[cfg(feature = "hdf5")]
-fn of_mesh(path: &std::path::Path, patches: &Patches, allowance: &Allowance) -> Result<Vec<PatchFaces>> {
-    if !super::kind::is_hdf5_mesh(path) {
-        return Ok(Vec::new());
-    }
-    crate::regular_file::unchanged(path, || super::hdf5::read_faces(path, patches, allowance))
-}
-
-/// Tables of nodes have no cells.
-#[cfg(not(feature = "hdf5"))]
-fn of_mesh(_: &std::path::Path, _: &Patches, _: &Allowance) -> Result<Vec<PatchFaces>> {
-    Ok(Vec::new())
 }

@@ -1,13 +1,8 @@
 //! Files of known formats that are not read: how they are recognised, and how each can be converted.
 
-use std::io::Read;
-use std::path::Path;
-
+use super::file_start::FileStart;
 use crate::error::{Error, Result};
-use crate::regular_file;
 
-/// Bytes from which a format is recognised.
-const HEAD: u64 = 1 << 12;
 /// What a file is read for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Wanted {
@@ -37,7 +32,7 @@ const AS_TABLE: &str = "write the numbers as a table with the header node,x,y,z,
 /// A format that is not read.
 struct Foreign {
     /// Whether a file begins as one of it does.
-    begins: fn(&[u8]) -> bool,
+    begins: fn(&FileStart<'_>) -> bool,
     found: &'static str,
     for_matrix: &'static str,
     for_table: &'static str,
@@ -46,37 +41,37 @@ struct Foreign {
 /// The formats, the more particular first.
 const FORMATS: [Foreign; 8] = [
     Foreign {
-        begins: |head| head.starts_with(b"PK") && holds(head, b".npy"),
+        begins: |start| start.head.starts_with(b"PK") && start.holds(b".npy"),
         found: "a NumPy archive (.npz)",
         for_matrix: "write it by scipy.io.mmwrite(\"K.mtx\", scipy.sparse.load_npz(\"K.npz\"), precision=17)",
         for_table: AS_TABLE,
     },
     Foreign {
-        begins: |head| head.starts_with(b"PK"),
+        begins: |start| start.head.starts_with(b"PK"),
         found: "a zip archive",
         for_matrix: "unpack it",
         for_table: "unpack it",
     },
     Foreign {
-        begins: |head| head.starts_with(b"\x93NUMPY"),
+        begins: |start| start.head.starts_with(b"\x93NUMPY"),
         found: "a NumPy array (.npy)",
         for_matrix: "write it by scipy.io.mmwrite(\"K.mtx\", scipy.sparse.csc_matrix(numpy.load(\"K.npy\")), precision=17)",
         for_table: AS_TABLE,
     },
     Foreign {
-        begins: |head| head.starts_with(b"MATLAB 5.0"),
+        begins: |start| start.head.starts_with(b"MATLAB 5.0"),
         found: "a MATLAB file of version 7 or older (.mat)",
         for_matrix: "save it with -v7.3, which is HDF5, as in save('K.mat', 'K', '-v7.3')",
         for_table: AS_TABLE,
     },
     Foreign {
-        begins: |head| first_line(head).starts_with(b"$MeshFormat"),
+        begins: |start| start.lines().next().is_some_and(|line| line.starts_with(b"$MeshFormat")),
         found: "a Gmsh mesh (.msh)",
         for_matrix: NO_MATRIX,
         for_table: "convert it by `meshio convert mesh.msh mesh.xdmf`",
     },
     Foreign {
-        begins: |head| head.starts_with(b"    1C"),
+        begins: |start| start.head.starts_with(b"    1C"),
         found: "a CalculiX result file (.frd)",
         for_matrix: NO_MATRIX,
         for_table: "take the nodes of the deck, by `meshio convert deck.inp mesh.xdmf`",
@@ -98,43 +93,27 @@ const FORMATS: [Foreign; 8] = [
 /// Refuses a file of a known format that is not read, by name.
 ///
 /// # Errors
-/// [`Error::FormatNotRead`]; those of opening the file.
-pub(super) fn refuse(path: &Path, wanted: Wanted) -> Result<()> {
-    let mut head = Vec::new();
-    let read = regular_file::open(path)?.take(HEAD).read_to_end(&mut head);
-    read.map_err(|source| Error::Read { path: path.to_owned(), source })?;
-    match FORMATS.iter().find(|format| (format.begins)(&head)) {
+/// [`Error::FormatNotRead`].
+pub(super) fn refuse(start: &FileStart<'_>, wanted: Wanted) -> Result<()> {
+    match FORMATS.iter().find(|format| (format.begins)(start)) {
         Some(Foreign { found, for_matrix, for_table, .. }) => {
             let advice = if wanted == Wanted::Matrix { for_matrix } else { for_table };
-            Err(Error::FormatNotRead { path: path.to_owned(), found, expected: wanted.expected(), advice })
+            Err(Error::FormatNotRead { path: start.path.to_owned(), found, expected: wanted.expected(), advice })
         }
         None => Ok(()),
     }
 }
 
-fn holds(head: &[u8], word: &[u8]) -> bool {
-    head.windows(word.len()).any(|window| window == word)
-}
-
-/// The lines of a text with neither space nor line end around them.
-fn lines(head: &[u8]) -> impl Iterator<Item = &[u8]> {
-    head.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii).filter(|line| !line.is_empty())
-}
-
-fn first_line(head: &[u8]) -> &[u8] {
-    lines(head).next().unwrap_or_default()
-}
-
 /// A keyword after one asterisk, below comments of two: no matrix, map or table begins so.
-fn begins_as_deck(head: &[u8]) -> bool {
-    let line = lines(head).find(|line| !line.starts_with(b"**"));
+fn begins_as_deck(start: &FileStart<'_>) -> bool {
+    let line = start.lines().find(|line| !line.starts_with(b"**"));
     line.is_some_and(|line| line.len() > 1 && line[0] == b'*' && line[1].is_ascii_alphabetic())
 }
 
 /// A section of a Nastran deck or its first card, below comments of a dollar.
-fn begins_as_bulk(head: &[u8]) -> bool {
+fn begins_as_bulk(start: &FileStart<'_>) -> bool {
     const SECTIONS: [&[u8]; 3] = [b"SOL ", b"CEND", b"BEGIN BULK"];
-    let line = lines(head).find(|line| !line.starts_with(b"$")).unwrap_or_default().to_ascii_uppercase();
+    let line = start.lines().find(|line| !line.starts_with(b"$")).unwrap_or_default().to_ascii_uppercase();
     SECTIONS.iter().any(|word| line.starts_with(word)) || line.strip_prefix(b"GRID").is_some_and(is_rest_of_card)
 }
 

@@ -106,7 +106,7 @@ fn a_file_that_is_no_superelement() {
 #[test]
 fn an_unsigned_number_beyond_the_signed() {
     use supel::error::Error;
-    use supel::input::hdf5::{MatrixRole, read_matrix};
+    use supel::input::{MatrixRole, hdf5::read_matrix};
 
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("K.h5");

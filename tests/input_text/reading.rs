@@ -40,6 +40,22 @@ fn few_numbers_in_a_fixed_format_have_its_digits() {
     }
 }
 
+/// A name that another format has does not keep a matrix from being read; without a banner the name decides.
+#[test]
+fn a_matrix_is_recognised_by_its_content() {
+    let folder = Folder::new();
+    for name in ["K.h5", "K.mat", "K.HDF5", "K"] {
+        for text in [SPRING.to_owned(), format!("\u{feff}{SPRING}"), SPRING.replace("MatrixMarket", "MATRIXMARKET")] {
+            let path = folder.write(name, &text);
+            let input = read(&job(&path, &path)).unwrap_or_else(|error| panic!("{name}: {error}"));
+            assert_eq!(dense(&input), spring(), "{name}");
+        }
+    }
+    let bare = folder.write("bare.h5", "1 1 2.5\n2 1 -2.5\n2 2 4\n");
+    let code = read(&job(&bare, &bare)).expect_err("no HDF5").code();
+    assert!(matches!(code, "E-HDF5-SIGNATURE" | "E-FEATURE"), "{code}");
+}
+
 #[test]
 fn writing_habits_do_not_matter() {
     let habits = [

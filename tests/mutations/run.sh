@@ -1,5 +1,5 @@
 #!/bin/sh
 # The checker is checked: puts each fault of table.toml into a copy of the sources and demands that its test fails.
-#   tests/mutations/run.sh [NAME ...]     all of them take some ten minutes
+#   tests/mutations/run.sh [--suite-passed] [NAME ...]     all of them take some hours on two cores
 set -eu
 exec python3 "$(dirname "$0")/run.py" "$@"

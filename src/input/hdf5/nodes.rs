@@ -4,11 +4,11 @@ use std::io::Read;
 use std::path::Path;
 
 use super::file::{H5, with_memory};
-use super::group::Member;
-use super::{hmf, med, moab, xdmf};
+use super::{layout, xdmf};
 use crate::dofs::Nodes;
 use crate::error::{Error, Result};
 use crate::input::Allowance;
+use crate::input::file_start::FileStart;
 use crate::input::hdf5::group::Group;
 use crate::input::hdf5::mesh::Mesh;
 use crate::input::unsupported_format::{self, Wanted};
@@ -28,10 +28,11 @@ const NODE: u64 = 40;
 /// The file cannot be read, holds no mesh of these formats or several, refers to data outside its folder, or has
 /// coordinates, labels or node numbers that cannot be right.
 pub fn read_nodes(path: &Path) -> Result<Nodes> {
+    unsupported_format::refuse(&FileStart::of(path)?, Wanted::Table)?;
     read_nodes_within(path, &Allowance::of(None)).map(|(nodes, _)| nodes)
 }
 
-/// [`read_nodes`] in the memory that is allowed, and the digest of the file that an XDMF refers to.
+/// [`read_nodes`] of a file that is no other known format, in the memory that is allowed, and the digest of the file that an XDMF refers to.
 ///
 /// # Errors
 ///
@@ -60,24 +61,9 @@ pub(super) fn is_xml(path: &Path) -> Result<bool> {
 }
 
 fn read_hdf5(path: &Path, allowance: &Allowance) -> Result<Mesh> {
-    unsupported_format::refuse(path, Wanted::Table)?;
     let h5 = H5::open(path, allowance)?;
-    let mesh = read_format(&h5)?;
+    let root = Group::root(&h5)?;
+    let mesh = (layout::of(&root)?.nodes)(&root)?;
     h5.hold(NODE * mesh.coordinates.len() as u64)?;
     Ok(mesh)
-}
-
-fn read_format(h5: &H5<'_>) -> Result<Mesh> {
-    let root = Group::root(h5)?;
-    if root.member("ENS_MAA")? == Some(Member::Group) {
-        return med::read(&root);
-    }
-    if root.member("tstt")? == Some(Member::Group) {
-        return moab::read(&root);
-    }
-    if let Some(geometry) = hmf::find(&root)? {
-        return hmf::read(&geometry);
-    }
-    let holds = root.members()?.into_iter().map(|(name, _)| root.child_name(&name)).collect();
-    Err(Error::MeshUnknown { path: h5.path().to_owned(), holds })
 }

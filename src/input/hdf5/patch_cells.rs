@@ -5,8 +5,8 @@ use std::path::Path;
 use super::cells::Known;
 use super::faces::Gathered;
 use super::file::{H5, with_memory};
-use super::group::{Group, Member};
-use super::{med_cells, moab_cells, nodes, xdmf_cells};
+use super::group::Group;
+use super::{layout, nodes, xdmf_cells};
 use crate::error::Result;
 use crate::input::Allowance;
 use crate::input::patch::{PatchFaces, Patches};
@@ -25,23 +25,13 @@ pub(crate) fn read_faces(path: &Path, patches: &Patches, allowance: &Allowance) 
         with_memory(path, || {
             let mut faces = gathered()?;
             let h5 = H5::open(path, allowance)?;
-            let known = read_format(&h5, &mut faces)?;
+            let root = Group::root(&h5)?;
+            let known = (layout::of(&root)?.cells)(&root, &mut faces)?;
             Ok((faces, known))
         })?
     };
     match known {
         Known::All => faces.into_centroids(),
         Known::Not(what) => Ok(faces.unknown(&format!("the mesh has what supel does not read, {what}"))),
-    }
-}
-
-fn read_format(h5: &H5<'_>, faces: &mut Gathered<'_>) -> Result<Known> {
-    let root = Group::root(h5)?;
-    if root.member("ENS_MAA")? == Some(Member::Group) {
-        return med_cells::read(&root, faces);
-    }
-    match root.member("tstt")? {
-        Some(Member::Group) => moab_cells::read(&root, faces),
-        _ => Ok(Known::Not("a table of cells in the layout of .hmf".to_owned())),
     }
 }

@@ -3,41 +3,27 @@
 use super::convention::Convention;
 use super::group::{Group, Member};
 use crate::error::{Error, Result};
+use crate::input::MatrixRole;
 
 /// Deeper than any real file is nested.
 const MAX_DEPTH: usize = 32;
 /// More objects than any real file with matrices has.
 const MAX_OBJECTS: usize = 100_000;
 
-/// What a matrix is wanted for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MatrixRole {
-    /// The stiffness matrix K.
-    Stiffness,
-    /// The mass matrix M.
-    Mass,
-}
-
-impl MatrixRole {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Stiffness => "stiffness",
-            Self::Mass => "mass",
-        }
-    }
-
-    /// The role that a path in a file states: that of its last component which is a usual name of K or M.
-    fn stated_by(path: &str) -> Option<Self> {
-        const STIFFNESS: [&str; 11] =
-            ["k", "ke", "kff", "kaa", "kgg", "kaax", "kmat", "stif", "stiff", "stiffness", "stiffnessmatrix"];
-        const MASS: [&str; 9] = ["m", "me", "mff", "maa", "mgg", "maax", "mmat", "mass", "massmatrix"];
-        path.rsplit('/').find_map(|component| {
-            let name: String = component.chars().filter(char::is_ascii_alphanumeric).collect();
-            let name = name.to_ascii_lowercase();
-            let name = name.as_str();
-            STIFFNESS.contains(&name).then_some(Self::Stiffness).or_else(|| MASS.contains(&name).then_some(Self::Mass))
-        })
-    }
+/// The role that a path in a file states: that of its last component which is a usual name of K or M.
+fn role_stated_by(path: &str) -> Option<MatrixRole> {
+    const STIFFNESS: [&str; 11] =
+        ["k", "ke", "kff", "kaa", "kgg", "kaax", "kmat", "stif", "stiff", "stiffness", "stiffnessmatrix"];
+    const MASS: [&str; 9] = ["m", "me", "mff", "maa", "mgg", "maax", "mmat", "mass", "massmatrix"];
+    path.rsplit('/').find_map(|component| {
+        let name: String = component.chars().filter(char::is_ascii_alphanumeric).collect();
+        let name = name.to_ascii_lowercase();
+        let name = name.as_str();
+        STIFFNESS
+            .contains(&name)
+            .then_some(MatrixRole::Stiffness)
+            .or_else(|| MASS.contains(&name).then_some(MatrixRole::Mass))
+    })
 }
 
 /// The one sparse group below `start` that can be meant: the only one, unless its name says otherwise, or the only one
@@ -49,7 +35,7 @@ pub(super) fn find_matrix<'a>(start: Group<'a>, role: MatrixRole) -> Result<(Gro
     if search.found.is_empty() {
         return Err(Error::Hdf5NoMatrix { path, group: top, holds: search.others });
     }
-    let stated = |g: &Group<'a>| MatrixRole::stated_by(g.name());
+    let stated = |g: &Group<'a>| role_stated_by(g.name());
     let n_stated = search.found.iter().filter(|(g, _)| stated(g) == Some(role)).count();
     let chosen = match search.found.as_slice() {
         [(only, _)] if stated(only).is_none_or(|r| r == role) => Some(0),
@@ -105,15 +91,15 @@ impl<'a> Search<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::MatrixRole;
+    use super::{MatrixRole, role_stated_by};
 
     #[test]
     fn the_last_component_that_is_a_usual_name_states_the_role() {
-        assert_eq!(MatrixRole::stated_by("/model/K"), Some(MatrixRole::Stiffness));
-        assert_eq!(MatrixRole::stated_by("/stiffnessMatrix"), Some(MatrixRole::Stiffness));
-        assert_eq!(MatrixRole::stated_by("/mass_matrix"), Some(MatrixRole::Mass));
-        assert_eq!(MatrixRole::stated_by("/mass/csr"), Some(MatrixRole::Mass));
-        assert_eq!(MatrixRole::stated_by("/K/M"), Some(MatrixRole::Mass));
-        assert_eq!(MatrixRole::stated_by("/kite/masses"), None);
+        assert_eq!(role_stated_by("/model/K"), Some(MatrixRole::Stiffness));
+        assert_eq!(role_stated_by("/stiffnessMatrix"), Some(MatrixRole::Stiffness));
+        assert_eq!(role_stated_by("/mass_matrix"), Some(MatrixRole::Mass));
+        assert_eq!(role_stated_by("/mass/csr"), Some(MatrixRole::Mass));
+        assert_eq!(role_stated_by("/K/M"), Some(MatrixRole::Mass));
+        assert_eq!(role_stated_by("/kite/masses"), None);
     }
 }

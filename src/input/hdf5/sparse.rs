@@ -4,11 +4,12 @@ use std::path::Path;
 
 use super::convention::Convention;
 use super::file::{H5, with_memory};
-use super::search::{MatrixRole, find_matrix};
+use super::search::find_matrix;
 use crate::error::Result;
+use crate::input::file_start::FileStart;
 use crate::input::hdf5::group::Group;
 use crate::input::unsupported_format::{self, Wanted};
-use crate::input::{Allowance, MatrixInput, significant_digits};
+use crate::input::{Allowance, MatrixInput, MatrixRole, significant_digits};
 use crate::regular_file::digest;
 use crate::sparse::{Declared, ENTRY_BYTES, ROW_BYTES, TRIPLET_BYTES};
 
@@ -24,10 +25,11 @@ use crate::sparse::{Declared, ENTRY_BYTES, ROW_BYTES, TRIPLET_BYTES};
 /// The file cannot be read or is not HDF5, holds no matrix or several that could be meant, or the matrix is not square,
 /// its pointers or indices are wrong or a value is not finite.
 pub fn read_matrix(path: &Path, group: Option<&str>, role: MatrixRole) -> Result<MatrixInput> {
+    unsupported_format::refuse(&FileStart::of(path)?, Wanted::Matrix)?;
     read_matrix_within(path, group, role, &Allowance::of(None))
 }
 
-/// [`read_matrix`] in the memory that is allowed.
+/// [`read_matrix`] in the memory that is allowed, of a file that is no other known format.
 ///
 /// # Errors
 ///
@@ -42,7 +44,6 @@ pub(crate) fn read_matrix_within(
 }
 
 fn read_matrix_once(path: &Path, group: Option<&str>, role: MatrixRole, allowance: &Allowance) -> Result<MatrixInput> {
-    unsupported_format::refuse(path, Wanted::Matrix)?;
     let h5 = H5::open(path, allowance)?;
     let start = Group::root(&h5)?.group(group.unwrap_or("/"))?;
     let stated = if group.is_some() { Convention::of(&start, &start.members()?)? } else { None };

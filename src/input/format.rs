@@ -1,0 +1,137 @@
+//! What every format of matrices, nodes and dof maps offers, and what reading gives.
+
+use std::path::{Path, PathBuf};
+
+use super::blocks::LastLine;
+use super::file_start::FileStart;
+use super::patch::{PatchFaces, Patches};
+use super::{Allowance, MatrixInput, MatrixRole};
+use crate::dofs::{DofMap, Nodes};
+use crate::error::Result;
+use crate::sparse::Triangle;
+
+/// How sure a format is that a file is one of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Sureness {
+    /// Something speaks against it.
+    Unlikely,
+    /// Nothing speaks against it.
+    Possible,
+    /// The name says so.
+    Named,
+    /// The content says so.
+    Certain,
+}
+
+/// What the formats of all kinds of files have in common.
+pub(super) trait Format {
+    /// How sure the format is that a file is one of its own.
+    fn sureness(&self, start: &FileStart<'_>) -> Sureness;
+
+    /// Whether a library in C parses it, which a damaged file may crash: then a child process reads the file first.
+    fn is_parsed_in_c(&self) -> bool {
+        false
+    }
+}
+
+/// A matrix that is to be read.
+pub(super) struct MatrixSource<'a> {
+    pub(super) file: PathBuf,
+    /// The place in the file that the job states.
+    #[cfg_attr(not(feature = "hdf5"), expect(dead_code, reason = "only HDF5 has places in a file"))]
+    pub(super) group: Option<String>,
+    #[cfg_attr(not(feature = "hdf5"), expect(dead_code, reason = "only HDF5 has several matrices in a file"))]
+    pub(super) role: MatrixRole,
+    /// The triangle that the job asks for.
+    pub(super) triangle: Option<Triangle>,
+    pub(super) allowance: &'a Allowance,
+}
+
+/// A format of matrices.
+pub(super) trait MatrixFormat: Format {
+    /// # Errors
+    /// A file that cannot be read or whose content is wrong, more data than the allowance has room for.
+    fn read(&self, source: &MatrixSource<'_>) -> Result<ReadMatrix>;
+}
+
+/// A format of nodes.
+pub(super) trait NodeFormat: Format {
+    /// The nodes, and the digest of the file that this one refers to.
+    ///
+    /// # Errors
+    /// A file that cannot be read or whose content is wrong, more data than `allowance` has room for.
+    fn read(&self, path: &Path, allowance: &Allowance) -> Result<(Nodes, Option<String>)>;
+
+    /// Files that a file refers to, where they can be told.
+    fn referenced_files(&self, _path: &Path) -> Vec<PathBuf> {
+        Vec::new()
+    }
+
+    /// Whether a file of it may have cells.
+    fn has_cells(&self) -> bool {
+        false
+    }
+
+    /// The faces of patches, from the cells of the file.
+    ///
+    /// # Errors
+    /// Cells that cannot be those of the nodes, a file that cannot be read, more data than `allowance` has room for.
+    fn read_faces(&self, _path: &Path, _patches: &Patches, _allowance: &Allowance) -> Result<Vec<PatchFaces>> {
+        Ok(Vec::new())
+    }
+}
+
+/// A format of dof maps.
+pub(super) trait DofMapFormat: Format {
+    /// The map of a model of n dofs. More rows than n are counted, not kept.
+    ///
+    /// # Errors
+    /// A file that cannot be read or whose content is wrong.
+    fn read(&self, path: &Path, n: usize) -> Result<ReadDofs>;
+}
+
+/// A matrix as its format left it.
+pub(super) struct ReadMatrix {
+    /// The matrix.
+    pub(super) input: MatrixInput,
+    /// Where its order comes from.
+    pub(super) order: OrderSource,
+    /// Whether the last line is complete.
+    pub(super) last_line: LastLine,
+}
+
+impl ReadMatrix {
+    /// A matrix of a format that states its size.
+    #[cfg_attr(not(feature = "hdf5"), expect(dead_code))]
+    pub(super) fn with_size(input: MatrixInput) -> Self {
+        Self { input, order: OrderSource::SizeLine, last_line: LastLine::Terminated }
+    }
+}
+
+/// Where the order of a matrix comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum OrderSource {
+    /// The size line.
+    SizeLine,
+    /// The largest index.
+    LargestIndex,
+}
+
+/// A dof map and how its directions were numbered.
+pub(super) struct ReadDofs {
+    /// The degree of freedom of every row, as far as the matrices have rows.
+    pub(super) dofs: DofMap,
+    /// Rows in the file.
+    pub(super) n_rows: usize,
+    /// How directions are numbered.
+    pub(super) base: DirectionBase,
+}
+
+/// The number of the direction ux.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum DirectionBase {
+    /// Directions count from 0.
+    Zero,
+    /// Directions count from 1, or have names.
+    One,
+}

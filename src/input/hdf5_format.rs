@@ -1,0 +1,107 @@
+//! Matrices and meshes in HDF5 among the other formats, also where the program is built without the library.
+
+use std::path::{Path, PathBuf};
+
+use super::Allowance;
+use super::file_start::{FileStart, has_extension};
+use super::format::{Format, MatrixFormat, MatrixSource, NodeFormat, ReadMatrix, Sureness};
+#[cfg(feature = "hdf5")]
+use super::hdf5;
+#[cfg(feature = "hdf5")]
+use super::patch::{PatchFaces, Patches};
+use crate::dofs::Nodes;
+#[cfg(not(feature = "hdf5"))]
+use crate::error::Error;
+use crate::error::Result;
+
+/// Extensions of files that hold matrices in HDF5.
+const CONTAINERS: [&str; 6] = ["h5", "hdf5", "hdf", "mat", "h5ad", "he5"];
+/// Extensions of meshes in HDF5, or in XML that refers to it.
+const MESHES: [&str; 6] = ["h5m", "hmf", "med", "rmed", "xdmf", "xmf"];
+
+/// Sparse matrices in HDF5.
+pub(super) struct Hdf5Matrix;
+
+/// Meshes in HDF5, or in XML that refers to it.
+pub(super) struct Hdf5Mesh;
+
+/// The file of a matrix, and the group in it where the job says `file.h5:/group`.
+pub(super) fn split_group(path: &Path) -> (PathBuf, Option<String>) {
+    if let Some((file, group)) = path.to_str().and_then(|text| text.rsplit_once(":/"))
+        && !path.exists()
+        && (has_extension(Path::new(file), &CONTAINERS)
+            || FileStart::of(Path::new(file)).is_ok_and(|start| start.is_hdf5()))
+    {
+        return (file.into(), Some(format!("/{group}")));
+    }
+    (path.to_owned(), None)
+}
+
+fn sureness(start: &FileStart<'_>, extensions: &[&str]) -> Sureness {
+    match () {
+        () if start.is_hdf5() => Sureness::Certain,
+        () if start.has_extension(extensions) => Sureness::Named,
+        () => Sureness::Unlikely,
+    }
+}
+
+impl Format for Hdf5Matrix {
+    fn sureness(&self, start: &FileStart<'_>) -> Sureness {
+        sureness(start, &CONTAINERS)
+    }
+
+    fn is_parsed_in_c(&self) -> bool {
+        true
+    }
+}
+
+impl Format for Hdf5Mesh {
+    fn sureness(&self, start: &FileStart<'_>) -> Sureness {
+        sureness(start, &MESHES)
+    }
+
+    fn is_parsed_in_c(&self) -> bool {
+        true
+    }
+}
+
+#[cfg(feature = "hdf5")]
+impl MatrixFormat for Hdf5Matrix {
+    fn read(&self, source: &MatrixSource<'_>) -> Result<ReadMatrix> {
+        let MatrixSource { file, group, role, allowance, .. } = source;
+        hdf5::read_matrix_within(file, group.as_deref(), *role, allowance).map(ReadMatrix::with_size)
+    }
+}
+
+#[cfg(feature = "hdf5")]
+impl NodeFormat for Hdf5Mesh {
+    fn read(&self, path: &Path, allowance: &Allowance) -> Result<(Nodes, Option<String>)> {
+        hdf5::read_nodes_within(path, allowance)
+    }
+
+    fn referenced_files(&self, path: &Path) -> Vec<PathBuf> {
+        hdf5::referenced_files(path)
+    }
+
+    fn has_cells(&self) -> bool {
+        true
+    }
+
+    fn read_faces(&self, path: &Path, patches: &Patches, allowance: &Allowance) -> Result<Vec<PatchFaces>> {
+        hdf5::read_faces(path, patches, allowance)
+    }
+}
+
+#[cfg(not(feature = "hdf5"))]
+impl MatrixFormat for Hdf5Matrix {
+    fn read(&self, source: &MatrixSource<'_>) -> Result<ReadMatrix> {
+        Err(Error::FeatureMissing { path: source.file.clone(), feature: "hdf5" })
+    }
+}
+
+#[cfg(not(feature = "hdf5"))]
+impl NodeFormat for Hdf5Mesh {
+    fn read(&self, path: &Path, _: &Allowance) -> Result<(Nodes, Option<String>)> {
+        Err(Error::FeatureMissing { path: path.to_owned(), feature: "hdf5" })
+    }
+}
