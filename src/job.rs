@@ -5,6 +5,7 @@
 
 mod document;
 mod interface;
+mod location;
 mod method;
 mod ranges;
 mod reading;
@@ -18,6 +19,7 @@ mod validation;
 pub use crate::eigen::Eigensolver;
 pub use document::Notation;
 pub use interface::{Coupling, InterfaceJob, NodeSelection, Origin, Region};
+pub use location::Holder;
 pub use method::{Boundary, Columns, Method};
 pub use recovery::RecoveryJob;
 pub use scene::{DampingJob, SceneJob, Support};

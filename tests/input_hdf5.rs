@@ -627,6 +627,21 @@ fn an_xdmf_reference_out_of_the_folder_is_refused() {
     assert!(xdmf(&geometry("XYZ", "HDF", " ./mesh.h5:/data0\n")).is_ok());
 }
 
+/// Through a link to the document alone: the data are where the document is, unless the folder of the link has such a file.
+#[cfg(unix)]
+#[test]
+fn xdmf_through_a_link_finds_its_data() {
+    let (own, named) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    fs::copy(fixture("mesh.h5"), own.path().join("mesh.h5")).unwrap();
+    fs::write(own.path().join("mesh.xdmf"), geometry("XYZ", "HDF", "mesh.h5:/data0")).unwrap();
+    let link = named.path().join("link.xdmf");
+    std::os::unix::fs::symlink(own.path().join("mesh.xdmf"), &link).unwrap();
+    assert_eq!(read_nodes(&link).unwrap().labels.len(), 12);
+    fs::write(named.path().join("mesh.h5"), b"another").unwrap();
+    let error = read_nodes(&link).unwrap_err();
+    assert!(matches!(&error, Error::Hdf5Signature { path, .. } if path.starts_with(named.path())), "{error}");
+}
+
 #[test]
 fn xdmf_that_is_no_xml_or_defines_entities_is_refused() {
     assert!(matches!(xdmf("<Xdmf>").unwrap_err(), Error::XdmfSyntax { .. }));

@@ -13,6 +13,7 @@ use super::xml_size::refuse_many_names;
 use crate::error::{Error, Result};
 use crate::input::Allowance;
 use crate::input::allowance::Claim;
+use crate::linked;
 use crate::regular_file::{self, digest, unchanged};
 
 /// Bytes of the document and of what is made of it for each of its bytes: the text itself, its tree, its numbers.
@@ -172,6 +173,14 @@ impl<'a> Geometry<'a> {
 /// Coordinates, where they come from, and the digest of the file they come from where it is another one.
 type Values = (Vec<f64>, String, Option<String>);
 
+/// The file in the folder of the XDMF. Where that was reached through a link in whose folder there is no such file, the one in the
+/// folder of the XDMF itself.
+fn next_to(path: &Path, file: &Path) -> PathBuf {
+    let named = linked::named_folder(path).join(file);
+    let own = || linked::own_folder(path).map(|folder| folder.join(file)).filter(|own| own.exists());
+    if named.exists() { named } else { own().unwrap_or(named) }
+}
+
 /// The file and the path in it, if the reference is `file:/path` and the file lies in the folder of the XDMF or below.
 pub(super) fn inside_folder<'a>(path: &Path, reference: &'a str) -> Option<(PathBuf, &'a str)> {
     let (file, object) = reference.rsplit_once(":/")?;
@@ -180,5 +189,5 @@ pub(super) fn inside_folder<'a>(path: &Path, reference: &'a str) -> Option<(Path
     // A backslash or a second colon would leave the folder on some systems.
     let portable = !reference.contains(['\\']) && !file.to_string_lossy().contains(':');
     let named = file.file_name().is_some() && !object.is_empty();
-    (inside && portable && named).then(|| (path.parent().unwrap_or(Path::new("")).join(file), object))
+    (inside && portable && named).then(|| (next_to(path, file), object))
 }
