@@ -13,8 +13,10 @@ mod recovery;
 mod scene;
 mod schema;
 mod selection;
+mod shape;
 mod types;
 mod validation;
+mod whole;
 
 pub use crate::eigen::Eigensolver;
 pub use document::Notation;

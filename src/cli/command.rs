@@ -182,7 +182,7 @@ fn override_job(
     reduction: &ReductionFlags,
     output: OutputFlags,
 ) -> Result<(Job, Vec<String>)> {
-    let remarks = override_interfaces(&mut job.interfaces, interfaces(&model)?);
+    let remarks = override_interfaces(&mut job.interfaces, interfaces(&model)?)?;
     replace(&mut job.model.stiffness, model.stiffness);
     replace(&mut job.model.mass, model.mass);
     job.model.dofs = model.dofs.or(job.model.dofs);
@@ -200,7 +200,14 @@ fn override_job(
 }
 
 /// Puts the interfaces of the flags in the places of those of their names, or after all others, and says which.
-fn override_interfaces(interfaces: &mut Vec<InterfaceJob>, typed: Vec<InterfaceJob>) -> Vec<String> {
+///
+/// # Errors
+/// [`Error::InterfaceTwice`] where two flags have one name: the later one would replace the earlier one unseen.
+fn override_interfaces(interfaces: &mut Vec<InterfaceJob>, typed: Vec<InterfaceJob>) -> Result<Vec<String>> {
+    let names: Vec<&str> = typed.iter().map(|interface| interface.name.as_str()).collect();
+    if let Some(at) = (1..names.len()).find(|at| names[..*at].contains(&names[*at])) {
+        return Err(Error::InterfaceTwice { name: names[at].to_owned() });
+    }
     let n_own = interfaces.len();
     let mut put = |new: InterfaceJob| {
         let name = new.name.clone();
@@ -215,7 +222,7 @@ fn override_interfaces(interfaces: &mut Vec<InterfaceJob>, typed: Vec<InterfaceJ
             }
         }
     };
-    typed.into_iter().map(&mut put).collect()
+    Ok(typed.into_iter().map(&mut put).collect())
 }
 
 fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlags) -> Result<Job> {
