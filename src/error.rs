@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use supel_runtime::FileError;
 
-use crate::number::{bytes, quantity};
+use crate::number::{bytes, count, counted, quantity, typed};
 
 pub use code::{ErrorClass, ErrorEntry, INTERNAL_CODE, USAGE_CODE};
 pub use warning::Warning;
@@ -108,7 +108,7 @@ pub enum Error {
     },
     /// What a file holds does not fit into the memory.
     #[error(
-        "{}: what was read so far needs {} with the matrices made of it – {} are available – free memory, raise \
+        "{}: what was read so far needs {} with the matrices made of it – {} of memory is available – free memory, raise \
         run.memory_gib or reduce a smaller model",
         path.display(), bytes(*needed), bytes(*available)
     )]
@@ -221,9 +221,8 @@ pub enum Error {
     },
     /// A matrix is rectangular.
     #[error(
-        "{}:{line}: the matrix has {rows} rows and {cols} columns – expected as many of both, as stiffness and mass \
-        have",
-        path.display()
+        "{}:{line}: the matrix has {} and {} – expected as many of both, as stiffness and mass have",
+        path.display(), counted(*rows, "row", "rows"), counted(*cols, "column", "columns")
     )]
     MatrixNotSquare {
         /// The file.
@@ -249,9 +248,8 @@ pub enum Error {
     },
     /// Nearly all rows of a large matrix are empty.
     #[error(
-        "{}: a matrix of {n} rows with only {entries} entries – expected hardly any empty rows – check its size line \
-        and indices",
-        path.display()
+        "{}: a matrix of {} with only {} – expected hardly any empty rows – check its size line and indices",
+        path.display(), counted(*n, "row", "rows"), counted(*entries, "entry", "entries")
     )]
     MatrixMostlyEmpty {
         /// The file.
@@ -349,9 +347,9 @@ pub enum Error {
     },
     /// Entries of a matrix repeat a position, and the job refuses that.
     #[error(
-        "{}: {count} entries repeat a position – expected each position once, as --strict or model.duplicates = \
+        "{}: {} a position – expected each position once, as --strict or model.duplicates = \
         \"refuse\" asks – assemble the matrix, or take that back to have them added",
-        path.display()
+        path.display(), counted(*count, "entry repeats", "entries repeat")
     )]
     Duplicates {
         /// The file.
@@ -388,8 +386,8 @@ pub enum Error {
     },
     /// K and M differ in size.
     #[error(
-        "stiffness {} has {n_stiffness} rows and mass {} has {n_mass} – expected the same degrees of freedom in both",
-        stiffness.display(), mass.display()
+        "stiffness {} has {} and mass {} has {} – expected the same degrees of freedom in both",
+        stiffness.display(), counted(*n_stiffness, "row", "rows"), mass.display(), count(*n_mass as u64)
     )]
     SizeMismatch {
         /// The file of K.
@@ -414,7 +412,7 @@ pub enum Error {
         expected: &'static str,
     },
     /// A table cannot be split into rows and fields.
-    #[error("{}:{line}: a row of {found} fields – expected {expected} as in the header", path.display())]
+    #[error("{}:{line}: a row of {} – expected {expected} as in the header", path.display(), counted(*found, "field", "fields"))]
     TableRow {
         /// The file.
         path: PathBuf,
@@ -528,8 +526,8 @@ pub enum Error {
     },
     /// A dof map is longer or shorter than the matrices.
     #[error(
-        "{}: the dof map has {found} rows – expected {n}, one for each of the matrices",
-        path.display()
+        "{}: the dof map has {} – expected {}, one for each of the matrices",
+        path.display(), counted(*found, "row", "rows"), count(*n as u64)
     )]
     DofCount {
         /// The file.
@@ -560,9 +558,9 @@ pub enum Error {
     },
     /// Without a dof map, the counts do not say what the rows are.
     #[error(
-        "the matrices have {n} rows and {} lists {n_nodes} nodes – expected three or six rows a node – give a dof map \
-        (a file with `node.direction` for each row)",
-        nodes.display()
+        "the matrices have {} and {} lists {} – expected three or six rows a node – give a dof map (a file with \
+        `node.direction` for each row)",
+        counted(*n, "row", "rows"), nodes.display(), counted(*n_nodes, "node", "nodes")
     )]
     DofOrderUnknown {
         /// The file of the nodes.
@@ -698,9 +696,9 @@ pub enum Error {
     },
     /// A dataset promises more values than its stored bytes can hold.
     #[error(
-        "{}:{object}: promises {promised} – its stored bytes can hold at most {available} bytes – the file is damaged \
-        or the dataset was never written",
-        path.display()
+        "{}:{object}: promises {promised} – its stored bytes can hold at most {} – the file is damaged or \
+        the dataset was never written",
+        path.display(), counted(*available, "byte", "bytes")
     )]
     Hdf5Size {
         /// The file.
@@ -983,7 +981,7 @@ pub enum Error {
         suggestion: Option<String>,
     },
     /// A number of the job is out of range.
-    #[error("`{key}` is {value} – expected {expected}")]
+    #[error("`{key}` is {} – expected {expected}", typed(*value))]
     JobNumber {
         /// Path of the key.
         key: String,
@@ -1165,7 +1163,7 @@ pub enum Error {
         path: PathBuf,
     },
     /// The working threads could not be started.
-    #[error("{n_threads} threads cannot be started: {source} – ask for fewer with --threads")]
+    #[error("{} cannot be started: {source} – ask for fewer with --threads", counted(*n_threads, "thread", "threads"))]
     Threads {
         /// How many were asked for.
         n_threads: usize,
@@ -1242,8 +1240,9 @@ pub enum Error {
     },
     /// Rows without stiffness and mass.
     #[error(
-        "{n_rows} rows have neither stiffness nor mass – the first is row {row}{dof} – expected none – leave unused \
-        and constrained dofs out of both matrices, or drop these rows: model.drop_empty = true (reduce --drop-empty)"
+        "{} neither stiffness nor mass – the first is row {row}{dof} – expected none – leave unused \
+        and constrained dofs out of both matrices, or drop these rows: model.drop_empty = true (reduce --drop-empty)",
+        counted(*n_rows, "row has", "rows have")
     )]
     EmptyRows {
         /// How many.
@@ -1292,11 +1291,11 @@ pub enum Error {
     },
     /// Coordinates or a dof map that do not belong to K.
     #[error(
-        "the coordinates do not belong to the stiffness – it has {n_zero} motions without energy, of which the \
+        "the coordinates do not belong to the stiffness – it has {} without energy, of which the \
         coordinates explain {n_explained}; by them {motions} cost up to {} of {of}, most of it at {dof} – expected \
         below {} – check units, axes and local node frames, the order of nodes and rows, and the state that the \
         coordinates are of, or leave the nodes out",
-        quantity(*energy, 2), quantity(*expected, 2)
+        counted(*n_zero, "motion", "motions"), quantity(*energy, 2), quantity(*expected, 2)
     )]
     CoordinatesDoNotFit {
         /// Zero modes of K.
@@ -1317,11 +1316,11 @@ pub enum Error {
     /// Rotations that cost energy in a body that can move freely in every direction.
     #[error(
         "the stiffness lets the component move in every direction but not turn – {rotations} cost up to {} of the \
-        energy of the first elastic mode, most of it at {dof}, and {n_zero} motions cost none – expected free \
+        energy of the first elastic mode, most of it at {dof}, and {} none – expected free \
         rotations, because no support holds a rotation and no translation of a solid – check the dof map, the order \
         of nodes, local node frames and the state that the coordinates are of; where supports hold rotations alone, \
         list these in model.held_rotations",
-        quantity(*energy, 2)
+        quantity(*energy, 2), counted(*n_zero, "motion costs", "motions cost")
     )]
     RotationsHeld {
         /// The rotations.
@@ -1352,7 +1351,8 @@ pub enum Error {
     /// A rigid-body motion whose energy is negative beyond rounding.
     #[error(
         "a rigid-body motion has the negative energy {energy:.1e} – expected zero within {noise:.1e} – a Sturm count \
-        finds {count} eigenvalues below half of it: the stiffness is indefinite – check preload and negative springs"
+        finds {} below half of it: the stiffness is indefinite – check preload and negative springs",
+        counted(*count, "eigenvalue", "eigenvalues")
     )]
     NegativeRigidEnergy {
         /// Its Rayleigh quotient, scaled.
@@ -1401,8 +1401,9 @@ pub enum Error {
     },
     /// An interface too large for dense matrices.
     #[error(
-        "the interface has {n_interface} dofs – expected at most {limit}, because the reduced matrices are dense – \
-        take fewer interface nodes or couple their patches rigidly"
+        "the interface has {} – expected at most {}, because the reduced matrices are dense – take fewer \
+        interface nodes or couple their patches rigidly",
+        counted(*n_interface, "dof", "dofs"), count(*limit as u64)
     )]
     InterfaceTooLarge {
         /// Dofs of the interface.
@@ -1429,7 +1430,7 @@ pub enum Error {
         interface: String,
     },
     /// A group the mesh does not have.
-    #[error("interface {interface:?}: the mesh has no group {group:?} – found {} – name one of them", listed(known))]
+    #[error("interface {interface:?}: no group {group:?} – {}", groups(known))]
     UnknownGroup {
         /// The interface.
         interface: String,
@@ -1518,9 +1519,10 @@ pub enum Error {
     },
     /// Rigid patches that tie all nodes.
     #[error(
-        "interface {interface:?}: a rigid patch of {n_nodes} nodes ties the whole component – found {n_rigid} degrees \
-        of freedom for {n_rigid} rigid-body motions – expected nodes that are free to deform – leave nodes out of \
-        the patch; a rigid part needs no superelement"
+        "interface {interface:?}: a rigid patch of {} ties the whole component – found {} of freedom for \
+        as many rigid-body motions – expected nodes that are free to deform – leave nodes out of \
+        the patch; a rigid part needs no superelement",
+        counted(*n_nodes, "node", "nodes"), counted(*n_rigid, "degree", "degrees")
     )]
     WhollyRigid {
         /// The interface.
@@ -1532,8 +1534,9 @@ pub enum Error {
     },
     /// A patch that cannot move in all directions of its node.
     #[error(
-        "interface {interface:?}: its {n_rows} rows can follow only {rank} of {expected} motions of a rigid node – \
-        expected three nodes that are not in line – add nodes to the patch or list fewer dofs"
+        "interface {interface:?}: its {} can follow only {rank} of {} of a rigid node – expected three \
+        nodes that are not in line – add nodes to the patch or list fewer dofs",
+        counted(*n_rows, "row", "rows"), counted(*expected, "motion", "motions")
     )]
     PatchRank {
         /// The interface.
@@ -1547,9 +1550,10 @@ pub enum Error {
     },
     /// A body without interface that nothing holds.
     #[error(
-        "{n_floating} of the {n_bodies} bodies of the model float free of every interface – the first holds {dof} – \
+        "{n_floating} of the {} of the model float free of every interface – the first holds {dof} – \
         expected an interface node on each, or a support – add an interface node there, connect the body or leave it \
-        out"
+        out",
+        counted(*n_bodies, "body", "bodies")
     )]
     FloatingBody {
         /// How many.
@@ -1561,8 +1565,9 @@ pub enum Error {
     },
     /// The interface leaves a rigid-body motion free.
     #[error(
-        "the interface can react only {rank} of the {n_rigid} rigid-body motions{motion} – expected all – add \
-        interface nodes off that axis or give the nodes rotations"
+        "the interface can react only {rank} of the {}{motion} – expected all – add \
+        interface nodes off that axis or give the nodes rotations",
+        counted(*n_rigid, "rigid-body motion", "rigid-body motions")
     )]
     InterfaceRank {
         /// Motions it reacts.
@@ -1598,10 +1603,10 @@ pub enum Error {
     },
     /// Eigenvalues of K below zero.
     #[error(
-        "the stiffness has {count} negative eigenvalues with {}, by a Sturm count – expected none – the component is \
+        "the stiffness has {} with {}, by a Sturm count – expected none – the component is \
         preloaded beyond buckling, has negative springs, or its matrix lacks digits, which a penalty far above all \
         else takes too; reduce it at a smaller preload",
-        held_words(boundary)
+        counted(*count, "negative eigenvalue", "negative eigenvalues"), held_words(boundary)
     )]
     IndefiniteStiffness {
         /// How many.
@@ -1625,7 +1630,7 @@ pub enum Error {
     },
     /// The forecast of a comparison with the full matrices exceeds the memory there is.
     #[error(
-        "the comparison with the full matrices needs {} – {} are available – free memory, raise run.memory_gib of the \
+        "the comparison with the full matrices needs {} – {} of memory is available – free memory, raise run.memory_gib of the \
         job, or verify the file by itself",
         bytes(*needed), bytes(*available)
     )]
@@ -1644,8 +1649,9 @@ pub enum Error {
     /// Conjugate gradients did not bring a solve down to rounding.
     #[error(
         "a solve with the factor kept in single precision stays inaccurate – right-hand side {column} of its block, \
-        residual {residual:.1e} of its terms in the worst row after {steps} steps of conjugate gradients – expected \
-        {aim:.1e} – use precision = \"double\""
+        residual {residual:.1e} of its terms in the worst row after {} of conjugate gradients – expected {aim:.1e} – use \
+        precision = \"double\"",
+        counted(*steps, "step", "steps")
     )]
     NotRefined {
         /// The right-hand side, from zero.
@@ -1664,8 +1670,9 @@ pub enum Error {
     SturmPivot,
     /// Lanczos did not converge.
     #[error(
-        "the eigensolver stalled after {restarts} restarts – found {converged} converged modes – ask for another \
-        number of modes or another band, or set the other eigensolver in the job"
+        "the eigensolver stalled after {} – found {} – ask for another number of modes or another band, or set the \
+        other eigensolver in the job",
+        counted(*restarts, "restart", "restarts"), counted(*converged, "converged mode", "converged modes")
     )]
     LanczosStalled {
         /// Restarts done.
@@ -1675,8 +1682,9 @@ pub enum Error {
     },
     /// More zero-energy motions than rigid-body modes.
     #[error(
-        "the component is a mechanism – found {n_more} motions without energy in addition to the {n_rigid} rigid-body \
-        modes – expected none – close hinges and sliding joints or give them stiffness"
+        "the component is a mechanism – found {} without energy in addition to the {} – expected none – close hinges and \
+        sliding joints or give them stiffness",
+        counted(*n_more, "motion", "motions"), counted(*n_rigid, "rigid-body mode", "rigid-body modes")
     )]
     Mechanism {
         /// Rigid-body modes.
@@ -1796,6 +1804,14 @@ fn not_text(path: &Path) -> &OsStr {
     path.iter().find(|part| part.to_str().is_none()).unwrap_or(path.as_os_str())
 }
 
+/// The groups of a file of nodes; a table and some meshes have none.
+fn groups(known: &[String]) -> String {
+    match known {
+        [] => "the file of the nodes has no groups, as a table of nodes – list node labels or give a region".to_owned(),
+        _ => format!("the mesh has {} – name one of them", listed(known)),
+    }
+}
+
 /// Names for a message: the first few, and how many more there are.
 fn listed(names: &[String]) -> String {
     const SHOWN: usize = 12;
@@ -1822,7 +1838,7 @@ fn forecast(available: u64, [factors, matrices, vectors]: [u64; 3], in_single: O
         None => parts[0].2.to_owned(),
     };
     format!(
-        "the run needs {needed} – largest first: {largest_first} – {available} are available – free memory, raise \
+        "the run needs {needed} – largest first: {largest_first} – {available} of memory is available – free memory, raise \
         run.memory_gib, or {advice}"
     )
 }

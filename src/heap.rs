@@ -141,7 +141,7 @@ unsafe impl GlobalAlloc for Heap {
 
 fn given(block: *mut u8, size: usize) -> *mut u8 {
     if block.is_null() && !IS_HANDLED.try_with(Cell::get).unwrap_or(false) {
-        end(size);
+        end(Missing::Bytes(size));
     }
     block
 }
@@ -172,9 +172,32 @@ pub fn end_once() {
 #[cfg(not(unix))]
 pub fn end_once() {}
 
+/// What could not be allocated.
+#[derive(Clone, Copy)]
+enum Missing {
+    /// So many bytes for this program.
+    Bytes(usize),
+    /// Bytes that a library asked for.
+    OfLibrary,
+}
+
+impl std::fmt::Display for Missing {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Bytes(size) => write!(f, "{size} bytes"),
+            Self::OfLibrary => f.write_str("what a library needs"),
+        }
+    }
+}
+
+/// Ends a process that a library ends because it has no memory as this program does.
+pub(crate) fn end_of_library() -> ! {
+    end(Missing::OfLibrary)
+}
+
 /// Says that there is no memory, removes what was being written, and ends the process.
 #[cold]
-fn end(size: usize) -> ! {
+fn end(missing: Missing) -> ! {
     if IS_ENDING.swap(true, Ordering::SeqCst) {
         // Another thread without memory gives the first one time to end the process. The first one comes here again where the
         // removal of a file needs memory, for a long name: the next run names that file.
@@ -183,11 +206,11 @@ fn end(size: usize) -> ! {
     }
     match LAST_WORDS.try_lock() {
         Ok(words) => {
-            say(size, words.stage, words.document);
+            say(missing, words.stage, words.document);
             words.parts.iter().flatten().for_each(|part| drop(std::fs::remove_file(part)));
         }
         // Only another thread that notes something at this moment can hold it.
-        Err(_) => say(size, "unknown", Document::None),
+        Err(_) => say(missing, "unknown", Document::None),
     }
     exit_now()
 }
@@ -196,11 +219,11 @@ fn end(size: usize) -> ! {
 const NO_MEMORY: Error = Error::OutOfMemory { what: "" };
 
 /// The line on stderr and, where it was promised, the document on stdout.
-fn say(size: usize, stage: &str, document: Document) {
+fn say(missing: Missing, stage: &str, document: Document) {
     let (code, exit) = (NO_MEMORY.code(), NO_MEMORY.class() as u8);
     let mut text = Text { bytes: [0; 512], length: 0 };
     let message = format_args!(
-        "out of memory – {size} bytes could not be allocated in the stage `{stage}` – free memory or reduce a smaller model"
+        "out of memory – {missing} could not be allocated in the stage `{stage}` – free memory or reduce a smaller model"
     );
     let _ = writeln!(text, "supel: error[{code}]: {message}");
     write_now(2, text.written());

@@ -5,6 +5,7 @@
 
 mod document;
 mod interface;
+mod location;
 mod method;
 mod ranges;
 mod reading;
@@ -12,12 +13,15 @@ mod recovery;
 mod scene;
 mod schema;
 mod selection;
+mod shape;
 mod types;
 mod validation;
+mod whole;
 
 pub use crate::eigen::Eigensolver;
 pub use document::Notation;
 pub use interface::{Coupling, InterfaceJob, NodeSelection, Origin, Region};
+pub use location::Holder;
 pub use method::{Boundary, Columns, Method};
 pub use recovery::RecoveryJob;
 pub use scene::{DampingJob, SceneJob, Support};

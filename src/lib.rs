@@ -75,7 +75,7 @@
 //! here, because it looks at the raw matrices with the tools of the stages after it.
 //!
 //! ```text
-//! number · dofs · error · heap · regular_file · random · dense · sparse
+//! number · dofs · error · heap · foreign_exit · regular_file · linked · random · dense · sparse
 //! factor · eigen
 //! job · input · model · partition · rigid · coordinates · constraint · modes · basis · reduction
 //! memory_forecast · verification · audit
@@ -105,9 +105,11 @@ pub mod dofs;
 pub mod eigen;
 pub mod error;
 pub mod factor;
+pub mod foreign_exit;
 pub mod heap;
 pub mod input;
 pub mod job;
+mod linked;
 pub mod memory_forecast;
 pub mod model;
 pub mod modes;

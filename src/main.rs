@@ -9,5 +9,6 @@ fn main() -> std::process::ExitCode {
     // An allocator that refuses is slower, no less right.
     supel::heap::keep_large_blocks();
     supel::heap::end_once();
+    let _until_the_end = supel::foreign_exit::watch();
     supel::cli::main(supel::cli::Pipeline { reduce: supel::reduce, verify: supel::verify }, stdout::state())
 }

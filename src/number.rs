@@ -13,9 +13,10 @@ pub(crate) fn count(number: u64) -> String {
     text
 }
 
-/// `1 body`, `2 bodies`.
-pub(crate) fn counted(number: usize, one: &str, many: &str) -> String {
-    format!("{} {}", count(number as u64), if number == 1 { one } else { many })
+/// `1 body`, `2 bodies`: every number with a noun in a message is written by this. A verb goes with its noun, as in `1 row has`.
+pub(crate) fn counted(number: impl TryInto<u64>, one: &str, many: &str) -> String {
+    let number = number.try_into().unwrap_or(u64::MAX);
+    format!("{} {}", count(number), if number == 1 { one } else { many })
 }
 
 /// A quantity with about `digits` significant digits, in plain notation where that is short.
@@ -30,6 +31,12 @@ pub(crate) fn quantity(value: f64, digits: usize) -> String {
     let decimals = usize::try_from(digits as i32 - 1 - decade).unwrap_or(0);
     let text = format!("{value:.decimals$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+/// A number as a person would type it: `0.25`, and `1e300` rather than three hundred zeros.
+pub(crate) fn typed(value: f64) -> String {
+    let (plain, power) = (format!("{value}"), format!("{value:e}"));
+    if plain.len() <= power.len().max(9) { plain } else { power }
 }
 
 /// `1.2e-09` with the exponent's sign and two digits, so that columns align.
@@ -102,6 +109,7 @@ mod tests {
         assert_eq!(quantity(41.2, 6), "41.2");
         assert_eq!(quantity(1.234e-3, 6), "0.001234");
         assert_eq!(quantity(-2.5e-9, 3), "-2.50e-09");
+        assert_eq!([0.25, -5.0, 1e300, 1e-9].map(typed), ["0.25", "-5", "1e300", "1e-9"]);
         assert_eq!(scientific(1.25e-13, 2), "1.2e-13");
         assert_eq!(scientific(f64::INFINITY, 2), "∞");
         assert_eq!(bytes(999), "999 bytes");

@@ -73,6 +73,13 @@ fn identity(_: &Metadata) -> (u64, u64) {
     (0, 0)
 }
 
+/// Whether a file that begins with these bytes is text in UTF-16, which some editors and shells write: by its byte order mark, or by every
+/// other byte, which is zero in the letters of a format.
+pub(crate) fn is_utf16(head: &[u8]) -> bool {
+    let is_marked = head.starts_with(b"\xff\xfe") || head.starts_with(b"\xfe\xff");
+    is_marked || matches!(head, [b' '..=b'~', 0, b' '..=b'~', 0, ..] | [0, b' '..=b'~', 0, b' '..=b'~', ..])
+}
+
 /// BLAKE3 digest of a file's bytes, lower-case hexadecimal.
 pub(crate) fn digest(path: &Path) -> Result<String> {
     let mut hasher = blake3::Hasher::new();

@@ -150,6 +150,24 @@ fn a_mesh_in_xml_that_is_not_utf_8() {
     assert_eq!((error.code(), error.class()), ("E-UTF8", ErrorClass::InputData));
 }
 
+/// A file called XDMF without an HDF5 signature is told about XML: in UTF-16, or empty.
+#[test]
+fn a_mesh_in_xml_of_another_encoding_or_empty() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mesh.xdmf");
+    let text: Vec<u8> = "\u{feff}<Xdmf/>".encode_utf16().flat_map(u16::to_be_bytes).collect();
+    for (bytes, code, words) in [(&text[..], "E-FORMAT", "text in UTF-16"), (b"", "E-XDMF", "not well-formed XML")] {
+        fs::write(&path, bytes).unwrap();
+        let error = read_nodes(&path).unwrap_err();
+        assert_eq!(error.code(), code, "{error}");
+        assert!(error.to_string().contains(words), "{error}");
+    }
+    // A document is quoted, not repeated.
+    let numbers = "0.5 0.25 0.125 ".repeat(1000);
+    let error = xdmf(&geometry("XYZ", "HDF", &format!("../x.h5:/x {numbers}"))).unwrap_err();
+    assert!(matches!(error, Error::XdmfReference { .. }) && error.to_string().len() < 300, "{error}");
+}
+
 #[test]
 fn every_convention_gives_the_same_matrices() {
     for (file, k, m) in [
@@ -626,6 +644,21 @@ fn an_xdmf_reference_out_of_the_folder_is_refused() {
         assert!(matches!(error, Error::XdmfReference { .. }), "{reference}: {error}");
     }
     assert!(xdmf(&geometry("XYZ", "HDF", " ./mesh.h5:/data0\n")).is_ok());
+}
+
+/// Through a link to the document alone: the data are where the document is, unless the folder of the link has such a file.
+#[cfg(unix)]
+#[test]
+fn xdmf_through_a_link_finds_its_data() {
+    let (own, named) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    fs::copy(fixture("mesh.h5"), own.path().join("mesh.h5")).unwrap();
+    fs::write(own.path().join("mesh.xdmf"), geometry("XYZ", "HDF", "mesh.h5:/data0")).unwrap();
+    let link = named.path().join("link.xdmf");
+    std::os::unix::fs::symlink(own.path().join("mesh.xdmf"), &link).unwrap();
+    assert_eq!(read_nodes(&link).unwrap().labels.len(), 12);
+    fs::write(named.path().join("mesh.h5"), b"another").unwrap();
+    let error = read_nodes(&link).unwrap_err();
+    assert!(matches!(&error, Error::Hdf5Signature { path, .. } if path.starts_with(named.path())), "{error}");
 }
 
 #[test]

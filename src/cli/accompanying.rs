@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use supel_runtime::Superelement;
 
+use crate::linked;
 use crate::regular_file;
 use crate::verification::check::{Check, Limits};
 
@@ -17,8 +18,7 @@ const MAX_BYTES: u64 = 1 << 28;
 
 /// M-26: the report carries the digest of the superelement; none where there is no report.
 pub(super) fn check(file: &Path, superelement: &Superelement, digest: &str) -> Option<Check> {
-    let path = report_path(file, superelement)?;
-    let report = read(&path)?;
+    let (path, report) = reports(file, superelement).find_map(|path| read(&path).map(|report| (path, report)))?;
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let difference = match report["run"]["file_digest"].as_str() {
         Some(recorded) if recorded == digest => None,
@@ -37,12 +37,15 @@ pub(super) fn check(file: &Path, superelement: &Superelement, digest: &str) -> O
     })
 }
 
-/// Where the report of a run stands if it was not moved: under the name that the job kept in the file gives it. What else that job says
-/// of folders is not followed.
-fn report_path(file: &Path, superelement: &Superelement) -> Option<PathBuf> {
-    let asked = superelement.metadata().job["write"]["report"].as_str().map(Path::new);
-    let name = asked.map_or_else(|| file.with_extension("report.json"), Path::to_owned);
-    Some(file.with_file_name(name.file_name()?))
+/// Where the report of a run stands if it was not moved: under the name that the job kept in the file gives it, next to the file itself,
+/// or next to the link through which it was reached. What else that job says of folders is not followed.
+fn reports(file: &Path, superelement: &Superelement) -> impl Iterator<Item = PathBuf> {
+    let asked = superelement.metadata().job["write"]["report"].as_str().map(PathBuf::from);
+    let next_to = move |file: PathBuf| {
+        let name = asked.clone().unwrap_or_else(|| file.with_extension("report.json"));
+        Some(file.with_file_name(name.file_name()?))
+    };
+    linked::target(file).into_iter().chain([file.to_owned()]).filter_map(next_to)
 }
 
 /// The document, if it is a report.

@@ -33,7 +33,7 @@ pub(super) struct ReduceCommand {
     pub(super) answer: Answer,
     pub(super) unverified: Unverified,
     pub(super) strictness: Strictness,
-    /// What the flags did to the interfaces of the document.
+    /// From which folder the paths of the document count, and what the flags did to its interfaces.
     pub(super) remarks: Vec<String>,
 }
 
@@ -43,6 +43,8 @@ pub(super) struct VerifyCommand {
     pub(super) file: PathBuf,
     /// The model to compare with: checked, paths absolute.
     pub(super) job: Option<Job>,
+    /// What is to be said of the folder from which its paths count.
+    pub(super) remark: Option<String>,
     pub(super) rerun: Rerun,
     pub(super) threads: Threads,
     pub(super) answer: Answer,
@@ -128,9 +130,11 @@ impl Command {
 }
 
 fn build_verify(flags: VerifyFlags) -> Result<VerifyCommand> {
+    let (job, remark) = flags.job.as_deref().map(Job::read_and_remark).transpose()?.unzip();
     Ok(VerifyCommand {
         file: flags.file,
-        job: flags.job.as_deref().map(Job::read).transpose()?,
+        job,
+        remark: remark.flatten(),
         rerun: if flags.reproduce { Rerun::Compared } else { Rerun::No },
         threads: Threads::of(flags.threads),
         answer: match (flags.json, flags.quiet) {
@@ -152,7 +156,11 @@ fn build_reduce(flags: ReduceFlags) -> Result<ReduceCommand> {
     let unverified = if output.allow_unverified { Unverified::Written } else { Unverified::Refused };
     let strictness = if output.strict { Strictness::Strict } else { Strictness::Normal };
     let (mut job, remarks) = match &document {
-        Some(path) => override_job(Job::read(path)?, model, &reduction, output)?,
+        Some(path) => {
+            let (job, remark) = Job::read_and_remark(path)?;
+            let (job, of_interfaces) = override_job(job, model, &reduction, output)?;
+            (job, remark.into_iter().chain(of_interfaces).collect())
+        }
         None => (one_off_job(model, &reduction, output)?, Vec::new()),
     };
     if strictness == Strictness::Strict {
@@ -174,7 +182,7 @@ fn override_job(
     reduction: &ReductionFlags,
     output: OutputFlags,
 ) -> Result<(Job, Vec<String>)> {
-    let remarks = override_interfaces(&mut job.interfaces, interfaces(&model)?);
+    let remarks = override_interfaces(&mut job.interfaces, interfaces(&model)?)?;
     replace(&mut job.model.stiffness, model.stiffness);
     replace(&mut job.model.mass, model.mass);
     job.model.dofs = model.dofs.or(job.model.dofs);
@@ -192,7 +200,14 @@ fn override_job(
 }
 
 /// Puts the interfaces of the flags in the places of those of their names, or after all others, and says which.
-fn override_interfaces(interfaces: &mut Vec<InterfaceJob>, typed: Vec<InterfaceJob>) -> Vec<String> {
+///
+/// # Errors
+/// [`Error::InterfaceTwice`] where two flags have one name: the later one would replace the earlier one unseen.
+fn override_interfaces(interfaces: &mut Vec<InterfaceJob>, typed: Vec<InterfaceJob>) -> Result<Vec<String>> {
+    let names: Vec<&str> = typed.iter().map(|interface| interface.name.as_str()).collect();
+    if let Some(at) = (1..names.len()).find(|at| names[..*at].contains(&names[*at])) {
+        return Err(Error::InterfaceTwice { name: names[at].to_owned() });
+    }
     let n_own = interfaces.len();
     let mut put = |new: InterfaceJob| {
         let name = new.name.clone();
@@ -207,7 +222,7 @@ fn override_interfaces(interfaces: &mut Vec<InterfaceJob>, typed: Vec<InterfaceJ
             }
         }
     };
-    typed.into_iter().map(&mut put).collect()
+    Ok(typed.into_iter().map(&mut put).collect())
 }
 
 fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlags) -> Result<Job> {

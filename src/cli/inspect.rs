@@ -1,7 +1,5 @@
 //! `supel inspect`: what is in a superelement file.
 
-use std::path::Path;
-
 use serde_json::{Value, json};
 use supel_runtime::{Coordinate, FORMAT_VERSION, Superelement, file_bytes};
 
@@ -10,6 +8,7 @@ use super::command::{InspectAnswer, InspectCommand};
 use super::exit_code::ExitCode;
 use super::verify::job_of_file;
 use crate::error::{Error, Result, json_value};
+use crate::job::Job;
 use crate::regular_file;
 use crate::report::{inspection, value_text};
 
@@ -23,16 +22,19 @@ pub(super) fn run(command: &InspectCommand, terminal: &mut Terminal<'_>) -> Resu
     let text = match command.answer {
         InspectAnswer::Text => inspection(&superelement, file_bytes as u64, terminal.paint),
         InspectAnswer::Json => value_text(&document(&superelement)?),
-        InspectAnswer::Job => value_text(&job(&superelement, &command.file)?),
+        InspectAnswer::Job => {
+            let (job, remark) = job_of_file(&superelement, &command.file)?;
+            remark.iter().for_each(|remark| terminal.complain(remark));
+            value_text(&document_of(&job)?)
+        }
     };
     terminal.answer(&text);
     Ok(ExitCode::Done)
 }
 
-/// The job kept in the file. Its paths, which are relative to the folder of the file there, are absolute here, so that the answer is a job
-/// in whatever folder it is written to.
-fn job(superelement: &Superelement, path: &Path) -> Result<Value> {
-    json_value("the job", &job_of_file(superelement, path)?)
+/// The job kept in the file as a document. Its paths are absolute, so that the answer is a job in whatever folder it is written to.
+fn document_of(job: &Job) -> Result<Value> {
+    json_value("the job", job)
 }
 
 /// Everything but the matrices.

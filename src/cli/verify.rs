@@ -15,7 +15,7 @@ use super::{accompanying, memory, process};
 use crate::audit::{self, Audit};
 use crate::error::{Error, Result};
 use crate::input::Cells;
-use crate::job::Job;
+use crate::job::{Holder, Job};
 use crate::memory_forecast::Resources;
 use crate::regular_file;
 use crate::report::{Against, Reproduction, VerificationReport};
@@ -30,6 +30,7 @@ pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Te
         Rerun::No => None,
         Rerun::Compared => Some(job_to_run(command, &superelement)?),
     };
+    let (rerun, remark) = rerun.map_or((None, None), |(job, remark)| (Some(job), remark));
     let resources = Resources { memory_bytes: memory::available_bytes() };
     let to_read = command.job.as_ref().or(rerun.as_ref());
     let rehearsed = match to_read.filter(|_| terminal.program == Program::Supel) {
@@ -37,6 +38,7 @@ pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Te
         None => Rehearsed::Nothing,
     };
     if command.answer != Answer::Nothing {
+        remark.iter().chain(&command.remark).for_each(|remark| terminal.complain(remark));
         terminal.tell_threads(command.threads);
     }
     let threads = process::threads(command.threads.used)?;
@@ -70,27 +72,27 @@ pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Te
     })
 }
 
-/// The job that is run again: the one given, or the one kept in the file, with its paths relative to the file's folder.
-fn job_to_run(command: &VerifyCommand, superelement: &Superelement) -> Result<Job> {
+/// The job that is run again: the one given, or the one kept in the file with what is to be said of its paths.
+fn job_to_run(command: &VerifyCommand, superelement: &Superelement) -> Result<(Job, Option<String>)> {
     if !audit::is_of_this_version(superelement) {
         let generator = &superelement.metadata().generator;
         let found = format!("{} {}", generator.name, generator.version);
         return Err(Error::OtherVersion { path: command.file.clone(), found });
     }
     if let Some(job) = &command.job {
-        return Ok(job.clone());
+        return Ok((job.clone(), None));
     }
     job_of_file(superelement, &command.file)
 }
 
-/// The job kept in the file at `path`, with its paths absolute.
+/// The job kept in the file at `path`, with its paths absolute, and what is to be said of the folder from which they count.
 ///
 /// # Errors
-/// [`Error::KeptJob`] where it is none of this version; those of [`Job::validate`] and [`Job::resolve`].
-pub(super) fn job_of_file(superelement: &Superelement, path: &Path) -> Result<Job> {
+/// [`Error::KeptJob`] where it is none of this version; those of [`Job::validate`] and [`Job::located`].
+pub(super) fn job_of_file(superelement: &Superelement, path: &Path) -> Result<(Job, Option<String>)> {
     let kept = audit::kept_job(superelement).ok_or_else(|| Error::KeptJob { path: path.to_owned() })?;
     kept.validate()?;
-    kept.resolve(path.parent().unwrap_or(Path::new("")))
+    kept.located(path, Holder::Superelement)
 }
 
 /// An audit with what running the job again has shown: where the bytes are the same, it vouches for every field but the job

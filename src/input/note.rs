@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::dofs::Dof;
+use crate::number::counted;
 use crate::sparse::Triangle;
 
 /// A remark on the input that is not an error. Its text is one line for the report.
@@ -103,7 +104,8 @@ impl fmt::Display for InputNote {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Duplicates { path, count } => {
-                write!(f, "{}: {count} entries repeat a position and were added to it", file_name(path))
+                let entries = counted(*count, "entry repeats", "entries repeat");
+                write!(f, "{}: {entries} a position: what stands at one position was added up", file_name(path))
             }
             Self::Mirrored { path } => {
                 write!(
@@ -119,14 +121,17 @@ impl fmt::Display for InputNote {
                 };
                 write!(
                     f,
-                    "{}: the {kept} triangle was taken for both as asked; {n_differing} positions {other} the diagonal differ \
-                     from it and were left out",
-                    file_name(path)
+                    "{}: the {kept} triangle was taken for both as asked; what stands at {} {other} the diagonal \
+                     differs from it and was left out",
+                    file_name(path),
+                    counted(*n_differing, "position", "positions")
                 )
             }
             Self::EmptyRowsDropped { count, row, dof } => {
                 let dof = dof.map(|dof| format!(", {dof}")).unwrap_or_default();
-                write!(f, "{count} rows without stiffness and mass were dropped as asked; the first is row {row}{dof}")
+                let rows =
+                    counted(*count, "row without stiffness and mass was", "rows without stiffness and mass were");
+                write!(f, "{rows} dropped as asked; the first is row {row}{dof}")
             }
             Self::LastRowEmpty { path, n } => {
                 write!(
@@ -136,7 +141,8 @@ impl fmt::Display for InputNote {
                 )
             }
             Self::OrderFromIndices { path, n } => {
-                write!(f, "{}: no size line; the largest index makes it a matrix of {n} rows", file_name(path))
+                let rows = counted(*n, "row", "rows");
+                write!(f, "{}: no size line; the largest index makes it a matrix of {rows}", file_name(path))
             }
             Self::Extended { path, from, to } => {
                 write!(
@@ -152,7 +158,9 @@ impl fmt::Display for InputNote {
             Self::DefaultOrder { dofs_per_node, nodes } => {
                 write!(f, "no dof map: rows are taken as {dofs_per_node} a node, in the order of {}", file_name(nodes))
             }
-            Self::UnusedNodes { path, count } => write!(f, "{}: {count} nodes have no row", file_name(path)),
+            Self::UnusedNodes { path, count } => {
+                write!(f, "{}: {} no row", file_name(path), counted(*count, "node has", "nodes have"))
+            }
         }
     }
 }

@@ -29,6 +29,9 @@ const FROM_DECK: &str =
 /// What to do where numbers of Python were given for a table.
 const AS_TABLE: &str = "write the numbers as a table with the header node,x,y,z, or as node.direction for each row";
 
+/// What to do with text in another encoding.
+const AS_UTF8: &str = "write it as UTF-8 (in PowerShell: Get-Content FILE | Set-Content -Encoding utf8 NEW)";
+
 /// A format that is not read.
 struct Foreign {
     /// Whether a file begins as one of it does.
@@ -39,7 +42,8 @@ struct Foreign {
 }
 
 /// The formats, the more particular first.
-const FORMATS: [Foreign; 8] = [
+const FORMATS: [Foreign; 9] = [
+    Foreign { begins: regular_file::is_utf16, found: "text in UTF-16", for_matrix: AS_UTF8, for_table: AS_UTF8 },
     Foreign {
         begins: |start| start.head.starts_with(b"PK") && start.holds(b".npy"),
         found: "a NumPy archive (.npz)",

@@ -1,18 +1,15 @@
 //! The job document: TOML or JSON, every key known, every mistake located.
 //!
-//! Keys are checked before values are read, because the place and the nearest known key tell a user more than the
-//! list of expected keys that a deserialiser gives.
+//! Keys and kinds of values are checked before values are read, see [`shape`]: the words of a deserialiser are those of its author.
 
 use std::io::Read;
 use std::path::Path;
 
-use super::schema::{self, Allowed};
+use super::shape::{self, Entry, Leaf, Tree};
 use super::types::Job;
+use super::whole;
 use crate::error::{Error, Result};
 use crate::regular_file;
-
-/// Above this Jaro-Winkler similarity a known key is offered for an unknown one; below it the offer would be noise.
-const SIMILAR: f64 = 0.75;
 
 /// How a job document is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,7 +46,12 @@ pub(super) fn text_of(path: &Path) -> Result<String> {
     }
     String::from_utf8(bytes).map_err(|fault| {
         let at = fault.utf8_error().valid_up_to();
-        wrong(format!("byte {at} is not UTF-8 text; expected a job document in TOML or JSON"))
+        let found = if regular_file::is_utf16(fault.as_bytes()) {
+            "text in UTF-16".to_owned()
+        } else {
+            format!("byte {at} is not UTF-8 text")
+        };
+        wrong(format!("{found} – expected a job document in TOML or JSON – write the file as UTF-8"))
     })
 }
 
@@ -57,147 +59,86 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<Job> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     match Notation::of(text, path) {
         Notation::Toml => {
-            let failure = |error: toml::de::Error| toml_failure(&error, text, path);
-            let table = toml::de::DeTable::parse(text).map_err(failure)?;
-            check_keys(&toml_table(table.get_ref(), text), path)?;
-            toml::from_str(text).map_err(failure)
+            let failure = |what: &str, error: toml::de::Error| toml_failure(what, &error, text, path);
+            let table = toml::de::DeTable::parse(text).map_err(|error| failure("this is no TOML: ", error))?;
+            shape::check(&toml_table(table.get_ref(), text), path)?;
+            toml::from_str(text).map_err(|error| failure("", error))
         }
         Notation::Json => {
-            let failure = |error: serde_json::Error| json_failure(&error, path);
-            let value: serde_json::Value = serde_json::from_str(text).map_err(failure)?;
-            check_keys(&json_tree(&value), path)?;
-            serde_json::from_str(text).map_err(failure)
+            let failure = |what: &str, error: serde_json::Error| json_failure(what, &error, path);
+            let value: serde_json::Value =
+                serde_json::from_str(text).map_err(|error| failure("this is no JSON: ", error))?;
+            shape::check(&json_tree(&value), path)?;
+            serde_json::from_str(text).map_err(|error| failure("", error))
         }
     }
 }
 
-/// The shape of a document: its tables, lists and keys, without the values.
-enum Tree {
-    Table(Vec<Entry>),
-    List(Vec<Tree>),
-    /// JSON's `null`, which a deserialiser takes for a key that is left out.
-    Null,
-    Leaf,
-}
-
-struct Entry {
-    key: String,
-    line: Option<usize>,
-    value: Tree,
-}
-
-fn toml_table(table: &toml::de::DeTable<'_>, text: &str) -> Tree {
-    let entry = |(key, value): (&toml::Spanned<_>, &toml::Spanned<toml::de::DeValue<'_>>)| {
-        let name: &toml::de::DeString<'_> = key.get_ref();
-        let line = Some(line_at(text, key.span().start));
-        Entry { key: name.to_string(), line, value: toml_value(value.get_ref(), text) }
-    };
-    let mut entries: Vec<Entry> = table.iter().map(entry).collect();
+fn toml_table<'a>(table: &'a toml::de::DeTable<'_>, text: &str) -> Tree<'a> {
+    let entry =
+        |(key, value): (&'a toml::Spanned<toml::de::DeString<'_>>, &'a toml::Spanned<toml::de::DeValue<'_>>)| {
+            let line = Some(line_at(text, key.span().start));
+            Entry { key: key.get_ref(), line, value: toml_value(value.get_ref(), text) }
+        };
+    let mut entries: Vec<Entry<'a>> = table.iter().map(entry).collect();
     // The table is sorted by key; the first mistake of the document is the one to report.
     entries.sort_by_key(|entry| entry.line);
     Tree::Table(entries)
 }
 
-fn toml_value(value: &toml::de::DeValue<'_>, text: &str) -> Tree {
-    match value {
-        toml::de::DeValue::Table(table) => toml_table(table, text),
-        toml::de::DeValue::Array(items) => {
-            Tree::List(items.iter().map(|item| toml_value(item.get_ref(), text)).collect())
+fn toml_value<'a>(value: &'a toml::de::DeValue<'_>, text: &str) -> Tree<'a> {
+    use toml::de::DeValue::{Array, Boolean, Datetime, Float, Integer, String, Table};
+    Tree::Leaf(match value {
+        Table(table) => return toml_table(table, text),
+        Array(items) => return Tree::List(items.iter().map(|item| toml_value(item.get_ref(), text)).collect()),
+        String(text) => Leaf::Text(text),
+        Integer(number) => {
+            let whole = i64::from_str_radix(number.as_str(), number.radix()).ok();
+            Leaf::Number { written: number, whole }
         }
-        _ => Tree::Leaf,
-    }
-}
-
-fn json_tree(value: &serde_json::Value) -> Tree {
-    match value {
-        serde_json::Value::Object(map) => Tree::Table(
-            map.iter().map(|(key, value)| Entry { key: key.clone(), line: None, value: json_tree(value) }).collect(),
-        ),
-        serde_json::Value::Array(items) => Tree::List(items.iter().map(json_tree).collect()),
-        serde_json::Value::Null => Tree::Null,
-        _ => Tree::Leaf,
-    }
-}
-
-fn check_keys(tree: &Tree, path: &Path) -> Result<()> {
-    Keys { schema: schema::schema(), path }.check(tree, "", (None, ""))
-}
-
-/// The keys that the types of a job have, and what may stand at them.
-///
-/// A deserialiser would take a list for a table and give its elements to the keys in their order, which nobody means, or leave out what
-/// stands behind the third coordinate of a point.
-struct Keys<'a> {
-    schema: serde_json::Value,
-    path: &'a Path,
-}
-
-impl Keys<'_> {
-    /// `pattern` is the place with `[]` for every list, `place` the same with element numbers; `line` is that of its key.
-    fn check(&self, tree: &Tree, pattern: &str, (line, place): (Option<usize>, &str)) -> Result<()> {
-        let wrong = |found: &str, expected: &str| {
-            let name = if place.is_empty() { "the job".to_owned() } else { format!("`{place}`") };
-            let message = format!("{name} is {found} – expected {expected}");
-            Err(Error::JobSyntax { path: self.path.to_owned(), line, message })
-        };
-        if matches!(tree, Tree::Leaf) {
-            return Ok(());
+        Float(number) => {
+            let whole = number.as_str().parse().ok().and_then(whole::of_real);
+            Leaf::Number { written: number, whole }
         }
-        let Allowed { keys, longest_list } = schema::allowed(&self.schema, pattern);
-        match (tree, keys) {
-            (Tree::Leaf, _) => Ok(()),
-            (Tree::Null, _) => wrong("null", "a value, or the key left out"),
-            (Tree::List(_), Some(known)) if longest_list.is_none() => {
-                wrong("a list", &format!("a table with keys of {}", known.join(", ")))
-            }
-            (Tree::List(items), _) if longest_list.is_some_and(|longest| items.len() > longest) => {
-                wrong(&format!("a list of {}", items.len()), &format!("{}", longest_list.unwrap_or_default()))
-            }
-            (Tree::List(items), _) => items.iter().enumerate().try_for_each(|(item_idx, item)| {
-                self.check(item, &format!("{pattern}[]"), (line, &format!("{place}[{item_idx}]")))
-            }),
-            (Tree::Table(_), None) => wrong("a table", "a text, a number, a list or a word, as docs/job.md says"),
-            (Tree::Table(entries), Some(known)) => entries.iter().try_for_each(|entry| {
-                let here = join(place, &entry.key);
-                if !known.contains(&entry.key) {
-                    let (path, suggestion) = (self.path.to_owned(), nearest(&entry.key, &known));
-                    return Err(Error::JobKey { path, line: entry.line, key: here, suggestion });
-                }
-                self.check(&entry.value, &join(pattern, &entry.key), (entry.line.or(line), &here))
-            }),
+        Boolean(truth) => Leaf::Truth(*truth),
+        Datetime(date) => Leaf::Date(date),
+    })
+}
+
+fn json_tree(value: &serde_json::Value) -> Tree<'_> {
+    use serde_json::Value::{Array, Bool, Null, Number, Object, String};
+    Tree::Leaf(match value {
+        Object(map) => {
+            let entry = |(key, value)| Entry { key, line: None, value: json_tree(value) };
+            return Tree::Table(map.iter().map(|(key, value)| (key.as_str(), value)).map(entry).collect());
         }
-    }
+        Array(items) => return Tree::List(items.iter().map(json_tree).collect()),
+        Null => return Tree::Null,
+        String(text) => Leaf::Text(text),
+        Bool(truth) => Leaf::Truth(*truth),
+        Number(number) => {
+            let whole =
+                number.as_i64().or_else(|| number.as_f64().filter(|_| number.is_f64()).and_then(whole::of_real));
+            Leaf::Number { written: number, whole }
+        }
+    })
 }
 
-fn join(place: &str, key: &str) -> String {
-    if place.is_empty() { key.to_owned() } else { format!("{place}.{key}") }
-}
-
-fn nearest(key: &str, known: &[String]) -> Option<String> {
-    let key = key.to_lowercase();
-    known
-        .iter()
-        .map(|candidate| (strsim::jaro_winkler(&key, candidate), candidate))
-        .filter(|(similarity, _)| *similarity >= SIMILAR)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, candidate)| candidate.clone())
-}
-
-fn toml_failure(error: &toml::de::Error, text: &str, path: &Path) -> Error {
+fn toml_failure(what: &str, error: &toml::de::Error, text: &str, path: &Path) -> Error {
     Error::JobSyntax {
         path: path.to_owned(),
         line: error.span().map(|span| line_at(text, span.start)),
-        message: error.message().replace('\n', ", "),
+        message: what.to_owned() + &error.message().replace('\n', ", "),
     }
 }
 
-fn json_failure(error: &serde_json::Error, path: &Path) -> Error {
+fn json_failure(what: &str, error: &serde_json::Error, path: &Path) -> Error {
     let text = error.to_string();
     let place = format!(" at line {} column {}", error.line(), error.column());
     Error::JobSyntax {
         path: path.to_owned(),
         line: (error.line() > 0).then_some(error.line()),
-        message: text.strip_suffix(&place).unwrap_or(&text).to_owned(),
+        message: what.to_owned() + text.strip_suffix(&place).unwrap_or(&text),
     }
 }
 

@@ -3,6 +3,7 @@
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, de};
 
+use super::whole;
 use crate::dofs::Direction;
 
 /// One interface node of the superelement, or a set of nodes that all become interface nodes.
@@ -32,7 +33,7 @@ pub struct InterfaceJob {
 #[schemars(deny_unknown_fields)]
 pub enum NodeSelection {
     /// `"group:HUB"`, the name of a group with its leading word.
-    Group(#[schemars(regex(pattern = "^group:.+"))] String),
+    Group(#[schemars(regex(pattern = "^group:.+"), extend("examples" = ["group:HUB"]))] String),
     /// `[412, 413]`, labels of nodes.
     Labels(#[schemars(length(min = 1), extend("uniqueItems" = true))] Vec<i64>),
     /// `{ within = … }`.
@@ -162,6 +163,7 @@ impl NodeSelection {
 #[serde(deny_unknown_fields)]
 struct SelectionTable {
     within: Option<Region>,
+    #[serde(default, deserialize_with = "whole::sizes")]
     rows: Option<Vec<usize>>,
 }
 
@@ -186,7 +188,7 @@ impl<'de> de::Visitor<'de> for SelectionVisitor {
     }
 
     fn visit_seq<A: de::SeqAccess<'de>>(self, labels: A) -> Result<Self::Value, A::Error> {
-        Vec::deserialize(de::value::SeqAccessDeserializer::new(labels)).map(NodeSelection::Labels)
+        whole::labels(de::value::SeqAccessDeserializer::new(labels)).map(NodeSelection::Labels)
     }
 
     fn visit_map<A: de::MapAccess<'de>>(self, table: A) -> Result<Self::Value, A::Error> {

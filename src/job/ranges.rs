@@ -1,12 +1,30 @@
 //! Ranges of the numbers of a job.
+//!
+//! Lengths, masses, frequencies and shares of damping are multiplied with each other, squared among them, before they meet stiffness and mass.
+//! Four factors between 1e-48 and 1e48 stay between 1e-192 and 1e192, which leaves more than a hundred powers of ten on either
+//! side for stiffness and mass. Coordinates in files have the same range, in powers of two (E-NODE-RANGE).
 
 use crate::error::{Error, Result};
 
-const POSITIVE: &str = "a positive number";
-const FINITE: &str = "a finite number";
+/// The smallest size of a number that is multiplied with others.
+pub(super) const SMALLEST: f64 = 1e-48;
+/// The largest one.
+pub(super) const LARGEST: f64 = 1e48;
 
+const POSITIVE: &str = "a positive number";
+const SIZE: &str = "a positive number between 1e-48 and 1e48";
+const FINITE: &str = "a finite number";
+const COORDINATE: &str = "coordinates of at most 1e48 in size";
+
+/// A number that is only compared with others.
 pub(super) fn positive(key: &str, value: f64) -> Result<()> {
     if value.is_finite() && value > 0.0 { Ok(()) } else { Err(number(key.to_owned(), value, POSITIVE)) }
+}
+
+/// A number that is multiplied with others.
+pub(super) fn size(key: &str, value: f64) -> Result<()> {
+    positive(key, value)?;
+    if (SMALLEST..=LARGEST).contains(&value) { Ok(()) } else { Err(number(key.to_owned(), value, SIZE)) }
 }
 
 pub(super) fn not_negative(key: &str, value: f64) -> Result<()> {
@@ -16,6 +34,15 @@ pub(super) fn not_negative(key: &str, value: f64) -> Result<()> {
 pub(super) fn finite(key: &str, values: &[f64; 3]) -> Result<()> {
     match values.iter().find(|value| !value.is_finite()) {
         Some(value) => Err(number(key.to_owned(), *value, FINITE)),
+        None => Ok(()),
+    }
+}
+
+/// A point from which distances are taken.
+pub(super) fn point(key: &str, values: &[f64; 3]) -> Result<()> {
+    finite(key, values)?;
+    match values.iter().find(|value| value.abs() > LARGEST) {
+        Some(value) => Err(number(key.to_owned(), *value, COORDINATE)),
         None => Ok(()),
     }
 }

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::location::Holder;
 use super::types::Job;
 use super::{document, validation};
 use crate::error::{Error, Result};
@@ -13,9 +14,18 @@ impl Job {
     ///
     /// [`Error::Read`] where there is no such file, [`Error::NotAFile`] for a folder or a pipe, and everything that [`Job::parse`] and [`Job::validate`] find.
     pub fn read(path: &Path) -> Result<Self> {
+        Self::read_and_remark(path).map(|(job, _)| job)
+    }
+
+    /// The job in the document at `path` as [`Job::read`] gives it, and what is to be said of the folder from which its paths count.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Job::read`].
+    pub fn read_and_remark(path: &Path) -> Result<(Self, Option<String>)> {
         let job = Self::parse(&document::text_of(path)?, path)?;
         job.validate()?;
-        job.resolve(path.parent().unwrap_or(Path::new("")))
+        job.located(path, Holder::Document)
     }
 
     /// The job written in `text`; `path` decides between TOML and JSON and appears in messages.

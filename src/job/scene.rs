@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::interface::InterfaceJob;
-use super::ranges::{number, positive};
+use super::ranges::{LARGEST, SMALLEST, number, size};
 use crate::error::{Error, Result};
 
 /// What the simulation will ask of the component. Whatever is given here is compared, at any cost; what is absent is
@@ -32,7 +32,7 @@ pub struct SceneJob {
 #[serde(deny_unknown_fields)]
 pub struct DampingJob {
     /// Share ζ of critical damping of every mode; the structural damping factor of K (1 + iη) is η = 2ζ.
-    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1, "default" = 0.01))]
+    #[schemars(extend("minimum" = SMALLEST, "exclusiveMaximum" = 1, "default" = 0.01))]
     pub ratio: f64,
 }
 
@@ -51,7 +51,7 @@ const PATTERN: &str =
 /// interface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "String", into = "String")]
-#[schemars(extend("pattern" = PATTERN))]
+#[schemars(extend("pattern" = PATTERN, "examples" = ["fix:hub"]))]
 pub enum Support {
     /// `free`: no interface held or loaded.
     Free,
@@ -119,7 +119,10 @@ impl TryFrom<String> for Support {
 
 /// Two frequencies, the higher one above zero.
 fn band_schema(_: &mut SchemaGenerator) -> Schema {
-    let (low, high) = (json!({ "type": "number", "minimum": 0 }), json!({ "type": "number", "exclusiveMinimum": 0 }));
+    let (low, high) = (
+        json!({ "type": "number", "minimum": 0 }),
+        json!({ "type": "number", "minimum": SMALLEST, "maximum": LARGEST }),
+    );
     json_schema!({ "type": "array", "prefixItems": [low, high], "minItems": 2, "maxItems": 2 })
 }
 
@@ -128,7 +131,8 @@ pub(super) fn validate(scene: &SceneJob, interfaces: &[InterfaceJob]) -> Result<
         if !(low.is_finite() && low >= 0.0) {
             return Err(number("scene.band_hz[0]".to_owned(), low, "zero or more"));
         }
-        if !(high.is_finite() && high > low) {
+        size("scene.band_hz[1]", high)?;
+        if high <= low {
             return Err(number("scene.band_hz[1]".to_owned(), high, "a frequency above that of `band_hz[0]`"));
         }
     }
@@ -142,11 +146,11 @@ pub(super) fn validate(scene: &SceneJob, interfaces: &[InterfaceJob]) -> Result<
             });
         }
         if let Support::Loaded { mass: Some(mass), .. } = support {
-            positive(&format!("scene.boundaries[{index}]"), *mass)?;
+            size(&format!("scene.boundaries[{index}]"), *mass)?;
         }
     }
     if let Some(damping) = scene.damping {
-        positive("scene.damping.ratio", damping.ratio)?;
+        size("scene.damping.ratio", damping.ratio)?;
         if damping.ratio >= 1.0 {
             return Err(number("scene.damping.ratio".to_owned(), damping.ratio, "a share of critical damping below 1"));
         }

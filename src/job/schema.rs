@@ -48,33 +48,66 @@ impl Role {
     }
 }
 
-/// What may stand at a place of a job.
-pub(super) struct Allowed {
-    /// The keys of every table that may; none where no table belongs.
-    pub(super) keys: Option<Vec<String>>,
-    /// How long a list that may; none where no list belongs.
-    pub(super) longest_list: Option<usize>,
+/// What may stand at a place of a job, each choice a part of the schema.
+pub(super) struct Place<'a> {
+    pub(super) choices: Vec<&'a Value>,
+}
+
+impl<'a> Place<'a> {
+    /// The tables that may.
+    pub(super) fn tables(&self) -> impl Iterator<Item = &'a Value> {
+        self.choices.iter().copied().filter(|choice| choice.get("properties").is_some())
+    }
+
+    /// The keys of all these, sorted.
+    pub(super) fn keys(&self) -> Vec<&'a str> {
+        let objects = self.tables().filter_map(|table| table["properties"].as_object());
+        let mut keys: Vec<&str> = objects.flat_map(Map::keys).map(String::as_str).collect();
+        keys.sort_unstable();
+        keys.dedup();
+        keys
+    }
+
+    /// How many elements a list may have, at least and at most; none where no list belongs.
+    pub(super) fn list_lengths(&self) -> Option<[usize; 2]> {
+        let lists = self.choices.iter().filter(|choice| choice["type"] == "array");
+        lists.map(|list| list_length(list)).reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
+    }
+}
+
+/// How many elements a list may have by the schema, at least and at most.
+pub(super) fn list_length(list: &Value) -> [usize; 2] {
+    let bound = |key: &str, none: usize| list[key].as_u64().map_or(none, |n| n as usize);
+    [bound("minItems", 0), bound("maxItems", usize::MAX)]
+}
+
+/// The words of which a value must be one; none where any text may stand.
+pub(super) fn words(choice: &Value) -> Vec<&str> {
+    let listed = choice["enum"].as_array().into_iter().flatten();
+    choice.get("const").into_iter().chain(listed).filter_map(Value::as_str).collect()
+}
+
+/// The keys that a table must have.
+pub(super) fn required(table: &Value) -> impl Iterator<Item = &str> {
+    table["required"].as_array().into_iter().flatten().filter_map(Value::as_str)
 }
 
 /// What may stand at a place of a job, by `interface[].nodes` for instance: `[]` stands for each element of a list.
-pub(super) fn allowed(schema: &Value, place: &str) -> Allowed {
-    let mut tables = alternatives(schema, schema);
+pub(super) fn allowed<'a>(schema: &'a Value, place: &str) -> Place<'a> {
+    let mut choices = alternatives(schema, schema);
+    let followed = |parts: Vec<&'a Value>| parts.into_iter().flat_map(|part| alternatives(schema, part)).collect();
     for step in place.split('.').filter(|step| !step.is_empty()) {
         let (key, n_lists) = (step.trim_end_matches("[]"), step.matches("[]").count());
-        tables = tables.iter().filter_map(|table| table.get("properties")?.get(key)).collect();
-        tables = tables.iter().flat_map(|value| alternatives(schema, value)).collect();
+        choices = followed(choices.iter().filter_map(|table| table.get("properties")?.get(key)).collect());
         for _ in 0..n_lists {
-            tables = tables.iter().filter_map(|list| list.get("items")).collect();
-            tables = tables.iter().flat_map(|value| alternatives(schema, value)).collect();
+            let items = |list: &&'a Value| -> Vec<&'a Value> {
+                let own = list["prefixItems"].as_array().into_iter().flatten();
+                list.get("items").into_iter().chain(own).collect()
+            };
+            choices = followed(choices.iter().flat_map(items).collect());
         }
     }
-    let objects = tables.iter().filter_map(|table| table.get("properties")?.as_object());
-    let mut keys: Vec<String> = objects.flat_map(Map::keys).cloned().collect();
-    keys.sort();
-    keys.dedup();
-    let lists = tables.iter().filter(|choice| choice.get("type").is_some_and(|name| name == "array"));
-    let longest = |list: &&Value| list.get("maxItems").and_then(Value::as_u64).map_or(usize::MAX, |n| n as usize);
-    Allowed { keys: (!keys.is_empty()).then_some(keys), longest_list: lists.map(longest).max() }
+    Place { choices }
 }
 
 /// What a part of the schema allows, references and choices followed.

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::interface::{InterfaceJob, NodeSelection, Region};
-use super::ranges::{direction, finite, not_negative, number, positive};
+use super::ranges::{self, direction, finite, not_negative, number, positive};
 use crate::error::{Error, Result};
 
 pub(super) fn selection(interface: &InterfaceJob, place: &str) -> Result<()> {
@@ -42,13 +42,13 @@ fn region(region: &Region, place: &str) -> Result<()> {
             }
         }
         Region::Plane { point, normal, tolerance } => {
-            finite(&format!("{place}.plane.point"), point)?;
+            ranges::point(&format!("{place}.plane.point"), point)?;
             direction(&format!("{place}.plane.normal"), normal)?;
             not_negative(&format!("{place}.plane.tolerance"), *tolerance)
         }
         Region::Cylinder { from, to, radius, inner_radius } => {
-            finite(&format!("{place}.cylinder.from"), from)?;
-            finite(&format!("{place}.cylinder.to"), to)?;
+            ranges::point(&format!("{place}.cylinder.from"), from)?;
+            ranges::point(&format!("{place}.cylinder.to"), to)?;
             direction(&format!("{place}.cylinder.to"), &std::array::from_fn(|axis| to[axis] - from[axis]))?;
             positive(&format!("{place}.cylinder.radius"), *radius)?;
             not_negative(&format!("{place}.cylinder.inner_radius"), *inner_radius)?;
@@ -58,7 +58,7 @@ fn region(region: &Region, place: &str) -> Result<()> {
             Ok(())
         }
         Region::Sphere { center, radius } => {
-            finite(&format!("{place}.sphere.center"), center)?;
+            ranges::point(&format!("{place}.sphere.center"), center)?;
             positive(&format!("{place}.sphere.radius"), *radius)
         }
     }

@@ -13,6 +13,7 @@ use std::path::PathBuf;
 
 use super::interface::InterfaceJob;
 use super::method::Method;
+use super::ranges::{LARGEST, SMALLEST};
 use super::recovery::RecoveryJob;
 use super::scene::SceneJob;
 use super::selection::first_repeated;
@@ -117,7 +118,7 @@ impl Duplicates {
 #[serde(deny_unknown_fields)]
 pub struct Expectation {
     /// Total mass.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("minimum" = SMALLEST, "maximum" = LARGEST))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mass: Option<f64>,
     /// Centre of mass.
@@ -152,7 +153,7 @@ pub enum ModeSelection {
     /// `{ up_to_hz = 1000 }`.
     UpTo {
         /// The highest frequency.
-        #[schemars(extend("exclusiveMinimum" = 0))]
+        #[schemars(extend("minimum" = SMALLEST, "maximum" = LARGEST))]
         up_to_hz: f64,
     },
 }
@@ -168,6 +169,7 @@ impl<'de> Deserialize<'de> for ModeSelection {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ModeTable {
+    #[serde(default, deserialize_with = "super::whole::size")]
     count: Option<usize>,
     up_to_hz: Option<f64>,
 }

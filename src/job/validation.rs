@@ -4,20 +4,17 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::interface::{InterfaceJob, NodeSelection, Origin};
-use super::ranges::{finite, number, positive};
+use super::ranges::{self, positive, size};
 use super::selection::{first_repeated, selection};
 use super::types::{Job, ModeSelection};
 use crate::dofs::Direction;
 use crate::error::{Error, Result};
 
-/// The size of a coordinate whose moments of inertia stay within the range of double precision.
-const FARTHEST: f64 = 1e48;
-
 pub(super) fn validate(job: &Job) -> Result<()> {
     model(job)?;
     interfaces(&job.interfaces)?;
     if let ModeSelection::UpTo { up_to_hz } = job.reduction.modes {
-        positive("reduction.modes.up_to_hz", up_to_hz)?;
+        size("reduction.modes.up_to_hz", up_to_hz)?;
     }
     if let Some(scene) = &job.scene {
         super::scene::validate(scene, &job.interfaces)?;
@@ -51,9 +48,9 @@ fn model(job: &Job) -> Result<()> {
     }
     let Some(expect) = &model.expect else { return Ok(()) };
     if let Some(mass) = expect.mass {
-        positive("model.expect.mass", mass)?;
+        size("model.expect.mass", mass)?;
     }
-    expect.cg.map_or(Ok(()), |cg| finite("model.expect.cg", &cg))
+    expect.cg.map_or(Ok(()), |cg| ranges::point("model.expect.cg", &cg))
 }
 
 fn interfaces(interfaces: &[InterfaceJob]) -> Result<()> {
@@ -111,13 +108,7 @@ fn coupling(interface: &InterfaceJob, place: &str) -> Result<()> {
         Origin::Point(_) if !is_patch => {
             conflict("origin", "a direct coupling, whose nodes stay where they are", ", or set coupling = \"rigid\"")
         }
-        Origin::Point(point) => {
-            finite(&format!("{place}.origin"), point)?;
-            match point.iter().find(|coordinate| coordinate.abs() > FARTHEST) {
-                Some(value) => Err(number(format!("{place}.origin"), *value, "coordinates of at most 1e48 in size")),
-                None => Ok(()),
-            }
-        }
+        Origin::Point(point) => ranges::point(&format!("{place}.origin"), point),
         Origin::Centroid => Ok(()),
     }
 }

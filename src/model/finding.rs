@@ -1,7 +1,7 @@
 //! What the checks of a model found that is not an error: remarks and warnings, one sentence each.
 
 use crate::dofs::{Direction, RowNames};
-use crate::number::quantity;
+use crate::number::{counted, quantity};
 
 /// Above this relative asymmetry a finding becomes a warning; below it the asymmetry is rounding of the producer.
 pub const ASYMMETRY_WARN: f64 = 1e-12;
@@ -137,20 +137,23 @@ impl std::fmt::Display for Finding {
                     "the {matrix} matrix was symmetric to {asymmetry:.1e} only and was replaced by its symmetric part"
                 )
             }
-            Self::MasslessRows { n_rows } => write!(f, "{n_rows} rows have no mass: their frequencies are infinite"),
+            Self::MasslessRows { n_rows } => write!(f, "{} no mass: their frequencies are infinite", counted(*n_rows, "row has", "rows have")),
             Self::FreeParticles { rows, first } => {
-                write!(f, "{} rows have mass and no stiffness, the first is {first}: free particles", rows.len())
+                let rows = counted(rows.len(), "row has", "rows have");
+                write!(f, "{rows} mass and no stiffness, the first is {first}: free particles")
             }
             Self::MassCouplesOthers { n_apart, n_nodes, first } => {
                 f.write_str(&couples_others([*n_apart, *n_nodes], first))
             }
             Self::Penalties { n_rows, first, ratio } => write!(
                 f,
-                "{n_rows} rows have a stiffness of {PENALTY:.0e} times the median and more, at most {ratio:.0e} times at {first}: penalties \
-                 that hold or tie dofs; they take digits from what they touch, leave held dofs out of both matrices"
+                "{} a stiffness of {PENALTY:.0e} times the median and more, at most {ratio:.0e} times at {first}: penalties \
+                 that hold or tie dofs; they take digits from what they touch, leave held dofs out of both matrices",
+                counted(*n_rows, "row has", "rows have")
             ),
             Self::NegativeMassByRounding { n_rows } => {
-                write!(f, "{n_rows} diagonal entries of the mass are negative by rounding and were set to zero")
+                let entries = counted(*n_rows, "diagonal entry of the mass is", "diagonal entries of the mass are");
+                write!(f, "{entries} negative by rounding; zero was put there")
             }
             Self::ConstrainedInterface { interface, node, lacks } => {
                 let lacks: Vec<String> = lacks.iter().map(ToString::to_string).collect();
@@ -164,8 +167,9 @@ impl std::fmt::Display for Finding {
             Self::CoordinatesUntested { n_touched, n_rows } => {
                 write!(
                     f,
-                    "translations make forces at {n_touched} of {n_rows} rows: supports that touch so many rows leave too few to \
-                     compare the coordinates and the dof map with; check that rows and map are in one order"
+                    "translations make forces at {n_touched} of {}: supports that touch so many rows leave too few to \
+                     compare the coordinates and the dof map with; check that rows and map are in one order",
+                    counted(*n_rows, "row", "rows")
                 )
             }
             Self::MotionsUncounted => f.write_str(
@@ -174,8 +178,9 @@ impl std::fmt::Display for Finding {
             ),
             Self::MassByDirection { n_nodes, at } => write!(
                 f,
-                "{n_nodes} nodes have another mass in one direction than in another, the first are {at}: check that they have no \
-                 local frames, which in a held component look like supports"
+                "{} another mass in one direction than in another, listed from the first: {at}; check that they have no \
+                 local frames, which in a held component look like supports",
+                counted(*n_nodes, "node has", "nodes have")
             ),
             Self::RotationsFree { rotations } => {
                 let rotations: Vec<String> = rotations.iter().map(ToString::to_string).collect();
@@ -187,7 +192,8 @@ impl std::fmt::Display for Finding {
             }
             Self::OriginFar { interface, origin, ratio } => f.write_str(&origin_far(interface, *origin, *ratio)),
             Self::HangingInterface { dof, n_dofs } => {
-                write!(f, "{n_dofs} interface dofs have mass and no stiffness, the first is {dof}: they move freely")
+                let dofs = counted(*n_dofs, "interface dof has", "interface dofs have");
+                write!(f, "{dofs} mass and no stiffness, the first is {dof}: they move freely")
             }
         }
     }

@@ -10,6 +10,7 @@ use crate::input::{Faces, PatchFaces};
 use crate::job::{Boundary, Certify, InterfaceJob, ModeSelection, Origin};
 use crate::model::RoundedCoordinates;
 use crate::modes::CountedInterval;
+use crate::number::counted;
 use crate::partition::InterfaceNode;
 use crate::report::{
     Completeness, DroppedCoordinate, FacesReport, Generator, InterfacePosition, InterfaceReport, MassProperties,
@@ -245,13 +246,15 @@ fn reason(results: &Results<'_>) -> String {
     let (n_counted, n_finite) = (certificate.n_counted, certificate.n_finite.unwrap_or(usize::MAX));
     if n_counted >= n_finite {
         return format!(
-            "there is no other, since the mass matrix leaves {n_finite} frequencies finite, those of rigid-body motion included"
+            "there is no other, since the mass matrix leaves {} finite, those of rigid-body motion included",
+            counted(n_finite, "frequency", "frequencies")
         );
     }
     format!(
         "a Sturm count finds no other below {:.3e} Hz; that there is none above is not proved, since the mass matrix may leave \
-         {n_finite} frequencies finite and {n_counted} are known",
-        results.evidence.partition.scaling.hertz(certificate.count.sigma)
+         {} finite and {n_counted} are known",
+        results.evidence.partition.scaling.hertz(certificate.count.sigma),
+        counted(n_finite, "frequency", "frequencies")
     )
 }
 
@@ -262,7 +265,11 @@ fn number_of_modes(results: &Results<'_>) -> Option<Warning> {
     match results.job.reduction.modes {
         ModeSelection::Count { count } if found < count => Some(Warning {
             code: "W-FEWER-MODES",
-            message: format!("{count} modes were asked for; the search ended with {found}: {}", reason(results)),
+            message: format!(
+                "{} asked for; the search ended with {found}: {}",
+                counted(count, "mode was", "modes were"),
+                reason(results)
+            ),
         }),
         ModeSelection::UpTo { up_to_hz } => {
             let limit = modes.searched_to.filter(|limit| *limit > 0.0)?;

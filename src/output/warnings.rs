@@ -5,6 +5,7 @@ use crate::constraint::Loose;
 use crate::error::Warning;
 use crate::factor::Refinement;
 use crate::job::{Boundary, Precision};
+use crate::number::counted;
 use crate::rigid::RigidSource;
 use crate::verification::check::Verdict;
 use crate::verification::{LARGEST_OF_MESHES, Penalties, penalties as penalties_of};
@@ -30,9 +31,9 @@ pub(super) fn of_motions(results: &Results<'_>) -> Vec<Warning> {
         warnings.push(Warning {
             code: "W-MECHANISM",
             message: format!(
-                "{} motions cost no energy, {n_mechanisms} of them inside the component{largest}: they are kept as zero modes \
+                "{} no energy, {n_mechanisms} of them inside the component{largest}: they are kept as zero modes \
                  like rigid-body motions; close hinges and sliding joints if none were meant",
-                rigid.count()
+                counted(rigid.count(), "motion costs", "motions cost")
             ),
         });
     }
@@ -43,11 +44,11 @@ pub(super) fn of_motions(results: &Results<'_>) -> Vec<Warning> {
         warnings.push(Warning {
             code: "W-RIGID-MASS",
             message: format!(
-                "the mass of the rigid-body motions has rank {} of {}: {} motion without inertia takes no part in \
-                 inertia relief and cannot be integrated in time unless something holds it",
+                "the mass of the rigid-body motions has rank {} of {}: {} no part in \
+                 inertia relief and cannot be integrated in time unless held",
                 rigid.count() - rigid.n_massless,
                 rigid.count(),
-                rigid.n_massless
+                counted(rigid.n_massless, "motion without inertia takes", "motions without inertia take")
             ),
         });
     }
@@ -65,8 +66,8 @@ fn grey(results: &Results<'_>, motions: &[Loose]) -> String {
         )
     });
     format!(
-        "{} motions cost so little energy that double precision hardly tells them from mechanisms: {}; they are kept as elastic",
-        motions.len(),
+        "{} so little energy that double precision hardly tells them from mechanisms: {}; they are kept as elastic",
+        counted(motions.len(), "motion costs", "motions cost"),
         each.collect::<Vec<_>>().join("; ")
     )
 }
@@ -76,8 +77,9 @@ pub(super) fn refinement(results: &Results<'_>) -> Option<String> {
     let Refinement { n_solves, n_steps, most_steps } = results.evidence.factor.refinement().ok()??;
     let mean = n_steps as f64 / n_solves.max(1) as f64;
     Some(format!(
-        "the factor was kept in single precision: conjugate gradients brought {n_solves} solves to rounding of double precision, \
-         in {mean:.1} steps on average and {most_steps} at most"
+        "the factor was kept in single precision: conjugate gradients brought {} to rounding of double precision, in {mean:.1} \
+         steps on average and {most_steps} at most",
+        counted(n_solves, "solve", "solves")
     ))
 }
 
@@ -103,9 +105,10 @@ pub(super) fn penalties(results: &Results<'_>) -> Option<Warning> {
     Some(Warning {
         code: "W-PENALTY",
         message: format!(
-            "{n_rows} rows are more than {LARGEST_OF_MESHES} times stiffer than rows they are coupled with, up to {ratio:.0e} times at \
+            "{} more than {LARGEST_OF_MESHES} times stiffer than rows they are coupled with, up to {ratio:.0e} times at \
              {stiffest}: ties, or elements much thinner than the rest; their terms cancel and leave energies known to {noise:.0e}, where \
-             {asked:.0e} is asked for and {noise_without:.0e} is had without them; tie dofs by elimination, or by a smaller penalty"
+             {asked:.0e} is asked for and {noise_without:.0e} is had without them; tie dofs by elimination, or by a smaller penalty",
+            counted(n_rows, "row is", "rows are")
         ),
     })
 }
@@ -143,11 +146,11 @@ pub(super) fn data_precision(results: &Results<'_>) -> Option<Warning> {
     Some(Warning {
         code: "W-DATA-PRECISION",
         message: format!(
-            "{} digits of the stiffness and {} of the mass leave {} frequencies less certain than {WANTED:.0e}, {first}; \
+            "{} of the stiffness and {} of the mass leave {} less certain than {WANTED:.0e}, {first}; \
              {advice}",
-            stiffness.digits,
+            counted(stiffness.digits, "digit", "digits"),
             mass.digits,
-            uncertain.len()
+            counted(uncertain.len(), "frequency", "frequencies")
         ),
     })
 }

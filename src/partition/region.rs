@@ -7,22 +7,25 @@ pub(super) fn contains(region: &Region, point: [f64; 3]) -> bool {
     match region {
         Region::Box { min, max } => (0..3).all(|axis| min[axis] <= point[axis] && point[axis] <= max[axis]),
         Region::Plane { point: origin, normal, tolerance } => {
-            let length = norm(*normal);
-            length > 0.0 && (dot(*normal, minus(point, *origin)) / length).abs() <= *tolerance
+            unit(*normal).is_some_and(|normal| dot(normal, minus(point, *origin)).abs() <= *tolerance)
         }
         Region::Cylinder { from, to, radius, inner_radius } => {
-            let axis = minus(*to, *from);
-            let length = norm(axis);
-            if length == 0.0 {
-                return false;
-            }
+            let Some(axis) = unit(minus(*to, *from)) else { return false };
             let offset = minus(point, *from);
-            let along = dot(axis, offset) / length;
-            let across = (dot(offset, offset) - along * along).max(0.0).sqrt();
-            (0.0..=length).contains(&along) && (*inner_radius..=*radius).contains(&across)
+            let along = dot(axis, offset);
+            let across = norm(std::array::from_fn(|i| offset[i] - along * axis[i]));
+            (0.0..=norm(minus(*to, *from))).contains(&along) && (*inner_radius..=*radius).contains(&across)
         }
         Region::Sphere { center, radius } => norm(minus(point, *center)) <= *radius,
     }
+}
+
+/// The direction of a vector of any length, neither of whose squares may leave the range of double precision; none of zero.
+fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
+    let largest = a.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    let scaled = a.map(|x| x / largest);
+    let length = norm(scaled);
+    (largest > 0.0).then(|| scaled.map(|x| x / length))
 }
 
 fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
@@ -34,7 +37,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 fn norm(a: [f64; 3]) -> f64 {
-    dot(a, a).sqrt()
+    a[0].hypot(a[1]).hypot(a[2])
 }
 
 #[cfg(test)]
@@ -53,6 +56,26 @@ mod tests {
         let region = Region::Plane { point: [0.0, 0.0, 5.0], normal: [0.0, 0.0, 10.0], tolerance: 0.1 };
         assert!(contains(&region, [7.0, -3.0, 5.05]));
         assert!(!contains(&region, [7.0, -3.0, 5.2]));
+    }
+
+    /// Directions count, lengths of vectors do not: squares of these are zero or infinite.
+    #[test]
+    fn vectors_may_be_of_any_length() {
+        for length in [1e-310, 1e-170, 1e160, 1e300] {
+            let plane = Region::Plane { point: [0.0; 3], normal: [length, 0.0, 0.0], tolerance: 0.1 };
+            assert!(contains(&plane, [0.05, 2.0, 3.0]) && !contains(&plane, [0.2, 2.0, 3.0]), "{length}");
+        }
+        let thin = Region::Cylinder { from: [0.0; 3], to: [0.0, 0.0, 1e-170], radius: 1.0, inner_radius: 0.0 };
+        assert!(contains(&thin, [0.5, 0.0, 0.0]) && !contains(&thin, [0.5, 0.0, 1e-6]));
+        let small = Region::Sphere { center: [0.0; 3], radius: 1e-200 };
+        assert!(contains(&small, [1e-200, 0.0, 0.0]) && !contains(&small, [2e-200, 0.0, 0.0]));
+    }
+
+    /// On the border of a cylinder far from its start: the distance from the axis is not the difference of two large squares.
+    #[test]
+    fn a_long_cylinder_has_its_border() {
+        let region = Region::Cylinder { from: [0.0; 3], to: [0.0, 0.0, 2e8], radius: 0.1, inner_radius: 0.1 };
+        assert!(contains(&region, [0.1, 0.0, 123_456_789.0]));
     }
 
     #[test]

@@ -60,7 +60,7 @@ fn model(page: &mut Page, superelement: &Superelement) {
     let metadata = superelement.metadata();
     page.heading("Model");
     let units = metadata.units.as_ref().map(|units| format!(" · units {units}")).unwrap_or_default();
-    page.entry("model", &format!("{} dofs{units}", number::count(metadata.model.n_dofs)));
+    page.entry("model", &(number::counted(metadata.model.n_dofs, "dof", "dofs") + &units));
     if let Some(properties) = &metadata.model.mass_properties {
         let properties = MassProperties {
             mass: Some(properties.mass),

@@ -44,12 +44,12 @@ fn a_run_that_does_not_fit_is_refused() {
             break;
         }
     }
-    assert!(ended.len() > 4 && ended[0].err.contains("– 1.05 KiB are available –"), "{}", ended[0].err);
+    assert!(ended.len() > 4 && ended[0].err.contains("– 1.05 KiB of memory is available –"), "{}", ended[0].err);
     let ended = &ended[ended.len() - 1];
     assert!(ended.err.starts_with("supel: error[E-MEM]: "), "{}", ended.err);
     let needed = ended.err.split(" – ").next().unwrap_or_default();
     assert!(needed.ends_with("KiB") || needed.ends_with("MiB"), "{}", ended.err);
-    assert!(ended.err.contains(" are available –"), "{}", ended.err);
+    assert!(ended.err.contains(" of memory is available –"), "{}", ended.err);
     assert!(!place.path("x.supel").exists());
 }
 

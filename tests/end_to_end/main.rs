@@ -4,6 +4,7 @@ mod alike;
 mod failures;
 mod few_digits;
 mod foreign_names;
+mod links;
 mod penalties;
 mod recovery;
 mod results;

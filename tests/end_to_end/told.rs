@@ -197,6 +197,17 @@ fn interfaces_of_flags_replace_or_are_added_by_name() {
     assert_eq!(ended.err, "");
     let twice = supel(&["reduce", &job, "--interface", "a=44", "--interface", "a=45"]).expect(ExitCode::Usage);
     assert!(twice.err.contains("E-INTERFACE-NAME"), "{}", twice.err);
+    let twice =
+        supel(&["reduce", &job, "--interface", "tip=44", "--rigid-interface", "tip=45"]).expect(ExitCode::Usage);
+    assert!(twice.err.contains("E-INTERFACE-NAME"), "one flag would replace the other unseen: {}", twice.err);
+}
+
+/// A table of nodes has no groups to name.
+#[test]
+fn a_group_of_a_table_of_nodes() {
+    let place = Place::with_brick();
+    let ended = place.reduce(&place.model_flags(), "--interface foot=group:BASE --method herting --modes 5");
+    assert_says(&ended, ExitCode::InputData, &["E-GROUP", "no group \"BASE\"", "has no groups", "list node labels"]);
 }
 
 /// Places of interfaces are in the summary, the document and the page, with where they come from.
@@ -231,7 +242,11 @@ fn formats_that_are_not_read_are_named() {
     let mut zip = b"PK\x03\x04".to_vec();
     zip.extend(b"\x14\0\0\0\0\0indices.npy");
     let table = "write the numbers as a table";
-    let files: [(&str, &[u8], &str, [&str; 2]); 8] = [
+    let utf16 = |text: &str| -> Vec<u8> { text.encode_utf16().flat_map(u16::to_le_bytes).collect() };
+    let (marked, bare) = (utf16("\u{feff}%%MatrixMarket matrix"), utf16("<Xdmf>"));
+    let files: [(&str, &[u8], &str, [&str; 2]); 10] = [
+        ("shell.txt", &marked, "text in UTF-16", ["write it as UTF-8", "write it as UTF-8"]),
+        ("mesh.txt", &bare, "text in UTF-16", ["write it as UTF-8", "write it as UTF-8"]),
         ("K.npz", &zip, "a NumPy archive (.npz)", ["scipy.io.mmwrite", table]),
         ("K.npy", b"\x93NUMPY\x01\0v\0", "a NumPy array", ["scipy.io.mmwrite", table]),
         ("K.mat", b"MATLAB 5.0 MAT-file, Platform: GLNXA64", "a MATLAB file of version 7 or older", ["-v7.3", table]),

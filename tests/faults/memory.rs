@@ -137,12 +137,29 @@ fn reduce_from_hdf5_without_memory() {
             // The library recurses until its stack ends where one of some two hundred allocations of its own start fails. They are
             // made from memory that the program has asked for before, so that only a test has them fail.
             None if ended.err.contains("overflowed its stack") => n_crashed += 1,
-            // At a few others it calls exit(-1), which nothing catches.
-            Some(255) if ended.err.is_empty() => n_crashed += 1,
             _ => panic!("{what}"),
         }
     }
     assert!(n_without > 30 && n_crashed <= 3, "{n_without} without memory, {n_crashed} crashed");
+}
+
+/// A library that calls `exit` where it has no memory, wherever that is: the run ends as one without memory.
+#[test]
+fn reduce_with_a_library_that_ends_the_process() {
+    let place = Place::with(&brick([4, 2, 2], [1.0, 0.31, 0.23], &Material::STEEL_SI));
+    let rest = "--interface foot=1,11,31,41 --method herting --modes 4 --threads 2 --json";
+    let args = reducing(&place, place.model_flags(), rest);
+    let (args, calls) = (texts(&args), Calls::Heap(1));
+    let sweep = Sweep { place: &place, args: &args, written: &WRITTEN };
+    let n_calls = count(&args, &calls, &place.path(""));
+    // Neither before the program has begun nor after it has ended.
+    for at in (1..20).map(|twentieth| twentieth * n_calls / 20) {
+        sweep.clear();
+        let ended = run(&args, &calls, at, Mode::Exit);
+        let what = format!("exit at allocation {at} of {n_calls}");
+        assert!(sweep.assert_sound(&ended, &None, &what), "{what}");
+        assert!(ended.out.contains("\"exit_code\": 6"), "{what}: {}", ended.out);
+    }
 }
 
 /// Under a limit on addresses, as a shell or a batch system sets it, from too little for anything to enough.

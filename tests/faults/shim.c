@@ -2,7 +2,7 @@
 
    FAULT_KIND    files: calls that change files in FAULT_FOLDER; heap: allocations of FAULT_LEAST bytes and more
    FAULT_AT      the call that fails, from 1; 0 for none
-   FAULT_MODE    once: that call; from: that one and all later ones
+   FAULT_MODE    once: that call; from: that one and all later ones; exit: at that call the process calls exit(-1), as a library may
    FAULT_ERRNO   what it fails with (files)
    FAULT_COUNT   a file to which the number of calls is written when the process ends
 */
@@ -25,7 +25,7 @@ extern void *__libc_memalign(size_t, size_t);
 
 static atomic_long n_calls;
 static long at, least;
-static int from, error = EIO, kind;
+static int from, exits, error = EIO, kind;
 static char folder[4096];
 enum { NOTHING, FILES, HEAP };
 
@@ -36,6 +36,7 @@ __attribute__((constructor)) static void start(void) {
     at = getenv("FAULT_AT") ? atol(getenv("FAULT_AT")) : 0;
     least = getenv("FAULT_LEAST") ? atol(getenv("FAULT_LEAST")) : 1;
     from = getenv("FAULT_MODE") && !strcmp(getenv("FAULT_MODE"), "from");
+    exits = getenv("FAULT_MODE") && !strcmp(getenv("FAULT_MODE"), "exit");
     if (getenv("FAULT_ERRNO")) error = atoi(getenv("FAULT_ERRNO"));
     kind = !strcmp(text, "heap") ? HEAP : FILES;
 }
@@ -55,7 +56,8 @@ __attribute__((destructor)) static void end(void) {
 
 static int fails(void) {
     long call = ++n_calls;
-    return at && (from ? call >= at : call == at);
+    if (exits && call == at) exit(-1);
+    return at && !exits && (from ? call >= at : call == at);
 }
 
 /* ---- files ---- */

@@ -29,11 +29,25 @@ pub(crate) enum Calls {
     Heap(usize),
 }
 
-/// One call, or it and all later ones.
+/// What happens at a call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Mode {
+    /// It fails.
     Once,
+    /// It fails, and all later ones do.
     From,
+    /// It calls `exit(-1)`, as a library does that has no memory.
+    Exit,
+}
+
+impl Mode {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Once => "once",
+            Self::From => "from",
+            Self::Exit => "exit",
+        }
+    }
 }
 
 /// How a run ended.
@@ -46,7 +60,7 @@ pub(crate) struct Ended {
 fn command(args: &[&str], calls: &Calls, at: usize, mode: Mode) -> Command {
     let mut command = Command::new(assert_cmd::cargo::cargo_bin!("supel"));
     command.args(args).env("LD_PRELOAD", &SHIM.1).env("RUST_BACKTRACE", "1");
-    command.env("FAULT_AT", at.to_string()).env("FAULT_MODE", if mode == Mode::From { "from" } else { "once" });
+    command.env("FAULT_AT", at.to_string()).env("FAULT_MODE", mode.name());
     match calls {
         Calls::Files(folder, error) => {
             command.env("FAULT_KIND", "files").env("FAULT_FOLDER", folder).env("FAULT_ERRNO", error.to_string())

@@ -174,7 +174,7 @@ fn calculix_files_are_read_as_they_are() {
 fn notes_are_lines_of_a_report() {
     let input = read_text("1 1 2.5\n1 2 -2.5\n2 2 4\n2 2 4").expect("a matrix");
     let lines: Vec<String> = input.notes.iter().take(4).map(|note| note.to_string()).collect();
-    let told = ["largest index", "no line end", "repeat a position", "mirrored"];
+    let told = ["largest index", "no line end", "1 entry repeats a position", "mirrored"];
     for (line, told) in lines.iter().zip(told) {
         assert!(line.contains("a.mtx") && line.contains(told), "{line}");
     }

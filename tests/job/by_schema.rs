@@ -61,6 +61,7 @@ fn values() -> Vec<Value> {
         json!(1.5),
         json!(-0.5),
         json!(7),
+        json!(7.0),
         json!(""),
         json!(" "),
         json!("x"),
@@ -75,6 +76,7 @@ fn values() -> Vec<Value> {
         json!([]),
         json!([1.5]),
         json!([1, 2, 3]),
+        json!([1.0, 2.0]),
         json!(["ux"]),
         json!(["ux", "ux"]),
         json!(["x"]),
@@ -147,6 +149,23 @@ fn is_about_two_keys(error: &Error) -> bool {
     )
 }
 
+/// Asserts that a message has no words of a deserialiser, which are those of the program's language.
+#[track_caller]
+fn assert_plain(message: &str, document: &str) {
+    const FOREIGN: [&str; 9] = [
+        "usize",
+        "i64",
+        "f64",
+        "struct",
+        "invalid type",
+        "invalid value",
+        "invalid length",
+        "unknown variant",
+        "missing field",
+    ];
+    assert!(!FOREIGN.iter().any(|words| message.contains(words)), "{message}: {document}");
+}
+
 fn accepted(text: &str, path: &str) -> Result<()> {
     Job::parse(text, Path::new(path))?.validate()
 }
@@ -171,6 +190,9 @@ fn schema_and_program_agree_on_every_value() {
         for found in programs {
             n_cases += 1;
             n_accepted += usize::from(found.is_ok());
+            if let Err(error @ Error::JobSyntax { .. }) = &found {
+                assert_plain(&error.to_string(), text);
+            }
             let is_allowed = found.as_ref().is_err_and(is_about_two_keys);
             if is_valid != found.is_ok() && !is_allowed {
                 disagreements.push(format!("{is_valid} by the schema, {found:?}: {text}"));

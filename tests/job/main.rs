@@ -180,20 +180,47 @@ fn values_of_the_wrong_kind_are_located() {
         assert!(matches!(error, Error::JobSyntax { .. }), "{error:?}");
         error.to_string()
     };
-    insta::assert_snapshot!(wrong("mass      = \"model.h5:/M\"", ""), @"job.toml:2: missing field `mass`");
-    assert!(wrong("\"herting\"", "\"hurting\"").starts_with("job.toml:27: unknown variant `hurting`"));
-    assert!(wrong("up_to_hz = 1000", "up_to_hz = 1000, count = 4").contains("exactly one of `count` and `up_to_hz`"));
-    assert!(wrong("nodes = [412, 413]", "nodes = 412").contains("\"group:NAME\""));
-    assert!(wrong("origin   = [0, 0, 12.5]", "origin = \"middle\"").contains("\"centroid\" or [x, y, z]"));
-    assert!(wrong("radius = 5", "inner_radius = 5").contains("missing field `radius`"));
-    assert!(wrong("[write]", "[write").starts_with("job.toml:40:"));
-    insta::assert_snapshot!(wrong("{ up_to_hz = 1000 }", "[3, 4]"), @"job.toml:28: `reduction.modes` is a list – expected a table with keys of count, up_to_hz");
-    insta::assert_snapshot!(wrong("12.5]", "12.5, 0]"), @"job.toml:14: `interface[0].origin` is a list of 4 – expected 3");
-    insta::assert_snapshot!(wrong("\"none\"", "{ none = {} }"), @"job.toml:37: `run.certify` is a table – expected a text, a number, a list or a word, as docs/job.md says");
+    let at_28 = |to: &str| wrong("{ up_to_hz = 1000 }", to);
+    insta::assert_snapshot!(wrong("mass      = \"model.h5:/M\"", ""), @"job.toml:2: `model.mass` is missing");
+    insta::assert_snapshot!(wrong("\"herting\"", "\"hurting\""), @r#"job.toml:27: `reduction.method` is "hurting" – expected "craig-bampton" or "herting""#);
+    insta::assert_snapshot!(at_28("{ up_to_hz = 1000, count = 4 }"), @"job.toml:28: `reduction.modes` needs exactly one of `count` and `up_to_hz`");
+    insta::assert_snapshot!(at_28("{ }"), @"job.toml:28: `reduction.modes` needs exactly one of `count` and `up_to_hz`");
+    insta::assert_snapshot!(at_28("3"), @"job.toml:28: `reduction.modes` is 3 – expected a table with keys of count, up_to_hz");
+    insta::assert_snapshot!(at_28("{ count = 3.5 }"), @"job.toml:28: `reduction.modes.count` is 3.5 – expected a whole number, zero or more");
+    insta::assert_snapshot!(at_28("{ count = -4 }"), @"job.toml:28: `reduction.modes.count` is -4 – expected a whole number, zero or more");
+    insta::assert_snapshot!(at_28("{ count = 99999999999999999999 }"), @"job.toml:28: `reduction.modes.count` is 99999999999999999999 – expected a whole number, zero or more");
+    insta::assert_snapshot!(at_28("{ count = \"4\" }"), @r#"job.toml:28: `reduction.modes.count` is "4" – expected a whole number, zero or more"#);
+    insta::assert_snapshot!(at_28("{ count = 1979-05-27 }"), @"job.toml:28: `reduction.modes.count` is the date 1979-05-27 – expected a whole number, zero or more");
+    insta::assert_snapshot!(at_28("{ up_to_hz = true }"), @"job.toml:28: `reduction.modes.up_to_hz` is true – expected a number");
+    insta::assert_snapshot!(wrong("nodes = [412, 413]", "nodes = 412"), @r#"job.toml:18: `interface[1].nodes` is 412 – expected a text such as "group:HUB", a list or a table with keys of rows, within"#);
+    insta::assert_snapshot!(wrong("nodes = [412, 413]", "nodes = [412, \"413\"]"), @r#"job.toml:18: `interface[1].nodes[1]` is "413" – expected a whole number"#);
+    insta::assert_snapshot!(wrong("origin   = [0, 0, 12.5]", "origin = \"middle\""), @r#"job.toml:14: `interface[0].origin` is "middle" – expected "centroid" or a list of 3"#);
+    insta::assert_snapshot!(wrong("radius = 5", "inner_radius = 5"), @"job.toml:23: `interface[2].nodes.within.cylinder.radius` is missing");
+    insta::assert_snapshot!(wrong("{ cylinder = { from = [0, 0, 0], to = [0, 0, 1], radius = 5 } }", "{}"), @"job.toml:23: `interface[2].nodes.within` needs exactly one of `box`, `plane`, `cylinder` and `sphere`");
+    insta::assert_snapshot!(wrong("[\"ux\", \"uy\", \"uz\"]", "[1]"), @r#"job.toml:19: `interface[1].dofs[0]` is 1 – expected "ux", "uy", "uz", "rx", "ry" or "rz""#);
+    insta::assert_snapshot!(wrong("{ ratio = 0.02 }", "0.02"), @"job.toml:34: `scene.damping` is 0.02 – expected a table with keys of ratio");
+    insta::assert_snapshot!(wrong("[0, 500]", "[0]"), @"job.toml:32: `scene.band_hz` is a list of 1 – expected a list of 2");
+    insta::assert_snapshot!(wrong("[write]", "[write"), @"job.toml:40: this is no TOML: unclosed table, expected `]`");
+    insta::assert_snapshot!(at_28("[3, 4]"), @"job.toml:28: `reduction.modes` is a list – expected a table with keys of count, up_to_hz");
+    insta::assert_snapshot!(wrong("12.5]", "12.5, 0]"), @r#"job.toml:14: `interface[0].origin` is a list of 4 – expected "centroid" or a list of 3"#);
+    insta::assert_snapshot!(wrong("\"none\"", "{ none = {} }"), @r#"job.toml:37: `run.certify` is a table – expected "none", "count" or "full""#);
     insta::assert_snapshot!(message(&with("/model/dofs", Value::Null)), @"job.json: `model.dofs` is null – expected a value, or the key left out");
+    insta::assert_snapshot!(message(&with("/model/dofs", 3.into())), @"job.json: `model.dofs` is 3 – expected a text");
+    insta::assert_snapshot!(message(&with("/model/drop_empty", 1.into())), @"job.json: `model.drop_empty` is 1 – expected true or false");
     insta::assert_snapshot!(message(&json!([1, 2])), @"job.json: the job is a list – expected a table with keys of interface, model, reduction, run, scene, write");
     let error = Job::parse("{\n \"model\": }", Path::new("job.json")).expect_err("not JSON");
-    assert_eq!(error.to_string(), "job.json:2: expected value");
+    assert_eq!(error.to_string(), "job.json:2: this is no JSON: expected value");
+}
+
+/// As the schema says: 3.0 is a whole number.
+#[test]
+fn whole_numbers_may_be_written_with_a_point() {
+    let with_point = FULL.replace("up_to_hz = 1000", "count = 3.0").replace("[412, 413]", "[412.0, 4.13e2]");
+    let job = Job::parse(&with_point, Path::new("job.toml")).expect("a job");
+    assert_eq!(job.reduction.modes, ModeSelection::Count { count: 3 });
+    assert_eq!(job.interfaces[1].nodes, NodeSelection::Labels(vec![412, 413]));
+    let rows = read(&with("/interface/0/nodes", json!({ "rows": [0.0, 2.0] }))).expect("a job");
+    assert_eq!(rows.interfaces[0].nodes, NodeSelection::Rows { rows: vec![0, 2] });
 }
 
 #[test]
@@ -207,6 +234,39 @@ fn numbers_out_of_range_are_refused() {
     assert!(read(&with("/reduction/modes", json!({ "count": 0 }))).is_ok(), "no modes is static condensation");
     assert!(read(&with("/run", json!({ "memory_gib": 0 }))).is_err());
     assert!(read(&with("/model/expect", json!({ "mass": -1 }))).is_err());
+}
+
+/// Numbers whose squares and products would leave the range of double precision are refused before anything is computed with them.
+#[test]
+fn sizes_that_cannot_be_meant_are_refused() {
+    let sphere = |x: f64| json!({ "within": { "sphere": { "center": [x, 0, 0], "radius": 1e160 } } });
+    let plane =
+        |x: f64| json!({ "within": { "plane": { "point": [0, x, 0], "normal": [1e160, 0, 0], "tolerance": 0 } } });
+    let cylinder = |x: f64| json!({ "within": { "cylinder": { "from": [0, 0, 0], "to": [0, 0, x], "radius": 1 } } });
+    let documents = |x: f64| {
+        [
+            with("/reduction/modes", json!({ "up_to_hz": x })),
+            with("/scene", json!({ "band_hz": [0, x] })),
+            with("/scene", json!({ "boundaries": [format!("mass:hub={x:e}")] })),
+            with("/model/expect", json!({ "mass": x })),
+            with("/model/expect", json!({ "cg": [x, 0, 0] })),
+            with("/interface/0/nodes", sphere(x)),
+            with("/interface/0/nodes", plane(x)),
+            with("/interface/0/nodes", cylinder(x)),
+        ]
+    };
+    for document in documents(1e48).into_iter().chain(documents(1e-48)) {
+        assert!(read(&document).is_ok(), "{document}");
+    }
+    for document in documents(1e49) {
+        let message = message(&document);
+        assert!(message.contains("is 1e49 – expected") && message.contains("1e48"), "{message}");
+    }
+    for document in &documents(1e-49)[..4] {
+        assert!(message(document).ends_with("is 1e-49 – expected a positive number between 1e-48 and 1e48"));
+    }
+    let damping = message(&with("/scene", json!({ "damping": { "ratio": 1e-200 } })));
+    assert_eq!(damping, "`scene.damping.ratio` is 1e-200 – expected a positive number between 1e-48 and 1e48");
 }
 
 #[test]

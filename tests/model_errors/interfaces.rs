@@ -38,7 +38,7 @@ fn interface_too_large_for_dense_matrices() {
     let rows_of = |n: usize| rows("all", &(0..n).collect::<Vec<_>>());
     let error = refused(&spring(20_002, Ends::Free), &[rows_of(20_001)]);
     assert!(matches!(error, Error::InterfaceTooLarge { n_interface: 20_001, limit: 20_000 }), "{error}");
-    assert_says(&error, ErrorClass::InputData, &["20001 dofs", "at most 20000", "couple their patches rigidly"]);
+    assert_says(&error, ErrorClass::InputData, &["20,001 dofs", "at most 20,000", "couple their patches rigidly"]);
 }
 
 #[test]

@@ -416,6 +416,39 @@ fn surfaces_on_volumes_count_once_whatever_their_corners() {
     assert_unknown(&found, "in part", "half a quadrilateral");
 }
 
+/// A cell of a surface over several faces, or on a part of one, leaves open what the faces are; one next to them is a face more.
+#[test]
+fn surfaces_of_another_size_than_the_faces_below() {
+    let mut bricks = Mesh::of(Shape::Brick, 8, Order::BottomTopUpright);
+    let mut cell = |x: [f64; 2], y: [f64; 2]| -> Vec<usize> {
+        [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]].map(|[x, y]| bricks.node([x, y, 0.0])).into()
+    };
+    let (all, quarter, beyond) =
+        (cell([0.0, 3.0], [0.0, 2.0]), cell([0.0, 0.5], [0.0, 1.0]), cell([3.0, 5.0], [0.0, 2.0]));
+    let (patch, cells) = (bricks.patch(), ("HE8", columns(&rows(&bricks.cells, 1), 8)));
+    let with =
+        |surface: Vec<usize>| med(&bricks, &[cells.clone(), ("QU4", columns(&rows(&[surface], 1), 4))]).faces(&patch);
+    assert_unknown(&with(all), "in part", "over both faces");
+    assert_unknown(&with(quarter), "in part", "on a quarter of a face");
+    assert_centroid(&with(beyond), 3, [2.5, 1.0, 0.0], "next to the faces");
+}
+
+/// The number of cells that a MED file states is named where it is not the number that is there.
+#[test]
+fn a_number_of_cells_that_is_wrong_is_named() {
+    let mesh = Mesh::of(Shape::Brick, 8, Order::BottomTopUpright);
+    let written = med(&mesh, &[("HE8", columns(&rows(&mesh.cells, 1), 8))]);
+    let file = File::open_rw(&written.1).expect("a file");
+    let connectivity = file.dataset(&format!("{STEP}/MAI/HE8/NOD")).expect("a dataset");
+    connectivity.new_attr_builder().with_data(&[7]).create("NBR").expect("an attribute");
+    drop((connectivity, file));
+    let error = written.faces(&mesh.patch()).expect_err("a wrong number").to_string();
+    assert!(
+        error.ends_with("found 16 values – expected 8 for each of the 7 cells that the attribute NBR states"),
+        "{error}"
+    );
+}
+
 /// Eight triangles between the corners, the middles of the edges and the centre of a face of a brick of 27 nodes.
 #[test]
 fn surfaces_between_middles_of_edges_lie_on_the_face() {

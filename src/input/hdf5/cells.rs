@@ -8,6 +8,7 @@ use super::dataset::Dataset;
 use super::faces::{Cell, Gathered, Shape};
 use super::group::Group;
 use crate::error::{Error, Result};
+use crate::number::counted;
 
 /// What a format calls a kind of cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,7 +71,11 @@ pub(super) fn add(
     Ok(())
 }
 
-/// The error for numbers that do not fill cells.
-pub(super) fn unfilled(dataset: &Dataset<'_>, n_values: usize, cell: Cell) -> Error {
-    dataset.wrong_shape(format!("{n_values} values"), format!("{} for each cell", cell.n_nodes()))
+/// The error for numbers that do not fill cells, or not as many as the file states.
+pub(super) fn unfilled(dataset: &Dataset<'_>, n_values: usize, (cell, stated): (Cell, Option<i64>)) -> Error {
+    let each = match stated {
+        Some(stated) => format!("{} for each of the {stated} cells that the attribute NBR states", cell.n_nodes()),
+        None => format!("{} for each cell", cell.n_nodes()),
+    };
+    dataset.wrong_shape(counted(n_values, "value", "values"), each)
 }

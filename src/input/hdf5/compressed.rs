@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::error::{Error, Result};
+use crate::number::counted;
 use crate::sparse::Triplets;
 
 /// What the pointers count.
@@ -124,7 +125,7 @@ impl Compressed {
 
     fn wrong_length(&self, path: &Path, dataset: usize, found: usize, expected: String) -> Error {
         let (path, object) = (path.to_owned(), self.names[dataset].clone());
-        Error::Hdf5Shape { path, object, found: format!("{found} values"), expected }
+        Error::Hdf5Shape { path, object, found: counted(found, "value", "values"), expected }
     }
 }
 

@@ -11,7 +11,7 @@ mod covering;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use area::{Moments, moments};
+use area::{Moments, minus, moments};
 pub(super) use cell::{Cell, Shape};
 use covering::{Found, Skin, Volumes, counted};
 
@@ -20,7 +20,7 @@ use super::super::patch::{Faces, Patch, PatchFaces, Patches};
 use crate::error::Result;
 
 /// Bytes of a face that is kept.
-const FACE: u64 = 384;
+const FACE: u64 = 512;
 /// Bytes of a face while faces of different kinds are compared.
 const COMPARED: u64 = 256;
 /// Bytes of a node's place in its patch.
@@ -101,11 +101,13 @@ impl<'a> Gathered<'a> {
             return Ok(());
         }
         let owner = || sorted(nodes[..cell.n_corners()].to_vec());
+        let outline: Vec<[f64; 3]> = corners.iter().filter_map(|corner| self.place(patch, *corner)).collect();
         if let Some(found) = self.faces.get_mut(&(patch, key.clone())) {
             match &found.volumes {
                 _ if cell.is_surface() => found.skin = Skin::There,
                 Volumes::None => {
-                    *found = Found { corners, others, moments, skin: Skin::There, volumes: Volumes::One(owner()) };
+                    let volumes = Volumes::One(owner());
+                    *found = Found { corners, outline, others, moments, skin: Skin::There, volumes };
                 }
                 Volumes::One(first) if *first != owner() => found.volumes = Volumes::Two,
                 _ => {}
@@ -119,7 +121,7 @@ impl<'a> Gathered<'a> {
             true => (Skin::There, Volumes::None),
             false => (Skin::None, Volumes::One(owner())),
         };
-        self.faces.insert((patch, key), Found { corners, others, moments, skin, volumes });
+        self.faces.insert((patch, key), Found { corners, outline, others, moments, skin, volumes });
         Ok(())
     }
 
@@ -240,10 +242,6 @@ fn sorted(mut nodes: Vec<usize>) -> Vec<usize> {
 fn mean(points: &[[f64; 3]]) -> [f64; 3] {
     let n = points.len() as f64;
     std::array::from_fn(|axis| points.iter().map(|point| point[axis] / n).sum())
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|axis| a[axis] - b[axis])
 }
 
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {

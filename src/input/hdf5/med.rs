@@ -5,6 +5,7 @@ use super::group::{Group, Member};
 use super::med_groups::read_groups;
 use super::mesh::{Mesh, points};
 use crate::error::{Error, Result};
+use crate::number::counted;
 
 /// Reads the one mesh of a MED file with its labels and its node and element groups.
 pub(super) fn read(root: &Group<'_>) -> Result<Mesh> {
@@ -19,7 +20,7 @@ pub(super) fn read(root: &Group<'_>) -> Result<Mesh> {
     if !values.len().is_multiple_of(n_axes) || stated.is_some_and(|n| usize::try_from(n) != Ok(n_nodes)) {
         let stated = stated.map_or_else(|| "some".to_owned(), |n| n.to_string());
         let expected = format!("{n_axes} for each of {stated} nodes");
-        return Err(coordinates.wrong_shape(format!("{} values", values.len()), expected));
+        return Err(coordinates.wrong_shape(counted(values.len(), "value", "values"), expected));
     }
     let labels = match nodes.find_dataset("NUM")? {
         Some(numbers) => Some((numbers.integers()?, numbers.name().to_owned())),

@@ -18,7 +18,7 @@ pub(super) fn read(root: &Group<'_>, faces: &mut Gathered<'_>) -> Result<Known> 
         let n_cells = numbers.len() / cell.n_nodes();
         let stated = connectivity.integer_attribute("NBR")?;
         if !numbers.len().is_multiple_of(cell.n_nodes()) || stated.is_some_and(|n| usize::try_from(n) != Ok(n_cells)) {
-            return Err(unfilled(&connectivity, numbers.len(), cell));
+            return Err(unfilled(&connectivity, numbers.len(), (cell, stated)));
         }
         // Numbers of nodes are places in the file, whatever labels they have.
         add(faces, (&connectivity, &numbers), cell, (1, |at, corner| corner * n_cells + at))?;

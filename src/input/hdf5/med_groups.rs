@@ -7,6 +7,7 @@ use super::dataset::Dataset;
 use super::file::H5;
 use super::group::Group;
 use crate::error::{Error, Result};
+use crate::number::counted;
 
 /// Names of the groups of each family number.
 type Families = BTreeMap<i64, Vec<String>>;
@@ -106,7 +107,10 @@ fn node_groups(families: &Families, step: &Group<'_>, n_nodes: usize) -> Result<
     };
     let numbers = family.integers()?;
     if numbers.len() != n_nodes {
-        return Err(family.wrong_shape(format!("{} values", numbers.len()), format!("one for each of {n_nodes} nodes")));
+        return Err(family.wrong_shape(
+            counted(numbers.len(), "value", "values"),
+            format!("one for each of {}", counted(n_nodes, "node", "nodes")),
+        ));
     }
     sets.expect(n_nodes);
     for (node, number) in numbers.iter().enumerate() {
@@ -152,7 +156,7 @@ fn add_elements(
     let n_elements = numbers.len();
     if nodes.is_empty() || !nodes.len().is_multiple_of(n_elements) {
         let expected = format!("a multiple of the {n_elements} elements");
-        return Err(connectivity.wrong_shape(format!("{} values", nodes.len()), expected));
+        return Err(connectivity.wrong_shape(counted(nodes.len(), "value", "values"), expected));
     }
     sets.expect(nodes.len());
     for (position, &node) in nodes.iter().enumerate() {

@@ -6,6 +6,7 @@ use std::path::Path;
 use super::dataset::Dataset;
 use crate::dofs::Nodes;
 use crate::error::{Error, Result};
+use crate::number::counted;
 
 /// Nodes as a format's reader leaves them.
 pub(super) struct Mesh {
@@ -29,7 +30,8 @@ impl Mesh {
         let (labels, label_source) =
             self.labels.unwrap_or_else(|| ((1..=n_nodes as i64).collect(), self.source.clone()));
         if n_nodes == 0 || labels.len() != n_nodes {
-            let found = format!("{n_nodes} nodes and {} labels", labels.len());
+            let found =
+                format!("{} and {}", counted(n_nodes, "node", "nodes"), counted(labels.len(), "label", "labels"));
             let expected = "a label for each of one or more nodes".to_owned();
             return Err(Error::Hdf5Shape { path: path.to_owned(), object: label_source, found, expected });
         }

@@ -1,6 +1,6 @@
 //! Cells of a MOAB file: a group for each kind, with a row of file ids for each cell.
 
-use super::cells::{Kind, Known, add, kind, known_groups, unfilled};
+use super::cells::{Kind, Known, add, kind, known_groups};
 use super::faces::{Gathered, Shape};
 use super::group::Group;
 use crate::error::Result;
@@ -17,7 +17,8 @@ pub(super) fn read(root: &Group<'_>, faces: &mut Gathered<'_>) -> Result<Known> 
         let shape = connectivity.shape()?;
         let numbers = connectivity.integers()?;
         if shape.len() != 2 || shape[1] != cell.n_nodes() {
-            return Err(unfilled(&connectivity, numbers.len(), cell));
+            let expected = format!("shape [n, {}]", cell.n_nodes());
+            return Err(connectivity.wrong_shape(format!("shape {shape:?}"), expected));
         }
         add(faces, (&connectivity, &numbers), cell, (first, |at, corner| at * cell.n_nodes() + corner))?;
         group.h5().keep(0)?;

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::group::Group;
 use crate::error::{Error, Result};
+use crate::number::counted;
 
 /// Tags whose value is the number of a set that a user gave.
 const TAGS: [&str; 2] = ["DIRICHLET_SET", "NEUMANN_SET"];
@@ -52,7 +53,7 @@ fn tagged_sets(tstt: &Group<'_>, first: i64) -> Result<Vec<(String, i64)>> {
             let (numbers, n_ids) = (values.integers()?, ids.shape()?.iter().product::<usize>());
             if numbers.len() != n_ids {
                 return Err(
-                    values.wrong_shape(format!("{} values", numbers.len()), format!("{n_ids}, one for each id"))
+                    values.wrong_shape(counted(numbers.len(), "value", "values"), format!("{n_ids}, one for each id"))
                 );
             }
             tagged.extend(ids.integers()?.into_iter().zip(numbers).map(|(id, n)| (format!("{tag} {n}"), id)));

@@ -51,13 +51,14 @@ pub(crate) fn referenced_files(path: &Path) -> Vec<std::path::PathBuf> {
     if is_xml(path).unwrap_or(false) { xdmf::referenced_files(path) } else { Vec::new() }
 }
 
-/// True if the first character that is not a blank opens a tag.
+/// True if the first character that is not a blank opens a tag, or if the file is called XDMF and is empty.
 pub(super) fn is_xml(path: &Path) -> Result<bool> {
     let read = |source| Error::Read { path: path.to_owned(), source };
     let mut head = Vec::new();
     regular_file::open(path)?.take(256).read_to_end(&mut head).map_err(read)?;
     let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&head);
-    Ok(text.trim_ascii_start().starts_with(b"<"))
+    let is_empty = || head.is_empty() && path.extension().is_some_and(|name| name == "xdmf" || name == "xmf");
+    Ok(text.trim_ascii_start().starts_with(b"<") || is_empty())
 }
 
 fn read_hdf5(path: &Path, allowance: &Allowance) -> Result<Mesh> {

@@ -13,6 +13,9 @@ use super::xml_size::refuse_many_names;
 use crate::error::{Error, Result};
 use crate::input::Allowance;
 use crate::input::allowance::Claim;
+use crate::input::banner::excerpt;
+use crate::linked;
+use crate::number::counted;
 use crate::regular_file::{self, digest, unchanged};
 
 /// Bytes of the document and of what is made of it for each of its bytes: the text itself, its tree, its numbers.
@@ -39,7 +42,7 @@ pub(super) fn read(path: &Path, allowance: &Allowance) -> Result<(Mesh, Option<S
         [only] => only.read(path, allowance),
         _ => {
             let quoted = geometries.iter().take(QUOTED);
-            let found = quoted.map(|g| g.content.trim().chars().take(60).collect()).collect();
+            let found = quoted.map(|g| excerpt(g.content.trim().as_bytes())).collect();
             let object = "Xdmf/Domain/Grid/Geometry".to_owned();
             Err(Error::MeshNotOne { path: path.to_owned(), object, found, kind: "geometry" })
         }
@@ -92,7 +95,7 @@ struct Geometry<'a> {
 impl<'a> Geometry<'a> {
     fn of(node: Node<'a, '_>, path: &Path) -> Result<Self> {
         let unsupported = |object: &str, found: &str, expected| {
-            let (path, found) = (path.to_owned(), found.to_owned());
+            let (path, found) = (path.to_owned(), excerpt(found.as_bytes()));
             Err(Error::MeshUnsupported { path, object: object.to_owned(), found, expected })
         };
         let kind = node.attribute("GeometryType").or_else(|| node.attribute("Type")).unwrap_or("XYZ");
@@ -104,7 +107,7 @@ impl<'a> Geometry<'a> {
         };
         let items: Vec<Node<'_, '_>> = node.children().filter(|c| c.tag_name().name() == "DataItem").collect();
         let &[item] = items.as_slice() else {
-            let found = format!("{} data items", items.len());
+            let found = counted(items.len(), "data item", "data items");
             return unsupported("Geometry", &found, "one DataItem");
         };
         let format = item.attribute("Format").unwrap_or("XML").to_ascii_uppercase();
@@ -128,8 +131,12 @@ impl<'a> Geometry<'a> {
             if self.format == "HDF" { self.read_hdf5(path, allowance)? } else { self.read_text(path)? };
         let stated = self.stated_len();
         if !values.len().is_multiple_of(self.n_axes) || stated.is_some_and(|n| n != values.len()) {
-            let found = format!("{} values", values.len());
-            let expected = format!("{} for each node and Dimensions {}", self.n_axes, self.dimensions.unwrap_or("-"));
+            let found = counted(values.len(), "value", "values");
+            let expected = format!(
+                "{} for each node and Dimensions {}",
+                self.n_axes,
+                excerpt(self.dimensions.unwrap_or("-").as_bytes())
+            );
             return Err(Error::Hdf5Shape { path: path.to_owned(), object: source, found, expected });
         }
         Ok((Mesh::of_points(points(&values, self.n_axes), source), digest))
@@ -144,7 +151,7 @@ impl<'a> Geometry<'a> {
 
     fn read_hdf5(&self, path: &Path, allowance: &Allowance) -> Result<Values> {
         let Some((file, object)) = inside_folder(path, self.content) else {
-            return Err(Error::XdmfReference { path: path.to_owned(), reference: self.content.to_owned() });
+            return Err(Error::XdmfReference { path: path.to_owned(), reference: excerpt(self.content.as_bytes()) });
         };
         let read = || {
             let h5 = H5::open(&file, allowance)?;
@@ -160,7 +167,7 @@ impl<'a> Geometry<'a> {
             word.parse::<f64>().map_err(|_| Error::Hdf5Type {
                 path: path.to_owned(),
                 object: source.to_owned(),
-                found: format!("`{word}`"),
+                found: format!("`{}`", excerpt(word.as_bytes())),
                 expected: "real numbers",
             })
         };
@@ -172,6 +179,14 @@ impl<'a> Geometry<'a> {
 /// Coordinates, where they come from, and the digest of the file they come from where it is another one.
 type Values = (Vec<f64>, String, Option<String>);
 
+/// The file in the folder of the XDMF. Where that was reached through a link in whose folder there is no such file, the one in the
+/// folder of the XDMF itself.
+fn next_to(path: &Path, file: &Path) -> PathBuf {
+    let named = linked::named_folder(path).join(file);
+    let own = || linked::own_folder(path).map(|folder| folder.join(file)).filter(|own| own.exists());
+    if named.exists() { named } else { own().unwrap_or(named) }
+}
+
 /// The file and the path in it, if the reference is `file:/path` and the file lies in the folder of the XDMF or below.
 pub(super) fn inside_folder<'a>(path: &Path, reference: &'a str) -> Option<(PathBuf, &'a str)> {
     let (file, object) = reference.rsplit_once(":/")?;
@@ -180,5 +195,5 @@ pub(super) fn inside_folder<'a>(path: &Path, reference: &'a str) -> Option<(Path
     // A backslash or a second colon would leave the folder on some systems.
     let portable = !reference.contains(['\\']) && !file.to_string_lossy().contains(':');
     let named = file.file_name().is_some() && !object.is_empty();
-    (inside && portable && named).then(|| (path.parent().unwrap_or(Path::new("")).join(file), object))
+    (inside && portable && named).then(|| (next_to(path, file), object))
 }

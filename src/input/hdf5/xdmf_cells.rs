@@ -12,7 +12,9 @@ use super::xdmf::{inside_folder, parse, text_of};
 use crate::error::{Error, Result};
 use crate::input::Allowance;
 use crate::input::allowance::Claim;
+use crate::input::banner::excerpt;
 use crate::input::hdf5::group::Group;
+use crate::number::counted;
 use crate::regular_file::unchanged;
 
 /// Bytes of a number.
@@ -76,7 +78,7 @@ impl<'a> Topology<'a> {
         let kind = kind.ok_or("a Topology without a type")?;
         let cells = cells_of(kind);
         if cells == Cells::Of(Kind::Unknown) {
-            return Err(format!("a Topology of type {kind}"));
+            return Err(format!("a Topology of type {}", excerpt(kind.as_bytes())));
         }
         let offset = node.attribute("BaseOffset");
         let first = offset.map_or(Ok(0), |offset| {
@@ -99,7 +101,7 @@ impl<'a> Topology<'a> {
         let is_hdf5 = match item.attribute("Format").unwrap_or("XML").to_ascii_uppercase().as_str() {
             "HDF" => true,
             "XML" => false,
-            other => return Err(format!("a Topology in the format {other}")),
+            other => return Err(format!("a Topology in the format {}", excerpt(other.as_bytes()))),
         };
         let (content, dimensions) = (item.text().unwrap_or("").trim(), item.attribute("Dimensions"));
         Ok(Self { kind, cells, is_hdf5, content, dimensions, first })
@@ -126,7 +128,7 @@ impl<'a> Topology<'a> {
             Some(factors?.iter().try_fold(1_usize, |n, d| n.checked_mul(*d)).unwrap_or(usize::MAX))
         });
         if stated.is_some_and(|stated| stated != numbers.len()) {
-            let expected = format!("Dimensions {}", self.dimensions.unwrap_or("-"));
+            let expected = format!("Dimensions {}", excerpt(self.dimensions.unwrap_or("-").as_bytes()));
             return Err(self.wrong_shape(path, numbers.len(), expected));
         }
         Ok(Some(numbers))
@@ -138,7 +140,7 @@ impl<'a> Topology<'a> {
             word.parse::<i64>().map_err(|_| Error::Hdf5Type {
                 path: path.to_owned(),
                 object: self.source(),
-                found: format!("`{word}`"),
+                found: format!("`{}`", excerpt(word.as_bytes())),
                 expected: "whole numbers",
             })
         };
@@ -233,7 +235,7 @@ impl<'a> Topology<'a> {
     }
 
     fn wrong_shape(&self, path: &Path, n_values: usize, expected: String) -> Error {
-        let found = format!("{n_values} values");
+        let found = counted(n_values, "value", "values");
         Error::Hdf5Shape { path: path.to_owned(), object: self.source(), found, expected }
     }
 }

@@ -3,7 +3,7 @@
 use super::front::{in_words, percent};
 use super::markup::{Cell, Figure, Markup, Table};
 use super::plot;
-use crate::number::{quantity, scientific};
+use crate::number::{counted, quantity, scientific};
 use crate::verification::preservation::{Preservation, SizeError};
 
 pub(super) fn size(page: &mut Markup, preservation: &Preservation) {
@@ -28,8 +28,8 @@ pub(super) fn size(page: &mut Markup, preservation: &Preservation) {
 
 fn curve(page: &mut Markup, sizes: &[SizeError], first: &SizeError, last: &SizeError) {
     let description = format!(
-        "With {} elastic modes the largest frequency error in the band is {}, with {} it is {}.",
-        first.n_modes,
+        "With {} the largest frequency error in the band is {}, with {} it is {}.",
+        counted(first.n_modes, "elastic mode", "elastic modes"),
         percent(first.frequency_error),
         last.n_modes,
         percent(last.frequency_error)

@@ -78,7 +78,7 @@ fn what_is_read_stays_within_the_memory_allowed() {
     let place = chain();
     let flags = place.matrix_flags();
     let ended = place.reduce(&flags, &format!("{} --memory-gib 1e-7", super::CHAIN));
-    assert_refused(&place, &ended, "E-MEM-READ", &["bytes are available", "run.memory_gib"]);
+    assert_refused(&place, &ended, "E-MEM-READ", &["bytes of memory is available", "run.memory_gib"]);
 }
 
 /// Zeros compress a thousandfold; positions of nodes need memory all the same.
@@ -140,7 +140,7 @@ fn a_map_of_many_rows_is_counted() {
         let mut flags = place.matrix_flags();
         flags.extend(["--dofs".to_owned(), place.text(name)]);
         let ended = place.reduce(&flags, super::CHAIN);
-        assert_refused(&place, &ended, "E-MAP-COUNT", &["has 200000 rows", "expected 5,"]);
+        assert_refused(&place, &ended, "E-MAP-COUNT", &["has 200,000 rows", "expected 5,"]);
     }
     let place = chain();
     assert_done(&place, &super::reduce_chain(&place), &[]);

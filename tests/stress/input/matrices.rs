@@ -92,7 +92,7 @@ fn i_07_repeated_entries() {
     let (place, whole) = (in_halves(), chain());
     assert_done(&place, &reduce_chain(&place), &[]);
     assert_done(&whole, &reduce_chain(&whole), &[]);
-    assert!(notes_say(&place, "K.mtx: 1 entries repeat a position and were added"));
+    assert!(notes_say(&place, "K.mtx: 1 entry repeats a position"));
     let tensors = |place: &Place| place.superelement("x.supel").tensors().clone();
     assert_eq!(tensors(&place), tensors(&whole));
     let strict = in_halves();
@@ -191,10 +191,7 @@ fn i_11_rows_without_stiffness() {
     assert_refused(&empty, &ended, "E-EMPTY-ROWS", &["1 rows", "row 6 (node 6 ux)", "--drop-empty"]);
     let ended = empty.reduce(&empty.model_flags(), &format!("{rest} --drop-empty"));
     assert_done(&empty, &ended, &["W-INDEX-BASE", "W-INDEX-BASE"]);
-    assert!(notes_say(
-        &empty,
-        "1 rows without stiffness and mass were dropped as asked; the first is row 6, node 6 ux"
-    ));
+    assert!(notes_say(&empty, "1 row without stiffness and mass was dropped as asked; the first is row 6, node 6 ux"));
     let whole = Place::with(&spring(5, Ends::Free));
     whole.reduce(&whole.model_flags(), rest);
     assert_eq!(empty.superelement("x.supel").tensors(), whole.superelement("x.supel").tensors());

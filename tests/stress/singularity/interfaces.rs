@@ -134,7 +134,7 @@ fn s_24_every_dof_interface_keeps_the_matrices() {
     }
     let chain = spring(20_002, Ends::Free);
     let error =
-        Case::new(&chain, &[rows("all", &(0..20_001).collect::<Vec<_>>())]).refused(&["20001 dofs", "at most 20000"]);
+        Case::new(&chain, &[rows("all", &(0..20_001).collect::<Vec<_>>())]).refused(&["20,001 dofs", "at most 20,000"]);
     assert!(matches!(error, Error::InterfaceTooLarge { .. }), "{error}");
 }
 

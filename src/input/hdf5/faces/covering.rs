@@ -3,14 +3,16 @@
 //! Where a brick and two tetrahedra share a quadrilateral, neither of them has an outer face there. Where cells of a surface lie on outer
 //! faces of volume cells, these count and the cells of the surface do not.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::area::Moments;
+use super::area::{Moments, cross, dot, minus};
 
 /// A face of a patch.
 pub(super) struct Found {
     /// Its corners along its border, three or four.
     pub(super) corners: Vec<usize>,
+    /// Where these are.
+    pub(super) outline: Vec<[f64; 3]>,
     /// Its other nodes.
     pub(super) others: Vec<usize>,
     pub(super) moments: Moments,
@@ -37,6 +39,16 @@ pub(super) enum Volumes {
 }
 
 impl Found {
+    /// Whether the middle of another face lies on this one.
+    fn has_middle_of(&self, other: &Self) -> bool {
+        /// Distance from the plane of a face, as a share of its size, within which another face lies on it rather than at an angle.
+        const THICKNESS: f64 = 0.1;
+        let middle = other.moments.first.map(|first| first / other.moments.area);
+        let thickness = THICKNESS * self.moments.area.sqrt();
+        (2..self.outline.len())
+            .any(|at| is_inside([self.outline[0], self.outline[at - 1], self.outline[at]], middle, thickness))
+    }
+
     fn n_nodes(&self) -> usize {
         self.corners.len() + self.others.len()
     }
@@ -84,10 +96,26 @@ pub(super) fn counted<'a>(faces: &[&'a Found]) -> Option<Vec<&'a Found>> {
                 && (is_outer[*other] || faces[*other].n_nodes() > face.n_nodes())
         };
         if is_outer[at] || !near.to(at).iter().any(is_under) && !is_on_outer(at, &near, &is_outer)? {
-            left.push(*face);
+            left.push(at);
         }
     }
-    Some(left)
+    let is_left: BTreeSet<usize> = left.iter().copied().collect();
+    let overlaps = |at: &usize| {
+        let others = near.at_corners(*at).into_iter().filter(|other| is_left.contains(other));
+        others.filter(|other| !(is_outer[*at] && is_outer[*other])).any(|other| faces[other].has_middle_of(faces[*at]))
+    };
+    // A cell of a surface over several faces, or several over one, where their corners tell nothing.
+    (!left.iter().any(overlaps)).then(|| left.into_iter().map(|at| faces[at]).collect())
+}
+
+/// Whether a point lies in a triangle, or so near to its plane.
+fn is_inside([a, b, c]: [[f64; 3]; 3], point: [f64; 3], thickness: f64) -> bool {
+    let normal = cross(minus(b, a), minus(c, a));
+    let square = dot(normal, normal);
+    let side = |from: [f64; 3], to: [f64; 3]| dot(normal, cross(minus(to, from), minus(point, from)));
+    let is_near = dot(normal, minus(point, a)).abs() <= thickness * square.sqrt();
+    // A middle on the diagonal of a quadrilateral is on the side of one of its triangles, within rounding.
+    square > 0.0 && is_near && [side(a, b), side(b, c), side(c, a)].iter().all(|side| *side >= -1e-9 * square)
 }
 
 /// Whether a cell of a surface lies on two outer faces that are its halves; none where it lies on something else in part.
@@ -128,6 +156,12 @@ impl<'a> Near<'a> {
     /// Other faces with the first corner of a face.
     fn to(&self, at: usize) -> Vec<usize> {
         self.at_node[&self.faces[at].corners[0]].iter().copied().filter(|other| *other != at).collect()
+    }
+
+    /// Other faces with one of the corners of a face.
+    fn at_corners(&self, at: usize) -> BTreeSet<usize> {
+        let of_corner = |corner| self.at_node[corner].iter().copied();
+        self.faces[at].corners.iter().flat_map(of_corner).filter(|other| *other != at).collect()
     }
 
     /// Outer faces of volume cells, other than the face `at`, all of whose corners are among `nodes`.
