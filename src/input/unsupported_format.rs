@@ -2,6 +2,7 @@
 
 use super::file_start::FileStart;
 use crate::error::{Error, Result};
+use crate::regular_file::is_utf16;
 
 /// What a file is read for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,7 +44,7 @@ struct Foreign {
 
 /// The formats, the more particular first.
 const FORMATS: [Foreign; 9] = [
-    Foreign { begins: regular_file::is_utf16, found: "text in UTF-16", for_matrix: AS_UTF8, for_table: AS_UTF8 },
+    Foreign { begins: |start| is_utf16(&start.head), found: "text in UTF-16", for_matrix: AS_UTF8, for_table: AS_UTF8 },
     Foreign {
         begins: |start| start.head.starts_with(b"PK") && start.holds(b".npy"),
         found: "a NumPy archive (.npz)",
