@@ -145,12 +145,7 @@ impl std::fmt::Display for Finding {
             Self::MassCouplesOthers { n_apart, n_nodes, first } => {
                 f.write_str(&couples_others([*n_apart, *n_nodes], first))
             }
-            Self::Penalties { n_rows, first, ratio } => write!(
-                f,
-                "{} a stiffness of {PENALTY:.0e} times the median and more, at most {ratio:.0e} times at {first}: penalties \
-                 that hold or tie dofs; they take digits from what they touch, leave held dofs out of both matrices",
-                counted(*n_rows, "row has", "rows have")
-            ),
+            Self::Penalties { n_rows, first, ratio } => f.write_str(&stiff_rows(*n_rows, first, *ratio)),
             Self::NegativeMassByRounding { n_rows } => {
                 let entries = counted(*n_rows, "diagonal entry of the mass is", "diagonal entries of the mass are");
                 write!(f, "{entries} negative by rounding; zero was put there")
@@ -176,12 +171,7 @@ impl std::fmt::Display for Finding {
                 "K is too badly conditioned to count its motions without energy: nothing confirms the coordinates where supports are; \
                  check that rows and map are in one order",
             ),
-            Self::MassByDirection { n_nodes, at } => write!(
-                f,
-                "{} another mass in one direction than in another, listed from the first: {at}; check that they have no \
-                 local frames, which in a held component look like supports",
-                counted(*n_nodes, "node has", "nodes have")
-            ),
+            Self::MassByDirection { n_nodes, at } => f.write_str(&mass_by_direction(*n_nodes, at)),
             Self::RotationsFree { rotations } => {
                 let rotations: Vec<String> = rotations.iter().map(ToString::to_string).collect();
                 write!(
@@ -197,6 +187,22 @@ impl std::fmt::Display for Finding {
             }
         }
     }
+}
+
+fn stiff_rows(n_rows: usize, first: &str, ratio: f64) -> String {
+    format!(
+        "{} a stiffness of {PENALTY:.0e} times the median and more, at most {ratio:.0e} times at {first}: penalties that hold or tie \
+         dofs; they take digits from what they touch, leave held dofs out of both matrices",
+        counted(n_rows, "row has", "rows have")
+    )
+}
+
+fn mass_by_direction(n_nodes: usize, at: &str) -> String {
+    format!(
+        "{} another mass in one direction than in another, listed from the first: {at}; check that they have no local frames, which \
+         in a held component look like supports",
+        counted(n_nodes, "node has", "nodes have")
+    )
 }
 
 fn couples_others([n_apart, n_nodes]: [usize; 2], first: &str) -> String {
