@@ -1566,15 +1566,15 @@ pub enum Error {
     },
     /// The digits of K leave open what the reduction rests on.
     #[error(
-        "the digits of the stiffness do not tell {what} – its entries are known to {precision:.0e} of themselves – \
+        "the digits of the stiffness do not tell {what} – {known} – \
         expected entries whose last digit does not decide that – write the stiffness with more digits, best in \
         binary"
     )]
     DigitsTooFew {
         /// What is open.
         what: String,
-        /// Relative precision of the entries.
-        precision: f64,
+        /// How well its entries are known.
+        known: String,
     },
     /// A pivot of a matrix that should be definite was not positive.
     #[error(

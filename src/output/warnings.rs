@@ -4,7 +4,9 @@ use super::results::Results;
 use crate::constraint::Loose;
 use crate::error::Warning;
 use crate::factor::Refinement;
+use crate::input::MatrixFacts;
 use crate::job::{Boundary, Precision};
+use crate::number::decimals;
 use crate::rigid::RigidSource;
 use crate::verification::check::Verdict;
 use crate::verification::{LARGEST_OF_MESHES, Penalties, penalties as penalties_of};
@@ -135,7 +137,8 @@ pub(super) fn data_precision(results: &Results<'_>) -> Option<Warning> {
     let first = uncertain.first()?;
     let [stiffness, mass] = &results.input.matrices;
     // Sixteen digits are all that a number in double precision has.
-    let advice = if stiffness.digits.min(mass.digits) >= 16 {
+    let is_full = |facts: &MatrixFacts| facts.digits >= 16 && facts.decimals.is_none();
+    let advice = if is_full(stiffness) && is_full(mass) {
         "double precision has no more for stiffnesses of such different size: make stiff ties and thin elements softer or leave them out"
     } else {
         "write the matrices with all their digits, and stiffnesses of like size"
@@ -143,11 +146,15 @@ pub(super) fn data_precision(results: &Results<'_>) -> Option<Warning> {
     Some(Warning {
         code: "W-DATA-PRECISION",
         message: format!(
-            "{} digits of the stiffness and {} of the mass leave {} frequencies less certain than {WANTED:.0e}, {first}; \
+            "{} of the stiffness and {} of the mass leave {} frequencies less certain than {WANTED:.0e}, {first}; \
              {advice}",
-            stiffness.digits,
-            mass.digits,
+            digits_of(stiffness),
+            digits_of(mass),
             uncertain.len()
         ),
     })
+}
+
+fn digits_of(facts: &MatrixFacts) -> String {
+    facts.decimals.map_or_else(|| format!("{} digits", facts.digits), decimals)
 }

@@ -75,7 +75,8 @@ fn model(page: &mut Page, model: &ModelReport) {
 
 fn matrix(matrix: &MatrixReport) -> String {
     let nonzeros = number::counted(matrix.n_nonzeros, "nonzero", "nonzeros");
-    format!("{nonzeros} · {} digits · blake3 {}…", matrix.digits, short(&matrix.digest))
+    let digits = matrix.decimals.map_or_else(|| format!("{} digits", matrix.digits), number::decimals);
+    format!("{nonzeros} · {digits} · blake3 {}…", short(&matrix.digest))
 }
 
 /// As much of a digest as tells two files apart.
