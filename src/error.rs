@@ -1291,24 +1291,17 @@ pub enum Error {
     },
     /// Coordinates or a dof map that do not belong to K.
     #[error(
-        "the coordinates do not belong to the stiffness – it has {} without energy, of which the \
-        coordinates explain {n_explained}; by them {motions} cost up to {} of {of}, most of it at {dof} – expected \
-        below {} – check units, axes and local node frames, the order of nodes and rows, and the state that the \
-        coordinates are of, or leave the nodes out",
-        counted(*n_zero, "motion", "motions"), quantity(*energy, 2), quantity(*expected, 2)
+        "the coordinates do not belong to the stiffness – {found} – expected below {} – check units, axes and local \
+        node frames, the order of nodes and rows, and the state that the coordinates are of, or leave the nodes out",
+        quantity(*expected, 2)
     )]
     CoordinatesDoNotFit {
-        /// Zero modes of K.
-        n_zero: usize,
-        /// Zero modes of K that are motions by the coordinates.
-        n_explained: usize,
-        /// Motions by the coordinates that cost energy they should not.
-        motions: String,
-        /// The largest energy of such a motion, relative to another.
+        /// What was found, in words.
+        found: String,
+        /// The largest energy of a motion by the coordinates, relative to another; of nodes out of place their distance, relative to
+        /// the size of the component.
         energy: f64,
-        /// What it is relative to.
-        of: &'static str,
-        /// What rounding of coordinates may cost.
+        /// What rounding of coordinates may make of it.
         expected: f64,
         /// Where the forces are largest.
         dof: String,
@@ -1579,15 +1572,15 @@ pub enum Error {
     },
     /// The digits of K leave open what the reduction rests on.
     #[error(
-        "the digits of the stiffness do not tell {what} – its entries are known to {precision:.0e} of themselves – \
+        "the digits of the stiffness do not tell {what} – {known} – \
         expected entries whose last digit does not decide that – write the stiffness with more digits, best in \
         binary"
     )]
     DigitsTooFew {
         /// What is open.
         what: String,
-        /// Relative precision of the entries.
-        precision: f64,
+        /// How well its entries are known.
+        known: String,
     },
     /// A pivot of a matrix that should be definite was not positive.
     #[error(

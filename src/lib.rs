@@ -235,8 +235,8 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     let model = Model::new(read)?;
 
     observer.stage("coordinates");
-    let is_tied = job.interfaces.iter().any(|interface| interface.coupling.is_patch());
-    let levers = if is_tied { Levers::Used } else { Levers::Unused };
+    let tied = partition::nodes_of_patches(&model, &job.interfaces);
+    let levers = if tied.is_empty() { Levers::Unused } else { Levers::Of(&tied) };
     let model = coordinates::compared(model, &job.model.held_rotations, levers)?;
 
     observer.stage("partition");

@@ -19,6 +19,15 @@ pub(crate) fn counted(number: impl TryInto<u64>, one: &str, many: &str) -> Strin
     format!("{} {}", count(number), if number == 1 { one } else { many })
 }
 
+/// `4 decimals`, or `hundreds` and so on in words of a power of ten before the point.
+pub(crate) fn decimals(count: i32) -> String {
+    match count {
+        1 => "1 decimal".to_owned(),
+        count @ 0.. => format!("{count} decimals"),
+        count => format!("multiples of 1e{}", -count),
+    }
+}
+
 /// A quantity with about `digits` significant digits, in plain notation where that is short.
 pub(crate) fn quantity(value: f64, digits: usize) -> String {
     if value == 0.0 {

@@ -165,7 +165,8 @@ fn interface_motions(
 }
 
 fn n_soft(partition: &Partition, constraint: &ConstraintModes, values: &[f64]) -> usize {
-    let by_digits = SOFT_BY_DIGITS * partition.precision.stiffness * constraint.cancellation * partition.cancellation;
+    let by_digits =
+        SOFT_BY_DIGITS * partition.precision.stiffness.share * constraint.cancellation * partition.cancellation;
     values.iter().take_while(|value| **value <= SOFT.max(by_digits)).count()
 }
 

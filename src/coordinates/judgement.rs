@@ -1,5 +1,7 @@
 //! The decision about a doubt: supports, rounded coordinates, or coordinates that belong to another model.
 
+use std::collections::HashSet;
+
 use super::doubt::{Costly, Doubt, Place};
 use super::free::Free;
 use super::mended::mended;
@@ -7,6 +9,7 @@ use super::motions::Motions;
 use super::zeros::{Zeros, counted, n_loose_rows, whole};
 use crate::error::{Error, ErrorClass, Result};
 use crate::model::{CoordinateFit, Misfit};
+use crate::number::quantity;
 use crate::sparse::product;
 use supel_runtime::MOTIONS;
 
@@ -31,20 +34,32 @@ struct Case<'a> {
     free: Vec<Free>,
     /// Motions without energy that the coordinates explain, and rows that move by themselves.
     n_explained: usize,
-    levers: Levers,
+    levers: Levers<'a>,
 }
 
 /// Whether the result depends on coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Levers {
-    /// Rigid patches tie nodes by them.
+pub enum Levers<'a> {
+    /// Rigid patches may tie any node by them.
     Used,
+    /// Rigid patches tie these nodes by them, by their labels.
+    Of(&'a HashSet<i64>),
     /// Interfaces are coupled directly.
     Unused,
 }
 
+impl Levers<'_> {
+    fn reach(self, node: i64) -> bool {
+        match self {
+            Self::Used => true,
+            Self::Of(nodes) => nodes.contains(&node),
+            Self::Unused => false,
+        }
+    }
+}
+
 /// Settles the doubts about coordinates, by the motions without energy that K has.
-pub(super) fn settled(motions: &Motions<'_>, doubts: &[Doubt], levers: Levers) -> Result<CoordinateFit> {
+pub(super) fn settled(motions: &Motions<'_>, doubts: &[Doubt], levers: Levers<'_>) -> Result<CoordinateFit> {
     let momenta = product(&motions.model.mass, motions.centred.as_ref());
     let free: Vec<Free> = motions.bodies.iter().map(|body| Free::of(motions, body, &momenta)).collect::<Result<_>>()?;
     let n_explained = free.iter().map(|free| free.n_free).sum::<usize>() + n_loose_rows(motions);
@@ -111,14 +126,13 @@ impl Case<'_> {
             return Ok(CoordinateFit::Exact);
         };
         let rotations: Vec<usize> = worst.costly.iter().map(|costly| costly.rotation).collect();
-        let Place { at, concentration, largest } = Place::of(motions, &worst.costly[0].witnesses, &rotations);
+        let Place { at, concentration, .. } = Place::of(motions, &worst.costly[0].witnesses, &rotations);
         // Of a node out of place all but what the median node shows is too much.
         let expected = if concentration <= EVEN { ROUNDED } else { ROUNDED.min(cost.energy / concentration.powi(2)) };
         let is_rounded = !cost.energy.is_nan() && cost.energy <= expected;
         let is_held = worst.costly.iter().all(|costly| !costly.is_free);
-        if is_rounded && is_held && self.levers == Levers::Used && largest > FIVE_DIGITS {
-            let of = "the size of the component, by nodes out of place under rigid patches";
-            return Err(self.misfit(zeros, &rotations, Cost { energy: largest, of, expected: FIVE_DIGITS }, at));
+        if is_rounded && is_held {
+            self.refuse_patches_out_of_place(worst, &rotations)?;
         }
         if is_rounded && zeros.count() >= self.n_of_right_coordinates() {
             // Of a body whose rows are nearly all touched the others say little, and the number of motions all.
@@ -137,6 +151,22 @@ impl Case<'_> {
             return Err(Error::RotationsHeld { rotations, n_zero, energy: cost.energy, dof: at });
         }
         Err(self.misfit(zeros, &rotations, Cost { expected, ..cost }, at))
+    }
+
+    /// Of a held body nothing mends the coordinates that tie nodes to a rigid patch; those of other nodes the result does not depend on.
+    fn refuse_patches_out_of_place(&self, doubt: &Doubt, rotations: &[usize]) -> Result<()> {
+        let motions = self.motions;
+        let is_tied = |row: &usize| motions.model.dofs.as_ref().is_none_or(|dofs| self.levers.reach(dofs[*row].node));
+        let tied: Vec<usize> = doubt.costly[0].witnesses.iter().copied().filter(is_tied).collect();
+        let Place { at: dof, largest: energy, .. } = Place::of(motions, &tied, rotations);
+        if energy <= FIVE_DIGITS {
+            return Ok(());
+        }
+        let found = format!(
+            "nodes of rigid patches are out of place by up to {} of the size of the component, the worst at {dof}",
+            quantity(energy, 2)
+        );
+        Err(Error::CoordinatesDoNotFit { found, energy, expected: FIVE_DIGITS, dof })
     }
 
     /// Motions without energy there would be if the coordinates were right but for rounding: what is free by them, and the
@@ -181,8 +211,14 @@ impl Case<'_> {
 
     fn misfit(&self, zeros: &Zeros, costly: &[usize], cost: Cost, dof: String) -> Error {
         let Cost { energy, of, expected } = cost;
-        let (n_zero, n_explained, motions) = (zeros.count(), self.n_explained, named(costly));
-        Error::CoordinatesDoNotFit { n_zero, n_explained, motions, energy, of, expected, dof }
+        let found = format!(
+            "it has {} motions without energy, of which the coordinates explain {}; by them {} cost up to {} of {of}, most of it at {dof}",
+            zeros.count(),
+            self.n_explained,
+            named(costly),
+            quantity(energy, 2)
+        );
+        Error::CoordinatesDoNotFit { found, energy, expected, dof }
     }
 }
 

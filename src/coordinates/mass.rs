@@ -26,7 +26,7 @@ pub(super) fn by_direction(motions: &Motions<'_>, nodes: &Nodes, doubts: &[Doubt
     }
     let translations = motions.centred.as_ref().subcols(0, 3);
     let (momenta, terms) = product_and_terms(&motions.model.mass, translations);
-    let share = DIFFERENT.max(DIGITS * motions.model.precision.mass);
+    let of_digits = motions.model.precision.mass.terms((&motions.model.mass).into(), translations);
     // The momenta of a node: row by row its three directions, column by column the three translations.
     let (mut rows_of, mut turns) = (vec![[usize::MAX; 3]; nodes.count()], vec![false; nodes.count()]);
     for row in held.iter().flat_map(|doubt| &motions.bodies[doubt.body].rows) {
@@ -40,7 +40,9 @@ pub(super) fn by_direction(motions: &Motions<'_>, nodes: &Nodes, doubts: &[Doubt
         let size = (0..9).fold(0.0f64, |max, k| max.max(terms[(rows[k / 3], k % 3)]));
         let mass = momenta[(rows[0], 0)];
         let expected = |k: usize| if k / 3 == k % 3 { mass } else { 0.0 };
-        (0..9).any(|k| (momenta[(rows[k / 3], k % 3)] - expected(k)).abs() > share * size)
+        let digits = (0..9).fold(0.0f64, |max, k| max.max(of_digits[(rows[k / 3], k % 3)]));
+        let rounding = (DIFFERENT * size).max(DIGITS * digits);
+        (0..9).any(|k| (momenta[(rows[k / 3], k % 3)] - expected(k)).abs() > rounding)
     };
     // The consistent mass of a beam or shell is another along it than across, and its part at a removed node is missing.
     let is_whole =

@@ -47,7 +47,7 @@ use nodes::Nodes;
 /// # Errors
 /// [`crate::error::Error::CoordinatesDoNotFit`] and [`crate::error::Error::RotationsHeld`]; those of finding the zero modes
 /// of K.
-pub fn compared(model: Model, held: &[Direction], levers: Levers) -> Result<Model> {
+pub fn compared(model: Model, held: &[Direction], levers: Levers<'_>) -> Result<Model> {
     let Some(sites) = model.sites() else { return Ok(model) };
     let motions = Motions::of(&model, &sites);
     let nodes = Nodes::of_model(&motions);

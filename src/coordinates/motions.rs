@@ -17,6 +17,9 @@ pub(super) struct Motions<'a> {
     pub(super) forces: Mat<f64>,
     /// |K||C|, n × 6.
     pub(super) terms: Mat<f64>,
+    /// |E||C| of roundings E of K, where an entry may be off by more than a share of itself, n × 6.
+    of_digits: Option<Mat<f64>>,
+    rounding: f64,
 }
 
 /// A connected part of the model.
@@ -53,12 +56,29 @@ impl<'a> Motions<'a> {
             }
         }
         let (forces, terms) = product_and_terms(&model.stiffness, centred.as_ref());
-        Self { model, sites, bodies, centred, forces, terms }
+        let rounding = model.precision.stiffness;
+        let of_digits =
+            rounding.is_beyond_entries().then(|| rounding.terms((&model.stiffness).into(), centred.as_ref()));
+        let rounding = f64::EPSILON
+            + match &of_digits {
+                Some(of_digits) => share_of(of_digits, (&terms, &centred), &bodies),
+                None => rounding.relative,
+            };
+        Self { model, sites, bodies, centred, forces, terms, of_digits, rounding }
     }
 
-    /// Relative size of what rounding can make of an entry of K.
+    /// Relative size of what rounding of K can make of the forces and the energy of a motion.
     pub(super) fn rounding(&self) -> f64 {
-        self.model.precision.stiffness + f64::EPSILON
+        self.rounding
+    }
+
+    /// Relative size of what rounding of K can make of a force at a row.
+    pub(super) fn rounding_at(&self, row: usize) -> f64 {
+        let scale = self.scale_of(row);
+        match &self.of_digits {
+            Some(of_digits) if scale > 0.0 => (0..6).fold(self.rounding, |max, j| max.max(of_digits[(row, j)] / scale)),
+            _ => self.rounding,
+        }
     }
 
     /// The size of the terms of a row, over all motions.
@@ -88,4 +108,15 @@ impl<'a> Motions<'a> {
     pub(super) fn name_of(&self, row: usize) -> String {
         self.model.names().short(row)
     }
+}
+
+/// The largest share that roundings have in the forces, or in the energy, of a motion of a body.
+fn share_of(of_digits: &Mat<f64>, (terms, centred): (&Mat<f64>, &Mat<f64>), bodies: &[Body]) -> f64 {
+    let ratio = |part: f64, whole: f64| if whole > 0.0 { (part / whole).min(1.0) } else { 0.0 };
+    let of_motion = |body: &Body, j: usize| {
+        let force = |of: &Mat<f64>| dense::norm(&body.rows.iter().map(|row| of[(*row, j)]).collect::<Vec<f64>>());
+        let energy = |of: &Mat<f64>| body.rows.iter().map(|row| centred[(*row, j)].abs() * of[(*row, j)]).sum::<f64>();
+        ratio(force(of_digits), force(terms)).max(ratio(energy(of_digits), energy(terms)))
+    };
+    bodies.iter().flat_map(|body| (0..6).map(move |j| of_motion(body, j))).fold(0.0, f64::max)
 }

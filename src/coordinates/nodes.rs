@@ -37,11 +37,11 @@ impl Nodes {
     pub(super) fn of_model(motions: &Motions<'_>) -> Self {
         let of_row = node_of_row(motions.sites.len(), motions.model.dofs.as_deref());
         let n_nodes = of_row.iter().max().map_or(0, |max| *max as usize + 1);
-        let share = TOUCHED.max(NOTICEABLE * motions.rounding());
+        let share = |row: usize| TOUCHED.max(NOTICEABLE * motions.rounding_at(row));
         let force = |row: usize| (0..FIRST_ROTATION).fold(0.0, |max: f64, j| max.max(motions.forces[(row, j)].abs()));
         let mut is_touched = vec![false; n_nodes];
         for (row, node) in of_row.iter().enumerate() {
-            is_touched[*node as usize] |= force(row) > share * motions.scale_of(row);
+            is_touched[*node as usize] |= force(row) > share(row) * motions.scale_of(row);
         }
         let lacks = lacking(motions, &of_row, n_nodes);
         let mut near = lacks.clone();

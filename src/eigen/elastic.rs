@@ -100,7 +100,7 @@ fn n_near(found: &Modes, sigma: f64) -> usize {
 
 /// Backward error of a mode that lacks no digits: those that the data do not have are not missed.
 pub(crate) fn settled_at(precision: Precision) -> f64 {
-    SETTLED.max(precision.stiffness.max(precision.mass))
+    SETTLED.max(precision.share())
 }
 
 fn search(problem: ModalProblem<'_>, eigenproblem: Problem<'_>, request: ModeRequest) -> Result<Modes> {

@@ -19,16 +19,19 @@ pub struct ModalProblem<'a> {
     pub mass: Leading<'a>,
     /// Motions without energy that are no elastic modes, Q and MQ, n × n_r each with QᵀMQ = I; no columns where there are none.
     pub deflated: [MatRef<'a, f64>; 2],
-    /// Relative precision of the data.
+    /// How well the entries of K and M are known.
     pub precision: Precision,
     /// What is known of the roundings in the entries of K one by one, where something is.
     pub noise: Option<&'a dyn EnergyNoise>,
 }
 
-/// What is known of the roundings in the entries of K.
+/// What is known of the roundings in the entries of K and M.
 pub trait EnergyNoise: Debug + Sync {
     /// What the digits of K leave open of xᵀKx for each column of x (n × k); nothing where K has as many digits as a double.
     fn energy_noise(&self, x: MatRef<'_, f64>) -> Option<Vec<f64>>;
+
+    /// What the digits of M leave open of xᵀMx for each column of x; nothing where each entry is known to a share of itself.
+    fn mass_noise(&self, x: MatRef<'_, f64>) -> Option<Vec<f64>>;
 
     /// |x|ᵀ|K||x| of terms that cancelled while K was made, and of which it shows nothing but the roundings.
     fn hidden_terms(&self, x: MatRef<'_, f64>) -> Vec<f64>;

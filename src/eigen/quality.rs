@@ -74,6 +74,7 @@ pub(crate) fn rayleigh_quotients(
     };
     let quotients: Vec<[f64; 2]> = (0..shapes.ncols()).map(quotient).collect();
     let noise = energy_noise(problem, shapes, &stiffness_terms);
+    let mass_noise = problem.noise.and_then(|noise| noise.mass_noise(shapes));
     let (lambda, errors) = (0..shapes.ncols())
         .map(|j| {
             let x = dense::column(shapes, j);
@@ -81,7 +82,11 @@ pub(crate) fn rayleigh_quotients(
             let [lambda, modal_mass] = quotients[j];
             dense::add_scaled(force, -lambda, momentum);
             let (k_share, m_share) = (stiffness_terms[j] / (lambda.abs() * modal_mass), mass_terms[j] / modal_mass);
-            let digits = noise[j] / (lambda.abs() * modal_mass) + problem.precision.mass * m_share;
+            let of_mass = match &mass_noise {
+                Some(noise) => noise[j] / modal_mass,
+                None => problem.precision.mass.share * m_share,
+            };
+            let digits = noise[j] / (lambda.abs() * modal_mass) + of_mass;
             let data_bar = digits + rounding * (k_share + m_share);
             let rounding_floor = rounding * norms.stiffness_norm * norms.scaled_norm(x).powi(2) / modal_mass;
             let error = ModeError {
@@ -106,7 +111,7 @@ pub(crate) fn rayleigh_quotients(
 /// What the digits of K leave open of xᵀKx: its precision times the terms, or less, where few digits are known entry by entry.
 fn energy_noise(problem: ModalProblem<'_>, shapes: MatRef<'_, f64>, terms: &[f64]) -> Vec<f64> {
     let of_entries = problem.noise.and_then(|noise| noise.energy_noise(shapes));
-    of_entries.unwrap_or_else(|| terms.iter().map(|terms| problem.precision.stiffness * terms).collect())
+    of_entries.unwrap_or_else(|| terms.iter().map(|terms| problem.precision.stiffness.share * terms).collect())
 }
 
 /// Adds to the error bars what the residuals leave in doubt; one solve for each mode.

@@ -61,12 +61,13 @@ pub fn shifted<'a>(
 ) -> Result<Shifted<'a>> {
     let mut sigma = first_shift(problem);
     let mut count = LOOK_AT;
-    let is_binary = problem.precision.stiffness <= f64::EPSILON;
+    let rounding = problem.precision.stiffness;
+    let may_retreat = !rounding.is_coarse() || rounding.is_beyond_entries();
     let (mut round, mut n_retreats) = (1, 0);
     loop {
         let factor = match Cholesky::new(analysis, problem.pencil(), sigma, name) {
             // Rounding of ties far above all else may be larger than a shift that suits the softest modes.
-            Err(Error::NotDefinite { .. }) if is_binary && n_retreats < MAX_RETREATS => {
+            Err(Error::NotDefinite { .. }) if may_retreat && n_retreats < MAX_RETREATS => {
                 (sigma, n_retreats) = (RETREAT * sigma, n_retreats + 1);
                 continue;
             }
@@ -96,7 +97,8 @@ pub fn shifted<'a>(
 
 /// A shift below the spectrum before anything is known of it but the diagonals.
 pub(crate) fn first_shift(problem: ModalProblem<'_>) -> f64 {
-    -FIRST_SHIFT.max(ROUNDINGS_OF_DATA * problem.precision.stiffness) * median_ratio(problem)
+    let rounding = problem.precision.stiffness;
+    -FIRST_SHIFT.max(ROUNDINGS_OF_DATA * rounding.relative) * median_ratio(problem)
 }
 
 /// Leading modes that are zero: by themselves, as rounding of modes they mix with, or as rounding of a matrix that was projected.
@@ -138,10 +140,10 @@ fn refuse_negative(
 mod tests {
     use super::*;
     use crate::sparse::Pencil;
-    use crate::sparse::Precision;
     use crate::sparse::SparseMatrix;
+    use crate::sparse::{Precision, Rounding};
 
-    const BINARY: Precision = Precision { stiffness: f64::EPSILON / 2.0, mass: f64::EPSILON / 2.0 };
+    const BINARY: Precision = Precision { stiffness: Rounding::BINARY, mass: Rounding::BINARY };
 
     fn diagonal_matrix(values: &[f64]) -> SparseMatrix {
         let n = values.len();

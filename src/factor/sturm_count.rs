@@ -12,7 +12,7 @@ use super::multifrontal::Keep;
 use crate::dense;
 use crate::error::{Error, Result, held_words};
 use crate::sparse::Pencil;
-use crate::sparse::{Leading, SparseMatrix};
+use crate::sparse::{Leading, Rounding, SparseMatrix, ends};
 
 /// Numbers of eigenvalues below a shift.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -125,34 +125,33 @@ pub fn count_negative<'a>(analysis: &Analysis, stiffness: impl Into<Leading<'a>>
 ///
 /// # Panics
 /// The analysis has a border.
-pub fn rank<'a>(analysis: &Analysis, mass: impl Into<Leading<'a>>, precision: f64) -> Result<usize> {
+pub fn rank<'a>(analysis: &Analysis, mass: impl Into<Leading<'a>>, rounding: Rounding) -> Result<usize> {
     let mass = mass.into();
     assert_eq!(analysis.n_border(), 0, "the rank is that of a whole matrix");
     let diagonal = mass.diagonal();
     // A row of a semidefinite matrix without a diagonal is empty.
     let scale: Vec<f64> = diagonal.iter().map(|d| if *d > 0.0 { 1.0 / d.sqrt() } else { 0.0 }).collect();
-    let row_sum = |row| scale[row] * mass.entries(row).map(|(col, value)| value.abs() * scale[col]).sum::<f64>();
-    let moved = PIVOT_GAP + precision * (0..mass.rows()).map(row_sum).fold(0.0, f64::max);
+    let bound = |row: usize, col: usize, value: f64| rounding.of_entry(value, ends(&diagonal, row, col));
+    let row_sum =
+        |row| scale[row] * mass.entries(row).map(|(col, value)| bound(row, col, value) * scale[col]).sum::<f64>();
+    let moved = PIVOT_GAP + (0..mass.rows()).map(row_sum).fold(0.0, f64::max);
     Ok(mass.rows() - below_share_of_diagonal(analysis, mass, moved)?)
 }
 
-/// Eigenvalues of K_II that stay below zero when every entry of K may be off by a share of itself, that of its last digit.
+/// Eigenvalues of K_II that stay below zero when every entry of K may be off by its last digit.
 ///
-/// Such roundings E leave |xᵀEx| ≤ Σ r_i x_i² with r_i the share of the sum of moduli along row i, for |x_i x_j| ≤ (x_i² + x_j²)/2: K_II
+/// Such roundings E leave |xᵀEx| ≤ Σ r_i x_i² with r_i the sum of the bounds |E_ij| along row i, for |x_i x_j| ≤ (x_i² + x_j²)/2: K_II
 /// with r on its diagonal is counted.
 ///
 /// # Errors
 /// As [`count_below`].
-fn count_negative_beyond(analysis: &Analysis, stiffness: Leading<'_>, share: f64) -> Result<usize> {
+fn count_negative_beyond(analysis: &Analysis, stiffness: Leading<'_>, rounding: Rounding) -> Result<usize> {
     let n = stiffness.rows();
+    let diagonal = stiffness.diagonal();
     let row = |row: usize| {
-        let (mut own, mut sum) = (0.0, 0.0);
-        for (col, value) in stiffness.entries(row) {
-            sum += value.abs();
-            own = if col == row { value.abs() } else { own };
-        }
+        let sum: f64 = stiffness.entries(row).map(|(_, value)| value.abs()).sum();
         // An empty row has no stiffness to be rounded.
-        if sum == 0.0 { 1.0 } else { PIVOT_GAP * own + share * sum }
+        if sum == 0.0 { 1.0 } else { PIVOT_GAP * diagonal[row].abs() + rounding.of_row(stiffness, &diagonal, row) }
     };
     let margin = SparseMatrix::new((n, n), (0..=n).collect(), (0..n as u32).collect(), (0..n).map(row).collect());
     let pencil = Pencil::new(stiffness, &margin);
@@ -160,20 +159,20 @@ fn count_negative_beyond(analysis: &Analysis, stiffness: Leading<'_>, share: f64
 }
 
 /// Why K is not a definite matrix, where its digits are few and rounding of them may be all that is wrong with it.
-pub fn few_digits(error: Error, analysis: &Analysis, stiffness: Leading<'_>, precision: f64) -> Error {
+pub fn few_digits(error: Error, analysis: &Analysis, stiffness: Leading<'_>, rounding: Rounding) -> Error {
     let is_of_definiteness = matches!(
         error,
         Error::IndefiniteStiffness { .. } | Error::NotDefinite { .. } | Error::NegativeRigidEnergy { .. }
     );
-    if !is_of_definiteness || precision <= f64::EPSILON {
+    if !is_of_definiteness || !rounding.is_coarse() {
         return error;
     }
     let held = held_words(boundary_of(analysis, stiffness));
-    match count_negative_beyond(analysis, stiffness, precision) {
+    match count_negative_beyond(analysis, stiffness, rounding) {
         Ok(0) => {
             let what =
                 format!("whether it is definite with {held}: as it stands it is not, with other last digits it is");
-            Error::DigitsTooFew { what, precision }
+            Error::DigitsTooFew { what, known: rounding.in_words() }
         }
         _ => error,
     }

@@ -1,4 +1,4 @@
-//! How many decimal digits the values of a matrix carry.
+//! How many decimal digits the values of a matrix carry, or how many decimals.
 //!
 //! A value that went through a text of d digits is a double whose shortest decimal form has at most d digits, whatever
 //! the text it was read from looks like now: `84695.512820513002` is the double nearest to the fourteen digits
@@ -6,94 +6,111 @@
 //!
 //! The rule, and its limits:
 //!
-//! - d is the number of digits that 99 of 100 sampled values do not exceed. With d above 15 the data are binary: 17;
-//!   unless the values are all single precision numbers: 7.
+//! - Values that are all single precision numbers, or texts of such, are single precision: 7. A quarter of them at least uses the
+//!   last five of the 24 bits; whole numbers and quarters that are short enough by themselves do not count.
+//! - d is the number of digits that 99 of 100 sampled values do not exceed. With d above 15 the data are binary: 17.
 //! - d from 7 to 15 is taken as the precision of the source. Values that are exact by design and need so many digits
 //!   in *every* entry are taken for rounded; for this there must be three different ones.
-//! - A text in a fixed scientific format shows its d, see [`written_digits`].
 //! - d up to 6 is otherwise a source of that few digits only if the values look rounded *relative to their size*: many different
 //!   ones, over more than a decade, where those of the lower decades need d digits as often as those of the highest.
-//!   Integers and short decimal fractions (springs of 2 and −1, lumped masses of 0.25) fail this and are exact: 17.
+//! - Values in fixed point, such as `%.4f`, have one last decimal and digits by their size. D is the number of decimals that 99 of 100
+//!   different values do not exceed. Nine in ten of rounded values have D decimals, whatever their size, and nine in ten of those
+//!   with few digits have d digits, whatever theirs: more values with D decimals than with d digits, two thirds of all at least,
+//!   are fixed point.
+//! - Up to 6 digits, or above 15, fixed point is believed only of 20 different values with a decimal after the point, whose last
+//!   decimals are six different digits at least. Halves and quarters end with a 5, multiples of 0.2 with even digits. So whole numbers
+//!   up to 999999, springs of 2 and −1 and lumped masses of 0.25 are exact: 17. A computed double has 16 or 17 digits; above 15, a tenth
+//!   of the values must have fewer.
+//! - A text in a fixed format shows its digits or decimals, see [`super::written`].
+//!
+//! Not seen: entries that were rounded to zero and left out; whole numbers below 10⁶ that were rounded (`%.0f`); fewer values than these.
 
 use std::collections::BTreeSet;
+
+use rayon::prelude::*;
+
+use super::written::Written;
 
 /// Digits that any double needs at most.
 const DOUBLE_DIGITS: u32 = 17;
 /// Digits that a single precision number carries.
 const SINGLE_DIGITS: u32 = 7;
 /// The most digits that every decimal fraction keeps in a double.
-const MAX_DECIMAL_DIGITS: u32 = 15;
+pub(super) const MAX_DECIMAL_DIGITS: u32 = 15;
 /// The most digits that occur in exact data.
 const MAX_EXACT_DIGITS: u32 = 6;
 /// Size of the sample.
 const SAMPLE: usize = 2000;
 /// Different values that data of many digits must have to be taken for rounded.
 const MIN_DISTINCT: usize = 3;
-/// Different values of a fixed format that never ends with a zero: the chance that none of so many does is one in two.
-const MIN_DISTINCT_WITHOUT_ZEROS: usize = 6;
-/// The fewest digits of a fixed format.
-const MIN_FIXED_DIGITS: u32 = 3;
 /// Different values, in the lower decades, that data of few digits must have to be taken for rounded.
 const MIN_DISTINCT_SHORT: usize = 20;
+/// Different last decimals of rounded values: 18 numbers without a pattern have fewer with a chance of one in ten thousand.
+const MIN_LAST_DECIMALS: usize = 6;
 
-/// Significant decimal digits of the source of these values: 17 for binary data and for exact short numbers.
+/// How many digits the source of some values had.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Digits {
+    /// Significant decimal digits: 17 for binary data and for exact short numbers; of the largest values where `decimals` are known.
+    pub significant: u32,
+    /// Decimals after the point that all values were rounded to, negative before it; none where digits are relative to each value.
+    pub decimals: Option<i32>,
+    /// Whether values are single precision numbers, which no format makes more precise.
+    is_single: bool,
+}
+
+impl Digits {
+    const SINGLE: Self = Self { is_single: true, ..Self::relative(SINGLE_DIGITS) };
+    const DOUBLE: Self = Self::relative(DOUBLE_DIGITS);
+
+    const fn relative(significant: u32) -> Self {
+        Self { significant, decimals: None, is_single: false }
+    }
+
+    /// With what the format of a text shows.
+    pub(super) fn with(self, written: Option<Written>) -> Self {
+        match written {
+            Some(Written::Digits(digits)) => Self { significant: self.significant.min(digits), ..self },
+            Some(Written::Decimals(decimals)) if !self.is_single => {
+                Self { decimals: Some(self.decimals.unwrap_or(decimals).min(decimals)), ..self }
+            }
+            _ => self,
+        }
+    }
+}
+
+/// Significant decimal digits, or decimals, of the source of these values.
 ///
 /// Looks at about 2000 values spread over the slice; zeros do not count.
-pub fn significant_digits(values: &[f64]) -> u32 {
+pub fn digits_of(values: &[f64]) -> Digits {
     let sample: Vec<f64> = spread(values).filter(|value| value.is_finite() && *value != 0.0).collect();
     if sample.is_empty() {
-        return DOUBLE_DIGITS;
+        return Digits::DOUBLE;
     }
     let mut counts: Vec<u32> = sample.iter().map(|&value| Decimal::of(value).n_digits).collect();
     counts.sort_unstable();
     let digits = counts[(counts.len() * 99).div_ceil(100) - 1];
-    let distinct: BTreeSet<Decimal> = sample.iter().map(|&value| Decimal::of(value)).collect();
-    let is_short = digits <= MAX_EXACT_DIGITS;
-    if digits > MAX_DECIMAL_DIGITS {
-        let is_single = sample.iter().all(|&value| f64::from(value as f32) == value);
-        return if is_single { SINGLE_DIGITS } else { DOUBLE_DIGITS };
+    if is_single(&sample, digits) {
+        return Digits::SINGLE;
     }
-    let is_from_text = if is_short { is_rounded(&distinct, digits) } else { n_mantissas(&distinct) >= MIN_DISTINCT };
-    if is_from_text { digits } else { DOUBLE_DIGITS }
+    let distinct: BTreeSet<Decimal> = sample.iter().map(|&value| Decimal::of(value)).collect();
+    let is_from_text = match digits {
+        ..=MAX_EXACT_DIGITS => is_rounded(&distinct, digits),
+        ..=MAX_DECIMAL_DIGITS => n_mantissas(&distinct) >= MIN_DISTINCT,
+        _ => false,
+    };
+    match fixed_point(&distinct, digits, is_from_text) {
+        Some(decimals) => Digits { decimals: Some(decimals), ..Digits::relative(digits.min(MAX_DECIMAL_DIGITS)) },
+        None if is_from_text => Digits::relative(digits),
+        None => Digits::DOUBLE,
+    }
 }
 
-/// Digits that a fixed format wrote of every number: of `1.31e-02` three, where all of the first lines have as many, trailing zeros
-/// counted, and several different numbers use them all. Few different numbers show no pattern in their values, this shows in the text.
-///
-/// Numbers that need fewer digits than their format writes, those of springs and lumped masses, are exact. Numbers that are written as
-/// short as they can be have no zeros at their end, and a format without any is believed where there are many numbers.
-pub(super) fn written_digits(text: &[u8]) -> Option<u32> {
-    let (mut full, mut n_with_zeros) = (BTreeSet::new(), 0);
-    let mut n_digits = None;
-    for line in text.split(|byte| *byte == b'\n').take(SAMPLE) {
-        let number = line.trim_ascii().rsplit(u8::is_ascii_whitespace).next().unwrap_or_default();
-        let Some(end) = number.iter().position(|byte| b"eEdD".contains(byte)) else {
-            // Comments and blank lines tell nothing, a number in another format does.
-            if number.first().is_some_and(u8::is_ascii_digit) {
-                return None;
-            }
-            continue;
-        };
-        let digits: Vec<u8> = number[..end].iter().copied().filter(u8::is_ascii_digit).collect();
-        // Some formats begin with a zero before the point, which is none of the digits.
-        let digits = if number.contains(&b'.') { digits.strip_prefix(b"0").unwrap_or(&digits) } else { &digits };
-        if digits.iter().all(|digit| *digit == b'0') {
-            n_with_zeros += usize::from(digits.len() > 1);
-            continue;
-        }
-        if *n_digits.get_or_insert(digits.len()) != digits.len() {
-            return None;
-        }
-        if digits.last() == Some(&b'0') {
-            n_with_zeros += 1;
-        } else {
-            full.insert(digits.to_vec());
-        }
-    }
-    let n_digits = u32::try_from(n_digits?).ok()?;
-    let n_needed = if n_with_zeros > 0 { MIN_DISTINCT } else { MIN_DISTINCT_WITHOUT_ZEROS };
-    let is_fixed = (MIN_FIXED_DIGITS..=MAX_DECIMAL_DIGITS).contains(&n_digits) && full.len() >= n_needed;
-    is_fixed.then_some(n_digits)
+/// How many of the values are of one size, at most. Equal numbers round equally.
+pub(super) fn most_alike(values: &[f64]) -> usize {
+    let mut sizes: Vec<u64> = values.iter().filter(|value| **value != 0.0).map(|value| value.abs().to_bits()).collect();
+    sizes.par_sort_unstable();
+    sizes.chunk_by(|a, b| a == b).map(<[_]>::len).max().unwrap_or(0)
 }
 
 /// Equally spaced values from the first to near the last.
@@ -112,8 +129,12 @@ struct Decimal {
 
 impl Decimal {
     fn of(value: f64) -> Self {
-        let text = format!("{:e}", value.abs());
-        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        Self::of_text(&format!("{:e}", value.abs()))
+    }
+
+    /// Of a number as `{:e}` writes it.
+    fn of_text(text: &str) -> Self {
+        let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
         let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
         let digits = digits.trim_end_matches('0');
         Self {
@@ -121,6 +142,15 @@ impl Decimal {
             mantissa: digits.parse().unwrap_or(0),
             n_digits: digits.len() as u32,
         }
+    }
+
+    /// Decimals after the point, negative where the number ends with zeros before it.
+    fn n_decimals(self) -> i32 {
+        self.n_digits as i32 - 1 - self.exponent
+    }
+
+    fn last_digit(self) -> u64 {
+        self.mantissa % 10
     }
 }
 
@@ -141,6 +171,60 @@ fn is_rounded(distinct: &BTreeSet<Decimal>, digits: u32) -> bool {
     lower.len() >= MIN_DISTINCT_SHORT && 2 * n_full > lower.len()
 }
 
+/// Decimals of values in fixed point; `is_from_text` says whether they have few digits in any case.
+fn fixed_point(distinct: &BTreeSet<Decimal>, digits: u32, is_from_text: bool) -> Option<i32> {
+    let mut decimals: Vec<i32> = distinct.iter().map(|decimal| decimal.n_decimals()).collect();
+    decimals.sort_unstable();
+    let decimals = decimals[(decimals.len() * 99).div_ceil(100) - 1];
+    // Larger numbers have as many digits as a double has, and no more decimals than these leave.
+    let short = || distinct.iter().filter(|decimal| decimal.n_digits <= MAX_DECIMAL_DIGITS);
+    let full = || short().filter(|decimal| decimal.n_decimals() == decimals);
+    let n_full_digits = short().filter(|decimal| decimal.n_digits == digits).count();
+    if 3 * full().count() < 2 * short().count() || (is_from_text && full().count() <= n_full_digits) {
+        return None;
+    }
+    if is_from_text && digits > MAX_EXACT_DIGITS {
+        return Some(decimals);
+    }
+    let last: BTreeSet<u64> = full().map(|decimal| decimal.last_digit()).collect();
+    let n_short = short().count();
+    let is_believed = distinct.len() >= MIN_DISTINCT_SHORT && last.len() >= MIN_LAST_DECIMALS;
+    let is_short = digits <= MAX_DECIMAL_DIGITS || (10 * n_short >= distinct.len() && n_short >= MIN_DISTINCT_SHORT);
+    (decimals > 0 && is_believed && is_short).then_some(decimals)
+}
+
+/// Whether values of more than seven digits are single precision numbers, or decimal forms of such: the shortest, or one of `digits`.
+fn is_single(sample: &[f64], digits: u32) -> bool {
+    // One number of 10¹⁰ in a thousand is one by chance, of nine digits one in thirty is such a form, and of eight one in three.
+    let (min_exact, min_printed) = match digits {
+        ..=SINGLE_DIGITS => return false,
+        8 => (MIN_DISTINCT, MIN_DISTINCT_SHORT),
+        ..=MAX_DECIMAL_DIGITS => (MIN_DISTINCT, 2 * MIN_DISTINCT),
+        _ => (1, 2 * MIN_DISTINCT),
+    };
+    let n_decimals = digits.min(DOUBLE_DIGITS) as usize - 1;
+    let is_printed = |value: f64| {
+        let single = value as f32;
+        let shortest = || Decimal::of_text(&format!("{:e}", single.abs())) == Decimal::of(value);
+        single.is_normal() && (shortest() || format!("{:.n_decimals$e}", f64::from(single)).parse() == Ok(value))
+    };
+    let is_exact = |value: f64| f64::from(value as f32) == value;
+    // Numbers that are short by themselves end with many zeros among the 24 bits, and whole numbers and quarters may be any.
+    let uses_all_bits = |bits: &u32| bits.trailing_zeros() <= 4;
+    let is_short = |value: f64| (4.0 * value).fract() == 0.0 && value.abs() < 2f64.powi(24);
+    let mantissas: BTreeSet<u32> = sample.iter().map(|value| (*value as f32).to_bits() & ((1 << 23) - 1)).collect();
+    let n_long = mantissas.iter().filter(|bits| uses_all_bits(bits)).count();
+    // What cancels in the sums of a regular mesh leaves numbers of few bits.
+    let is_believed = |least: usize| n_long >= least.max(mantissas.len() / 4);
+    if sample.iter().all(|value| is_short(*value)) {
+        return false;
+    }
+    match sample.iter().all(|value| is_exact(*value)) {
+        true => is_believed(min_exact),
+        false => is_believed(min_printed) && sample.iter().all(|value| is_exact(*value) || is_printed(*value)),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -157,33 +241,14 @@ mod tests {
     }
 
     #[test]
-    fn a_fixed_format_shows_however_few_numbers_there_are() {
-        let text = b"1 1 1.31e-02\n2 2 6.54e-03\n2 1 -3.27e-03\n3 3 0.00e+00\n";
-        assert_eq!(written_digits(text), Some(3));
-        // As Fortran writes it.
-        assert_eq!(written_digits(b"1 1  0.1312E-01\n2 2  0.6543E+02\n3 3  0.9999D+00\n2 1 0.2500E+01\n"), Some(4));
-        // Exact numbers in a format with room to spare, too few numbers, numbers as short as they can be, and all their digits.
-        assert_eq!(written_digits(b"1 1 2.5000e+00\n2 2 1.2500e-01\n3 3 -1.0000e+00\n4 4 7.5000e+01\n"), None);
-        assert_eq!(written_digits(b"1 1 1.31e-02\n2 2 6.54e-03\n"), None);
-        assert_eq!(written_digits(b"1 1 1.31e-02\n2 2 6.5e-03\n3 3 2.27e-01\n"), None);
-        assert_eq!(
-            written_digits(b"1 1 1.3100000000000001e-02\n2 2 6.5400000000000003e-03\n3 3 2.2700000000000001e-01\n"),
-            None
-        );
-        assert_eq!(written_digits(b"1 1 1.25e0\n2 2 3.75e0\n3 3 6.25e1\n"), None);
-        assert_eq!(written_digits(b"1 1 1e0\n2 2 2e0\n3 3 5e-1\n2 1 -4e0\n"), None);
-        assert_eq!(written_digits(b"1 1 0.0131\n2 2 0.0654\n3 3 0.0227\n"), None);
-    }
-
-    #[test]
     fn computed_values_carry_all_digits() {
-        assert_eq!(significant_digits(&scattered(5000)), 17);
+        assert_eq!(digits_of(&scattered(5000)), Digits::DOUBLE);
     }
 
     #[test]
     fn printed_values_carry_the_digits_of_the_print() {
         for n_digits in 3..=15 {
-            assert_eq!(significant_digits(&printed(&scattered(5000), n_digits)), n_digits as u32);
+            assert_eq!(digits_of(&printed(&scattered(5000), n_digits)), Digits::relative(n_digits as u32));
         }
     }
 
@@ -191,26 +256,63 @@ mod tests {
     fn a_few_full_values_among_printed_ones_do_not_count() {
         let mut values = printed(&scattered(2000), 10);
         values[77] = std::f64::consts::PI;
-        assert_eq!(significant_digits(&values), 10);
+        assert_eq!(digits_of(&values), Digits::relative(10));
     }
 
     #[test]
     fn exact_short_values_are_exact() {
         let integers: Vec<f64> = (0..2000).map(|k| f64::from(k * k % 99_991)).collect();
-        let hundredths: Vec<f64> = integers.iter().map(|value| value / 100.0).collect();
-        for values in [vec![2.0, -1.0, 2.0], vec![0.25; 50], vec![0.0; 5], vec![], integers, hundredths] {
-            assert_eq!(significant_digits(&values), 17, "{:?}", &values[..values.len().min(3)]);
+        let quarters: Vec<f64> = (0..2000).map(|k| f64::from(k * k % 9973) / 4.0).collect();
+        let fifths: Vec<f64> = (0..2000).map(|k| f64::from(k) / 5.0).collect();
+        let few: Vec<f64> = (1..20).map(|k| f64::from(k * k) / 100.0).collect();
+        let exact = [vec![2.0, -1.0, 2.0], vec![0.25; 50], vec![0.0; 5], vec![], integers, quarters, fifths, few];
+        for values in exact {
+            assert_eq!(digits_of(&values), Digits::DOUBLE, "{:?}", &values[..values.len().min(3)]);
         }
     }
 
     #[test]
     fn one_long_constant_is_no_rounding() {
-        assert_eq!(significant_digits(&[1_234_567.5, -1_234_567.5, 2_469_135.0]), 17);
+        assert_eq!(digits_of(&[1_234_567.5, -1_234_567.5, 2_469_135.0]), Digits::DOUBLE);
     }
 
+    /// Sizes from the last decimal up to more digits than a double has.
+    #[test]
+    fn values_in_fixed_point_carry_its_decimals() {
+        for n_decimals in [1_usize, 2, 4, 7, 9] {
+            for size in [1.0, 1e3, 1e7] {
+                let fixed = |value: &f64| format!("{:.n_decimals$}", value * size).parse().expect("a number");
+                let values: Vec<f64> = scattered(2000).iter().map(fixed).collect();
+                let found = digits_of(&values);
+                assert_eq!(found.decimals, Some(n_decimals as i32), "%.{n_decimals}f of {size:e}: {found:?}");
+            }
+        }
+        // Whole numbers of many digits, and multiples of a thousand.
+        for (unit, decimals) in [(1.0, 0), (1e3, -3)] {
+            let values: Vec<f64> = scattered(2000).iter().map(|value| (value * 1e4).round() * unit).collect();
+            assert_eq!(digits_of(&values).decimals, Some(decimals));
+        }
+    }
+
+    /// In SI units stiffnesses are whole numbers above 2²⁴ that need ten digits.
     #[test]
     fn single_precision_values_carry_seven_digits() {
-        let single: Vec<f64> = scattered(500).iter().map(|&value| f64::from(value as f32)).collect();
-        assert_eq!(significant_digits(&single), 7);
+        for size in [1.0, 1e-9, 1e10] {
+            let single: Vec<f32> = scattered(500).iter().map(|&value| (value * size) as f32).collect();
+            let wide = |value: &f32| f64::from(*value);
+            let shortest = |value: &f32| value.to_string().parse::<f64>().expect("a number");
+            assert_eq!(digits_of(&single.iter().map(wide).collect::<Vec<_>>()), Digits::SINGLE, "{size:e}");
+            assert_eq!(digits_of(&single.iter().map(shortest).collect::<Vec<_>>()), Digits::SINGLE, "{size:e}");
+            for n_digits in [9, 10, 12] {
+                let wide: Vec<f64> = single.iter().map(wide).collect();
+                assert_eq!(digits_of(&printed(&wide, n_digits)), Digits::SINGLE, "{n_digits} digits of {size:e}");
+            }
+        }
+        // Of a regular mesh: four numbers.
+        let few = [3.7e10_f32, 1.1e10, 2.7e9, 6.1e8].map(|value| f64::from(value / 3.0));
+        assert_eq!(digits_of(&few), Digits::SINGLE);
+        // Whole numbers that single precision holds are as whole as others.
+        let whole: Vec<f64> = (0..2000).map(|k| f64::from(k * 7919 % 16_000_000)).collect();
+        assert_eq!(digits_of(&whole).decimals, Some(0));
     }
 }

@@ -27,6 +27,8 @@ pub struct MatrixFacts {
     pub n_nonzeros: usize,
     /// Significant digits.
     pub digits: u32,
+    /// Decimals after the point, where all entries have so many.
+    pub decimals: Option<i32>,
     /// BLAKE3 of the file.
     pub digest: String,
 }
@@ -37,6 +39,7 @@ impl InputFacts {
         let facts = |matrix: &MatrixInput| MatrixFacts {
             n_nonzeros: matrix.matrix.nnz(),
             digits: matrix.digits,
+            decimals: matrix.decimals,
             digest: matrix.digest.clone(),
         };
         Self {

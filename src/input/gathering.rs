@@ -8,6 +8,7 @@ use std::hash::{BuildHasher, RandomState};
 
 use rayon::prelude::*;
 
+use super::digits::{Digits, digits_of};
 use crate::sparse::Triplets;
 
 /// Up to this number, 64 MiB, entries are not merged.
@@ -22,6 +23,10 @@ pub(super) struct Gathering {
     n_entries: u64,
     /// Entries that are in others.
     n_merged: usize,
+    /// The most entries that were added up at one position, at most.
+    most_merged: usize,
+    /// What the numbers showed before any were added up.
+    digits: Option<Digits>,
     look_at: usize,
     hashing: RandomState,
     first: Option<First>,
@@ -42,6 +47,10 @@ pub(super) struct Gathered {
     pub(super) triplets: Triplets,
     /// Entries that repeated an earlier position and are in the sums.
     pub(super) n_merged: usize,
+    /// The most of them at one position, at most.
+    pub(super) most_merged: usize,
+    /// What the numbers of the file show of their digits.
+    pub(super) digits: Digits,
 }
 
 impl Gathering {
@@ -50,6 +59,8 @@ impl Gathering {
             triplets: Triplets::default(),
             n_entries: 0,
             n_merged: 0,
+            most_merged: 0,
+            digits: None,
             look_at: FIRST_LOOK,
             hashing: RandomState::new(),
             first: None,
@@ -111,7 +122,8 @@ impl Gathering {
         if self.n_merged > 0 || self.first.as_ref().is_some_and(|first| first.is_merged) {
             self.merge();
         }
-        let Self { mut triplets, n_merged, first, .. } = self;
+        let digits = self.digits();
+        let Self { mut triplets, n_merged, most_merged, first, .. } = self;
         if let Some(First { row, col, sum, is_merged }) = first {
             let at = triplets.rows.iter().zip(&triplets.cols).position(|at| at == (&row, &col)).filter(|_| is_merged);
             match at {
@@ -123,14 +135,25 @@ impl Gathering {
                     triplets.values.insert(0, sum);
                 }
             }
-            return Gathered { triplets, n_merged: n_merged + usize::from(is_merged) };
+            return Gathered {
+                triplets,
+                n_merged: n_merged + usize::from(is_merged),
+                most_merged: most_merged + 1,
+                digits,
+            };
         }
-        Gathered { triplets, n_merged }
+        Gathered { triplets, n_merged, most_merged, digits }
     }
 
     /// The entries without the first one, which was a size line.
     pub(super) fn rest(self) -> Gathered {
-        Gathered { triplets: self.triplets, n_merged: self.n_merged }
+        let digits = self.digits();
+        Gathered { triplets: self.triplets, n_merged: self.n_merged, most_merged: self.most_merged, digits }
+    }
+
+    /// Sums of numbers of few digits have more of them, or all that a double has: the numbers are looked at as they stand in the file.
+    fn digits(&self) -> Digits {
+        self.digits.unwrap_or_else(|| digits_of(&self.triplets.values))
     }
 
     /// How many positions differ, by those of a sample that no file can know.
@@ -146,6 +169,7 @@ impl Gathering {
 
     /// Adds up the entries of each position, in the order of the file.
     fn merge(&mut self) {
+        self.digits = Some(self.digits());
         let Triplets { rows, cols, values } = std::mem::take(&mut self.triplets);
         let before = values.len();
         let mut entries: Vec<(u32, u32, f64)> =
@@ -153,6 +177,9 @@ impl Gathering {
         // Stable: entries of one position stay in the order of the file.
         entries.par_sort_by_key(|&(row, col, _)| (row, col));
         self.add_to_first(&entries);
+        let runs = entries.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).map(<[_]>::len);
+        // What was merged before may be one of them, as one more may be the first entry.
+        self.most_merged += runs.max().unwrap_or(0);
         entries.dedup_by(|next, kept| {
             let is_same = (next.0, next.1) == (kept.0, kept.1);
             if is_same {

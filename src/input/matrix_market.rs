@@ -11,11 +11,12 @@ use super::MatrixInput;
 use super::allowance::{Allowance, Claim};
 use super::banner::{Head, HeadReader, square_order};
 use super::blocks::{BLOCK_BYTES, for_each_batch};
-use super::digits::{significant_digits, written_digits};
+use super::digits::{Digits, MAX_DECIMAL_DIGITS, most_alike};
 use super::entries::{Entries, Fault, MIN_LINE_BYTES, parse_entries};
 use super::file_start::FileStart;
 use super::format::{Format, MatrixFormat, MatrixSource, OrderSource, ReadMatrix, Sureness};
 use super::gathering::{Gathered, Gathering};
+use super::written::{Written, written};
 use crate::error::{Error, Result};
 use crate::sparse::Triangle;
 use crate::sparse::{Declared, ENTRY_BYTES, MAX_ORDER, ROW_BYTES, TRIPLET_BYTES};
@@ -64,16 +65,16 @@ fn read_in_blocks(
         head: None,
         entries: Gathering::new(),
         claim: allowance.claim(path),
-        digits_as_written: None,
+        written: None,
         n_lines: 0,
     };
     let ending = for_each_batch(path, block_bytes, |batch| reading.take(batch))?;
     let Some(head) = reading.head else {
         return Err(reading.head_reader.ended_early());
     };
-    let Reading { entries, claim, digits_as_written, .. } = reading;
+    let Reading { entries, claim, written, .. } = reading;
     let n_read = entries.n_entries();
-    let (n, declared, order, Gathered { triplets, n_merged }) = match head {
+    let (n, declared, order, gathered) = match head {
         Head::Coordinate { n, n_entries, declared } => {
             check_count(path, n_entries, n_read)?;
             (n, declared, OrderSource::SizeLine, entries.all())
@@ -84,14 +85,19 @@ fn read_in_blocks(
             (n, Declared::General, order, gathered)
         }
     };
+    let Gathered { triplets, n_merged, most_merged, digits } = gathered;
     check_emptiness(path, n, triplets.len())?;
     let assembled = if triangle.is_some() { Declared::General } else { declared };
+    let Digits { significant: digits, decimals, .. } = digits.with(written);
+    // Needed for sums of numbers of few digits alone.
+    let most_alike = (digits <= MAX_DECIMAL_DIGITS && n_merged == 0).then(|| most_alike(&triplets.values));
     let (matrix, mut notes) = triplets.assemble(n as usize, assembled, path)?;
     notes.mirrored &= declared == Declared::General;
     notes.n_duplicates += n_merged;
+    notes.most_repeated += most_merged;
     claim.set(ENTRY_BYTES * matrix.nnz() as u64 + ROW_BYTES * u64::from(n))?;
-    let digits = significant_digits(matrix.data()).min(digits_as_written.unwrap_or(u32::MAX));
-    let input = MatrixInput { matrix, notes, digits, path: path.to_owned(), digest: ending.digest };
+    notes.most_alike = most_alike.filter(|_| notes.most_repeated > 0);
+    let input = MatrixInput { matrix, notes, digits, decimals, path: path.to_owned(), digest: ending.digest };
     Ok(ReadMatrix { input, order, last_line: ending.last_line })
 }
 
@@ -102,8 +108,8 @@ struct Reading<'a> {
     head: Option<Head>,
     entries: Gathering,
     claim: Claim<'a>,
-    /// Digits that a fixed format wrote of every number, by the first lines of entries.
-    digits_as_written: Option<u32>,
+    /// What a fixed format wrote of every number, by the first lines of entries.
+    written: Option<Written>,
     /// Lines taken, of the head and of entries.
     n_lines: u64,
 }
@@ -137,7 +143,7 @@ impl Reading<'_> {
             texts.push(text);
         }
         if self.entries.n_entries() == 0 {
-            self.digits_as_written = texts.first().and_then(|text| written_digits(text));
+            self.written = texts.first().and_then(|text| written(text));
         }
         let (n, declared) = match self.head {
             None => return Ok(()),

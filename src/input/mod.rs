@@ -26,9 +26,10 @@ mod patch_faces;
 mod source;
 mod table;
 mod unsupported_format;
+mod written;
 
 pub use allowance::Allowance;
-pub use digits::significant_digits;
+pub use digits::{Digits, digits_of};
 pub use facts::{InputFacts, MatrixFacts};
 pub use model_files::{Input, files, hdf5_file, read, read_hdf5_parts, read_within, start_hdf5};
 pub use note::InputNote;
@@ -47,8 +48,10 @@ pub struct MatrixInput {
     /// What assembling it needed.
     pub notes: AssemblyNotes,
     /// Significant decimal digits the values carry: 17 for binary data, fewer where every sampled value is a short
-    /// decimal fraction.
+    /// decimal fraction. Those of the largest values where `decimals` are known.
     pub digits: u32,
+    /// Decimals after the point to which all values were rounded, negative before it; none where digits are relative to each value.
+    pub decimals: Option<i32>,
     /// The file.
     pub path: PathBuf,
     /// BLAKE3 digest of the file's bytes, lower-case hexadecimal.

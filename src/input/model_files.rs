@@ -250,12 +250,12 @@ fn last_row_empty(matrix: &MatrixInput) -> Option<InputNote> {
 
 /// Adds empty rows and columns up to the order n.
 fn extend(input: MatrixInput, n: usize, notes: &mut Vec<InputNote>) -> MatrixInput {
-    let MatrixInput { matrix, notes: assembly, digits, path, digest } = input;
+    let MatrixInput { matrix, notes: assembly, digits, decimals, path, digest } = input;
     notes.push(InputNote::Extended { path: path.clone(), from: matrix.rows(), to: n });
     let (mut pointers, indices, data) = matrix.into_raw_storage();
     pointers.resize(n + 1, indices.len());
     let matrix = SparseMatrix::new((n, n), pointers, indices, data);
-    MatrixInput { matrix, notes: assembly, digits, path, digest }
+    MatrixInput { matrix, notes: assembly, digits, decimals, path, digest }
 }
 
 fn read_dofs(path: &Path, n: usize, nodes: Option<(&Nodes, &Path)>, notes: &mut Vec<InputNote>) -> Result<DofMap> {

@@ -14,7 +14,7 @@ use crate::dofs::RowNames;
 use crate::error::{Error, Result};
 use crate::random::SplitMix64;
 use crate::sparse::diagonal;
-use crate::sparse::{SparseMatrix, product};
+use crate::sparse::{Rounding, SparseMatrix, energies_of_terms, product};
 
 /// Steps of Lanczos: an eigenvalue a tenth of the spectrum's width outside of it converges by e⁻¹⁵ in them.
 const STEPS: usize = 30;
@@ -24,8 +24,8 @@ const ROUNDING: f64 = 1e-9;
 const DIGITS: f64 = 100.0;
 
 /// Refuses a mass matrix that is indefinite beyond the precision of its data.
-pub(super) fn refuse_indefinite(mass: &SparseMatrix, precision: f64, names: RowNames<'_>) -> Result<()> {
-    let least = -ROUNDING.max(DIGITS * precision);
+pub(super) fn refuse_indefinite(mass: &SparseMatrix, rounding: Rounding, names: RowNames<'_>) -> Result<()> {
+    let least = -ROUNDING.max(DIGITS * rounding.relative);
     let diagonal = diagonal(mass);
     let largest = diagonal.iter().fold(0.0f64, |max, value| max.max(*value));
     let negligible = diagonal.len() as f64 * f64::EPSILON * largest;
@@ -35,7 +35,9 @@ pub(super) fn refuse_indefinite(mass: &SparseMatrix, precision: f64, names: RowN
             is_diagonal = false;
             let limit = (diagonal[row] * diagonal[col]).sqrt();
             let energy = if limit > 0.0 { 1.0 - value.abs() / limit } else { f64::NEG_INFINITY };
-            if energy < least && value.abs() > negligible {
+            // A diagonal of few decimals is uncertain itself.
+            let uncertain = rounding.absolute / diagonal[row].min(diagonal[col]).max(f64::MIN_POSITIVE);
+            if energy < least - DIGITS * uncertain && value.abs() > negligible {
                 let column = format!("column {}{}", names.number(col), names.bracketed(col));
                 let place = format!("worst at {}, {column}", names.full(row));
                 return Err(Error::IndefiniteMass { place, energy });
@@ -58,9 +60,22 @@ pub(super) fn refuse_indefinite(mass: &SparseMatrix, precision: f64, names: RowN
     // Only now is the motion itself of interest: the same steps again, summed with the weights of the Ritz vector.
     let mut motion = vec![0.0; scale.len()];
     lanczos.run(&mut |step, unit| dense::add_scaled(&mut motion, vectors[(step, 0)], unit));
+    if rounding.is_beyond_entries() && -energy * squared(&motion) <= noise(mass, rounding, (&scale, &motion)) {
+        return Ok(());
+    }
     let row = (0..motion.len()).max_by(|a, b| motion[*a].abs().total_cmp(&motion[*b].abs())).unwrap_or(0);
     let place = format!("in a motion that is largest at {}", names.full(row));
     Err(Error::IndefiniteMass { place, energy })
+}
+
+fn squared(motion: &[f64]) -> f64 {
+    dense::dot(motion, motion)
+}
+
+/// What roundings of M, all with one sign, can make of the energy of a motion in scaled dofs.
+fn noise(mass: &SparseMatrix, rounding: Rounding, (scale, motion): (&[f64], &[f64])) -> f64 {
+    let x = Mat::from_fn(motion.len(), 1, |i, _| scale[i] * motion[i]);
+    energies_of_terms(x.as_ref(), rounding.terms(mass.into(), x.as_ref()).as_ref()).into_iter().sum()
 }
 
 struct Lanczos<'a> {

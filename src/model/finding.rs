@@ -37,8 +37,8 @@ pub enum Finding {
         n_apart: usize,
         /// Of how many.
         n_nodes: usize,
-        /// The first of them.
-        first: String,
+        /// The first three of them.
+        at: String,
     },
     /// Rows held by a stiffness far beyond that of the structure.
     Penalties {
@@ -142,8 +142,8 @@ impl std::fmt::Display for Finding {
                 let rows = counted(rows.len(), "row has", "rows have");
                 write!(f, "{rows} mass and no stiffness, the first is {first}: free particles")
             }
-            Self::MassCouplesOthers { n_apart, n_nodes, first } => {
-                f.write_str(&couples_others([*n_apart, *n_nodes], first))
+            Self::MassCouplesOthers { n_apart, n_nodes, at } => {
+                f.write_str(&couples_others([*n_apart, *n_nodes], at))
             }
             Self::Penalties { n_rows, first, ratio } => f.write_str(&stiff_rows(*n_rows, first, *ratio)),
             Self::NegativeMassByRounding { n_rows } => {
@@ -205,9 +205,9 @@ fn mass_by_direction(n_nodes: usize, at: &str) -> String {
     )
 }
 
-fn couples_others([n_apart, n_nodes]: [usize; 2], first: &str) -> String {
+fn couples_others([n_apart, n_nodes]: [usize; 2], at: &str) -> String {
     format!(
-        "the mass couples {n_apart} of {n_nodes} nodes with other nodes than the stiffness does, the first at {first}: check that the \
+        "the mass couples {n_apart} of {n_nodes} nodes with other nodes than the stiffness does, first at {at}: check that the \
          rows of both matrices are in one order"
     )
 }

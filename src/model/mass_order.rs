@@ -11,6 +11,11 @@
 //! rows alone two have, a seventh and a tenth of their rows. With nodes of M permuted all nodes are apart but for a few, and most of them
 //! with rows direction by direction.
 //!
+//! One mesh in two orders has as many nodes with one, two, three … neighbours in M as in K, and other pairs of them. What couples more in
+//! either matrix changes these counts. So equal counts over other pairs prove another order, of two nodes already, where a dof map tells
+//! the nodes. An order that maps the mesh onto itself, all nodes of a row of elements backwards for instance, changes no pair and is not
+//! seen here.
+//!
 //! An order changes no count: the mass of the elements couples as many pairs of nodes as their stiffness. Where M couples fewer, a
 //! lumped mass with that of a fluid between pairs of nodes for instance, other neighbours are no sign of an order.
 //!
@@ -29,16 +34,24 @@ const LEAST_SHARE_OF_PAIRS: f64 = 0.75;
 /// Pairs of rows likewise: the mass of a solid couples a row with one of three rows of a node, its stiffness with all three.
 const LEAST_SHARE_OF_ROWS: f64 = LEAST_SHARE_OF_PAIRS / 3.0;
 
+/// Nodes that a warning names.
+const SHOWN_NODES: usize = 3;
+/// Fewer nodes with one neighbour each are no mesh, whose counts could say something.
+const LEAST_NODES: usize = 4;
+
 /// Nodes whose neighbours in M are others than in K.
 struct Apart {
+    /// Those that share less than half of them.
     nodes: Vec<u32>,
+    /// All of them, where the counts of neighbours prove that M is that of the mesh of K in another order.
+    moved: Vec<u32>,
     n_nodes: usize,
 }
 
 /// Compares the nodes that M couples with those that K couples.
 ///
 /// # Errors
-/// [`Error::MassInAnotherOrder`] where more than half of all nodes are apart. Fewer are a finding where a dof map tells nodes; of rows
+/// [`Error::MassInAnotherOrder`] where more than half of all nodes are apart, or where M is that of the mesh in another order. Fewer are a finding where a dof map tells nodes; of rows
 /// alone K and M of one element may couple different ones.
 pub(super) fn compared(
     stiffness: &SparseMatrix,
@@ -48,14 +61,16 @@ pub(super) fn compared(
 ) -> Result<Option<Finding>> {
     let of_row = node_of_row(mass.rows(), dofs);
     let least_share = if dofs.is_some() { LEAST_SHARE_OF_PAIRS } else { LEAST_SHARE_OF_ROWS };
-    let Apart { nodes, n_nodes } = Apart::of(stiffness, mass, &of_row, least_share);
-    let row_of = |node: &u32| of_row.iter().position(|of_row| of_row == node);
-    let Some(first) = nodes.first().and_then(row_of).map(|row| names.full(row)) else { return Ok(None) };
+    let Apart { nodes, moved, n_nodes } = Apart::of(stiffness, mass, &of_row, least_share);
+    let name_of = |node: &u32| of_row.iter().position(|of_row| of_row == node).map(|row| names.full(row));
     let what = if dofs.is_some() { "nodes" } else { "rows" };
-    if 2 * nodes.len() > n_nodes {
-        return Err(Error::MassInAnotherOrder { n_apart: nodes.len(), n_nodes, what, first });
+    let proof = if dofs.is_some() && !moved.is_empty() { &moved } else { &nodes };
+    let Some(first) = proof.first().and_then(name_of) else { return Ok(None) };
+    if 2 * nodes.len() > n_nodes || (dofs.is_some() && !moved.is_empty()) {
+        return Err(Error::MassInAnotherOrder { n_apart: proof.len(), n_nodes, what, first });
     }
-    Ok(dofs.map(|_| Finding::MassCouplesOthers { n_apart: nodes.len(), n_nodes, first }))
+    let at = nodes.iter().take(SHOWN_NODES).filter_map(name_of).collect::<Vec<_>>().join(", ");
+    Ok(dofs.map(|_| Finding::MassCouplesOthers { n_apart: nodes.len(), n_nodes, at }))
 }
 
 impl Apart {
@@ -84,15 +99,31 @@ impl Apart {
         let by_stiffness: Vec<Vec<u32>> = (0..n_nodes).into_par_iter().map(with_mass).collect();
         let n_pairs = |by: &[Vec<u32>]| by.iter().map(Vec::len).sum::<usize>() as f64;
         if n_pairs(&by_mass) < least_share * n_pairs(&by_stiffness) {
-            return Self { nodes: Vec::new(), n_nodes };
+            return Self { nodes: Vec::new(), moved: Vec::new(), n_nodes };
         }
         let is_apart = |node: &u32| {
             let (of_mass, of_stiffness) = (&by_mass[*node as usize], &by_stiffness[*node as usize]);
             let n_shared = of_stiffness.iter().filter(|other| of_mass.binary_search(other).is_ok()).count();
             2 * n_shared < of_mass.len() && 2 * n_shared < of_stiffness.len()
         };
-        Self { nodes: (0..n_nodes as u32).into_par_iter().filter(is_apart).collect(), n_nodes }
+        let nodes = (0..n_nodes as u32).into_par_iter().filter(is_apart).collect();
+        Self { nodes, moved: moved(&by_mass, &by_stiffness), n_nodes }
     }
+}
+
+/// Nodes with other neighbours in M than in K, where both have as many nodes with each number of neighbours; none otherwise.
+fn moved(by_mass: &[Vec<u32>], by_stiffness: &[Vec<u32>]) -> Vec<u32> {
+    let counts = |by: &[Vec<u32>]| {
+        let mut counts: Vec<usize> = by.iter().map(Vec::len).collect();
+        counts.sort_unstable();
+        counts
+    };
+    let of_mass = counts(by_mass);
+    let is_mesh = of_mass.iter().filter(|count| **count > 1).count() >= LEAST_NODES;
+    if !is_mesh || of_mass != counts(by_stiffness) {
+        return Vec::new();
+    }
+    (0..by_mass.len() as u32).filter(|node| by_mass[*node as usize] != by_stiffness[*node as usize]).collect()
 }
 
 #[cfg(test)]
@@ -136,5 +167,21 @@ mod tests {
         for sound in [coupling(&[]), coupling(&[(0, 7)]), coupling(&every), coupling(&pairs)] {
             assert_eq!(n_apart(&natural, &sound), 0);
         }
+    }
+
+    #[test]
+    fn two_nodes_exchanged_change_pairs_and_no_count() {
+        let nodes: Vec<u32> = (0..N as u32).collect();
+        let moved = |k: &SparseMatrix, m: &SparseMatrix| Apart::of(k, m, &nodes, LEAST_SHARE_OF_PAIRS).moved;
+        let natural = chain([0, 1, 2, 3, 4, 5, 6, 7]);
+        assert_eq!(moved(&natural, &chain([0, 2, 1, 3, 4, 5, 6, 7])), [0, 1, 2, 3]);
+        // Backwards is the same mesh, and a spring or a mass element more is another one.
+        let [mut spring, mut instrument] = [(0..N - 1).map(|i| (i, i + 1)).collect::<Vec<_>>(), vec![]];
+        instrument.extend_from_slice(&spring);
+        spring.push((0, 5));
+        instrument.push((2, 6));
+        assert_eq!(moved(&natural, &chain([7, 6, 5, 4, 3, 2, 1, 0])), [0; 0]);
+        assert_eq!(moved(&coupling(&spring), &natural), [0; 0]);
+        assert_eq!(moved(&natural, &coupling(&instrument)), [0; 0]);
     }
 }

@@ -19,7 +19,7 @@ use std::collections::HashSet;
 use crate::dofs::{Dof, DofMap, FileRows, Nodes, RowNames};
 use crate::error::{Error, Result};
 use crate::input::{Input, MatrixInput};
-use crate::sparse::{Precision, SparseMatrix, diagonal};
+use crate::sparse::{Precision, Rounding, SparseMatrix, diagonal};
 
 pub use bodies::{Bodies, node_of_row};
 use finding::PENALTY;
@@ -39,7 +39,7 @@ pub struct Model {
     pub mass: SparseMatrix,
     /// The powers of two taken out.
     pub scaling: Scaling,
-    /// Relative size of the last digit of the data.
+    /// How well the entries of K and M are known, in the units that they are scaled to.
     pub precision: Precision,
     /// Node and direction of each row, where known.
     pub dofs: Option<DofMap>,
@@ -87,7 +87,7 @@ impl Model {
     pub fn new(input: Input) -> Result<Self> {
         refuse_same(&input.stiffness, &input.mass)?;
         let mut findings = Vec::new();
-        let precision = Precision { stiffness: data_precision(&input.stiffness), mass: data_precision(&input.mass) };
+        let read = [&input.stiffness, &input.mass].map(rounding);
         let (dofs, rows) = (input.dofs, input.rows);
         let names = RowNames { rows: &rows, dofs: dofs.as_deref() };
         let (stiffness, mass) =
@@ -100,6 +100,11 @@ impl Model {
         findings.extend(mass_order::compared(&stiffness, &mass, dofs.as_deref(), names)?);
         clear_negative_rounding(&mut mass);
         let scaling = Scaling::take_out(&mut stiffness, &mut mass)?;
+        let [of_stiffness, of_mass] = read;
+        let precision = Precision {
+            stiffness: in_units(of_stiffness, scaling.stiffness_unit()).measured((&stiffness).into()),
+            mass: in_units(of_mass, scaling.mass_unit()).measured((&mass).into()),
+        };
         let (is_definite, bodies) = rayon::join(
             || definite::refuse_indefinite(&mass, precision.mass, names),
             || Bodies::of(&stiffness, &node_of_row(stiffness.rows(), dofs.as_deref())),
@@ -143,9 +148,23 @@ fn refuse_same(stiffness: &MatrixInput, mass: &MatrixInput) -> Result<()> {
     Ok(())
 }
 
-fn data_precision(matrix: &MatrixInput) -> f64 {
+/// What the entries of a matrix may be off by, in the units of its file.
+fn rounding(matrix: &MatrixInput) -> Rounding {
+    let n_parts = matrix.notes.most_repeated.max(1);
+    let is_of_parts = n_parts > 1;
+    if let Some(decimals) = matrix.decimals {
+        return Rounding { absolute: 0.5 * 10f64.powi(-decimals) * n_parts as f64, ..Rounding::BINARY };
+    }
     // Seventeen digits identify every double, sixteen almost every one: both are as good as binary.
-    if matrix.digits >= 16 { f64::EPSILON / 2.0 } else { 0.5 * 10f64.powi(1 - matrix.digits as i32) }
+    if matrix.digits >= 16 {
+        return Rounding::BINARY;
+    }
+    let n_alike = matrix.notes.most_alike.map_or(f64::INFINITY, |most| most as f64);
+    Rounding { is_of_parts, n_alike, ..Rounding::relative(0.5 * 10f64.powi(1 - matrix.digits as i32)) }
+}
+
+fn in_units(rounding: Rounding, unit: f64) -> Rounding {
+    Rounding { absolute: rounding.absolute / unit, ..rounding }
 }
 
 /// The matrix, symmetric to the bit, and what that took.

@@ -26,7 +26,7 @@ pub(super) fn refuse(component: Component<'_>) -> Result<()> {
     let scale: Vec<f64> = uncondensed.into_iter().map(dense::power_of_two_root).collect();
     let scaled = Mat::from_fn(n_b, n_b, |i, j| constraint.stiffness[(i, j)] * scale[i] * scale[j]);
     // In these scales the terms of S are at most `cancellation`, and rounding of S is that times the precision of the data.
-    let precision = partition.precision.stiffness + f64::EPSILON;
+    let precision = partition.precision.stiffness.share + f64::EPSILON;
     let rounding = ROUNDINGS * precision * constraint.cancellation * partition.cancellation;
     // A Cholesky factorisation costs a tenth of the eigenvalues, and nearly every S passes it.
     let lifted = Mat::from_fn(n_b, n_b, |i, j| scaled[(i, j)] + if i == j { rounding } else { 0.0 });

@@ -4,8 +4,9 @@ use super::results::Results;
 use crate::constraint::Loose;
 use crate::error::Warning;
 use crate::factor::Refinement;
+use crate::input::MatrixFacts;
 use crate::job::{Boundary, Precision};
-use crate::number::counted;
+use crate::number::{counted, decimals};
 use crate::rigid::RigidSource;
 use crate::verification::check::Verdict;
 use crate::verification::{LARGEST_OF_MESHES, Penalties, penalties as penalties_of};
@@ -138,7 +139,8 @@ pub(super) fn data_precision(results: &Results<'_>) -> Option<Warning> {
     let first = uncertain.first()?;
     let [stiffness, mass] = &results.input.matrices;
     // Sixteen digits are all that a number in double precision has.
-    let advice = if stiffness.digits.min(mass.digits) >= 16 {
+    let is_full = |facts: &MatrixFacts| facts.digits >= 16 && facts.decimals.is_none();
+    let advice = if is_full(stiffness) && is_full(mass) {
         "double precision has no more for stiffnesses of such different size: make stiff ties and thin elements softer or leave them out"
     } else {
         "write the matrices with all their digits, and stiffnesses of like size"
@@ -148,9 +150,13 @@ pub(super) fn data_precision(results: &Results<'_>) -> Option<Warning> {
         message: format!(
             "{} of the stiffness and {} of the mass leave {} less certain than {WANTED:.0e}, {first}; \
              {advice}",
-            counted(stiffness.digits, "digit", "digits"),
-            mass.digits,
+            digits_of(stiffness),
+            digits_of(mass),
             counted(uncertain.len(), "frequency", "frequencies")
         ),
     })
+}
+
+fn digits_of(facts: &MatrixFacts) -> String {
+    facts.decimals.map_or_else(|| format!("{} digits", facts.digits), decimals)
 }

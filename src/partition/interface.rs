@@ -1,6 +1,6 @@
 //! Which rows of the model belong to which interface node.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::interface_node::{InterfaceNode, Interfaces, Resolved, Rows};
 use super::node_catalogue::NodeCatalogue;
@@ -50,6 +50,13 @@ pub fn recovered_rows(model: &Model, recovery: Option<&RecoveryJob>) -> Result<V
         rows.extend(of_node.map(|(direction, row)| (*row, Dof { node, direction: *direction })));
     }
     Ok(rows)
+}
+
+/// Labels of the nodes that rigid patches tie. A selection that finds none is refused where it is resolved.
+pub fn nodes_of_patches(model: &Model, interfaces: &[InterfaceJob]) -> HashSet<i64> {
+    let catalogue = NodeCatalogue::new(model);
+    let tied = interfaces.iter().filter(|job| job.coupling.is_patch());
+    tied.filter_map(|job| catalogue.select(model, job).ok()).flatten().collect()
 }
 
 /// The patches of several nodes whose origin is the mean of these. A selection that finds none is refused where it is resolved.

@@ -30,7 +30,7 @@ mod sites;
 mod transformation;
 mod transformation_row;
 
-pub use interface::{patches, recovered_rows};
+pub use interface::{nodes_of_patches, patches, recovered_rows};
 pub use interface_node::InterfaceNode;
 pub use noise::CHANCE_OF_MORE;
 pub use partition::{LARGEST_INTERFACE, Partition};

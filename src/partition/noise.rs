@@ -16,6 +16,13 @@
 //! after rounding have different roundings. Of all ways to part the entries of one size into groups that round alike,
 //! Q⁺² + Q⁻² is the largest sum of squares, and therefore a bound for each of them.
 //!
+//! Sums of numbers that were rounded before they were added round together wherever they have a number in common. Where no more than
+//! c numbers are of one size, a rounding is in c entries at most, and the square of their sum is no more than c times that of their
+//! squares:
+//! ```text
+//! |xᵀEx| ≤ √(2 ln(2/p)/3) (c Σ h² w² x̃_i² x̃_j²)^½        over all entries, but for a chance of p
+//! ```
+//!
 //! Rigid patches are made of sums of entries, which were rounded before: their entries are taken as the model has them.
 
 use faer::MatRef;
@@ -24,13 +31,10 @@ use rayon::prelude::*;
 use super::partition::Partition;
 use super::roundings::{Entry, Roundings};
 use crate::dense;
-use crate::sparse::absolute_product;
+use crate::sparse::{Rounding, absolute_product};
 
 /// p: the chance that roundings of one matrix make more of the energy of one motion than is said.
 pub const CHANCE_OF_MORE: f64 = 1e-12;
-/// Share of its own size that half a unit of the last digit is at least, in units of that of the smallest number of as many digits:
-/// single precision counts as seven digits, and is coarser than these where the first of them is a nine.
-const LEAST_SHARE: f64 = 1.0 / 8.0;
 /// How much larger than their sum the terms of a patch of a mesh are, at most: by about the number of layers of elements that it ties.
 const LARGEST_OF_MESHES: f64 = 1e3;
 /// Columns that one reading of the entries serves.
@@ -52,12 +56,26 @@ impl Partition {
             let terms = absolute_product(crate::sparse::Leading::new(&self.stiffness, x.nrows()), x);
             return dense::dots(sizes.as_ref(), terms.as_ref())
                 .iter()
-                .map(|sum| self.precision.stiffness * sum)
+                .map(|sum| self.precision.stiffness.relative * sum)
                 .collect();
         }
-        let roundings = self.roundings.get_or_init(|| Roundings::of(&self.stiffness, &self.dofs, &self.patches));
+        let rounding = self.precision.stiffness;
+        let of = || Roundings::of(&self.stiffness, &self.dofs, &self.patches, rounding);
+        self.noise_of((self.roundings.get_or_init(of), rounding, self.scaling.stiffness_unit()), x)
+    }
+
+    /// What rounding of the data of M can make of xᵀMx of each column, as [`Self::energy_noise`]; nothing where every entry of M is
+    /// known to a share of itself.
+    pub fn mass_noise(&self, x: MatRef<'_, f64>) -> Option<Vec<f64>> {
+        let patches = self.mass_patches.as_ref()?;
+        let rounding = self.precision.mass;
+        let of = || Roundings::of(&self.mass, &self.dofs, patches, rounding);
+        Some(self.noise_of((self.mass_roundings.get_or_init(of), rounding, self.scaling.mass_unit()), x))
+    }
+
+    fn noise_of(&self, of: (&Roundings, Rounding, f64), x: MatRef<'_, f64>) -> Vec<f64> {
         let panels = (0..x.ncols()).step_by(WIDTH);
-        panels.flat_map(|first| self.panel_noise(roundings, x.subcols(first, WIDTH.min(x.ncols() - first)))).collect()
+        panels.flat_map(|first| self.panel_noise(of, x.subcols(first, WIDTH.min(x.ncols() - first)))).collect()
     }
 
     /// Terms of xᵀKx that cancelled when rigid patches took up entries of K, of each column: Σ |x̃_i||K_ij||x̃_j| inside the patches, where
@@ -82,29 +100,32 @@ impl Partition {
 
     /// Whether the entries of K were rounded to fewer digits than double precision has.
     pub fn has_few_digits(&self) -> bool {
-        self.precision.stiffness > f64::EPSILON
+        self.precision.stiffness.is_coarse()
     }
 
-    fn panel_noise(&self, roundings: &Roundings, x: MatRef<'_, f64>) -> Vec<f64> {
+    fn panel_noise(&self, (roundings, rounding, unit): (&Roundings, Rounding, f64), x: MatRef<'_, f64>) -> Vec<f64> {
         let extended = self.extended(x);
-        let unit = self.scaling.stiffness_unit();
         let of_task = |task: &&[Entry]| {
             let mut sums = Sums::default();
             for of_one_size in task.chunk_by(|a, b| a.value.abs() == b.value.abs()) {
-                let h = half_unit(of_one_size[0].value.abs() * unit, self.precision.stiffness) / unit;
+                let h = rounding.half_unit(of_one_size[0].value.abs(), unit);
                 let mut weights = [[0.0f64; 2]; WIDTH];
                 for entry in of_one_size {
                     let sign = if entry.row == entry.col { entry.value.signum() } else { 2.0 * entry.value.signum() };
                     let (a, b) = (&extended[entry.row as usize], &extended[entry.col as usize]);
                     for (weight, (a, b)) in weights.iter_mut().zip(a.iter().zip(b)) {
                         let product = sign * a * b;
-                        weight[0] += product.max(0.0);
-                        weight[1] += (-product).max(0.0);
+                        let of_entry = match rounding.is_of_parts {
+                            true => [product.abs(), product * product],
+                            false => [product.max(0.0), (-product).max(0.0)],
+                        };
+                        weight.iter_mut().zip(of_entry).for_each(|(sum, value)| *sum += value);
                     }
                 }
-                for (sum, [positive, negative]) in sums.iter_mut().zip(weights) {
-                    sum[0] += h * (positive + negative);
-                    sum[1] += h * h * (positive * positive + negative * negative);
+                for (sum, [a, b]) in sums.iter_mut().zip(weights) {
+                    let of_size = if rounding.is_of_parts { [a, b] } else { [a + b, a * a + b * b] };
+                    sum[0] += h * of_size[0];
+                    sum[1] += h * h * of_size[1];
                 }
             }
             sums
@@ -115,7 +136,7 @@ impl Partition {
         (0..x.ncols())
             .map(|j| {
                 let [all, squares] = [0, 1].map(|which| parts.iter().map(|part| part[j][which]).sum::<f64>());
-                all.min(tail * squares.sqrt())
+                all.min(tail * (if rounding.is_of_parts { rounding.n_alike * squares } else { squares }).sqrt())
             })
             .collect()
     }
@@ -134,33 +155,5 @@ impl Partition {
             }
         }
         extended
-    }
-}
-
-/// Half a unit of the last digit of a number of this size, where such a half is `precision` of the smallest number of as many
-/// digits.
-fn half_unit(size: f64, precision: f64) -> f64 {
-    let mut decade = 10f64.powi(size.log10().floor() as i32);
-    // A logarithm may round up just below a power of ten; a decade that is too small would promise too much.
-    if 10.0 * decade <= size {
-        decade *= 10.0;
-    }
-    precision * decade.max(LEAST_SHARE * size)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn half_a_unit_is_that_of_the_last_digit() {
-        // Four digits: 1.234e3 is known to 0.5, 9.876e-5 to 0.5e-8.
-        let precision = 0.5e-3;
-        for (size, half) in [(1234.0, 0.5), (1000.0, 0.5), (6.5e2, 0.05), (1.0e-300, 0.5e-303)] {
-            let found = half_unit(size, precision);
-            assert!((found / half - 1.0).abs() < 1e-12, "{size}: {found}");
-        }
-        // Of a nine no less than an eighth of its size.
-        assert_eq!(half_unit(9.876e-5, precision), precision * 9.876e-5 / 8.0);
     }
 }

@@ -42,7 +42,7 @@ pub struct Partition {
     pub recovered: Vec<(usize, Dof)>,
     /// Powers of two taken out of K and M.
     pub scaling: Scaling,
-    /// Relative precision of the data.
+    /// How well the entries of K and M of the model are known.
     pub precision: Precision,
     /// How coordinates and dof map fit K.
     pub fit: CoordinateFit,
@@ -56,6 +56,10 @@ pub struct Partition {
     pub(super) patches: PatchEntries,
     /// The entries of K by their sizes, once somebody asks.
     pub(super) roundings: OnceLock<Roundings>,
+    /// Entries of the model's M that rigid patches have taken up, where an entry may be off by more than a share of itself.
+    pub(super) mass_patches: Option<PatchEntries>,
+    /// The entries of M by their sizes, once somebody asks.
+    pub(super) mass_roundings: OnceLock<Roundings>,
 }
 
 impl Partition {
@@ -83,9 +87,11 @@ impl Partition {
         facts.findings = untied(facts.findings, &transformation, &model);
         let stiffness = congruence::congruence(&model.stiffness, &transformation);
         let cancellation = congruence::cancellation(&model.stiffness, &stiffness, &transformation);
-        let patches = PatchEntries::of(&model.stiffness, &transformation);
+        let Precision { stiffness: of_stiffness, mass: of_mass } = model.precision;
+        let patches = PatchEntries::of(&model.stiffness, &transformation, of_stiffness);
         drop(model.stiffness);
         let mass = congruence::congruence(&model.mass, &transformation);
+        let mass_patches = of_mass.is_beyond_entries().then(|| PatchEntries::of(&model.mass, &transformation, of_mass));
         drop(model.mass);
         let interface = resolved.into_nodes();
         findings.extend(far_origins);
@@ -106,6 +112,8 @@ impl Partition {
             precision: model.precision,
             patches,
             roundings: OnceLock::new(),
+            mass_patches,
+            mass_roundings: OnceLock::new(),
         })
     }
 

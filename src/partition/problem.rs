@@ -22,6 +22,10 @@ impl EnergyNoise for Partition {
         (x.ncols() > 0 && self.has_few_digits()).then(|| Self::energy_noise(self, x))
     }
 
+    fn mass_noise(&self, x: MatRef<'_, f64>) -> Option<Vec<f64>> {
+        if x.ncols() > 0 { Self::mass_noise(self, x) } else { None }
+    }
+
     fn hidden_terms(&self, x: MatRef<'_, f64>) -> Vec<f64> {
         self.patch_terms(x)
     }
@@ -50,6 +54,10 @@ impl EntriesAt<'_> {
 impl EnergyNoise for EntriesAt<'_> {
     fn energy_noise(&self, x: MatRef<'_, f64>) -> Option<Vec<f64>> {
         (x.ncols() > 0 && self.partition.has_few_digits()).then(|| self.partition.energy_noise(self.whole(x).as_ref()))
+    }
+
+    fn mass_noise(&self, x: MatRef<'_, f64>) -> Option<Vec<f64>> {
+        if x.ncols() > 0 { self.partition.mass_noise(self.whole(x).as_ref()) } else { None }
     }
 
     fn hidden_terms(&self, x: MatRef<'_, f64>) -> Vec<f64> {

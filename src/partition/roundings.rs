@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::transformation::{DofOrigin, ReducedDof, Transformation};
 use super::transformation_row::TransformationRow;
-use crate::sparse::SparseMatrix;
+use crate::sparse::{Rounding, SparseMatrix, diagonal, ends};
 
 /// Entries of a unit of parallel work, at least: fixed, so that sums never depend on the number of threads.
 const ENTRIES_PER_TASK: usize = 1 << 16;
@@ -18,7 +18,8 @@ pub(super) struct PatchEntries {
     pub(super) entries: Vec<Entry>,
 }
 
-/// An entry of the upper triangle: its place in the motion extended by the rows of patches, and its value.
+/// An entry of the upper triangle: its place in the motion extended by the rows of patches, and its value, or what stands for the size
+/// of its parts where it was added up from such.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry {
     pub(super) row: u32,
@@ -28,7 +29,7 @@ pub(super) struct Entry {
 
 impl PatchEntries {
     /// The entries of patches in a matrix of the model.
-    pub(super) fn of(matrix: &SparseMatrix, transformation: &Transformation) -> Self {
+    pub(super) fn of(matrix: &SparseMatrix, transformation: &Transformation, rounding: Rounding) -> Self {
         let n = transformation.dofs.len();
         let mut place = Vec::with_capacity(transformation.rows.len());
         let mut rows = Vec::new();
@@ -41,12 +42,13 @@ impl PatchEntries {
                 }
             }
         }
+        let size = Sizes::of(matrix, rounding);
         let mut entries = Vec::new();
         let is_patch = |row: usize| place[row] as usize >= n;
         for row in (0..place.len()).filter(|row| is_patch(*row)) {
             for (col, value) in matrix.outer_view(row).iter().flat_map(|row| row.iter()) {
                 if !is_patch(col) || col <= row {
-                    entries.push(Entry { row: place[row], col: place[col], value: *value });
+                    entries.push(Entry { row: place[row], col: place[col], value: size.of_entry(*value, row, col) });
                 }
             }
         }
@@ -54,23 +56,45 @@ impl PatchEntries {
     }
 }
 
-/// The entries of K in the order of their sizes.
+/// What the roundings of the entries of a matrix are relative to.
+struct Sizes {
+    rounding: Rounding,
+    /// The diagonal, where entries are sums of parts.
+    diagonal: Vec<f64>,
+}
+
+impl Sizes {
+    fn of(matrix: &SparseMatrix, rounding: Rounding) -> Self {
+        Self { rounding, diagonal: if rounding.is_of_parts { diagonal(matrix) } else { Vec::new() } }
+    }
+
+    fn of_entry(&self, value: f64, row: usize, col: usize) -> f64 {
+        if self.diagonal.is_empty() { value } else { self.rounding.size_of(value, ends(&self.diagonal, row, col)) }
+    }
+}
+
+/// The entries of K or M in the order of their sizes.
 #[derive(Debug)]
 pub(super) struct Roundings {
     entries: Vec<Entry>,
 }
 
 impl Roundings {
-    /// The entries of a partition's K, without those of rigid patches, and what the patches took up.
-    pub(super) fn of(stiffness: &SparseMatrix, dofs: &[ReducedDof], patches: &PatchEntries) -> Self {
+    /// The entries of a matrix of a partition, without those of rigid patches, and what the patches took up.
+    pub(super) fn of(matrix: &SparseMatrix, dofs: &[ReducedDof], patches: &PatchEntries, rounding: Rounding) -> Self {
+        let size = Sizes::of(matrix, rounding);
         let is_own = |dof: usize| matches!(dofs[dof].origin, DofOrigin::Row(_));
         let mut entries = patches.entries.clone();
         for row in (0..dofs.len()).filter(|row| is_own(*row)) {
-            let view = stiffness.outer_view(row);
+            let view = matrix.outer_view(row);
             let upper = view.iter().flat_map(|view| view.iter()).filter(|(col, _)| *col <= row && is_own(*col));
-            entries.extend(upper.map(|(col, value)| Entry { row: row as u32, col: col as u32, value: *value }));
+            entries.extend(upper.map(|(col, value)| {
+                let value = size.of_entry(*value, row, col);
+                Entry { row: row as u32, col: col as u32, value }
+            }));
         }
-        entries.retain(|entry| entry.value != 0.0);
+        // A zero in fixed point is a small number that was rounded.
+        entries.retain(|entry| entry.value != 0.0 || rounding.absolute > 0.0);
         entries.par_sort_unstable_by(|a, b| {
             let size = |entry: &Entry| (entry.row, entry.col);
             a.value.abs().total_cmp(&b.value.abs()).then_with(|| size(a).cmp(&size(b)))

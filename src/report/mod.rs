@@ -123,6 +123,9 @@ pub struct MatrixReport {
     pub n_nonzeros: usize,
     /// Significant decimal digits of the values; 17 for binary data.
     pub digits: u32,
+    /// Decimals after the point to which all values were rounded; none where digits are relative to each value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub decimals: Option<i32>,
     /// BLAKE3 digest of the file's bytes.
     pub digest: String,
 }

@@ -52,7 +52,7 @@ pub(crate) fn zero_modes(partition: &Partition) -> Result<ZeroModes> {
     for (j, magnitude) in magnitudes.iter().enumerate() {
         let (q, force) = (dense::column(orthonormal.as_ref(), j), dense::column(forces.as_ref(), j));
         energy.largest_quotient = energy.largest_quotient.max(dense::dot(q, force).abs());
-        energy.noise = energy.noise.max((partition.precision.stiffness + f64::EPSILON) * magnitude);
+        energy.noise = energy.noise.max((partition.precision.stiffness.share + f64::EPSILON) * magnitude);
     }
     let rigid = RigidBodyModes {
         modes: orthonormal.clone(),
@@ -95,7 +95,7 @@ pub(crate) fn uncounted(partition: &Partition, n_zero: usize, bar: f64) -> Error
         "how many motions cost no energy: {n_zero} seem to, and with the frequency of the next known to {known:.0e} of itself \
          elastic ones may be among them"
     );
-    Error::DigitsTooFew { what, precision: partition.precision.stiffness }
+    Error::DigitsTooFew { what, known: partition.precision.stiffness.in_words() }
 }
 
 /// The zero modes after a step of inverse iteration, which takes what rounding of the eigensolver left of an elastic motion

@@ -238,6 +238,6 @@ impl Energies {
         let (energies, directions) = dense::symmetric_eigen(energy.as_ref())?;
         let largest = energies_of_terms(q, terms.as_ref()).into_iter().fold(0.0, f64::max);
         let zero = zero_energy(partition, q, terms.as_ref());
-        Ok(Self { energies, directions, noise: (partition.precision.stiffness + f64::EPSILON) * largest, zero })
+        Ok(Self { energies, directions, noise: (partition.precision.stiffness.share + f64::EPSILON) * largest, zero })
     }
 }

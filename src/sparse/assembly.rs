@@ -79,7 +79,7 @@ impl Triplets {
         let pointers = row_pointers(&self, n, mirror);
         let (mut indices, mut data) = scatter(&self, &pointers, mirror);
         drop(self);
-        let merged = sort_rows(&pointers, &mut indices, &mut data);
+        let (merged, most_repeated) = sort_rows(&pointers, &mut indices, &mut data);
         let n_merged = indices.len() - merged.iter().sum::<usize>();
         let pointers = if n_merged == 0 { pointers } else { compact(&pointers, &merged, &mut indices, &mut data) };
         let n_duplicates = match (n_merged, mirror) {
@@ -88,7 +88,8 @@ impl Triplets {
             // What is stored twice was given once.
             (_, Mirror::On) => n_entries - (indices.len() + n_on_diagonal(&pointers, &indices)) / 2,
         };
-        let notes = AssemblyNotes { n_duplicates, mirrored: mirror == Mirror::On && declared == Declared::General };
+        let mirrored = mirror == Mirror::On && declared == Declared::General;
+        let notes = AssemblyNotes { n_duplicates, most_repeated, most_alike: None, mirrored };
         let matrix = SparseMatrix::try_new((n, n), pointers, indices, data);
         Ok((matrix.unwrap_or_else(|(.., fault)| panic!("rows of {} are not sorted: {fault}", path.display())), notes))
     }
@@ -161,11 +162,11 @@ fn scatter(triplets: &Triplets, pointers: &[usize], mirror: Mirror) -> (Vec<u32>
 }
 
 /// Sorts every row by column and adds duplicates into the first of them; returns how many entries each row keeps, at
-/// its front.
-fn sort_rows(pointers: &[usize], indices: &mut [u32], data: &mut [f64]) -> Vec<usize> {
+/// its front, and the most that were added into one, none where nothing was.
+fn sort_rows(pointers: &[usize], indices: &mut [u32], data: &mut [f64]) -> (Vec<usize>, usize) {
     let ranges = balanced_ranges(pointers, 8 * rayon::current_num_threads());
     let parts = split_by_rows(pointers, &ranges, indices, data);
-    let kept: Vec<Vec<usize>> = parts
+    let kept: Vec<Vec<[usize; 2]>> = parts
         .into_par_iter()
         .map(|(rows, indices, data)| {
             let offset = pointers[rows.start];
@@ -177,28 +178,34 @@ fn sort_rows(pointers: &[usize], indices: &mut [u32], data: &mut [f64]) -> Vec<u
             .collect()
         })
         .collect();
-    kept.concat()
+    let kept = kept.concat();
+    let most = kept.iter().map(|[_, most]| *most).max().filter(|most| *most > 1).unwrap_or(0);
+    (kept.into_iter().map(|[n_kept, _]| n_kept).collect(), most)
 }
 
-fn sort_row(indices: &mut [u32], data: &mut [f64], scratch: &mut Vec<(u32, f64)>) -> usize {
+/// How many entries the row keeps, and the most that became one.
+fn sort_row(indices: &mut [u32], data: &mut [f64], scratch: &mut Vec<(u32, f64)>) -> [usize; 2] {
     if indices.is_sorted_by(|a, b| a < b) {
-        return indices.len();
+        return [indices.len(), 1];
     }
     scratch.clear();
     scratch.extend(indices.iter().copied().zip(data.iter().copied()));
     // Stable, so that duplicates stay in the order of the file.
     scratch.sort_by_key(|&(col, _)| col);
-    let mut n_kept = 0;
+    let (mut n_kept, mut run, mut most) = (0, 0, 1);
     for &(col, value) in &*scratch {
         if n_kept > 0 && indices[n_kept - 1] == col {
             data[n_kept - 1] += value;
+            run += 1;
+            most = most.max(run);
         } else {
+            run = 1;
             indices[n_kept] = col;
             data[n_kept] = value;
             n_kept += 1;
         }
     }
-    n_kept
+    [n_kept, most]
 }
 
 /// Closes the gaps that merged duplicates left and returns the new row pointers.

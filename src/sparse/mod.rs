@@ -11,6 +11,7 @@ mod energy;
 mod leading;
 mod pencil;
 mod product;
+mod rounding;
 mod triangle;
 
 pub(crate) use by_rows::{RowStorage, balanced_ranges, filled};
@@ -18,6 +19,8 @@ pub(crate) use energy::{absolute_energy, energies_of_terms};
 pub use leading::{Leading, diagonal};
 pub use pencil::{Pencil, Precision};
 pub use product::{absolute_product, multiply, panels, product, product_and_terms};
+pub use rounding::Rounding;
+pub(crate) use rounding::ends;
 pub use triangle::Triangle;
 
 /// A symmetric sparse matrix in compressed rows, both triangles stored, indices sorted, no duplicates.
@@ -58,6 +61,10 @@ pub struct Triplets {
 pub struct AssemblyNotes {
     /// Entries that repeated an earlier position and were added to it.
     pub n_duplicates: usize,
+    /// The most entries that were added up at one position; none where nothing repeats.
+    pub most_repeated: usize,
+    /// The most of the entries as they came that are of one size; unknown where not counted.
+    pub most_alike: Option<usize>,
     /// A source declared general held one triangle only, which was mirrored.
     pub mirrored: bool,
 }

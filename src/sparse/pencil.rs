@@ -1,6 +1,7 @@
 //! Two symmetric matrices of one size, and the precision of their entries.
 
 use super::leading::Leading;
+use super::rounding::Rounding;
 
 /// A symmetric pencil in its order of elimination: K and M of one size, whose combinations K − σM are factored.
 #[derive(Clone, Copy, Debug)]
@@ -18,11 +19,18 @@ impl<'a> Pencil<'a> {
     }
 }
 
-/// Relative precision of the data: half a unit of the last decimal digit, or ε/2 for binary data.
+/// How well the entries of K and M are known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Precision {
     /// Of the entries of K.
-    pub stiffness: f64,
+    pub stiffness: Rounding,
     /// Of the entries of M.
-    pub mass: f64,
+    pub mass: Rounding,
+}
+
+impl Precision {
+    /// The larger of the two shares that stand for the matrices.
+    pub fn share(self) -> f64 {
+        self.stiffness.share.max(self.mass.share)
+    }
 }

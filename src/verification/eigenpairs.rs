@@ -88,8 +88,7 @@ fn spread(evidence: &Evidence<'_>) -> f64 {
 
 /// Limits of a residual, relative to the terms it is summed from: what the eigensolver and the data leave of it.
 fn residual_limits(evidence: &Evidence<'_>) -> Limits {
-    let precision = evidence.partition.precision;
-    let digits = precision.stiffness.max(precision.mass);
+    let digits = evidence.partition.precision.share();
     // The eigensolver takes a pair at a residual of 16 ε of the largest θ = 1/λ, which is this share of its own.
     let solver = 16.0 * f64::EPSILON * spread(evidence);
     // On a free component a load is balanced by the interface first and the rigid-body motion taken out afterwards.

@@ -68,13 +68,13 @@ pub(super) fn coordinate_name(evidence: &Evidence<'_>, coordinate: usize) -> Str
 
 /// The precision of the data of K where it is coarser than that of the arithmetic, otherwise zero.
 pub(super) fn data_noise(partition: &Partition) -> f64 {
-    let precision = partition.precision.stiffness;
+    let precision = partition.precision.stiffness.share;
     if precision > f64::EPSILON { precision * partition.cancellation } else { 0.0 }
 }
 
 /// The share that the digits of K have in an error bar, the rest being that of the arithmetic.
 pub(super) fn share_of_data(partition: &Partition) -> f64 {
-    let precision = partition.precision.stiffness;
+    let precision = partition.precision.stiffness.share;
     precision / (f64::EPSILON + precision)
 }
 

@@ -60,7 +60,12 @@ pub(super) fn groundings(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result
     let first = spectrum.scale(directions.count().max(evidence.rigid.count())).unwrap_or(1.0);
     // Where K lets fewer motions pass than there are directions, some are held.
     let all_free = directions.count() <= evidence.rigid.count();
-    let precision = partition.precision.stiffness + f64::EPSILON;
+    let precision = partition.precision.stiffness.relative + f64::EPSILON;
+    // Of entries that are known to a share of themselves the terms tell enough.
+    let of_digits = match partition.precision.stiffness.is_beyond_entries() {
+        true => partition.energy_noise(directions.motions.as_ref()),
+        false => vec![0.0; directions.count()],
+    };
     let quotients = ritz_values(evidence, &directions, forces.as_ref(), first)?;
     // The least quotient that is not below that of a direction belongs to the motion that makes it up.
     let moves_as_a_whole = |quotient: f64| {
@@ -73,7 +78,7 @@ pub(super) fn groundings(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result
         let of = |energy: f64| energy.abs() / (first * directions.masses[j]);
         let energy_ratio = of(dense::dot(u, force));
         let size: f64 = u.iter().zip(terms).map(|(u, terms)| u.abs() * terms).sum();
-        let noise = NOISE_FACTOR * partition.cancellation * precision * of(size);
+        let noise = NOISE_FACTOR * (partition.cancellation * precision * of(size)).max(of(of_digits[j]));
         let (mut largest, mut at, mut of_terms) = (0.0, None, 0.0f64);
         for (row, d) in scale.iter().enumerate() {
             of_terms = of_terms.max(d * terms[row]);

@@ -65,7 +65,7 @@ pub fn penalties(evidence: &Evidence<'_>, first: Option<f64>) -> Option<Penaltie
     }
     let modes = &retained.modes;
     let first = first.filter(|first| *first > 0.0).or(modes.lambda.first().copied()).or(modes.next)?;
-    let precision = f64::EPSILON.max(partition.precision.stiffness);
+    let precision = f64::EPSILON.max(partition.precision.stiffness.relative);
     let mut worst: Option<Worst> = None;
     let mut look = |stiffness: Leading<'_>, x: MatRef<'_, f64>, scale: &dyn Fn(usize) -> f64, asked: f64| {
         for columns in panels(x.ncols()) {

@@ -54,7 +54,7 @@ fn energy_noise(evidence: &Evidence<'_>, first: f64) -> f64 {
 
 /// M-05, residual.
 pub(super) fn residual(evidence: &Evidence<'_>, grounding: &[Grounding]) -> Check {
-    let precision = evidence.partition.precision.stiffness;
+    let precision = evidence.partition.precision.stiffness.share;
     let cancellation = evidence.partition.cancellation;
     let data = if precision > f64::EPSILON { NOISE_FACTOR * precision * cancellation } else { 0.0 };
     // Coordinates far from the origin are rounded to that distance, and with them the levers of a rotation.

@@ -93,13 +93,13 @@ fn job(place: &Place, component: &Component, run: Run) -> String {
 }
 
 /// Frequencies and their bars in Hz, and the number of rigid-body modes.
-struct Found {
+pub(crate) struct Found {
     frequencies: Vec<[f64; 2]>,
     n_rigid: u64,
 }
 
 impl Found {
-    fn of(body: &Value) -> Self {
+    pub(crate) fn of(body: &Value) -> Self {
         let number = |value: &Value| value.as_f64().expect("a number");
         let modes = body["reduction"]["modes"].as_array().expect("modes").iter();
         let frequencies = modes.map(|mode| [number(&mode["frequency_hz"]), number(&mode["error_bar_hz"])]).collect();
@@ -107,7 +107,7 @@ impl Found {
     }
 
     /// The largest difference of a frequency over its bar.
-    fn worst(&self, reference: &Self) -> f64 {
+    pub(crate) fn worst(&self, reference: &Self) -> f64 {
         let pairs = self.frequencies.iter().zip(&reference.frequencies);
         // Both have the rounding of double precision.
         let off = |([found, bar], [exact, own]): (&[f64; 2], &[f64; 2])| (found - exact).abs() / (bar + own);

@@ -3,6 +3,7 @@
 mod alike;
 mod failures;
 mod few_digits;
+mod fixed_point;
 mod foreign_names;
 mod links;
 mod penalties;

@@ -27,6 +27,7 @@ fn partition(matrix: &SparseMatrix, mass: impl Fn(usize) -> f64, interface: &[us
         matrix,
         notes: AssemblyNotes::default(),
         digits: 17,
+        decimals: None,
         path: "generated".into(),
         digest: String::new(),
     };

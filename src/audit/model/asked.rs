@@ -131,7 +131,7 @@ impl AskedModes {
         let turns_inside = turns_inside(&modes, (&lacking, &groups));
         let residual_bars = residual_bars(&modes, sigma, (&lacking, &groups));
         let boundary = Boundary::FixedInterface;
-        let of_digits = if partition.has_few_digits() { partition.precision.stiffness } else { 0.0 };
+        let of_digits = if partition.has_few_digits() { partition.precision.stiffness.share } else { 0.0 };
         Ok(Self {
             boundary,
             modes,

@@ -12,7 +12,7 @@ use crate::verification::limits::LARGEST_EXCUSE;
 
 /// Of an error bar the share of the arithmetic: both frequencies were computed from the same data.
 fn share_of_arithmetic(precision: Precision) -> f64 {
-    f64::EPSILON / (f64::EPSILON + precision.stiffness)
+    f64::EPSILON / (f64::EPSILON + precision.stiffness.share)
 }
 
 /// M-14: stated frequencies against those found again.

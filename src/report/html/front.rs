@@ -136,7 +136,10 @@ fn units(model: &ModelReport) -> String {
 
 fn matrix(matrix: &MatrixReport) -> String {
     let nonzeros = counted(matrix.n_nonzeros, "nonzero", "nonzeros");
-    format!("{nonzeros}, {} significant digits", matrix.digits)
+    format!(
+        "{nonzeros}, {}",
+        matrix.decimals.map_or_else(|| format!("{} significant digits", matrix.digits), number::decimals)
+    )
 }
 
 fn method(reduction: &ReductionReport) -> String {

@@ -78,7 +78,7 @@ impl Reference {
     /// to say so.
     pub(super) fn unsound(&self, evidence: &Evidence<'_>) -> Option<String> {
         let precision = evidence.partition.precision;
-        let most = NOT_SOLVED.max(ROUNDINGS * precision.stiffness.max(precision.mass));
+        let most = NOT_SOLVED.max(ROUNDINGS * precision.share());
         let backward = dense::worst(self.errors.iter().map(|error| error.backward));
         (!self.boundary.is_own(evidence) && dense::worse(backward, most))
             .then(|| format!("the full model leaves a residual of {} there", scientific(backward, 2)))

@@ -49,7 +49,14 @@ pub fn input(model: &models::Model) -> Input {
 
 fn matrix(n: usize, entries: &[Entry]) -> MatrixInput {
     let notes = AssemblyNotes::default();
-    MatrixInput { matrix: sparse(n, entries), notes, digits: 17, path: "generated".into(), digest: String::new() }
+    MatrixInput {
+        matrix: sparse(n, entries),
+        notes,
+        digits: 17,
+        decimals: None,
+        path: "generated".into(),
+        digest: String::new(),
+    }
 }
 
 /// The matrix of all entries of both triangles.

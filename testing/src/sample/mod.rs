@@ -136,7 +136,8 @@ fn body() -> ReportBody {
 }
 
 fn model() -> ModelReport {
-    let matrix = |n_nonzeros, digit: &str| MatrixReport { n_nonzeros, digits: 12, digest: digit.repeat(64) };
+    let matrix =
+        |n_nonzeros, digit: &str| MatrixReport { n_nonzeros, digits: 12, decimals: None, digest: digit.repeat(64) };
     ModelReport {
         n_dofs: 123_486,
         n_nodes: Some(41_162),
