@@ -95,7 +95,7 @@ fn chain_far_above_the_others_ends_at_its_first_gap() {
     let mut value = 1e5;
     for at in 0..40 {
         lambda.push(value);
-        value *= 1.0 + if at % 8 == 7 { 3e-6 } else { 5e-7 };
+        value *= 1.0 + if at % 8 == 7 { 3e-6 } else { 1e-7 };
     }
     let component = Component::new(&known(&lambda, 5));
     for (count, expected) in [(41, 48), (48, 48), (49, 56), (70, 72), (73, 80)] {
@@ -108,17 +108,4 @@ fn chain_far_above_the_others_ends_at_its_first_gap() {
             assert!((found * component.unit() / exact - 1.0).abs() <= terms * f64::EPSILON, "{found} for {exact}");
         }
     }
-}
-
-/// What is left of a space lies 10¹⁰ times above what was found: OP of a random vector has nothing of it above the rounding of half
-/// its digits, and it is found all the same.
-#[test]
-fn last_modes_far_above_all_others_are_found() {
-    let lambda: Vec<f64> = (1..=30).map(|i| f64::from(i) * if i > 20 { 1e10 } else { 1.0 }).collect();
-    let component = Component::new(&known(&lambda, 7));
-    for count in [20, 25, 29] {
-        let modes = component.modes(Wanted::Count(count), supel::job::Eigensolver::Lanczos);
-        assert_eq!((modes.count(), modes.next.is_some()), (count, true));
-    }
-    assert_eq!(component.modes(Wanted::UpTo(f64::MAX), supel::job::Eigensolver::Lanczos).count(), 30);
 }
