@@ -11,7 +11,7 @@ use super::lanczos::{lanczos, lanczos_between};
 use super::modal_problem::ModalProblem;
 use super::modes::Modes;
 use super::operator::ShiftInvert;
-use super::problem::{EigenWork, Eigenpairs, Interval, Problem, Wanted};
+use super::problem::{EigenWork, Eigenpairs, Interval, Problem, Wanted, are_clustered};
 use super::quality::{self, ModeError};
 use crate::dense;
 use crate::error::Result;
@@ -67,21 +67,28 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
     let n = problem.mass.rows();
     let [q, mass_q] = problem.deflated;
     let mut known = Modes::none(n);
+    let mut asked = request.wanted;
     loop {
         let momenta = product(problem.mass, known.shapes.as_ref());
         let with_known = [dense::side_by_side(q, known.shapes.as_ref()), dense::side_by_side(mass_q, momenta.as_ref())];
         let deflated = [with_known[0].as_ref(), with_known[1].as_ref()];
-        let wanted = match request.wanted {
+        let wanted = match asked {
             Wanted::Count(count) => Wanted::Count(count.saturating_sub(known.count()).max(usize::from(count > 0))),
             Wanted::UpTo(limit) => Wanted::UpTo(limit),
         };
         let eigenproblem = Problem { operator, mass: problem.mass, deflated };
         let found = search(problem, eigenproblem, ModeRequest { wanted, ..request })?;
         let n_settled = n_settled(problem, &found, operator.shift());
-        if n_settled == found.count() {
-            return Ok(found.joined([known]));
-        }
+        let is_all = n_settled == found.count();
         known = found.truncated(n_settled).joined([known]);
+        if is_all {
+            // The iteration ended the last cluster by its own estimates; where the quotients say that it goes on, so does the search.
+            let goes_on = |last: &f64| known.next.is_some_and(|next| are_clustered(*last, next));
+            if n_settled == 0 || !known.lambda.last().is_some_and(goes_on) {
+                return Ok(Modes { searched_to: searched_to(request.wanted), ..known });
+            }
+            asked = Wanted::Count(known.count() + 1);
+        }
     }
 }
 
@@ -111,11 +118,15 @@ fn search(problem: ModalProblem<'_>, eigenproblem: Problem<'_>, request: ModeReq
     let around = [None, pairs.next];
     let modes = judged(problem, eigenproblem, pairs, around);
     let modes = purified_where_doubtful(problem, eigenproblem, modes, around);
-    let searched_to = match request.wanted {
+    Ok(modes)
+}
+
+/// The end of the band that a request names.
+fn searched_to(wanted: Wanted) -> Option<f64> {
+    match wanted {
         Wanted::Count(_) => None,
         Wanted::UpTo(limit) => Some(limit),
-    };
-    Ok(Modes { searched_to, ..modes })
+    }
 }
 
 /// The modes after a step of inverse iteration, where one of them lacks digits and gains some: what M hardly sees an iteration

@@ -20,7 +20,7 @@ use super::block_width::block_width;
 use super::columns::Columns;
 use super::orthogonalisation::{combine_in_place, mass_qr};
 use super::problem::{CLUSTER_GAP, EigenWork, Eigenpairs, Interval, Problem, Wanted, is_above, mass_norm};
-use super::ritz::Ritz;
+use super::ritz::{ROUNDING, Ritz};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::random::SplitMix64;
@@ -42,6 +42,8 @@ const MAX_PASSES: usize = 3;
 const LEFT: f64 = 1e-8;
 /// Share of a unit column that has to be left for its orthogonality to be that of rounding: twice is enough.
 const MIN_ORTHOGONAL_SHARE: f64 = 0.5;
+/// Share of a random direction outside a basis that is not rounding of taking the basis out: thousands of roundings.
+const OUTSIDE: f64 = 1e-12;
 
 /// What an iteration looks for.
 #[derive(Clone, Copy)]
@@ -73,7 +75,9 @@ fn run(problem: Problem<'_>, goal: Goal, seed: u64) -> Result<Eigenpairs> {
         while basis.has_room() {
             basis.extend();
             if let Some((ritz, taken)) = basis.converged(goal)? {
-                if matches!(goal, Goal::Between(_)) || !basis.may_lack_copies(&ritz, taken.len()) {
+                // A whole space lacks no copies, and has no block to begin again with.
+                let is_all = matches!(goal, Goal::Between(_)) || basis.is_exhausted();
+                if is_all || !basis.may_lack_copies(&ritz, taken.len()) {
                     return Ok(basis.extract(&ritz, &taken));
                 }
                 basis.start_again_without(&ritz, taken.len());
@@ -109,6 +113,8 @@ struct KrylovBasis<'a> {
     locked: usize,
     /// Largest m.
     capacity: usize,
+    /// Columns of W at first; later ones have fewer where the space comes to its end.
+    block: usize,
     /// Random start vectors so far.
     n_starts: usize,
     /// m from which convergence is looked at next.
@@ -136,6 +142,7 @@ impl<'a> KrylovBasis<'a> {
             recent: 0,
             locked: 0,
             capacity,
+            block,
             n_starts: 0,
             look_at: 0,
             work: EigenWork::default(),
@@ -144,7 +151,7 @@ impl<'a> KrylovBasis<'a> {
         basis
     }
 
-    /// Makes W a random block M-orthogonal to V.
+    /// Makes W a random block.
     fn begin(&mut self, block: usize) {
         let mut first = Mat::zeros(self.vectors.nrows(), block);
         self.random.fill(first.as_mut());
@@ -156,6 +163,23 @@ impl<'a> KrylovBasis<'a> {
         let coupled = self.coupled_to_all(&image);
         let (_, _) = self.orthonormalise(image, coupled);
         self.n_starts += block;
+    }
+
+    /// Makes W a random block outside V, as wide as what is left there.
+    fn begin_outside(&mut self) {
+        let mut next = Mat::zeros(self.vectors.nrows(), self.block);
+        let mut width = 0;
+        while width < self.block
+            && let Some(unit) = self.fresh(&next)
+        {
+            next.as_mut().subcols_mut(width, 1).copy_from(&unit);
+            width += 1;
+        }
+        let next = next.as_ref().subcols(0, width);
+        self.vectors.as_mut().subcols_mut(self.size, width).copy_from(next);
+        self.mass_next = product(self.problem.mass, next);
+        self.recent = 0;
+        self.n_starts += width;
     }
 
     fn n_next(&self) -> usize {
@@ -256,12 +280,11 @@ impl<'a> KrylovBasis<'a> {
     /// Locks the wanted pairs and starts a new block in the space M-orthogonal to them, where missing copies come first
     /// and the pair beyond the wanted ones follows.
     fn start_again_without(&mut self, ritz: &Ritz, count: usize) {
-        let block = self.n_next();
         combine_in_place(self.vectors.as_mut(), self.size, ritz.s.as_ref().subcols(0, count));
         self.size = count;
         self.locked = count;
         self.projected = Mat::from_fn(count, count, |i, j| if i == j { ritz.theta[i] } else { 0.0 });
-        self.begin(block);
+        self.begin_outside();
         self.coupling = Mat::zeros(self.n_next(), count);
     }
 
@@ -466,12 +489,7 @@ impl KrylovBasis<'_> {
         for j in (0..block.ncols()).filter(|j| dependent[*j]) {
             dense::column_mut(block.as_mut(), j).fill(0.0);
             for _ in 0..ATTEMPTS {
-                let mut fresh = Mat::zeros(block.nrows(), 1);
-                self.random.fill(fresh.as_mut());
-                self.problem.deflate(fresh.as_mut());
-                let mut image = product(self.problem.mass, fresh.as_ref());
-                self.apply(&mut image);
-                if let Some(unit) = self.unit_component(&image, block) {
+                if let Some(unit) = self.fresh(block) {
                     block.as_mut().subcols_mut(j, 1).copy_from(&unit);
                     break;
                 }
@@ -479,22 +497,34 @@ impl KrylovBasis<'_> {
         }
     }
 
-    /// The part of a vector M-orthogonal to V and to the block, at unit length; none where nothing but rounding is left.
-    fn unit_component(&self, image: &Mat<f64>, block: &Mat<f64>) -> Option<Mat<f64>> {
-        // What is left of a random direction after projection is of order one unless the space is exhausted.
-        const LEFT: f64 = 1e-8;
-        let mut vector = image.clone();
+    /// What OP makes of a random direction outside V and a block, at unit length and outside them too; none where nothing is left.
+    ///
+    /// The direction leaves V before OP is applied. Of one that has parts along the lowest modes OP would leave little else: where the
+    /// last modes lie 10⁸ times higher, or move dofs of little mass, they would be taken for rounding.
+    fn fresh(&mut self, block: &Mat<f64>) -> Option<Mat<f64>> {
+        let mut direction = Mat::zeros(self.vectors.nrows(), 1);
+        self.random.fill(direction.as_mut());
+        self.problem.deflate(direction.as_mut());
+        let least = OUTSIDE * mass_norm(self.problem.mass, &direction);
+        let direction = self.unit_component(direction, block, least)?;
+        let mut image = product(self.problem.mass, direction.as_ref());
+        self.apply(&mut image);
+        // A θ below the rounding of OP is that of an infinite eigenvalue.
+        self.unit_component(image, block, ROUNDING * f64::EPSILON * self.largest_diagonal())
+    }
+
+    /// The part of a vector M-orthogonal to V and to the block, at unit length; none where no more than `least` of it is left.
+    fn unit_component(&self, mut vector: Mat<f64>, block: &Mat<f64>, least: f64) -> Option<Mat<f64>> {
         for pass in 0..3 {
-            let before = mass_norm(self.problem.mass, &vector);
             for basis in [self.v(), block.as_ref()] {
                 let c = dense::gram(basis, product(self.problem.mass, vector.as_ref()).as_ref());
                 dense::add_product(vector.as_mut(), -1.0, basis, c.as_ref());
             }
-            let after = mass_norm(self.problem.mass, &vector);
-            if after.is_nan() || after <= if pass == 0 { LEFT } else { 0.5 } * before {
+            let length = mass_norm(self.problem.mass, &vector);
+            if length.is_nan() || length <= if pass == 0 { least } else { MIN_ORTHOGONAL_SHARE } {
                 return None;
             }
-            vector.as_mut().col_mut(0).iter_mut().for_each(|value| *value /= after);
+            vector.as_mut().col_mut(0).iter_mut().for_each(|value| *value /= length);
         }
         Some(vector)
     }

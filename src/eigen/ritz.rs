@@ -9,6 +9,8 @@ use super::problem::{Interval, Wanted, are_clustered, is_above};
 pub(super) const TOLERANCE: f64 = 1e-13;
 /// The residual at which the pair beyond the wanted ones is taken, of which only λ is used.
 const NEXT_TOLERANCE: f64 = 1e-4;
+/// The residual of that pair over its distance from the last wanted one.
+const SHARE_OF_DISTANCE: f64 = 0.1;
 /// Rounding of OP in units of ε times its largest eigenvalue: a θ below it is that of an infinite eigenvalue.
 pub(super) const ROUNDING: f64 = 16.0;
 /// Residuals in the same units that need not fall further; the correction in [`Basis::extract`] takes up the rest.
@@ -61,8 +63,16 @@ impl Ritz {
         );
         let settled = count < n_finite
             && (0..count).all(|j| self.is_converged(j))
-            && self.residuals[count] <= NEXT_TOLERANCE * self.theta[count].abs();
+            && (self.is_converged(count) || self.residuals[count] <= self.most_of_next(count));
         settled.then_some(count)
+    }
+
+    /// The residual at which the pair beyond `count` wanted ones is taken. In a chain of near eigenvalues it decides where the cluster ends,
+    /// and is known to a share of its distance from the last wanted one.
+    fn most_of_next(&self, count: usize) -> f64 {
+        let next = self.theta[count].abs();
+        let distance = count.checked_sub(1).map_or(next, |last| self.theta[last].abs() - next);
+        (NEXT_TOLERANCE * next).min(SHARE_OF_DISTANCE * distance)
     }
 
     /// The pairs inside an interval, once they have converged and either all of them are there or a pair further from the

@@ -143,10 +143,21 @@ pub fn certified(
     let upper = modes.counts.last().copied().unwrap_or(upper);
     let third = judge(problem, &modes, upper);
     let n_finite = last.n_finite.filter(|_| source.is_exhausted_by(&modes));
-    match third.holds() {
-        true => Ok((modes, Some(Certificate { mending: Mending::Slices, n_factorisations, n_finite, ..third }))),
-        false => Err(missing(problem, &modes, upper)),
+    if !third.holds() {
+        return Err(missing(problem, &modes, upper));
     }
+    let third = Certificate { mending: Mending::Slices, n_factorisations, n_finite, ..third };
+    let n_found = modes.count();
+    let asked = source.asked(modes);
+    // What the slices found above the modes asked for is counted too, unless a count between the two stands by itself.
+    let certificate = match asked.count() < n_found {
+        true => certify_modes(&asked).ok().filter(|fourth| fourth.holds() && fourth.doubt() <= third.doubt()),
+        false => None,
+    };
+    let n_taken = certificate.as_ref().map_or(0, |fourth| fourth.n_factorisations);
+    let certificate = certificate.unwrap_or(third);
+    let n_factorisations = n_factorisations + n_taken;
+    Ok((asked, Some(Certificate { mending: Mending::Slices, n_factorisations, ..certificate })))
 }
 
 /// Takes the count at the upper end and compares: at a count taken before where one serves, above all that can be where modes

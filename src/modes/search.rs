@@ -108,9 +108,32 @@ impl<'a> Search<'a> {
         let band = Band { source: self, problem: &self.problem, at_once: self.at_once };
         band.fill(Modes { work, ..nothing }, &ends)
     }
+}
 
-    /// Cuts what a search has found down to what was asked for.
-    fn cut(&self, modes: Modes) -> Modes {
+impl ModeSource for Search<'_> {
+    fn lowest(&self, seed: u64) -> Result<Modes> {
+        let count = self.n_expected().unwrap_or(0);
+        if count <= SLICED_FROM {
+            return Ok(self.asked(self.in_one_go(seed)?));
+        }
+        // The witness finds its modes itself.
+        let all = match self.eigensolver {
+            Eigensolver::Lanczos => dense_spectrum::all_modes(&self.problem, count)?,
+            Eigensolver::Arpack => None,
+        };
+        let modes = match all {
+            Some(modes) => modes,
+            None => self.in_slices()?,
+        };
+        Ok(self.asked(modes))
+    }
+
+    fn between(&self, interval: Interval, known: &Modes, seed: u64) -> Result<Modes> {
+        search_between(&self.problem, interval, known, (self.eigensolver, seed))
+    }
+
+    /// One rule for all searches: it looks at the quotients, not at the estimates of an iteration.
+    fn asked(&self, modes: Modes) -> Modes {
         let lambda = &modes.lambda;
         let mut count = match self.wanted {
             Wanted::Count(count) => count.min(lambda.len()),
@@ -124,29 +147,6 @@ impl<'a> Search<'a> {
             Wanted::UpTo(limit) => Some(limit),
         };
         Modes { searched_to, ..modes.truncated(count) }
-    }
-}
-
-impl ModeSource for Search<'_> {
-    fn lowest(&self, seed: u64) -> Result<Modes> {
-        let count = self.n_expected().unwrap_or(0);
-        if count <= SLICED_FROM {
-            return self.in_one_go(seed);
-        }
-        // The witness finds its modes itself.
-        let all = match self.eigensolver {
-            Eigensolver::Lanczos => dense_spectrum::all_modes(&self.problem, count)?,
-            Eigensolver::Arpack => None,
-        };
-        let modes = match all {
-            Some(modes) => modes,
-            None => self.in_slices()?,
-        };
-        Ok(self.cut(modes))
-    }
-
-    fn between(&self, interval: Interval, known: &Modes, seed: u64) -> Result<Modes> {
-        search_between(&self.problem, interval, known, (self.eigensolver, seed))
     }
 
     fn is_exhausted_by(&self, modes: &Modes) -> bool {

@@ -55,6 +55,11 @@ pub trait ModeSource: Sync {
     /// The eigensolver fails.
     fn between(&self, interval: Interval, known: &Modes, seed: u64) -> Result<Modes>;
 
+    /// The modes that were asked for, of all that were found.
+    fn asked(&self, modes: Modes) -> Modes {
+        modes
+    }
+
     /// Whether modes are fewer than were asked for, as where a component has no more.
     fn is_exhausted_by(&self, _modes: &Modes) -> bool {
         false

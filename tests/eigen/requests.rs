@@ -86,3 +86,26 @@ fn count_that_ends_in_a_wide_cluster_takes_all_of_it() {
         assert_eq!(component.modes(Wanted::Count(count), supel::job::Eigensolver::Lanczos).count(), 73, "{count}");
     }
 }
+
+/// Chains of eight eigenvalues whose neighbours are nearer than a cluster is wide, a hundred million times above the others: a search
+/// for modes inside a chain ends at its first gap and knows the next eigenvalue, though its space comes to an end before.
+#[test]
+fn chain_far_above_the_others_ends_at_its_first_gap() {
+    let mut lambda: Vec<f64> = (1..=40).map(|i| 1e-3 * f64::from(i * i)).collect();
+    let mut value = 1e5;
+    for at in 0..40 {
+        lambda.push(value);
+        value *= 1.0 + if at % 8 == 7 { 3e-6 } else { 1e-7 };
+    }
+    let component = Component::new(&known(&lambda, 5));
+    for (count, expected) in [(41, 48), (48, 48), (49, 56), (70, 72), (73, 80)] {
+        let modes = component.modes(Wanted::Count(count), supel::job::Eigensolver::Lanczos);
+        assert_eq!(modes.count(), expected, "{count}");
+        assert_eq!(modes.next.is_some(), expected < 80, "{count}: {:?}", modes.next);
+        for (found, exact) in modes.lambda.iter().zip(&lambda) {
+            // The cancelling terms of this matrix are a few times its λ at the top, and 10⁸ times at the bottom.
+            let terms = (1e5 / exact).max(1e2);
+            assert!((found * component.unit() / exact - 1.0).abs() <= terms * f64::EPSILON, "{found} for {exact}");
+        }
+    }
+}

@@ -17,7 +17,7 @@ use faer::{Mat, MatRef};
 use super::columns::Named;
 use super::projection::Projected;
 use super::scaled::Scaled;
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 
 /// Weight of recovered rows relative to those of the mass: in single precision they have seven digits, which may decide on what
 /// nothing else sees and on nothing more.
@@ -48,6 +48,7 @@ pub(super) struct Combination {
 pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedom<'_>) -> Option<Combination> {
     let (p, n_named, n_eta) = (projected.n_probes(), projected.named.len(), freedom.kept.len());
     let seen = seen(file, projected, freedom.mixing);
+    let noise = noise(projected, freedom, seen[1].as_ref());
     let mut turned = Mat::zeros(n_named, n_eta);
     let mut place = |columns: &[usize], slots: &[usize], block: MatRef<'_, f64>| {
         for (i, column) in columns.iter().enumerate() {
@@ -66,7 +67,8 @@ pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedo
             Named::Rigid(_) | Named::Mode(_) => {
                 let [mine, files] =
                     [(&seen[0], &columns), (&seen[1], &slots)].map(|(a, at)| dense::columns(a.as_ref(), at));
-                if turns_unseen(projected, &columns, mine.as_ref()) {
+                let noise = slots.iter().map(|slot| noise[*slot]).fold(0.0, f64::max);
+                if turns_unseen(projected, &columns, (mine.as_ref(), noise)) {
                     return None;
                 }
                 let [mine, files] = completed(mine.as_ref(), files.as_ref());
@@ -167,13 +169,14 @@ fn stacked(parts: Vec<MatRef<'_, f64>>) -> Mat<f64> {
 
 /// Whether modes of one group may turn so that nothing sees it and their energies and inertias change: ZᵀA is not μZᵀ for the
 /// combinations Z that are not seen. Accelerated modes do that whose cluster reaches into the interface.
-fn turns_unseen(projected: &Projected, columns: &[usize], mine: MatRef<'_, f64>) -> bool {
+fn turns_unseen(projected: &Projected, columns: &[usize], (mine, noise): (MatRef<'_, f64>, f64)) -> bool {
     /// Square of a share below which a combination is not seen: what is seen of it is rounding.
     const UNSEEN: f64 = 1e-14;
     /// Relative change of an energy that a turn makes: no less than the width of a cluster.
     const CHANGED: f64 = 1e-6;
     let Ok((seen, vectors)) = dense::symmetric_eigen(dense::gram(mine, mine).as_ref()) else { return true };
-    let most = UNSEEN * seen.last().copied().unwrap_or(0.0);
+    // Noise turns two combinations by its share of what is seen of the better one.
+    let most = (UNSEEN * seen.last().copied().unwrap_or(0.0)).max((noise / CHANGED).powi(2));
     let n_unseen = seen.iter().take_while(|square| **square <= most).count();
     // One alone has nothing to turn into.
     if n_unseen < 2 {
@@ -187,8 +190,24 @@ fn turns_unseen(projected: &Projected, columns: &[usize], mine: MatRef<'_, f64>)
         let mut change = dense::product(a.as_ref(), z);
         let mean = dense::dots(z, change.as_ref()).into_iter().sum::<f64>() / n_unseen as f64;
         change -= z * faer::Scale(mean);
-        change.norm_max() > CHANGED * (0..n).fold(0.0, |most: f64, i| most.max(a[(i, i)]))
+        // An entry is relative to its own columns: the column of a mode that lies in the interface is short.
+        let size = |i: usize| (a[(i, i)] * mean).max(0.0).sqrt();
+        (0..n).any(|i| change.row(i).iter().any(|change| change.abs() > CHANGED * size(i)))
     })
+}
+
+/// What the columns made again and rounding of the mixing leave open of each named column of the file, as it is seen.
+fn noise(projected: &Projected, freedom: &Freedom<'_>, named: MatRef<'_, f64>) -> Vec<f64> {
+    let p = projected.n_probes();
+    let own = freedom.kept.iter().map(|column| projected.mass.errors[p + column]);
+    let n_eta = freedom.kept.len();
+    let Some(mixing) = freedom.mixing else { return own.collect() };
+    let inverse = mixing.partial_piv_lu().solve(Mat::<f64>::identity(n_eta, n_eta));
+    let [sizes, of_inverse, seen] = [mixing, inverse.as_ref(), named].map(absolute);
+    let there_and_back = dense::product(sizes.as_ref(), of_inverse.as_ref());
+    let rounding = dense::product(seen.as_ref(), there_and_back.as_ref());
+    let of_slot = |j: usize| NOISE_FACTOR * f64::EPSILON * dense::norm(dense::column(rounding.as_ref(), j));
+    own.zip((0..n_eta).map(of_slot)).map(|(own, rounding)| own + rounding).collect()
 }
 
 /// A and the columns B of a file with, where it left out some of a group, what is seen of those: for [B D] = A Q with an orthogonal

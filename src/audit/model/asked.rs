@@ -187,18 +187,31 @@ impl AskedModes {
 
     /// The numbers of modes that answer the request; more than one where rounding decides on a mode at its edge.
     pub(super) fn n_asked(&self) -> Range<usize> {
-        let by_gap = |gap: f64| {
+        let by_gap = |gap: f64, side: f64| {
             let all: Vec<f64> = self.modes.lambda.iter().copied().chain(self.modes.next).collect();
             let mut n = match self.wanted {
                 Wanted::Count(count) => count.min(all.len()),
                 Wanted::UpTo(limit) => all.iter().take_while(|lambda| **lambda <= limit * (1.0 + gap)).count(),
             };
-            while n > 0 && n < all.len() && all[n] - all[n - 1] <= gap * all[n] {
+            // Two searches tell a gap apart as well as they know the eigenvalues on both sides of it.
+            let is_one = |n: usize| all[n] - all[n - 1] <= (gap + side * self.doubt_of_gap(n)) * all[n];
+            while n > 0 && n < all.len() && is_one(n) {
                 n += 1;
             }
             n.min(self.modes.count())
         };
-        by_gap(CLUSTER_GAP * (1.0 - EDGE))..by_gap(CLUSTER_GAP * (1.0 + EDGE)) + 1
+        by_gap(CLUSTER_GAP * (1.0 - EDGE), -1.0)..by_gap(CLUSTER_GAP * (1.0 + EDGE), 1.0) + 1
+    }
+
+    /// What rounding and residuals, mine and those of the file, leave open of the relative gap below a mode. Digits that the data lack move
+    /// the eigenvalues of both alike.
+    fn doubt_of_gap(&self, mode: usize) -> f64 {
+        let of_mode = |mode: usize| {
+            let error = self.modes.errors[mode];
+            2.0 * f64::EPSILON * error.cancellation + error.residual_bar + self.residual_bars[mode]
+        };
+        // The one beyond the last is known by its neighbour.
+        of_mode(mode - 1) + of_mode(mode.min(self.modes.count() - 1))
     }
 
     /// M-01: the modes found are modes.

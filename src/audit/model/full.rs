@@ -46,9 +46,15 @@ impl<'a> Full<'a> {
 }
 
 /// How many modes are zero: by their own levels, or as many as the coordinates say where none of those is above the largest level, which
-/// is what the motions of the coordinates are held to.
+/// is what the motions of the coordinates are held to. Modes beyond those of the coordinates that only rounding of their neighbours
+/// makes zero are elastic: where ties of 10⁹ times the stiffness hide half the digits, the soft ones cannot be told by their neighbours.
 fn confirmed(found: &Shifted<'_>, given: &RigidBodyModes) -> usize {
     let n_given = if given.source == RigidSource::Geometric { given.count() } else { 0 };
+    if (1..found.n_zero).contains(&n_given) {
+        let beyond = n_given..found.n_zero;
+        let is_elastic = |j: usize| !zero::is_zero(found.lowest.lambda[j], found.lowest.errors[j].zero_level);
+        return if beyond.into_iter().all(is_elastic) { n_given } else { found.n_zero };
+    }
     if n_given <= found.n_zero || n_given > found.lowest.count() {
         return found.n_zero;
     }

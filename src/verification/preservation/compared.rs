@@ -123,6 +123,8 @@ impl Compared {
         limit: f64,
     ) -> Result<()> {
         const WHAT: &str = "number of modes under other boundaries";
+        /// Other starts from which a missing mode is looked for.
+        const STARTS: u64 = 3;
         let condensed = Condensed::new(evidence, analysis, references, limit);
         let Some(condensed) = self.kept(WHAT, condensed)? else { return Ok(()) };
         let Some(condensed) = condensed else {
@@ -131,8 +133,11 @@ impl Compared {
         };
         for reference in references {
             reference.count = condensed.count(evidence, reference)?;
-            if reference.count.is_some_and(|count| count.n_counted != count.n_found) {
-                let again = Reference::new(evidence, reference.boundary.clone(), limit, SEED + 1);
+            for start in 1..=STARTS {
+                if reference.count.is_none_or(|count| count.n_counted == count.n_found) {
+                    break;
+                }
+                let again = Reference::new(evidence, reference.boundary.clone(), limit, SEED + start);
                 if let Some(again) = self.kept(&format!("modes with boundary {}", reference.boundary.name), again)? {
                     *reference = again;
                     reference.count = condensed.count(evidence, reference)?;
