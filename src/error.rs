@@ -1,31 +1,39 @@
 //! Every way in which a run can fail. Each has one variant, with the values that explain it.
 //!
 //! A message reads *what – where – found – expected – what to do*, in lower case and without a full stop. The variant
-//! decides the exit code, so that a CI job can tell bad input from a bad model from a full disk.
+//! decides the exit code, so that a CI job can tell bad input from a bad model from a full disk. Everything that is said of an error
+//! stands at its variant, and `docs/errors.md` is made from it; so this is one long table, in the order of the stages. Nobody handles the
+//! errors of one stage apart from those of another, so that stages have no types of their own.
 
 mod code;
 mod warning;
+mod words;
 
-use std::ffi::OsStr;
-use std::fmt;
 use std::path::{Path, PathBuf};
 
+use macro_rules_attribute::apply;
 use serde::Serialize;
 use supel_runtime::FileError;
+
+use code::catalogued;
+use words::{At, BY_ROWS, Suggested, forecast, groups, listed, not_text, place};
 
 use crate::number::{bytes, count, counted, quantity, typed};
 
 pub use code::{ErrorClass, ErrorEntry, INTERNAL_CODE, USAGE_CODE};
 pub use warning::Warning;
+pub(crate) use words::held_words;
 
 /// The result of every fallible call of this crate.
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
 /// Why a run failed. Each variant belongs to one [`ErrorClass`], which is its exit code.
+#[apply(catalogued)]
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A file could not be read.
+    /// A file cannot be opened or read.
+    #[entry("E-READ", Io, "check the path and the permissions; the system's reason is in the message")]
     #[error("{}: cannot be read: {source}", path.display())]
     Read {
         /// The file.
@@ -33,7 +41,8 @@ pub enum Error {
         /// What the system said.
         source: std::io::Error,
     },
-    /// A file could not be written.
+    /// A file cannot be written.
+    #[entry("E-WRITE", Io, "check that the folder exists, is writable and has room")]
     #[error("{}: cannot be written: {source}", path.display())]
     Write {
         /// The file.
@@ -41,7 +50,8 @@ pub enum Error {
         /// What the system said.
         source: std::io::Error,
     },
-    /// The folder of an output is none.
+    /// The folder of an output does not exist or takes no files.
+    #[entry("E-FOLDER", Io, "create it, or give the output another place")]
     #[error(
         "{}: cannot be written: the folder {} {reason} – create it, or give the output another place",
         path.display(), folder.display()
@@ -54,7 +64,8 @@ pub enum Error {
         /// What is wrong with it.
         reason: &'static str,
     },
-    /// An output has its name, but the system did not confirm that it is on the disk.
+    /// The outputs are written, but the system did not confirm that they are on the disk.
+    #[entry("E-SYNC", Io, "sync the disk or write them again; they may not outlive a power cut")]
     #[error(
         "{}: written, but the system did not confirm that it is on the disk: {source} – it may not outlive a power \
         cut – write it again or sync the disk",
@@ -66,7 +77,12 @@ pub enum Error {
         /// What the system said.
         source: std::io::Error,
     },
-    /// An output could not be written, and those before it could not be taken back.
+    /// An output cannot be written, and those before it cannot be taken back.
+    #[entry(
+        "E-HALF-WRITTEN",
+        Io,
+        "the message says which files are new and where their old content is: put it back or run again"
+    )]
     #[error("{}: cannot be written: {source} – {left} – put the old files back or run again", path.display())]
     HalfWritten {
         /// The file.
@@ -76,19 +92,22 @@ pub enum Error {
         /// Which files are new and where their old content is, in words.
         left: String,
     },
-    /// The answer did not arrive.
+    /// The answer could not be written to stdout; files were written all the same.
+    #[entry("E-STDOUT", Io, "give stdout a place with room; `reduce` and `verify` give no answer with `--quiet`")]
     #[error("the answer could not be written to stdout: {source} – give stdout a place with room")]
     Answer {
         /// What the system said.
         source: std::io::Error,
     },
-    /// A path is a folder, a pipe or a device.
+    /// A path is a folder, a pipe, a device or made up by the kernel.
+    #[entry("E-NOT-A-FILE", InputData, "give a regular file; write a pipe to disk first")]
     #[error("{}: not a regular file – give the path of a file on disk", path.display())]
     NotAFile {
         /// The path.
         path: PathBuf,
     },
     /// A file was written, cut or exchanged while it was read.
+    #[entry("E-CHANGED", Io, "wait until it is written and run again")]
     #[error(
         "{}: changed while it was read – expected one size, time and file from beginning to end – wait until it is \
         written and run again",
@@ -98,7 +117,9 @@ pub enum Error {
         /// The file.
         path: PathBuf,
     },
-    /// An XDMF file is not UTF-8. The readers of numbers take any bytes in comments and say of a field what was expected there.
+    /// An XDMF file is not UTF-8; rows of a table that are not end with E-TABLE-FIELD, and matrices, dof maps and comments may hold any
+    /// bytes where no number belongs.
+    #[entry("E-UTF8", InputData, "write it as UTF-8")]
     #[error("{}: byte {offset} is not UTF-8 text – write the file as UTF-8", path.display())]
     NotText {
         /// The file.
@@ -106,7 +127,8 @@ pub enum Error {
         /// Where the first byte is that is none, from 0.
         offset: usize,
     },
-    /// What a file holds does not fit into the memory.
+    /// What the input files hold does not fit into the memory.
+    #[entry("E-MEM-READ", Resources, "free memory, raise `run.memory_gib` or reduce a smaller model")]
     #[error(
         "{}: what was read so far needs {} with the matrices made of it – {} of memory is available – free memory, raise \
         run.memory_gib or reduce a smaller model",
@@ -120,7 +142,8 @@ pub enum Error {
         /// Bytes available.
         available: u64,
     },
-    /// A file of a known format that is not read.
+    /// A file of a known format that is not read: NumPy, MATLAB before 7.3, Gmsh, an input deck, CalculiX results, zip.
+    #[entry("E-FORMAT", InputData, "convert it as the message says")]
     #[error("{}: {found} – not read – expected {expected} – {advice}", path.display())]
     FormatNotRead {
         /// The file.
@@ -132,7 +155,8 @@ pub enum Error {
         /// The way round.
         advice: &'static str,
     },
-    /// Gzipped data ends early or is damaged.
+    /// Gzipped data are damaged or cut short.
+    #[entry("E-GZIP", InputData, "copy or create the file again")]
     #[error("{}: the gzipped data are damaged or cut short – {source} – copy or create the file again", path.display())]
     GzipDamaged {
         /// The file.
@@ -140,7 +164,8 @@ pub enum Error {
         /// What the decoder said.
         source: std::io::Error,
     },
-    /// Gzipped data inflate to more than a matrix can.
+    /// Gzipped data inflate more than a table of numbers can.
+    #[entry("E-GZIP-BOMB", InputData, "check where the file comes from")]
     #[error(
         "{}: the gzipped data inflate too far – found {inflated} bytes from {compressed} – expected at most {limit} \
         times their size, which tables of numbers keep to – check where the file comes from",
@@ -157,6 +182,7 @@ pub enum Error {
         limit: u64,
     },
     /// A line is longer than any line of numbers.
+    #[entry("E-LINE", InputData, "check that the file is text")]
     #[error(
         "{}:{line}: a line longer than {limit} bytes – expected lines of a few numbers – check that this is a text \
         file",
@@ -171,6 +197,7 @@ pub enum Error {
         limit: usize,
     },
     /// A text file holds no data.
+    #[entry("E-NO-DATA", InputData, "export it again; the message says what belongs there")]
     #[error("{}: the file holds no data – expected {expected}", path.display())]
     NoData {
         /// The file.
@@ -178,7 +205,12 @@ pub enum Error {
         /// What belongs there.
         expected: &'static str,
     },
-    /// The first line of a matrix file is neither a Matrix Market banner nor numbers.
+    /// The first line of a matrix is neither a Matrix Market banner nor numbers.
+    #[entry(
+        "E-BANNER",
+        InputData,
+        "write `%%MatrixMarket matrix coordinate real symmetric`, or lines `row column value`"
+    )]
     #[error(
         "{}:{line}: not a matrix – found `{found}` – expected `%%MatrixMarket matrix coordinate real symmetric` or \
         lines `row column value`",
@@ -192,7 +224,12 @@ pub enum Error {
         /// The line.
         found: String,
     },
-    /// A Matrix Market flavour that no stiffness or mass matrix needs.
+    /// A Matrix Market flavour other than coordinate, real or integer, symmetric or general.
+    #[entry(
+        "E-FLAVOUR",
+        InputData,
+        "export a real coordinate matrix; complex and pattern matrices are no stiffness or mass"
+    )]
     #[error(
         "{}:{line}: a Matrix Market flavour that is not read – found `{found}` – expected `coordinate real` or \
         `coordinate integer`, each `symmetric` or `general`",
@@ -206,7 +243,8 @@ pub enum Error {
         /// The word that is not supported.
         found: String,
     },
-    /// The size line of a Matrix Market file cannot be read.
+    /// The size line of a matrix cannot be read.
+    #[entry("E-SIZE-LINE", InputData, "write `rows columns entries` below the banner")]
     #[error(
         "{}:{line}: size line – found `{found}` – expected three whole numbers `rows columns entries`",
         path.display()
@@ -220,6 +258,7 @@ pub enum Error {
         found: String,
     },
     /// A matrix is rectangular.
+    #[entry("E-DIM-SQUARE", InputData, "export K and M as square matrices")]
     #[error(
         "{}:{line}: the matrix has {} and {} – expected as many of both, as stiffness and mass have",
         path.display(), counted(*rows, "row", "rows"), counted(*cols, "column", "columns")
@@ -234,7 +273,8 @@ pub enum Error {
         /// Columns declared.
         cols: u64,
     },
-    /// A matrix without rows, or with more than can be numbered.
+    /// A matrix has no rows, or more than 2³¹ − 1.
+    #[entry("E-DIM-ORDER", InputData, "check the size line and the largest index")]
     #[error("{}:{line}: the matrix has {n} rows – expected 1 to {limit}", path.display())]
     MatrixOrder {
         /// The file.
@@ -246,7 +286,8 @@ pub enum Error {
         /// The largest order.
         limit: u64,
     },
-    /// Nearly all rows of a large matrix are empty.
+    /// A large matrix has hardly any entries.
+    #[entry("E-MOSTLY-EMPTY", InputData, "check the size line and the indices")]
     #[error(
         "{}: a matrix of {} with only {} – expected hardly any empty rows – check its size line and indices",
         path.display(), counted(*n, "row", "rows"), counted(*entries, "entry", "entries")
@@ -260,6 +301,7 @@ pub enum Error {
         entries: u64,
     },
     /// A field of an entry is not a number.
+    #[entry("E-ENTRY", InputData, "correct the line; decimal commas are not read")]
     #[error("{}:{line}: {field} of an entry – found `{found}` – expected {expected}", path.display())]
     EntryField {
         /// The file.
@@ -273,7 +315,8 @@ pub enum Error {
         /// What belongs there.
         expected: &'static str,
     },
-    /// A line has more fields than an entry.
+    /// A line goes on after the value.
+    #[entry("E-ENTRY-EXCESS", InputData, "leave one entry on a line")]
     #[error(
         "{}:{line}: found `{found}` after the value – expected `row column value` and nothing else",
         path.display()
@@ -286,7 +329,8 @@ pub enum Error {
         /// The text found.
         found: String,
     },
-    /// An index lies outside the matrix.
+    /// An index is 0 or larger than the matrix.
+    #[entry("E-INDEX", InputData, "count rows and columns from 1")]
     #[error(
         "{}:{line}: {field} {found} lies outside the matrix – expected 1 to {n}, because indices count from 1",
         path.display()
@@ -303,7 +347,8 @@ pub enum Error {
         /// The order of the matrix.
         n: u64,
     },
-    /// A value is infinite or not a number.
+    /// A matrix entry is NaN or infinite.
+    #[entry("E-NONFINITE", InputData, "find out why the finite element program wrote it")]
     #[error("{}:{line}: entry ({row}, {col}) is `{found}` – expected a finite number", path.display())]
     NonFinite {
         /// The file.
@@ -317,7 +362,8 @@ pub enum Error {
         /// The text found.
         found: String,
     },
-    /// A matrix file holds fewer entries than it declares, or its bare size line is wrong.
+    /// A file holds fewer entries than it declares.
+    #[entry("E-NNZ", InputData, "the file is cut short: export or copy it again")]
     #[error(
         "{}: entries are missing – found {found} – expected the {declared} that the size line declares – the file may \
         be cut short: write or copy it again",
@@ -331,7 +377,8 @@ pub enum Error {
         /// Entries found.
         found: u64,
     },
-    /// A matrix file goes on after all entries have come.
+    /// A file holds more entries than it declares.
+    #[entry("E-NNZ-SURPLUS", InputData, "correct the size line or export again")]
     #[error(
         "{}:{line}: more entries than declared – expected the {declared} of the size line – write or copy the file \
         again",
@@ -345,7 +392,12 @@ pub enum Error {
         /// Entries declared.
         declared: u64,
     },
-    /// Entries of a matrix repeat a position, and the job refuses that.
+    /// Entries repeat a position, with `--strict` or `duplicates = "refuse"`.
+    #[entry(
+        "E-DUPLICATES",
+        InputData,
+        "assemble the matrix before exporting it, or leave both out: repeated entries are then added"
+    )]
     #[error(
         "{}: {} a position – expected each position once, as --strict or model.duplicates = \
         \"refuse\" asks – assemble the matrix, or take that back to have them added",
@@ -358,6 +410,12 @@ pub enum Error {
         count: usize,
     },
     /// A matrix declared symmetric has entries on both sides of the diagonal.
+    #[entry(
+        "E-DOUBLE-TRIANGLE",
+        InputData,
+        "write one triangle, declare the matrix general, or say which triangle holds with `model.symmetric` \
+        (`reduce --symmetric`)"
+    )]
     #[error(
         "{}: declared symmetric – found entries on both sides of the diagonal, ({}, {}) and ({}, {}) – expected one \
         triangle – remove the other, declare the matrix general, or say which holds: model.symmetric = \"lower\" or \
@@ -373,6 +431,7 @@ pub enum Error {
         upper: (u64, u64),
     },
     /// K and M are one matrix.
+    #[entry("E-SAME-MATRIX", InputData, "give the file of the other one")]
     #[error(
         "stiffness {} and mass {} hold one matrix – expected two, because every frequency of the pencil would be 1 \
         rad/s – give the file of the other one",
@@ -385,6 +444,7 @@ pub enum Error {
         mass: PathBuf,
     },
     /// K and M differ in size.
+    #[entry("E-DIM", InputData, "export both for the same degrees of freedom")]
     #[error(
         "stiffness {} has {} and mass {} has {} – expected the same degrees of freedom in both",
         stiffness.display(), counted(*n_stiffness, "row", "rows"), mass.display(), count(*n_mass as u64)
@@ -400,6 +460,7 @@ pub enum Error {
         n_mass: usize,
     },
     /// A table lacks a column.
+    #[entry("E-TABLE-COLUMN", InputData, "name the columns as the message says")]
     #[error("{}: no column `{column}` – found the header `{found}` – expected {expected}", path.display())]
     TableColumn {
         /// The file.
@@ -411,7 +472,8 @@ pub enum Error {
         /// The columns that are needed.
         expected: &'static str,
     },
-    /// A table cannot be split into rows and fields.
+    /// A row of a table has fewer or more fields than its header.
+    #[entry("E-TABLE-ROW", InputData, "give each column one field; decimals take a point")]
     #[error("{}:{line}: a row of {} – expected {expected} as in the header", path.display(), counted(*found, "field", "fields"))]
     TableRow {
         /// The file.
@@ -424,6 +486,7 @@ pub enum Error {
         expected: u64,
     },
     /// A field of a table cannot be read.
+    #[entry("E-TABLE-FIELD", InputData, "correct it; decimals take a point")]
     #[error("{}:{line}: column `{column}` – found `{found}` – expected {expected}", path.display())]
     TableField {
         /// The file.
@@ -438,6 +501,7 @@ pub enum Error {
         expected: &'static str,
     },
     /// A node is listed twice.
+    #[entry("E-NODE-REPEATED", InputData, "list each node once")]
     #[error("{}:{line}: node {node} again, first at line {first_line} – expected each node once", path.display())]
     NodeRepeated {
         /// The file.
@@ -449,7 +513,8 @@ pub enum Error {
         /// Line where it came first.
         first_line: u64,
     },
-    /// A node lies so far away, or all so near to each other, that squares of their coordinates leave the range of double precision.
+    /// Coordinates are so large or so small that their squares leave the range of double precision.
+    #[entry("E-NODE-RANGE", InputData, "check the number, or write the nodes in other units")]
     #[error(
         "{}: coordinate {} of node {node} is {value:e} – expected sizes between 2^-{bits} and 2^{bits} – check the \
         number, or write the nodes in other units",
@@ -468,6 +533,7 @@ pub enum Error {
         bits: u32,
     },
     /// A line of a dof map is not `node.direction`.
+    #[entry("E-MAP-TEXT", InputData, "write for example 412.1")]
     #[error("{}:{line}: found `{found}` – expected `node.direction`, for example 412.1", path.display())]
     DofText {
         /// The file.
@@ -478,6 +544,7 @@ pub enum Error {
         found: String,
     },
     /// A direction of a dof map does not exist.
+    #[entry("E-MAP-DIRECTION", InputData, "write 1 to 6 or ux to rz")]
     #[error("{}:{line}: node {node} has direction `{found}` – expected {expected}", path.display())]
     DofDirection {
         /// The file.
@@ -492,6 +559,11 @@ pub enum Error {
         expected: &'static str,
     },
     /// Two rows of a dof map are the same degree of freedom.
+    #[entry(
+        "E-MAP-REPEATED",
+        InputData,
+        "give every row its own; renumber nodes that the program repeats, or go on by rows, without map and nodes"
+    )]
     #[error(
         "{}: rows {first_row} and {row} are both {direction} of node {node}, and {repeated} repeat a dof – expected \
         every degree of freedom once (rows count from 1; programs that expand shells or beams into solids repeat \
@@ -512,7 +584,8 @@ pub enum Error {
         /// All rows that repeat an earlier one, in words.
         repeated: String,
     },
-    /// The rows of a dof map are numbered, but not in order.
+    /// Row numbers of a dof map are not in order.
+    #[entry("E-MAP-ORDER", InputData, "sort the map by row; every row of the matrices needs one")]
     #[error("{}:{line}: row number `{found}` – expected {expected}, the rows of the matrices in order", path.display())]
     DofRowOrder {
         /// The file.
@@ -525,6 +598,7 @@ pub enum Error {
         expected: u64,
     },
     /// A dof map is longer or shorter than the matrices.
+    #[entry("E-MAP-COUNT", InputData, "export map and matrices together")]
     #[error(
         "{}: the dof map has {} – expected {}, one for each of the matrices",
         path.display(), counted(*found, "row", "rows"), count(*n as u64)
@@ -537,7 +611,8 @@ pub enum Error {
         /// Order of the matrices.
         n: usize,
     },
-    /// A dof map names a node that has no position.
+    /// A node of the dof map has no position.
+    #[entry("E-MAP-NODE", InputData, "add it to the nodes, leave the nodes out, or go on by rows")]
     #[error(
         "{}: row {row} is at node {node}, which {} does not list, and {missing} have no position – expected one for \
         every node of the map (rows count from 1; programs that expand shells or beams into solids make nodes of \
@@ -556,7 +631,8 @@ pub enum Error {
         /// All rows whose node has no position, in words.
         missing: String,
     },
-    /// Without a dof map, the counts do not say what the rows are.
+    /// Without a dof map the counts do not say what the rows are.
+    #[entry("E-MAP-NEEDED", InputData, "give a dof map with `model.dofs` (`reduce --dofs`)")]
     #[error(
         "the matrices have {} and {} lists {} – expected three or six rows a node – give a dof map (a file with \
         `node.direction` for each row)",
@@ -570,7 +646,8 @@ pub enum Error {
         /// Order of the matrices.
         n: usize,
     },
-    /// A file needs a part of the program that was left out when it was built.
+    /// The program was built without what a file needs.
+    #[entry("E-FEATURE", Usage, "rebuild with the feature that the message names")]
     #[error(
         "{}: this program was built without `{feature}`, which this file needs – rebuild with --features {feature}",
         path.display()
@@ -582,6 +659,7 @@ pub enum Error {
         feature: &'static str,
     },
     /// A file that should be HDF5 is something else.
+    #[entry("E-HDF5-SIGNATURE", InputData, "give the file that the name promises")]
     #[error("{}: not an HDF5 file – found {found} – expected the HDF5 signature – {advice}", path.display())]
     Hdf5Signature {
         /// The file.
@@ -591,7 +669,8 @@ pub enum Error {
         /// What to do about it.
         advice: &'static str,
     },
-    /// The HDF5 library refused to open a file.
+    /// An HDF5 file is damaged.
+    #[entry("E-HDF5-OPEN", InputData, "write or copy it again")]
     #[error("{}: a damaged HDF5 file – the HDF5 library says: {reason} – write or copy the file again", path.display())]
     Hdf5Open {
         /// The file.
@@ -599,7 +678,8 @@ pub enum Error {
         /// The library's words.
         reason: String,
     },
-    /// The HDF5 library crashed on a file, in the child process that read it first.
+    /// The HDF5 library crashes on a damaged file, in the child process that reads it first.
+    #[entry("E-HDF5-CRASH", InputData, "copy or create the file again")]
     #[error(
         "{}: a damaged HDF5 file – the HDF5 library crashes when it reads it – write or copy the file again",
         path.display()
@@ -608,7 +688,8 @@ pub enum Error {
         /// The file.
         path: PathBuf,
     },
-    /// The HDF5 library did not come to an end with a file.
+    /// The HDF5 library was still reading a file long after it should have been done.
+    #[entry("E-HDF5-TIME", InputData, "look at it with h5dump; write or copy it again")]
     #[error(
         "{}: the HDF5 library was still reading it after {seconds} s – expected an end long before – the file may be \
         damaged: look at it with h5dump, write or copy it again",
@@ -620,7 +701,8 @@ pub enum Error {
         /// The time it had.
         seconds: u64,
     },
-    /// The child process that reads HDF5 first was ended from outside.
+    /// The child process that reads HDF5 input first was ended from outside, as the system does when memory runs out.
+    #[entry("E-CHILD-KILLED", Resources, "free memory and run again")]
     #[error(
         "{}: the child process that read it first was ended by signal {signal} – the system does so when memory runs \
         out – free memory and run again",
@@ -632,13 +714,15 @@ pub enum Error {
         /// The signal.
         signal: i32,
     },
-    /// The child process that reads HDF5 first could not be started.
+    /// The child process that reads HDF5 input first cannot be started.
+    #[entry("E-CHILD", Resources, "free processes or memory; the system's reason is in the message")]
     #[error("no child process can be started to read the HDF5 input first – {source}")]
     Rehearsal {
         /// What the system said.
         source: std::io::Error,
     },
-    /// The HDF5 library could not read an object of a file.
+    /// An object of an HDF5 file cannot be read.
+    #[entry("E-HDF5-READ", InputData, "write or copy the file again; the library's reason is in the message")]
     #[error("{}:{object}: cannot be read – the HDF5 library says: {reason}", path.display())]
     Hdf5Read {
         /// The file.
@@ -648,7 +732,8 @@ pub enum Error {
         /// The library's words.
         reason: String,
     },
-    /// A group, dataset or attribute that must be there is not.
+    /// A group, dataset or attribute is not there.
+    #[entry("E-HDF5-MISSING", InputData, "check the path after the colon")]
     #[error("{}:{object}: there is no such {kind} in the file", path.display())]
     Hdf5Missing {
         /// The file.
@@ -658,7 +743,8 @@ pub enum Error {
         /// Group, dataset or attribute.
         kind: &'static str,
     },
-    /// A path in the file leads through a soft or external link.
+    /// A path leads through a soft or external link.
+    #[entry("E-HDF5-LINK", InputData, "give the path of the object itself")]
     #[error(
         "{}:{object}: a soft or external link, and links are not followed – give the path of the object itself",
         path.display()
@@ -669,7 +755,8 @@ pub enum Error {
         /// Path of the link in the file.
         object: String,
     },
-    /// The values of a dataset lie in other files.
+    /// A dataset keeps its values in other files.
+    #[entry("E-HDF5-EXTERNAL", InputData, "repack the file with h5repack")]
     #[error(
         "{}:{object}: keeps its values in other files – expected values stored in this file – repack it with h5repack",
         path.display()
@@ -681,6 +768,7 @@ pub enum Error {
         object: String,
     },
     /// A dataset is compressed in a way that is not read.
+    #[entry("E-HDF5-FILTER", InputData, "rewrite it with `h5repack -f GZIP=4`")]
     #[error(
         "{}:{object}: stored through filter {filter} – expected none, shuffle, fletcher32 or one deflate (gzip) – \
         rewrite it with `h5repack -f GZIP=4`",
@@ -694,7 +782,8 @@ pub enum Error {
         /// The filter.
         filter: String,
     },
-    /// A dataset promises more values than its stored bytes can hold.
+    /// A dataset promises more than its bytes can hold.
+    #[entry("E-HDF5-SIZE", InputData, "the file is damaged or was never finished: write it again")]
     #[error(
         "{}:{object}: promises {promised} – its stored bytes can hold at most {} – the file is damaged or \
         the dataset was never written",
@@ -710,7 +799,8 @@ pub enum Error {
         /// Bytes that can be there.
         available: u64,
     },
-    /// Groups are nested deeper, or there are more of them, than any real file has.
+    /// Groups are nested or numerous beyond reason.
+    #[entry("E-HDF5-DEPTH", InputData, "write the file again; its groups may contain themselves")]
     #[error(
         "{}:{object}: more than {limit} {counted} – the file is damaged or its groups contain themselves",
         path.display()
@@ -725,7 +815,8 @@ pub enum Error {
         /// Levels or objects.
         counted: &'static str,
     },
-    /// An object or a value is of the wrong type.
+    /// An object or value has the wrong type.
+    #[entry("E-HDF5-TYPE", InputData, "store it as the message says")]
     #[error("{}:{object}: found {found} – expected {expected}", path.display())]
     Hdf5Type {
         /// The file.
@@ -737,7 +828,8 @@ pub enum Error {
         /// The type expected.
         expected: &'static str,
     },
-    /// A number that would not stay what it is when it is read.
+    /// A number cannot be read as it is: an unsigned one of 2⁶³ or more, or a whole one that no double equals.
+    #[entry("E-HDF5-VALUE", InputData, "store real numbers as 64-bit floats, indices as signed integers")]
     #[error("{}:{object}: value {position} (from 0) is {found} – expected {expected}", path.display())]
     Hdf5Value {
         /// The file.
@@ -751,7 +843,8 @@ pub enum Error {
         /// The numbers that can be read.
         expected: &'static str,
     },
-    /// A dataset has the wrong number of values or the wrong shape.
+    /// A dataset has the wrong length or shape.
+    #[entry("E-HDF5-SHAPE", InputData, "store it as the message says")]
     #[error("{}:{object}: found {found} – expected {expected}", path.display())]
     Hdf5Shape {
         /// The file.
@@ -764,6 +857,7 @@ pub enum Error {
         expected: String,
     },
     /// There is no sparse matrix where one was looked for.
+    #[entry("E-HDF5-NO-MATRIX", InputData, "give its group after a colon, as in model.h5:/K")]
     #[error(
         "{}:{group}: no sparse matrix – found {} – expected a MATLAB v7.3 or PETSc (`MATLAB_sparse`), anndata, \
         h5sparse or Exudyn group, or one with data, indices and indptr",
@@ -777,7 +871,8 @@ pub enum Error {
         /// The objects there.
         holds: Vec<String>,
     },
-    /// Several sparse matrices, or one under another name, so that none can be taken without guessing.
+    /// Several matrices could be meant.
+    #[entry("E-HDF5-AMBIGUOUS", InputData, "choose one, as in model.h5:/K")]
     #[error(
         "{}: no single matrix whose name says {role} – found {} – choose one, as in {}:{}",
         path.display(), listed(groups), path.display(), groups.first().map_or("/K", String::as_str)
@@ -790,7 +885,8 @@ pub enum Error {
         /// The groups that could be meant.
         groups: Vec<String>,
     },
-    /// A matrix without rows.
+    /// A matrix has no rows.
+    #[entry("E-HDF5-EMPTY", InputData, "check what was exported")]
     #[error("{}:{group}: an empty matrix (0 × 0)", path.display())]
     Hdf5EmptyMatrix {
         /// The file.
@@ -798,7 +894,8 @@ pub enum Error {
         /// The group.
         group: String,
     },
-    /// A stiffness or mass matrix that is not square, or larger than 32-bit row numbers allow.
+    /// A matrix is not square or too large.
+    #[entry("E-HDF5-SQUARE", InputData, "export K and M as square matrices")]
     #[error(
         "{}:{group}: found a matrix of {n_rows} × {n_cols} – expected a square one of at most {} rows",
         path.display(), u32::MAX
@@ -813,7 +910,8 @@ pub enum Error {
         /// Number of columns.
         n_cols: u64,
     },
-    /// The pointers of compressed rows or columns do not rise from zero to the number of entries.
+    /// Row or column pointers do not rise from zero to the number of entries.
+    #[entry("E-HDF5-POINTER", InputData, "write the matrix again")]
     #[error("{}:{dataset}: pointer {position} is {found} – expected {expected}", path.display())]
     Hdf5Pointer {
         /// The file.
@@ -827,7 +925,8 @@ pub enum Error {
         /// What it must be.
         expected: String,
     },
-    /// A row or column index outside the matrix, or a node number outside the mesh.
+    /// An index lies outside the matrix or the mesh.
+    #[entry("E-HDF5-INDEX", InputData, "write the matrix or mesh again")]
     #[error("{}:{dataset}: entry {position} is {found} – expected {first} to {last}", path.display())]
     Hdf5Index {
         /// The file.
@@ -843,7 +942,8 @@ pub enum Error {
         /// Largest index allowed.
         last: i64,
     },
-    /// A matrix entry that is not a finite number.
+    /// A matrix entry is NaN or infinite.
+    #[entry("E-HDF5-NONFINITE", InputData, "find out why the finite element program wrote it")]
     #[error(
         "{}:{dataset}: the entry of row {row}, column {col} (both from 0) is {value} – expected a finite number",
         path.display()
@@ -860,7 +960,8 @@ pub enum Error {
         /// The value.
         value: f64,
     },
-    /// A file in which no known mesh was found.
+    /// No known mesh is in the file.
+    #[entry("E-MESH", InputData, "give a .med, .h5m, .hmf or XDMF mesh, or a node table")]
     #[error(
         "{}: no mesh that can be read – found {} – expected .hmf (/domain/grid/Geometry), XDMF, .med (/ENS_MAA) or \
         .h5m (/tstt)",
@@ -872,7 +973,8 @@ pub enum Error {
         /// The objects at its top.
         holds: Vec<String>,
     },
-    /// A file with no or several meshes, time steps or geometries where one is expected.
+    /// No or several meshes, time steps or geometries.
+    #[entry("E-MESH-NOT-ONE", InputData, "leave one in the file")]
     #[error("{}:{object}: found {} – expected exactly one {kind}", path.display(), listed(found))]
     MeshNotOne {
         /// The file.
@@ -884,7 +986,8 @@ pub enum Error {
         /// What there must be one of.
         kind: &'static str,
     },
-    /// A property of a mesh that is not supported.
+    /// A property of a mesh is not supported.
+    #[entry("E-MESH-UNSUPPORTED", InputData, "export it as the message says")]
     #[error("{}:{object}: found {found} – expected {expected}", path.display())]
     MeshUnsupported {
         /// The file.
@@ -896,7 +999,8 @@ pub enum Error {
         /// What is supported.
         expected: &'static str,
     },
-    /// A coordinate that is not a finite number.
+    /// A coordinate is NaN or infinite.
+    #[entry("E-MESH-NONFINITE", InputData, "export the mesh again")]
     #[error(
         "{}:{object}: coordinate {} of node {label} is {value} – expected a finite number",
         path.display(), ["x", "y", "z"][*axis % 3]
@@ -913,7 +1017,8 @@ pub enum Error {
         /// The value.
         value: f64,
     },
-    /// Two nodes of the same label.
+    /// Two nodes of a mesh have one label.
+    #[entry("E-MESH-LABEL", InputData, "renumber the nodes")]
     #[error("{}:{object}: two nodes have the label {label} – expected each label once", path.display())]
     MeshLabelTwice {
         /// The file.
@@ -923,7 +1028,8 @@ pub enum Error {
         /// The label.
         label: i64,
     },
-    /// An XDMF file that is not well-formed XML.
+    /// An XDMF file is not well-formed XML.
+    #[entry("E-XDMF", InputData, "write it again")]
     #[error("{}: not well-formed XML: {source}", path.display())]
     XdmfSyntax {
         /// The file.
@@ -931,7 +1037,8 @@ pub enum Error {
         /// What is wrong and where.
         source: roxmltree::Error,
     },
-    /// An XDMF file with more names than any mesh has, whose look-up would take for ever.
+    /// An XDMF file has more attributes or namespaces than any mesh.
+    #[entry("E-XDMF-SIZE", InputData, "write it again")]
     #[error(
         "{}:{line}: more than {limit} {counted} – expected a few, as programs write them – write the file again",
         path.display()
@@ -946,7 +1053,8 @@ pub enum Error {
         /// Attributes of one element, or namespaces.
         counted: &'static str,
     },
-    /// An XDMF file names a data file outside its own folder.
+    /// An XDMF file names data outside its own folder.
+    #[entry("E-XDMF-REFERENCE", InputData, "move the data next to it")]
     #[error(
         "{}: refers to data in {reference} – expected a `file.h5:/path` in the folder of the XDMF file – move the \
         data there",
@@ -958,7 +1066,8 @@ pub enum Error {
         /// The reference as it is written.
         reference: String,
     },
-    /// The job document is not valid TOML or JSON, or a value in it has the wrong kind.
+    /// The job document is not valid TOML or JSON, or a value has the wrong kind.
+    #[entry("E-JOB", Usage, "correct the line")]
     #[error("{}{}: {message}", path.display(), At(*line))]
     JobSyntax {
         /// The job document.
@@ -968,7 +1077,8 @@ pub enum Error {
         /// What the parser said.
         message: String,
     },
-    /// The job document holds a key that no job has.
+    /// The job document holds an unknown key.
+    #[entry("E-JOB-KEY", Usage, "use the key the message offers, or remove it")]
     #[error("{}{}: unknown key `{key}`{}", path.display(), At(*line), Suggested(suggestion))]
     JobKey {
         /// The job document.
@@ -981,6 +1091,7 @@ pub enum Error {
         suggestion: Option<String>,
     },
     /// A number of the job is out of range.
+    #[entry("E-ARG", Usage, "give one in the range of the message")]
     #[error("`{key}` is {} – expected {expected}", typed(*value))]
     JobNumber {
         /// Path of the key.
@@ -990,7 +1101,8 @@ pub enum Error {
         /// The range.
         expected: &'static str,
     },
-    /// A string of the job is empty.
+    /// A text or list of the job is empty.
+    #[entry("E-JOB-EMPTY", Usage, "fill it or remove the key")]
     #[error("`{key}` is empty – expected {expected}")]
     JobEmpty {
         /// Path of the key.
@@ -998,13 +1110,15 @@ pub enum Error {
         /// What belongs there.
         expected: &'static str,
     },
-    /// Two interface nodes have one name.
+    /// Two interfaces have one name.
+    #[entry("E-INTERFACE-NAME", Usage, "give each its own")]
     #[error("interface `{name}` is defined twice – names must be unique")]
     InterfaceTwice {
         /// The name.
         name: String,
     },
     /// A boundary of the scene is about an interface that the job does not have.
+    #[entry("E-SCENE-INTERFACE", Usage, "use the name of an interface; the message lists them")]
     #[error("scene.boundaries: `{boundary}`: no interface is called `{name}` – the job has {}", listed(known))]
     SceneInterface {
         /// The boundary.
@@ -1014,7 +1128,8 @@ pub enum Error {
         /// Names of the job's interfaces.
         known: Vec<String>,
     },
-    /// An interface lists one node, row or direction twice.
+    /// An interface lists a node, row or direction twice.
+    #[entry("E-DUP-INTERFACE", Usage, "list each once")]
     #[error("interface `{interface}`: {what} is listed twice – list each once")]
     InterfaceRepeats {
         /// Name of the interface.
@@ -1022,7 +1137,8 @@ pub enum Error {
         /// What is repeated: `node 12`.
         what: String,
     },
-    /// Two interfaces list the same node directly, or the same row.
+    /// Two interfaces list the same node or row.
+    #[entry("E-INTERFACE-OVERLAP", Usage, "leave it in one of them")]
     #[error("interfaces `{first}` and `{second}` both list {what} – it can belong to one of them")]
     InterfaceOverlap {
         /// Name of the earlier interface.
@@ -1032,7 +1148,8 @@ pub enum Error {
         /// What is shared: `node 12`.
         what: String,
     },
-    /// A selection of nodes is a word that names no group.
+    /// A selection of nodes cannot be understood.
+    #[entry("E-INTERFACE-NODES", Usage, "write a list, \"group:NAME\", a region or rows")]
     #[error(
         "interface `{interface}`: nodes `{text}` – expected \"group:NAME\", a list of node labels, a region or rows"
     )]
@@ -1042,7 +1159,8 @@ pub enum Error {
         /// The text found.
         text: String,
     },
-    /// A key of an interface contradicts how its nodes are given or coupled.
+    /// A key of an interface contradicts its nodes or coupling.
+    #[entry("E-INTERFACE-KEY", Usage, "remove it, or do as the message says")]
     #[error("interface `{interface}`: `{key}` has no meaning for {situation} – remove it{remedy}")]
     InterfaceConflict {
         /// Name of the interface.
@@ -1054,7 +1172,8 @@ pub enum Error {
         /// Another way out, with its leading word, or nothing.
         remedy: &'static str,
     },
-    /// A file or a folder of the job has a name that JSON cannot hold.
+    /// A file or a folder of the job has a name that is not UTF-8, which the report and the superelement cannot keep.
+    #[entry("E-NAME", Usage, "rename the one that the message names")]
     #[error(
         "`{key}` is {path:?} – expected a name in UTF-8, as the report and the superelement keep names – rename {:?}",
         not_text(path)
@@ -1065,7 +1184,8 @@ pub enum Error {
         /// The file, with its folders.
         path: PathBuf,
     },
-    /// A document cannot be written as JSON.
+    /// A report or a job cannot be written as JSON.
+    #[entry("E-JSON", Usage, "rename files and folders whose names are not UTF-8")]
     #[error(
         "{what} cannot be written as JSON: {source} – expected names in UTF-8 – rename files and folders that have \
         others"
@@ -1076,7 +1196,8 @@ pub enum Error {
         /// Why not.
         source: serde_json::Error,
     },
-    /// An output has an extension that does not say what the file is.
+    /// An output has the wrong extension.
+    #[entry("E-OUTPUT-NAME", Usage, "name it as the message says")]
     #[error("`{key}` is {} – expected a name that ends in {expected}", path.display())]
     OutputName {
         /// Path of the key.
@@ -1086,7 +1207,8 @@ pub enum Error {
         /// The extension, with its dot.
         expected: &'static str,
     },
-    /// An output would be written over an input.
+    /// An output would be written over an input, by whatever name or link.
+    #[entry("E-OVERWRITE", Usage, "give the output another name")]
     #[error(
         "`{key}` is {}, the same file as {role}, {} – expected a file of its own – give the output another name",
         path.display(), input.display()
@@ -1102,6 +1224,7 @@ pub enum Error {
         input: PathBuf,
     },
     /// Two outputs would be written over each other.
+    #[entry("E-OUTPUT-TWICE", Usage, "give one of them another name")]
     #[error(
         "`{key}` is {}, the same file as `{other}` – expected a file of its own – give one of them another name",
         path.display()
@@ -1114,7 +1237,8 @@ pub enum Error {
         /// The key of the earlier one.
         other: &'static str,
     },
-    /// The name of an output is taken by something that is not a file.
+    /// The name of an output is taken by a folder, a pipe or a device.
+    #[entry("E-OUTPUT-KIND", Io, "give the output another name")]
     #[error(
         "{}: not a regular file – expected a name that is free or that of a file – give the output another name",
         path.display()
@@ -1123,7 +1247,8 @@ pub enum Error {
         /// The path.
         path: PathBuf,
     },
-    /// Neither a job document nor the flags that replace it were given.
+    /// Neither a job document nor the flags that replace it.
+    #[entry("E-FLAGS", Usage, "give one or the other")]
     #[error("no job document, and without one {} {} missing – give a job document or these flags",
         flags.join(", "), if flags.len() == 1 { "is" } else { "are" })]
     MissingFlags {
@@ -1131,6 +1256,7 @@ pub enum Error {
         flags: Vec<&'static str>,
     },
     /// The text of a flag cannot be understood.
+    #[entry("E-FLAG-TEXT", Usage, "write it as the message says")]
     #[error("{flag} {text} – expected {expected}")]
     FlagText {
         /// The flag.
@@ -1140,7 +1266,8 @@ pub enum Error {
         /// What belongs there.
         expected: &'static str,
     },
-    /// A superelement of another version is to be made again.
+    /// `verify --reproduce` of a file that another program or version made.
+    #[entry("E-OTHER-VERSION", Usage, "run that version, or compare with `verify --job` alone")]
     #[error(
         "{}: made by {found}, this is {} {} – only the same version gives the same bytes – run that one, or compare \
         by verify --job without --reproduce", path.display(), env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"
@@ -1152,7 +1279,8 @@ pub enum Error {
         /// Program and version that it names.
         found: String,
     },
-    /// The job kept in a superelement is none that this version can run.
+    /// `verify --reproduce` or `inspect --job` of a file that keeps no job of this version.
+    #[entry("E-KEPT-JOB", Usage, "run the version that made it, or give the job by `verify --job`")]
     #[error(
         "{}: the job kept in the file is none of {} {} – found one of another version, or none – run that version, or \
         give the job by verify --job",
@@ -1162,7 +1290,8 @@ pub enum Error {
         /// The file.
         path: PathBuf,
     },
-    /// The working threads could not be started.
+    /// The working threads cannot be started.
+    #[entry("E-THREADS", Resources, "ask for fewer with `--threads`")]
     #[error("{} cannot be started: {source} – ask for fewer with --threads", counted(*n_threads, "thread", "threads"))]
     Threads {
         /// How many were asked for.
@@ -1170,7 +1299,13 @@ pub enum Error {
         /// What the system said.
         source: rayon::ThreadPoolBuildError,
     },
-    /// A matrix is not symmetric.
+    /// K or M is not symmetric.
+    #[entry(
+        "E-UNSYMMETRIC",
+        InputData,
+        "leave out follower forces, gyroscopic and friction terms; where a triangle is incomplete, say which one \
+        holds with `model.symmetric` (`reduce --symmetric`)"
+    )]
     #[error(
         "the {matrix} matrix is not symmetric – worst at {place} – found a relative difference of {asymmetry:.1e} – \
         expected below 1e-6 – leave out follower forces, gyroscopic and friction terms; where the file lacks part of \
@@ -1185,6 +1320,7 @@ pub enum Error {
         place: String,
     },
     /// K and M are exchanged.
+    #[entry("E-SWAPPED", InputData, "exchange the two files")]
     #[error(
         "stiffness and mass are exchanged – a unit translation meets no force at {:.0} % of the rows of the stiffness \
         and at {:.0} % of the mass – expected the reverse – exchange the two files",
@@ -1197,12 +1333,14 @@ pub enum Error {
         /// Share of the rows of M whose entries of one direction add up to nothing.
         in_mass: f64,
     },
-    /// M is zero.
+    /// The mass matrix is zero.
+    #[entry("E-NO-MASS", InputData, "give the mass matrix")]
     #[error(
         "the mass matrix is zero – found no entry other than zero – expected a mass – give the mass matrix of the model"
     )]
     NoMass,
-    /// A mass matrix that gives some motion a negative kinetic energy.
+    /// M gives some motion a negative kinetic energy.
+    #[entry("E-INDEF-MASS", ModelPhysics, "check point masses, offsets and the coupling terms of the mass")]
     #[error(
         "the mass matrix is indefinite – {place} – found a kinetic energy of {energy:.1e} relative to its diagonal – \
         expected none below zero – check point masses, offsets and the coupling terms of the mass"
@@ -1213,7 +1351,8 @@ pub enum Error {
         /// The relative energy, negative.
         energy: f64,
     },
-    /// A matrix whose numbers, or whose frequencies, leave the range of double precision.
+    /// K, M or the frequencies leave the range of double precision.
+    #[entry("E-RANGE", InputData, "write the matrices in other units")]
     #[error(
         "{what} leaves the range of double precision – found 2^{exponent} – expected between 2^-960 and 2^1000 – \
         write the matrices in other units"
@@ -1224,7 +1363,8 @@ pub enum Error {
         /// Its size as a power of two.
         exponent: i32,
     },
-    /// Recovered shapes that single precision cannot hold.
+    /// The shapes of `write.recovery` are too large or too small for single precision.
+    #[entry("E-RECOVERY-RANGE", InputData, "set its precision to `\"double\"`, or write the matrices in other units")]
     #[error(
         "the shapes of `write.recovery` leave the range of single precision – the largest entry is {largest:.1e} – \
         expected between 2^{low} and 2^{high} – set its precision to \"double\", or write the matrices in other \
@@ -1238,7 +1378,13 @@ pub enum Error {
         /// Power of two above which it would overflow.
         high: i32,
     },
-    /// Rows without stiffness and mass.
+    /// Rows have neither stiffness nor mass.
+    #[entry(
+        "E-EMPTY-ROWS",
+        InputData,
+        "leave unused and constrained dofs out of both matrices, or drop them with `model.drop_empty` (`reduce \
+        --drop-empty`)"
+    )]
     #[error(
         "{} neither stiffness nor mass – the first is row {row}{dof} – expected none – leave unused \
         and constrained dofs out of both matrices, or drop these rows: model.drop_empty = true (reduce --drop-empty)",
@@ -1252,7 +1398,12 @@ pub enum Error {
         /// Its dof, in brackets, where known.
         dof: String,
     },
-    /// A zero on the diagonal of K in a row that is not empty.
+    /// K has a zero diagonal in a row with other entries.
+    #[entry(
+        "E-LAGRANGE",
+        InputData,
+        "eliminate constraints before exporting: multipliers have no mass and no stiffness"
+    )]
     #[error(
         "row {row}{dof} of the stiffness has a zero diagonal and other entries – expected a positive diagonal – this \
         is a constraint multiplier: eliminate constraints before exporting the matrices"
@@ -1263,7 +1414,8 @@ pub enum Error {
         /// Its dof.
         dof: String,
     },
-    /// A negative diagonal entry of K.
+    /// A diagonal entry of K is negative.
+    #[entry("E-NEG-DIAG", ModelPhysics, "the structure is unstable or loaded beyond buckling: reduce it unloaded")]
     #[error(
         "row {row}{dof} of the stiffness has the diagonal {value:.3e} – expected a positive one – the structure is \
         unstable or preloaded beyond buckling"
@@ -1276,7 +1428,8 @@ pub enum Error {
         /// The entry.
         value: f64,
     },
-    /// A negative diagonal entry of M.
+    /// A diagonal entry of M is negative.
+    #[entry("E-NEG-MASS", ModelPhysics, "check point masses and offsets")]
     #[error(
         "row {row}{dof} of the mass has the diagonal {value:.3e} – expected none below zero – check point masses and \
         offsets of the model"
@@ -1289,7 +1442,13 @@ pub enum Error {
         /// The entry.
         value: f64,
     },
-    /// Coordinates or a dof map that do not belong to K.
+    /// The coordinates or the dof map do not belong to K.
+    #[entry(
+        "E-COORD",
+        InputData,
+        "check units, axes, local node frames and the order of nodes and rows, first at the nodes named; use the \
+        coordinates of the state that K was made in; or leave the nodes out"
+    )]
     #[error(
         "the coordinates do not belong to the stiffness – {found} – expected below {} – check units, axes and local \
         node frames, the order of nodes and rows, and the state that the coordinates are of, or leave the nodes out",
@@ -1306,7 +1465,13 @@ pub enum Error {
         /// Where the forces are largest.
         dof: String,
     },
-    /// Rotations that cost energy in a body that can move freely in every direction.
+    /// K lets the component move in every direction but not turn.
+    #[entry(
+        "E-ROTATIONS-HELD",
+        InputData,
+        "check map, order of nodes, local frames and the state of the coordinates; look for springs between distant \
+        nodes; where supports hold rotations alone, list them in `model.held_rotations`"
+    )]
     #[error(
         "the stiffness lets the component move in every direction but not turn – {rotations} cost up to {} of the \
         energy of the first elastic mode, most of it at {dof}, and {} none – expected free \
@@ -1325,7 +1490,8 @@ pub enum Error {
         /// Where the forces are largest.
         dof: String,
     },
-    /// Most nodes are coupled with other nodes in M than in K.
+    /// M couples other nodes than K.
+    #[entry("E-MASS-ORDER", InputData, "write K and M with their rows in one order, that of the dof map")]
     #[error(
         "the mass couples {n_apart} of {n_nodes} {what} with other {what} than the stiffness does, the first at \
         {first} – expected the same neighbours, because elements have stiffness and mass at the same nodes – write \
@@ -1341,7 +1507,8 @@ pub enum Error {
         /// The first of them.
         first: String,
     },
-    /// A rigid-body motion whose energy is negative beyond rounding.
+    /// A rigid-body motion has negative energy, and a count finds the eigenvalue.
+    #[entry("E-NEG-RIGID", ModelPhysics, "check preload and negative springs")]
     #[error(
         "a rigid-body motion has the negative energy {energy:.1e} – expected zero within {noise:.1e} – a Sturm count \
         finds {} below half of it: the stiffness is indefinite – check preload and negative springs",
@@ -1355,7 +1522,8 @@ pub enum Error {
         /// Eigenvalues of K − σM below half of it, counted.
         count: usize,
     },
-    /// A rigid-body motion that moves no mass.
+    /// A rigid-body motion moves no mass.
+    #[entry("E-RIGID-MASS", ModelPhysics, "give the massless part its mass")]
     #[error(
         "a rigid-body motion moves no mass – found a modal mass of {relative_mass:.1e} relative to the largest – \
         expected above 1e-12 – give the massless part of the model its mass"
@@ -1364,7 +1532,12 @@ pub enum Error {
         /// Its modal mass over the largest.
         relative_mass: f64,
     },
-    /// A motion, no rigid-body motion, with neither energy nor mass.
+    /// A motion has neither stiffness nor mass.
+    #[entry(
+        "E-MASSLESS-MECHANISM",
+        ModelPhysics,
+        "give the dof named stiffness or mass, or leave it out of both matrices"
+    )]
     #[error(
         "a motion has neither stiffness nor mass – it is largest at {dof} – expected one of them for every motion – \
         give the dof stiffness or mass, or leave it out of both matrices"
@@ -1373,7 +1546,12 @@ pub enum Error {
         /// The dof it moves most.
         dof: String,
     },
-    /// Free modes of a component that can move as a rigid body without moving mass.
+    /// Free modes of a component with a rigid-body motion that moves no mass.
+    #[entry(
+        "E-FREE-MASSLESS",
+        ModelPhysics,
+        "give the nodes rotary inertia, or keep fixed-interface modes with the method `craig-bampton`"
+    )]
     #[error(
         "a rigid-body motion moves no mass while the interface is free – it is largest at {dof} – expected mass in \
         every rigid-body motion, without which free modes are not defined – give the nodes rotary inertia, or keep \
@@ -1384,6 +1562,11 @@ pub enum Error {
         dof: String,
     },
     /// A small dense eigenproblem did not converge.
+    #[entry(
+        "E-DENSE-EIGEN",
+        NumericalLimit,
+        "check the magnitudes of the input for values near the ends of the range of a double"
+    )]
     #[error(
         "a dense eigenproblem of order {n} did not converge – its matrix holds values that are not finite – check the \
         magnitudes of the input"
@@ -1392,7 +1575,8 @@ pub enum Error {
         /// Its order.
         n: usize,
     },
-    /// An interface too large for dense matrices.
+    /// The interface has more dofs than dense matrices can have.
+    #[entry("E-INTERFACE-SIZE", InputData, "take fewer interface nodes or couple their patches rigidly")]
     #[error(
         "the interface has {} – expected at most {}, because the reduced matrices are dense – take fewer \
         interface nodes or couple their patches rigidly",
@@ -1404,7 +1588,12 @@ pub enum Error {
         /// The most there may be.
         limit: usize,
     },
-    /// Nodes asked for where the model has none.
+    /// An interface names nodes and the model has none.
+    #[entry(
+        "E-NO-NODES",
+        InputData,
+        "give `model.dofs` and `model.nodes` (`reduce --dofs`, `reduce --nodes`), or select rows"
+    )]
     #[error(
         "interface {interface:?} names nodes – the model has no dof map or no nodes – give model.dofs and model.nodes \
         (reduce --dofs, reduce --nodes); an interface may also list rows by number"
@@ -1413,7 +1602,8 @@ pub enum Error {
         /// The interface.
         interface: String,
     },
-    /// A rigid patch without coordinates.
+    /// A rigid interface has nodes without coordinates.
+    #[entry("E-NO-COORDINATES", InputData, "give a table or mesh with every node of the patch")]
     #[error(
         "interface {interface:?} is rigid – its nodes have no coordinates – expected a node table or mesh with every \
         node of the patch"
@@ -1422,7 +1612,8 @@ pub enum Error {
         /// The interface.
         interface: String,
     },
-    /// A group the mesh does not have.
+    /// The mesh has no such group.
+    #[entry("E-GROUP", InputData, "use one of the names in the message")]
     #[error("interface {interface:?}: no group {group:?} – {}", groups(known))]
     UnknownGroup {
         /// The interface.
@@ -1432,7 +1623,8 @@ pub enum Error {
         /// Those there are.
         known: Vec<String>,
     },
-    /// A selection without nodes.
+    /// An interface selects no node.
+    #[entry("E-INTERFACE-EMPTY", InputData, "check the list or the region against the coordinates")]
     #[error(
         "interface {interface:?} selects no node – expected at least one – check the list or the region against the \
         coordinates"
@@ -1441,7 +1633,12 @@ pub enum Error {
         /// The interface.
         interface: String,
     },
-    /// A node without rows in the matrices.
+    /// An interface node has no row in the matrices.
+    #[entry(
+        "E-CONSTRAINED-INTERFACE",
+        InputData,
+        "it is constrained, unused or not in the dof map: take another or free it"
+    )]
     #[error(
         "interface {interface:?}: node {node} has no row in the matrices – expected a free dof – the node is \
         constrained, unused or not in the dof map"
@@ -1452,7 +1649,8 @@ pub enum Error {
         /// The node.
         node: i64,
     },
-    /// A dof the node does not have.
+    /// An interface asks for a dof that its node does not have.
+    #[entry("E-DOF-MISSING", InputData, "list the dofs, or use `coupling = \"rigid\"`")]
     #[error(
         "interface {interface:?}: {dof} does not exist – expected a direction the node has – solids have no \
         rotations; use coupling = \"rigid\" or list the dofs"
@@ -1463,7 +1661,8 @@ pub enum Error {
         /// The dof.
         dof: crate::dofs::Dof,
     },
-    /// A row number beyond the matrices.
+    /// An interface names a row beyond the matrices.
+    #[entry("E-INTERFACE-ROW", InputData, "count rows from zero")]
     #[error(
         "interface {interface:?}: row {row} {found} – expected one of 0 to {} with stiffness or mass – rows count \
         from zero, as in the files",
@@ -1479,7 +1678,8 @@ pub enum Error {
         /// Rows of the files.
         n: usize,
     },
-    /// A dof that two interface nodes claim.
+    /// Two interfaces claim one dof.
+    #[entry("E-DOF-TWICE", InputData, "take it out of one of them")]
     #[error(
         "{dof} belongs to interface {first:?} and to interface {second:?} – expected one owner – take it out of one \
         of them"
@@ -1492,7 +1692,12 @@ pub enum Error {
         /// Second owner.
         second: String,
     },
-    /// A rigid patch about a point far outside of the part.
+    /// The origin of a rigid patch is more than a hundred times the size of the part away from it.
+    #[entry(
+        "E-ORIGIN-FAR",
+        InputData,
+        "give the origin in the unit of the coordinates, or leave it out for the mean of the nodes"
+    )]
     #[error(
         "interface {interface:?}: its origin ({}) is {} times the size of the part away from its nodes – expected a \
         point near their mean ({}) – give the origin in the unit of the coordinates, or leave it out for the mean",
@@ -1510,7 +1715,8 @@ pub enum Error {
         /// The mean of the patch.
         middle: [f64; 3],
     },
-    /// Rigid patches that tie all nodes.
+    /// Rigid patches tie all nodes, and nothing elastic is left.
+    #[entry("E-WHOLLY-RIGID", ModelPhysics, "leave nodes out of the patch; a rigid part needs no superelement")]
     #[error(
         "interface {interface:?}: a rigid patch of {} ties the whole component – found {} of freedom for \
         as many rigid-body motions – expected nodes that are free to deform – leave nodes out of \
@@ -1525,7 +1731,8 @@ pub enum Error {
         /// Rigid-body motions.
         n_rigid: usize,
     },
-    /// A patch that cannot move in all directions of its node.
+    /// A rigid patch cannot follow all motions of its node.
+    #[entry("E-PATCH-RANK", InputData, "add nodes off the line, or list fewer dofs")]
     #[error(
         "interface {interface:?}: its {} can follow only {rank} of {} of a rigid node – expected three \
         nodes that are not in line – add nodes to the patch or list fewer dofs",
@@ -1541,7 +1748,8 @@ pub enum Error {
         /// Motions asked for.
         expected: usize,
     },
-    /// A body without interface that nothing holds.
+    /// A body that nothing holds has no interface node.
+    #[entry("E-FLOATING-BODY", ModelPhysics, "add an interface node there, connect the body or leave it out")]
     #[error(
         "{n_floating} of the {} of the model float free of every interface – the first holds {dof} – \
         expected an interface node on each, or a support – add an interface node there, connect the body or leave it \
@@ -1556,7 +1764,8 @@ pub enum Error {
         /// A dof of the first.
         dof: String,
     },
-    /// The interface leaves a rigid-body motion free.
+    /// The interface leaves a rigid-body motion free, as far as the digits of the stiffness tell.
+    #[entry("E-INTERFACE-RANK", ModelPhysics, "add interface nodes off the axis named, or give them rotations")]
     #[error(
         "the interface can react only {rank} of the {}{motion} – expected all – add \
         interface nodes off that axis or give the nodes rotations",
@@ -1570,7 +1779,8 @@ pub enum Error {
         /// The free motion in words.
         motion: String,
     },
-    /// The digits of K leave open what the reduction rests on.
+    /// The digits of the stiffness leave open whether it is definite, or how many motions cost no energy.
+    #[entry("E-DATA-PRECISION", InputData, "write the stiffness with more digits, best in binary")]
     #[error(
         "the digits of the stiffness do not tell {what} – {known} – \
         expected entries whose last digit does not decide that – write the stiffness with more digits, best in \
@@ -1582,7 +1792,12 @@ pub enum Error {
         /// How well its entries are known.
         known: String,
     },
-    /// A pivot of a matrix that should be definite was not positive.
+    /// The stiffness is not positive definite, with the interface held or, as it says then, with none held.
+    #[entry(
+        "E-NOT-DEFINITE",
+        ModelPhysics,
+        "close the mechanism at the dof named, or remove what makes the structure unstable"
+    )]
     #[error(
         "the stiffness is not positive definite with {} – elimination stopped at {dof} – expected a positive pivot – \
         the structure has a mechanism there or is unstable, or a penalty far above all else takes its digits",
@@ -1594,7 +1809,12 @@ pub enum Error {
         /// `free` or `held`: the interface while it was factored.
         boundary: &'static str,
     },
-    /// Eigenvalues of K below zero.
+    /// The stiffness has negative eigenvalues, counted.
+    #[entry(
+        "E-NEGATIVE-STIFFNESS",
+        ModelPhysics,
+        "reduce at a smaller preload, check negative springs and the digits of the matrix"
+    )]
     #[error(
         "the stiffness has {} with {}, by a Sturm count – expected none – the component is \
         preloaded beyond buckling, has negative springs, or its matrix lacks digits, which a penalty far above all \
@@ -1607,7 +1827,13 @@ pub enum Error {
         /// `free` or `held`.
         boundary: &'static str,
     },
-    /// The forecast exceeds the memory there is.
+    /// The forecast exceeds the memory.
+    #[entry(
+        "E-MEM",
+        Resources,
+        "free memory, raise `run.memory_gib`, make the part that is named first smaller, or set `run.precision = \
+        \"mixed\"` where the message says that this fits"
+    )]
     #[error("{}", forecast(*available, [*factors, *matrices, *vectors], *in_single))]
     MemoryForecast {
         /// Bytes available.
@@ -1621,7 +1847,8 @@ pub enum Error {
         /// Bytes in all with the factor in single precision, where those are available.
         in_single: Option<u64>,
     },
-    /// The forecast of a comparison with the full matrices exceeds the memory there is.
+    /// The forecast of `supel verify --job` exceeds the memory.
+    #[entry("E-MEM-VERIFY", Resources, "free memory, raise `run.memory_gib` of the job, or verify the file by itself")]
     #[error(
         "the comparison with the full matrices needs {} – {} of memory is available – free memory, raise run.memory_gib of the \
         job, or verify the file by itself",
@@ -1634,12 +1861,14 @@ pub enum Error {
         available: u64,
     },
     /// An allocation failed.
+    #[entry("E-OUT-OF-MEMORY", Resources, "free memory or reduce a smaller model")]
     #[error("out of memory – {what} could not be allocated – free memory or reduce a smaller model")]
     OutOfMemory {
         /// What was to be allocated.
         what: &'static str,
     },
-    /// Conjugate gradients did not bring a solve down to rounding.
+    /// A solve by a factor in single precision stays less accurate than one in double.
+    #[entry("E-NOT-REFINED", NumericalLimit, "use `precision = \"double\"`")]
     #[error(
         "a solve with the factor kept in single precision stays inaccurate – right-hand side {column} of its block, \
         residual {residual:.1e} of its terms in the worst row after {} of conjugate gradients – expected {aim:.1e} – use \
@@ -1656,12 +1885,18 @@ pub enum Error {
         /// Steps that were taken.
         steps: usize,
     },
-    /// A pivot of a Sturm count is zero or not a number.
+    /// The shift of a Sturm count lies on an eigenvalue.
+    #[entry("E-STURM-PIVOT", NumericalLimit, "ask for one mode more or less")]
     #[error(
         "the Sturm count met a pivot without a sign – the shift lies on an eigenvalue – ask for one mode more or less"
     )]
     SturmPivot,
-    /// Lanczos did not converge.
+    /// The eigensolver stalled.
+    #[entry(
+        "E-STALLED",
+        NumericalLimit,
+        "ask for another number of modes or another band, or set the other `eigensolver` in the job"
+    )]
     #[error(
         "the eigensolver stalled after {} – found {} – ask for another number of modes or another band, or set the \
         other eigensolver in the job",
@@ -1673,7 +1908,8 @@ pub enum Error {
         /// Pairs that had converged.
         converged: usize,
     },
-    /// More zero-energy motions than rigid-body modes.
+    /// Motions without energy in addition to the rigid-body modes.
+    #[entry("E-MECHANISM", ModelPhysics, "close hinges and sliding joints or give them stiffness")]
     #[error(
         "the component is a mechanism – found {} without energy in addition to the {} – expected none – close hinges and \
         sliding joints or give them stiffness",
@@ -1685,7 +1921,8 @@ pub enum Error {
         /// Further zero modes.
         n_more: usize,
     },
-    /// The modes found are not all there are.
+    /// Modes are missing and a restart found no more.
+    #[entry("E-MODES-MISSING", NumericalLimit, "compare with the eigensolver `arpack`")]
     #[error(
         "modes are missing below {below_hz:.6} Hz – found {found}, the Sturm count says {counted} – neither another \
         start nor slices of the band found more – use reduction.eigensolver = \"arpack\" (reduce --eigensolver) to \
@@ -1699,13 +1936,15 @@ pub enum Error {
         /// Eigenvalues counted.
         counted: usize,
     },
-    /// The second eigensolver is not built in.
+    /// The program was built without ARPACK.
+    #[entry("E-NO-ARPACK", Usage, "use the eigensolver `lanczos` or rebuild with the feature `arpack`")]
     #[error(
         "the eigensolver arpack needs the feature \"arpack\", which this program was built without – leave \
         reduction.eigensolver (reduce --eigensolver) out"
     )]
     EigensolverMissing,
-    /// The second eigensolver failed.
+    /// ARPACK failed.
+    #[entry("E-ARPACK", NumericalLimit, "set `eigensolver = \"lanczos\"` in the job")]
     #[error(
         "ARPACK failed with status {status} after {converged} converged modes – set eigensolver = \"lanczos\" in the \
         job"
@@ -1717,6 +1956,7 @@ pub enum Error {
         converged: usize,
     },
     /// A file is not a superelement, or cannot be made one.
+    #[entry("E-SUPERELEMENT", InputData, "the message says what is wrong with it; write it again with `supel reduce`")]
     #[error("{}: {source}", path.display())]
     SuperelementFile {
         /// The file.
@@ -1755,88 +1995,10 @@ impl Error {
     }
 }
 
-/// How to go on where a dof map cannot be used.
-const BY_ROWS: &str = "go on by rows: leave dof map and nodes out and give interfaces as rows from zero, as in reduce --interface hub=rows:0,1,2";
-
-/// `:12` after a path, where the line is known.
-struct At(Option<usize>);
-
-impl fmt::Display for At {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.map_or(Ok(()), |line| write!(f, ":{line}"))
-    }
-}
-
-/// The advice after an unknown key.
-struct Suggested<'a>(&'a Option<String>);
-
-impl fmt::Display for Suggested<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Some(key) => write!(f, " – did you mean `{key}`?"),
-            None => write!(f, " – remove it; the keys are listed in schemas/job.schema.json"),
-        }
-    }
-}
-
 /// A document as a JSON value; `what` is what an error calls it.
 ///
 /// # Errors
 /// [`Error::NotJson`] where a path in it is not UTF-8.
 pub(crate) fn json_value(what: &'static str, document: &impl Serialize) -> Result<serde_json::Value> {
     serde_json::to_value(document).map_err(|source| Error::NotJson { what, source })
-}
-
-/// What was held while a matrix was factored; a component need not have an interface.
-pub(crate) fn held_words(boundary: &str) -> &'static str {
-    if boundary == "held" { "the interface held" } else { "no interface held" }
-}
-
-/// The first part of a path that is not UTF-8.
-fn not_text(path: &Path) -> &OsStr {
-    path.iter().find(|part| part.to_str().is_none()).unwrap_or(path.as_os_str())
-}
-
-/// The groups of a file of nodes; a table and some meshes have none.
-fn groups(known: &[String]) -> String {
-    match known {
-        [] => "the file of the nodes has no groups, as a table of nodes – list node labels or give a region".to_owned(),
-        _ => format!("the mesh has {} – name one of them", listed(known)),
-    }
-}
-
-/// Names for a message: the first few, and how many more there are.
-fn listed(names: &[String]) -> String {
-    const SHOWN: usize = 12;
-    match names.len() {
-        0 => "nothing".to_owned(),
-        n if n > SHOWN => format!("{} and {} more", names[..SHOWN].join(", "), n - SHOWN),
-        _ => names.join(", "),
-    }
-}
-
-/// The parts of a forecast, the largest first, and what makes that one smaller.
-fn forecast(available: u64, [factors, matrices, vectors]: [u64; 3], in_single: Option<u64>) -> String {
-    let mut parts = [
-        (factors, "factors", "use a weaker run.certify (reduce --certify), which needs fewer factors"),
-        (vectors, "vectors", "keep fewer modes or interface dofs"),
-        (matrices, "matrices", "reduce a smaller model"),
-    ];
-    parts.sort_by_key(|(size, ..)| std::cmp::Reverse(*size));
-    let needed = parts.iter().fold(0, |sum: u64, (size, ..)| sum.saturating_add(*size));
-    let largest_first = parts.map(|(size, name, _)| format!("{name} {}", bytes(size))).join(", ");
-    let (needed, available) = (bytes(needed), bytes(available));
-    let advice = match in_single {
-        Some(needed) => format!("set run.precision = \"mixed\", which needs {}", bytes(needed)),
-        None => parts[0].2.to_owned(),
-    };
-    format!(
-        "the run needs {needed} – largest first: {largest_first} – {available} of memory is available – free memory, raise \
-        run.memory_gib, or {advice}"
-    )
-}
-
-/// A point, to six digits.
-fn place(point: [f64; 3]) -> String {
-    point.map(|x| quantity(x, 6)).join(", ")
 }

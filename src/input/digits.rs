@@ -94,15 +94,15 @@ pub fn digits_of(values: &[f64]) -> Digits {
         return Digits::SINGLE;
     }
     let distinct: BTreeSet<Decimal> = sample.iter().map(|&value| Decimal::of(value)).collect();
-    let is_from_text = match digits {
-        ..=MAX_EXACT_DIGITS => is_rounded(&distinct, digits),
-        ..=MAX_DECIMAL_DIGITS => n_mantissas(&distinct) >= MIN_DISTINCT,
+    let is_of_few = match digits {
+        _ if digits <= MAX_EXACT_DIGITS => is_rounded(&distinct, digits),
+        _ if digits <= MAX_DECIMAL_DIGITS => n_mantissas(&distinct) >= MIN_DISTINCT,
         _ => false,
     };
-    match fixed_point(&distinct, digits, is_from_text) {
+    let relative = if is_of_few { Digits::relative(digits) } else { Digits::DOUBLE };
+    match fixed_point(&distinct, digits, relative) {
         Some(decimals) => Digits { decimals: Some(decimals), ..Digits::relative(digits.min(MAX_DECIMAL_DIGITS)) },
-        None if is_from_text => Digits::relative(digits),
-        None => Digits::DOUBLE,
+        None => relative,
     }
 }
 
@@ -171,8 +171,9 @@ fn is_rounded(distinct: &BTreeSet<Decimal>, digits: u32) -> bool {
     lower.len() >= MIN_DISTINCT_SHORT && 2 * n_full > lower.len()
 }
 
-/// Decimals of values in fixed point; `is_from_text` says whether they have few digits in any case.
-fn fixed_point(distinct: &BTreeSet<Decimal>, digits: u32, is_from_text: bool) -> Option<i32> {
+/// Decimals of values in fixed point that need `digits`; `relative` is what they are known to where they are not in fixed point.
+fn fixed_point(distinct: &BTreeSet<Decimal>, digits: u32, relative: Digits) -> Option<i32> {
+    let is_of_few = relative != Digits::DOUBLE;
     let mut decimals: Vec<i32> = distinct.iter().map(|decimal| decimal.n_decimals()).collect();
     decimals.sort_unstable();
     let decimals = decimals[(decimals.len() * 99).div_ceil(100) - 1];
@@ -180,10 +181,10 @@ fn fixed_point(distinct: &BTreeSet<Decimal>, digits: u32, is_from_text: bool) ->
     let short = || distinct.iter().filter(|decimal| decimal.n_digits <= MAX_DECIMAL_DIGITS);
     let full = || short().filter(|decimal| decimal.n_decimals() == decimals);
     let n_full_digits = short().filter(|decimal| decimal.n_digits == digits).count();
-    if 3 * full().count() < 2 * short().count() || (is_from_text && full().count() <= n_full_digits) {
+    if 3 * full().count() < 2 * short().count() || (is_of_few && full().count() <= n_full_digits) {
         return None;
     }
-    if is_from_text && digits > MAX_EXACT_DIGITS {
+    if is_of_few && digits > MAX_EXACT_DIGITS {
         return Some(decimals);
     }
     let last: BTreeSet<u64> = full().map(|decimal| decimal.last_digit()).collect();
@@ -197,9 +198,9 @@ fn fixed_point(distinct: &BTreeSet<Decimal>, digits: u32, is_from_text: bool) ->
 fn is_single(sample: &[f64], digits: u32) -> bool {
     // One number of 10¹⁰ in a thousand is one by chance, of nine digits one in thirty is such a form, and of eight one in three.
     let (min_exact, min_printed) = match digits {
-        ..=SINGLE_DIGITS => return false,
+        _ if digits <= SINGLE_DIGITS => return false,
         8 => (MIN_DISTINCT, MIN_DISTINCT_SHORT),
-        ..=MAX_DECIMAL_DIGITS => (MIN_DISTINCT, 2 * MIN_DISTINCT),
+        _ if digits <= MAX_DECIMAL_DIGITS => (MIN_DISTINCT, 2 * MIN_DISTINCT),
         _ => (1, 2 * MIN_DISTINCT),
     };
     let n_decimals = digits.min(DOUBLE_DIGITS) as usize - 1;

@@ -51,8 +51,8 @@ struct Apart {
 /// Compares the nodes that M couples with those that K couples.
 ///
 /// # Errors
-/// [`Error::MassInAnotherOrder`] where more than half of all nodes are apart, or where M is that of the mesh in another order. Fewer are a finding where a dof map tells nodes; of rows
-/// alone K and M of one element may couple different ones.
+/// [`Error::MassInAnotherOrder`] where more than half of all nodes are apart, or where M is that of the mesh in another order. Fewer are a
+/// finding where a dof map tells nodes; of rows alone K and M of one element may couple different ones.
 pub(super) fn compared(
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,

@@ -35,7 +35,7 @@ fn components() -> [Held; 2] {
     let face: Vec<i64> = (0..9).map(|k| 7 * (k + 1)).collect();
     let block = Part::new(Family::Bulky, 150).model;
     let base = block.groups["BASE"].clone();
-    let tip: Vec<i64> = block.groups["TIP"].iter().copied().collect();
+    let tip: Vec<i64> = block.groups["TIP"].to_vec();
     let block = supported(&block, |(node, _)| base.contains(&node));
     let rigid = |nodes: &[i64]| format!("{{ name = \"tip\", nodes = {nodes:?}, coupling = \"rigid\" }}");
     [

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use supel::cli::ExitCode;
+use supel::error::Error;
 
 use crate::place::supel;
 
@@ -29,21 +30,37 @@ fn known(command: &str) -> BTreeSet<String> {
     flags(&supel(&[command, "--help"]).expect(ExitCode::Done).out).into_iter().map(|(flag, _)| flag).collect()
 }
 
-/// Lines of a source that are no comments, with the variant that comes next or that they belong to.
-fn advice(source: &str) -> Vec<(String, String)> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(source);
-    let text = std::fs::read_to_string(path).expect("a source");
-    let lines: Vec<&str> = text.lines().filter(|line| !line.trim_start().starts_with("//")).collect();
-    // `Name {` opens a variant, whose message stands before it; `Name => "E-…"` is followed by its texts.
-    let opens =
-        |line: &str| line.strip_suffix(" {").filter(|name| name.starts_with("    ")).map(|name| name.trim().to_owned());
-    let entry = |line: &str| line.split_once(" => \"E-").map(|(name, _)| name.trim().to_owned());
-    let of = |(at, line): (usize, &&str)| {
-        let next = lines[at..].iter().find_map(|line| opens(line));
-        let last = lines[..=at].iter().rev().find_map(|line| entry(line));
-        ((*line).to_owned(), last.or(next).unwrap_or_default())
-    };
-    lines.iter().enumerate().map(of).collect()
+/// What stands at a variant of the enum: what the page says of it, and its message.
+struct Advice {
+    variant: String,
+    page: String,
+    message: String,
+}
+
+/// The texts of all errors.
+fn advice() -> Vec<Advice> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/error.rs");
+    let text = std::fs::read_to_string(path).expect("a source").replace("\\\n", " ");
+    let is_of_variant = |line: &&str| line.starts_with("    ") && !line.starts_with("        ///");
+    let (mut found, mut texts) = (Vec::new(), [String::new(), String::new()]);
+    let mut at = 0;
+    for line in text.lines().filter(is_of_variant) {
+        let name = line.trim().trim_end_matches([' ', '{', ',']);
+        if line.starts_with("    #[error(") {
+            at = 1;
+        }
+        // `Name {` or `Name,` ends what stands at a variant.
+        if at == 1 && name.chars().all(char::is_alphanumeric) && !name.is_empty() {
+            let [page, message] = std::mem::take(&mut texts);
+            found.push(Advice { variant: name.to_owned(), page, message });
+            at = 0;
+            continue;
+        }
+        texts[at] += line;
+        texts[at].push('\n');
+    }
+    assert_eq!(found.len(), Error::CODES.len());
+    found
 }
 
 /// A flag without the name of its command is one that every command has which can meet the error; `reduce --symmetric` is one of
@@ -53,8 +70,8 @@ fn every_flag_that_is_advised_exists() {
     let [reduce, verify, inspect] = COMMANDS.map(known);
     assert!(reduce.contains("--symmetric") && verify.contains("--reproduce") && inspect.contains("--job"));
     let (mut n_flags, mut wrong) = (0, Vec::new());
-    for (text, variant) in ["src/error.rs", "src/error/code.rs"].into_iter().flat_map(advice) {
-        for (flag, before) in flags(&text) {
+    for Advice { variant, page, message } in advice() {
+        for (flag, before) in flags(&format!("{page}{message}")) {
             let only = OF_ONE.iter().find(|(name, _)| *name == variant).map(|(_, command)| *command);
             let exists = match only.unwrap_or(before.as_str()) {
                 "reduce" => reduce.contains(&flag),
@@ -77,7 +94,7 @@ fn every_flag_that_is_advised_exists() {
 #[test]
 fn inspect_advises_its_own_flags() {
     let inspect = known("inspect");
-    let all: Vec<(String, String)> = advice("src/error.rs");
+    let all = advice();
     for variant in [
         "Answer",
         "Read",
@@ -89,11 +106,9 @@ fn inspect_advises_its_own_flags() {
         "NotJson",
         "OutOfMemory",
     ] {
-        assert!(all.iter().any(|(_, of)| of == variant), "{variant} is no error");
-        for (text, _) in all.iter().filter(|(_, of)| of == variant) {
-            for (flag, before) in flags(text) {
-                assert!(inspect.contains(&flag) || COMMANDS.contains(&before.as_str()), "{variant}: {flag}");
-            }
+        let of = all.iter().find(|advice| advice.variant == variant);
+        for (flag, before) in flags(&of.unwrap_or_else(|| panic!("{variant} is no error")).message) {
+            assert!(inspect.contains(&flag) || COMMANDS.contains(&before.as_str()), "{variant}: {flag}");
         }
     }
 }

@@ -50,11 +50,21 @@ fn page_of_errors(page: &str) -> String {
         let is_table = line.starts_with("|---") && lines.peek().is_some_and(|next| next.starts_with("| `E-"));
         if let Some(exit_code) = exit_code.filter(|_| is_table) {
             for entry in Error::CODES.iter().filter(|entry| entry.class as u8 == exit_code) {
-                made += &format!("| `{}` | {} | {} |\n", entry.code, entry.what, entry.remedy);
+                made += &format!("| `{}` | {} | {} |\n", entry.code, cell(entry.what), entry.remedy);
             }
         }
     }
     made
+}
+
+/// A sentence of the documentation of a variant as a cell: on one line, without a full stop, and in lower case unless it begins with a
+/// symbol or an abbreviation.
+fn cell(sentence: &str) -> String {
+    let words = sentence.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = words.trim_end_matches('.');
+    let (first, rest) = words.split_at(words.chars().next().map_or(0, char::len_utf8));
+    let is_word = (first == "A" && rest.starts_with(" ")) || rest.starts_with(|second: char| second.is_lowercase());
+    if is_word { format!("{}{rest}", first.to_lowercase()) } else { words.to_owned() }
 }
 
 /// The document is made from the entries of the enum: `SUPEL_UPDATE_DOCS=1 cargo test --test errors documented` writes it.

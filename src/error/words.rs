@@ -1,0 +1,85 @@
+//! Words of messages that several errors share or that take more than a format.
+
+use std::ffi::OsStr;
+use std::fmt;
+use std::path::Path;
+
+use crate::number::{bytes, quantity};
+
+/// How to go on where a dof map cannot be used.
+pub(super) const BY_ROWS: &str = "go on by rows: leave dof map and nodes out and give interfaces as rows from zero, as in reduce --interface hub=rows:0,1,2";
+
+/// `:12` after a path, where the line is known.
+pub(super) struct At(pub(super) Option<usize>);
+
+impl fmt::Display for At {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.map_or(Ok(()), |line| write!(f, ":{line}"))
+    }
+}
+
+/// The advice after an unknown key.
+pub(super) struct Suggested<'a>(pub(super) &'a Option<String>);
+
+impl fmt::Display for Suggested<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some(key) => write!(f, " – did you mean `{key}`?"),
+            None => write!(f, " – remove it; the keys are listed in schemas/job.schema.json"),
+        }
+    }
+}
+
+/// What was held while a matrix was factored; a component need not have an interface.
+pub(crate) fn held_words(boundary: &str) -> &'static str {
+    if boundary == "held" { "the interface held" } else { "no interface held" }
+}
+
+/// The first part of a path that is not UTF-8.
+pub(super) fn not_text(path: &Path) -> &OsStr {
+    path.iter().find(|part| part.to_str().is_none()).unwrap_or(path.as_os_str())
+}
+
+/// The groups of a file of nodes; a table and some meshes have none.
+pub(super) fn groups(known: &[String]) -> String {
+    match known {
+        [] => "the file of the nodes has no groups, as a table of nodes – list node labels or give a region".to_owned(),
+        _ => format!("the mesh has {} – name one of them", listed(known)),
+    }
+}
+
+/// Names for a message: the first few, and how many more there are.
+pub(super) fn listed(names: &[String]) -> String {
+    const SHOWN: usize = 12;
+    match names.len() {
+        0 => "nothing".to_owned(),
+        n if n > SHOWN => format!("{} and {} more", names[..SHOWN].join(", "), n - SHOWN),
+        _ => names.join(", "),
+    }
+}
+
+/// The parts of a forecast, the largest first, and what makes that one smaller.
+pub(super) fn forecast(available: u64, [factors, matrices, vectors]: [u64; 3], in_single: Option<u64>) -> String {
+    let mut parts = [
+        (factors, "factors", "use a weaker run.certify (reduce --certify), which needs fewer factors"),
+        (vectors, "vectors", "keep fewer modes or interface dofs"),
+        (matrices, "matrices", "reduce a smaller model"),
+    ];
+    parts.sort_by_key(|(size, ..)| std::cmp::Reverse(*size));
+    let needed = parts.iter().fold(0, |sum: u64, (size, ..)| sum.saturating_add(*size));
+    let largest_first = parts.map(|(size, name, _)| format!("{name} {}", bytes(size))).join(", ");
+    let (needed, available) = (bytes(needed), bytes(available));
+    let advice = match in_single {
+        Some(needed) => format!("set run.precision = \"mixed\", which needs {}", bytes(needed)),
+        None => parts[0].2.to_owned(),
+    };
+    format!(
+        "the run needs {needed} – largest first: {largest_first} – {available} of memory is available – free memory, raise \
+        run.memory_gib, or {advice}"
+    )
+}
+
+/// A point, to six digits.
+pub(super) fn place(point: [f64; 3]) -> String {
+    point.map(|x| quantity(x, 6)).join(", ")
+}
