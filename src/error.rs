@@ -1967,6 +1967,20 @@ pub enum Error {
 }
 
 impl Error {
+    /// The class of this error, which is its exit code.
+    pub fn class(&self) -> ErrorClass {
+        match self {
+            Self::SuperelementFile { source: FileError::OutOfMemory { .. }, .. } => ErrorClass::Resources,
+            // The system has no memory for itself.
+            Self::Read { source, .. } | Self::Write { source, .. }
+                if source.kind() == std::io::ErrorKind::OutOfMemory =>
+            {
+                ErrorClass::Resources
+            }
+            _ => self.stated_class(),
+        }
+    }
+
     /// The error of this crate for what the superelement file's crate says of the superelement at `path`, read or made.
     pub fn of_superelement(path: &Path, error: FileError) -> Self {
         match error {

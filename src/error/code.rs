@@ -1,10 +1,6 @@
 //! What scripts and documents know an error by: its code, its class, its meaning and its remedy.
 
-use supel_runtime::FileError;
-
-use super::Error;
-
-/// The class of an [`Error`]; its number is the exit code of the process.
+/// The class of an [`Error`](super::Error); its number is the exit code of the process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorClass {
     /// The command line or the job document is wrong.
@@ -21,9 +17,9 @@ pub enum ErrorClass {
     Io = 7,
 }
 
-/// The code of a command line that cannot be read at all; no [`Error`] has it.
+/// The code of a command line that cannot be read at all; no [`Error`](super::Error) has it.
 pub const USAGE_CODE: &str = "E-USAGE";
-/// The code of a defect of the program; no [`Error`] has it.
+/// The code of a defect of the program; no [`Error`](super::Error) has it.
 pub const INTERNAL_CODE: &str = "E-INTERNAL";
 
 /// What is known of an error without its values; `docs/errors.md` is made from these.
@@ -41,7 +37,7 @@ pub struct ErrorEntry {
     pub remedy: &'static str,
 }
 
-/// Makes [`Error::CODES`], [`Error::code`] and [`Error::class`] of what stands at each variant: its documentation, which says what is
+/// Makes the table of errors, and code and class of each, of what stands at each variant: its documentation, which says what is
 /// wrong, and `#[entry(code, class, remedy)]`. A variant without them does not compile.
 macro_rules! catalogued {
     (
@@ -91,19 +87,3 @@ macro_rules! catalogued {
     };
 }
 pub(super) use catalogued;
-
-impl Error {
-    /// The class of this error, which is its exit code.
-    pub fn class(&self) -> ErrorClass {
-        match self {
-            Self::SuperelementFile { source: FileError::OutOfMemory { .. }, .. } => ErrorClass::Resources,
-            // The system has no memory for itself.
-            Self::Read { source, .. } | Self::Write { source, .. }
-                if source.kind() == std::io::ErrorKind::OutOfMemory =>
-            {
-                ErrorClass::Resources
-            }
-            _ => self.stated_class(),
-        }
-    }
-}

@@ -161,9 +161,11 @@ impl Shape<'_> {
         if tables.iter().any(is_this) {
             return Ok(());
         }
-        let choices: Vec<String> =
-            tables.iter().flat_map(|table| schema::required(table)).map(|key| format!("`{key}`")).collect();
-        self.wrong(line, format!("`{place}` needs exactly one of {}", listed(&choices, "and")))
+        let quoted = |key: &str| format!("`{key}`");
+        let choices: Vec<String> = tables.iter().flat_map(|table| schema::required(table)).map(quoted).collect();
+        let found: Vec<String> = entries.iter().map(|entry| quoted(entry.key)).collect();
+        let found = if found.is_empty() { "is empty".to_owned() } else { format!("has {}", listed(&found, "and")) };
+        self.wrong(line, format!("`{place}` {found} – expected exactly one of {}", listed(&choices, "and")))
     }
 
     fn wrong(&self, line: Option<usize>, message: String) -> Result<()> {

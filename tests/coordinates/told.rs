@@ -81,7 +81,8 @@ fn rotations_that_nothing_holds_are_told() {
     assert_eq!(ended.code, ExitCode::Done, "{}{}", ended.out, ended.err);
     assert_eq!(warnings(&place), ["W-NOT-HELD"]);
     let (_, ended) = by_job(&block(), "held_rotations = [\"uz\"]", FOOT);
-    assert!(ended.err.contains("`uz` is no rotation, expected rx, ry or rz"), "{}", ended.err);
+    let named = "`model.held_rotations[0]` is \"uz\" – expected \"rx\", \"ry\" or \"rz\"";
+    assert!(ended.err.contains(named), "{}", ended.err);
 }
 
 /// A foundation under every node in every direction leaves no row to compare coordinates with.

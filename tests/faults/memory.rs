@@ -135,8 +135,9 @@ fn reduce_from_hdf5_without_memory() {
             Some(3) => assert!(ended.err.contains("error[E-GROUP]"), "{what}"),
             Some(6) => n_without += 1,
             // The library recurses until its stack ends where one of some two hundred allocations of its own start fails. They are
-            // made from memory that the program has asked for before, so that only a test has them fail.
-            None if ended.err.contains("overflowed its stack") => n_crashed += 1,
+            // made from memory that the program has asked for before, so that only a test has them fail. Where one of a few others
+            // fails, it uses what it did not get. Nothing is being written yet.
+            None if ended.err.contains("overflowed its stack") || ended.err.is_empty() => n_crashed += 1,
             _ => panic!("{what}"),
         }
     }
@@ -226,7 +227,9 @@ fn a_document_is_written_without_memory_too() {
             (&"E-OUT-OF-MEMORY".into(), &6.into())
         );
         let message = document["error"]["message"].as_str().expect("text");
-        assert_eq!(ended.err.trim_end(), format!("supel: error[E-OUT-OF-MEMORY]: {message}"));
+        // The library of the ordering says something of its own before.
+        let last = ended.err.lines().last().unwrap_or_default();
+        assert_eq!(last, format!("supel: error[E-OUT-OF-MEMORY]: {message}"));
         stages.extend(
             message.split_once('`').and_then(|(_, rest)| rest.split_once('`')).map(|(stage, _)| stage.to_owned()),
         );

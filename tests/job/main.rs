@@ -183,8 +183,8 @@ fn values_of_the_wrong_kind_are_located() {
     let at_28 = |to: &str| wrong("{ up_to_hz = 1000 }", to);
     insta::assert_snapshot!(wrong("mass      = \"model.h5:/M\"", ""), @"job.toml:2: `model.mass` is missing");
     insta::assert_snapshot!(wrong("\"herting\"", "\"hurting\""), @r#"job.toml:27: `reduction.method` is "hurting" – expected "craig-bampton" or "herting""#);
-    insta::assert_snapshot!(at_28("{ up_to_hz = 1000, count = 4 }"), @"job.toml:28: `reduction.modes` needs exactly one of `count` and `up_to_hz`");
-    insta::assert_snapshot!(at_28("{ }"), @"job.toml:28: `reduction.modes` needs exactly one of `count` and `up_to_hz`");
+    insta::assert_snapshot!(at_28("{ up_to_hz = 1000, count = 4 }"), @"job.toml:28: `reduction.modes` has `count` and `up_to_hz` – expected exactly one of `count` and `up_to_hz`");
+    insta::assert_snapshot!(at_28("{ }"), @"job.toml:28: `reduction.modes` is empty – expected exactly one of `count` and `up_to_hz`");
     insta::assert_snapshot!(at_28("3"), @"job.toml:28: `reduction.modes` is 3 – expected a table with keys of count, up_to_hz");
     insta::assert_snapshot!(at_28("{ count = 3.5 }"), @"job.toml:28: `reduction.modes.count` is 3.5 – expected a whole number, zero or more");
     insta::assert_snapshot!(at_28("{ count = -4 }"), @"job.toml:28: `reduction.modes.count` is -4 – expected a whole number, zero or more");
@@ -196,7 +196,7 @@ fn values_of_the_wrong_kind_are_located() {
     insta::assert_snapshot!(wrong("nodes = [412, 413]", "nodes = [412, \"413\"]"), @r#"job.toml:18: `interface[1].nodes[1]` is "413" – expected a whole number"#);
     insta::assert_snapshot!(wrong("origin   = [0, 0, 12.5]", "origin = \"middle\""), @r#"job.toml:14: `interface[0].origin` is "middle" – expected "centroid" or a list of 3"#);
     insta::assert_snapshot!(wrong("radius = 5", "inner_radius = 5"), @"job.toml:23: `interface[2].nodes.within.cylinder.radius` is missing");
-    insta::assert_snapshot!(wrong("{ cylinder = { from = [0, 0, 0], to = [0, 0, 1], radius = 5 } }", "{}"), @"job.toml:23: `interface[2].nodes.within` needs exactly one of `box`, `plane`, `cylinder` and `sphere`");
+    insta::assert_snapshot!(wrong("{ cylinder = { from = [0, 0, 0], to = [0, 0, 1], radius = 5 } }", "{}"), @"job.toml:23: `interface[2].nodes.within` is empty – expected exactly one of `box`, `plane`, `cylinder` and `sphere`");
     insta::assert_snapshot!(wrong("[\"ux\", \"uy\", \"uz\"]", "[1]"), @r#"job.toml:19: `interface[1].dofs[0]` is 1 – expected "ux", "uy", "uz", "rx", "ry" or "rz""#);
     insta::assert_snapshot!(wrong("{ ratio = 0.02 }", "0.02"), @"job.toml:34: `scene.damping` is 0.02 – expected a table with keys of ratio");
     insta::assert_snapshot!(wrong("[0, 500]", "[0]"), @"job.toml:32: `scene.band_hz` is a list of 1 – expected a list of 2");

@@ -63,7 +63,7 @@ fn ms_03_massless_mechanisms_are_refused() {
     empty.dofs.push((7, 0));
     empty.labels.push(7);
     empty.nodes.push([7.0, 0.0, 0.0]);
-    let error = Case::new(&empty, &[rows("end", &[0])]).refused(&["1 rows", "node 7 ux"]);
+    let error = Case::new(&empty, &[rows("end", &[0])]).refused(&["1 row has", "node 7 ux"]);
     assert!(matches!(error, Error::EmptyRows { .. }), "{error}");
     // A free body without mass.
     let ghost = scaled(&brick([1, 1, 1], [1.0; 3], &Material::UNIT), 1.0, 0.0);
@@ -140,7 +140,7 @@ fn ms_05_mass_negative_by_rounding_is_set_to_zero() {
         let outcome = Case::new(&chain, &[rows("end", &[0])]).method(method).warned(&["W-NEGATIVE-MASS"]);
         let reference = Case::new(&zero, &[rows("end", &[0])]).method(method).clean();
         assert_eq!(eigenvalues(&outcome), eigenvalues(&reference), "{method}");
-        assert!(message_of(&outcome, "W-NEGATIVE-MASS").contains("1 diagonal entries"));
+        assert!(message_of(&outcome, "W-NEGATIVE-MASS").contains("1 diagonal entry"));
     }
 }
 

@@ -97,7 +97,7 @@ fn i_07_repeated_entries() {
     assert_eq!(tensors(&place), tensors(&whole));
     let strict = in_halves();
     let ended = strict.reduce(&strict.matrix_flags(), &format!("{CHAIN} --strict"));
-    assert_refused(&strict, &ended, "E-DUPLICATES", &["K.mtx: 1 entries", "assemble the matrix"]);
+    assert_refused(&strict, &ended, "E-DUPLICATES", &["K.mtx: 1 entry repeats a position", "assemble the matrix"]);
     let ended = whole.reduce(&whole.matrix_flags(), &format!("{CHAIN} --strict"));
     assert_done(&whole, &ended, &[]);
 }
@@ -188,7 +188,7 @@ fn i_11_rows_without_stiffness() {
     let empty = with_empty_row(0.0);
     let rest = "--interface ends=1,5 --method herting --modes 1 --threads 1";
     let ended = empty.reduce(&empty.model_flags(), rest);
-    assert_refused(&empty, &ended, "E-EMPTY-ROWS", &["1 rows", "row 6 (node 6 ux)", "--drop-empty"]);
+    assert_refused(&empty, &ended, "E-EMPTY-ROWS", &["1 row has", "row 6 (node 6 ux)", "--drop-empty"]);
     let ended = empty.reduce(&empty.model_flags(), &format!("{rest} --drop-empty"));
     assert_done(&empty, &ended, &["W-INDEX-BASE", "W-INDEX-BASE"]);
     assert!(notes_say(&empty, "1 row without stiffness and mass was dropped as asked; the first is row 6, node 6 ux"));
