@@ -152,6 +152,11 @@ pub fn worse(error: f64, worst: f64) -> bool {
     !worst.is_nan() && (error.is_nan() || error > worst)
 }
 
+/// |A|, entry by entry.
+pub fn absolute(a: MatRef<'_, f64>) -> Mat<f64> {
+    Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)].abs())
+}
+
 /// [A B].
 pub fn side_by_side(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     concatenated(a.nrows(), [a, b])

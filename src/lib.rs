@@ -128,7 +128,6 @@ pub mod verification;
 use audit::{Audit, Reference};
 use basis::Basis;
 use constraint::Constrained;
-use coordinates::Levers;
 use error::Result;
 use input::{Allowance, InputFacts};
 use job::Job;
@@ -236,8 +235,7 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
 
     observer.stage("coordinates");
     let tied = partition::nodes_of_patches(&model, &job.interfaces);
-    let levers = if tied.is_empty() { Levers::Unused } else { Levers::Of(&tied) };
-    let model = coordinates::compared(model, &job.model.held_rotations, levers)?;
+    let model = coordinates::compared(model, &job.model.held_rotations, &tied)?;
 
     observer.stage("partition");
     let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;

@@ -19,13 +19,14 @@ pub(crate) fn counted(number: impl TryInto<u64>, one: &str, many: &str) -> Strin
     format!("{} {}", count(number), if number == 1 { one } else { many })
 }
 
-/// `4 decimals`, or `hundreds` and so on in words of a power of ten before the point.
+/// `4 decimals`, or `multiples of 1e2` where numbers end before the point.
 pub(crate) fn decimals(count: i32) -> String {
-    match count {
-        1 => "1 decimal".to_owned(),
-        count @ 0.. => format!("{count} decimals"),
-        count => format!("multiples of 1e{}", -count),
-    }
+    if count < 0 { format!("multiples of 1e{}", -count) } else { counted(count, "decimal", "decimals") }
+}
+
+/// How well the entries of a matrix are known: `4 decimals`, or `7 digits` where digits are relative to each entry.
+pub(crate) fn known_to(digits: u32, count_of_decimals: Option<i32>) -> String {
+    count_of_decimals.map_or_else(|| counted(digits, "digit", "digits"), decimals)
 }
 
 /// A quantity with about `digits` significant digits, in plain notation where that is short.

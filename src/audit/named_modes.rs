@@ -21,9 +21,25 @@ use crate::verification::limits::LARGEST_EXCUSE;
 pub(super) fn named_amplitudes(content: &Content<'_>) -> Mat<f64> {
     let n = content.n_reduced() - content.n_b;
     match &content.superelement.tensors().mixing {
-        Some(mixing) => unpacked(mixing).partial_piv_lu().solve(Mat::<f64>::identity(n, n)),
+        Some(mixing) => unmixing(unpacked(mixing).as_ref()),
         None => Mat::identity(n, n),
     }
+}
+
+/// C⁻¹ of the mixing C, n_η × n_η.
+pub(super) fn unmixing(mixing: MatRef<'_, f64>) -> Mat<f64> {
+    let n = mixing.nrows();
+    mixing.partial_piv_lu().solve(Mat::<f64>::identity(n, n))
+}
+
+/// A mixing C and its inverse.
+pub(super) type WithInverse<'a> = (MatRef<'a, f64>, MatRef<'a, f64>);
+
+/// |X||C||C⁻¹| of C and its inverse: what ε makes an error of X C⁻¹ of where X already went through C, or of C⁻¹ itself where X is C⁻¹
+/// (Higham 2002, section 14.1).
+pub(super) fn terms_of_unmixing(x: MatRef<'_, f64>, (mixing, inverse): WithInverse<'_>) -> Mat<f64> {
+    let [x, c, inverse] = [x, mixing, inverse].map(dense::absolute);
+    dense::product(x.as_ref(), dense::product(c.as_ref(), inverse.as_ref()).as_ref())
 }
 
 /// M-14: backward error of the named modes.
@@ -62,15 +78,12 @@ pub(super) fn residual(content: &Content<'_>) -> Option<Check> {
     })
 }
 
-/// What rounding of the mixing C makes of the amplitudes q of each named column, relative to the column: A = C⁻¹ is known to ε|A||C||A|
-/// (Higham 2002, section 14.1). Where a column keeps 10⁻⁸ of its length without those before it, C has entries of 10⁸.
+/// What rounding of the mixing C makes of the amplitudes q of each named column, relative to the column: A = C⁻¹ is known to ε|A||C||A|.
+/// Where a column keeps 10⁻⁸ of its length without those before it, C has entries of 10⁸.
 fn rounding_of_amplitudes(content: &Content<'_>, amplitudes: MatRef<'_, f64>) -> Vec<f64> {
     let n = amplitudes.nrows();
     let Some(mixing) = &content.superelement.tensors().mixing else { return vec![0.0; n] };
-    let absolute = |a: MatRef<'_, f64>| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)].abs());
-    let (a, c) = (absolute(amplitudes), absolute(unpacked(mixing).as_ref()));
-    let there_and_back = dense::product(c.as_ref(), a.as_ref());
-    let errors = dense::product(a.as_ref(), there_and_back.as_ref());
+    let errors = terms_of_unmixing(amplitudes, (unpacked(mixing).as_ref(), amplitudes));
     let scaled = |a: MatRef<'_, f64>, j: usize| {
         dense::norm(&(0..n).map(|i| a[(i, j)] / content.scale[content.n_b + i]).collect::<Vec<f64>>())
     };

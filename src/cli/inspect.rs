@@ -8,7 +8,6 @@ use super::command::{InspectAnswer, InspectCommand};
 use super::exit_code::ExitCode;
 use super::verify::job_of_file;
 use crate::error::{Error, Result, json_value};
-use crate::job::Job;
 use crate::regular_file;
 use crate::report::{inspection, value_text};
 
@@ -25,16 +24,12 @@ pub(super) fn run(command: &InspectCommand, terminal: &mut Terminal<'_>) -> Resu
         InspectAnswer::Job => {
             let (job, remark) = job_of_file(&superelement, &command.file)?;
             remark.iter().for_each(|remark| terminal.complain(remark));
-            value_text(&document_of(&job)?)
+            // Its paths are absolute, so that the answer is a job in whatever folder it is written to.
+            value_text(&json_value("the job", &job)?)
         }
     };
     terminal.answer(&text);
     Ok(ExitCode::Done)
-}
-
-/// The job kept in the file as a document. Its paths are absolute, so that the answer is a job in whatever folder it is written to.
-fn document_of(job: &Job) -> Result<Value> {
-    json_value("the job", job)
 }
 
 /// Everything but the matrices.

@@ -30,7 +30,7 @@ impl Free {
     pub(super) fn of(motions: &Motions<'_>, body: &Body, momenta: &Mat<f64>) -> Result<Self> {
         let rows = |a: &Mat<f64>| Mat::from_fn(body.rows.len(), 6, |i, j| a[(body.rows[i], j)]);
         let c = rows(&motions.centred);
-        let magnitudes = Mat::from_fn(c.nrows(), 6, |i, j| c[(i, j)].abs());
+        let magnitudes = dense::absolute(c.as_ref());
         let moving = moving_directions(c.as_ref())?;
         let mut energy = dense::gram(c.as_ref(), rows(&motions.forces).as_ref());
         let mut mass = dense::gram(c.as_ref(), rows(momenta).as_ref());

@@ -34,36 +34,16 @@ struct Case<'a> {
     free: Vec<Free>,
     /// Motions without energy that the coordinates explain, and rows that move by themselves.
     n_explained: usize,
-    levers: Levers<'a>,
-}
-
-/// Whether the result depends on coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Levers<'a> {
-    /// Rigid patches may tie any node by them.
-    Used,
-    /// Rigid patches tie these nodes by them, by their labels.
-    Of(&'a HashSet<i64>),
-    /// Interfaces are coupled directly.
-    Unused,
-}
-
-impl Levers<'_> {
-    fn reach(self, node: i64) -> bool {
-        match self {
-            Self::Used => true,
-            Self::Of(nodes) => nodes.contains(&node),
-            Self::Unused => false,
-        }
-    }
+    /// Labels of the nodes that rigid patches tie by their coordinates.
+    tied: &'a HashSet<i64>,
 }
 
 /// Settles the doubts about coordinates, by the motions without energy that K has.
-pub(super) fn settled(motions: &Motions<'_>, doubts: &[Doubt], levers: Levers<'_>) -> Result<CoordinateFit> {
+pub(super) fn settled(motions: &Motions<'_>, doubts: &[Doubt], tied: &HashSet<i64>) -> Result<CoordinateFit> {
     let momenta = product(&motions.model.mass, motions.centred.as_ref());
     let free: Vec<Free> = motions.bodies.iter().map(|body| Free::of(motions, body, &momenta)).collect::<Result<_>>()?;
     let n_explained = free.iter().map(|free| free.n_free).sum::<usize>() + n_loose_rows(motions);
-    let case = Case { motions, doubts, free, n_explained, levers };
+    let case = Case { motions, doubts, free, n_explained, tied };
     let whole = whole(motions)?;
     match doubts.iter().all(|doubt| doubt.costly.is_empty()) {
         true => {
@@ -156,7 +136,8 @@ impl Case<'_> {
     /// Of a held body nothing mends the coordinates that tie nodes to a rigid patch; those of other nodes the result does not depend on.
     fn refuse_patches_out_of_place(&self, doubt: &Doubt, rotations: &[usize]) -> Result<()> {
         let motions = self.motions;
-        let is_tied = |row: &usize| motions.model.dofs.as_ref().is_none_or(|dofs| self.levers.reach(dofs[*row].node));
+        let is_tied =
+            |row: &usize| motions.model.dofs.as_ref().is_some_and(|dofs| self.tied.contains(&dofs[*row].node));
         let tied: Vec<usize> = doubt.costly[0].witnesses.iter().copied().filter(is_tied).collect();
         let Place { at: dof, largest: energy, .. } = Place::of(motions, &tied, rotations);
         if energy <= FIVE_DIGITS {

@@ -31,28 +31,29 @@ mod motions;
 mod nodes;
 mod zeros;
 
+use std::collections::HashSet;
+
 use crate::dofs::Direction;
 use crate::error::Result;
 use crate::model::{CoordinateFit, Finding, Model};
 
-pub use judgement::Levers;
 use motions::Motions;
 use nodes::Nodes;
 
 /// Compares the coordinates and the dof map of a model with its stiffness; `held` lists rotations that the job says to be
-/// held by supports although no translation is, `levers` whether the result depends on coordinates.
+/// held by supports although no translation is, `tied` the labels of the nodes that rigid patches tie by their coordinates.
 ///
 /// One product with K where nothing is in doubt. Supports cost one more factorisation, a doubt a few.
 ///
 /// # Errors
 /// [`crate::error::Error::CoordinatesDoNotFit`] and [`crate::error::Error::RotationsHeld`]; those of finding the zero modes
 /// of K.
-pub fn compared(model: Model, held: &[Direction], levers: Levers<'_>) -> Result<Model> {
+pub fn compared(model: Model, held: &[Direction], tied: &HashSet<i64>) -> Result<Model> {
     let Some(sites) = model.sites() else { return Ok(model) };
     let motions = Motions::of(&model, &sites);
     let nodes = Nodes::of_model(&motions);
     let doubts = doubt::doubts(&motions, &nodes, held);
-    let fit = if doubts.is_empty() { CoordinateFit::Exact } else { judgement::settled(&motions, &doubts, levers)? };
+    let fit = if doubts.is_empty() { CoordinateFit::Exact } else { judgement::settled(&motions, &doubts, tied)? };
     let mut findings = model.findings.clone();
     findings.extend(doubt::untested(&motions, &doubts));
     findings.extend(matches!(fit, CoordinateFit::Unknown).then_some(Finding::MotionsUncounted));

@@ -85,7 +85,7 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
             // The iteration ended the last cluster by its own estimates; where the quotients say that it goes on, so does the search.
             let goes_on = |last: &f64| known.next.is_some_and(|next| are_clustered(*last, next));
             if n_settled == 0 || !known.lambda.last().is_some_and(goes_on) {
-                return Ok(Modes { searched_to: searched_to(request.wanted), ..known });
+                return Ok(Modes { searched_to: request.wanted.band_end(), ..known });
             }
             asked = Wanted::Count(known.count() + 1);
         }
@@ -119,14 +119,6 @@ fn search(problem: ModalProblem<'_>, eigenproblem: Problem<'_>, request: ModeReq
     let modes = judged(problem, eigenproblem, pairs, around);
     let modes = purified_where_doubtful(problem, eigenproblem, modes, around);
     Ok(modes)
-}
-
-/// The end of the band that a request names.
-fn searched_to(wanted: Wanted) -> Option<f64> {
-    match wanted {
-        Wanted::Count(_) => None,
-        Wanted::UpTo(limit) => Some(limit),
-    }
 }
 
 /// The modes after a step of inverse iteration, where one of them lacks digits and gains some: what M hardly sees an iteration

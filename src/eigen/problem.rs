@@ -72,6 +72,16 @@ pub enum Wanted {
     UpTo(f64),
 }
 
+impl Wanted {
+    /// The end of the band that is asked for; none where a number of pairs is.
+    pub fn band_end(self) -> Option<f64> {
+        match self {
+            Self::Count(_) => None,
+            Self::UpTo(limit) => Some(limit),
+        }
+    }
+}
+
 /// The eigenpairs between two shifts, of which a Sturm count says how many there are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {

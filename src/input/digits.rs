@@ -29,20 +29,14 @@ use std::collections::BTreeSet;
 
 use rayon::prelude::*;
 
-use super::written::Written;
+use super::written::{MAX_DECIMAL_DIGITS, MIN_DISTINCT, SAMPLE, Written};
 
 /// Digits that any double needs at most.
 const DOUBLE_DIGITS: u32 = 17;
 /// Digits that a single precision number carries.
 const SINGLE_DIGITS: u32 = 7;
-/// The most digits that every decimal fraction keeps in a double.
-pub(super) const MAX_DECIMAL_DIGITS: u32 = 15;
 /// The most digits that occur in exact data.
 const MAX_EXACT_DIGITS: u32 = 6;
-/// Size of the sample.
-const SAMPLE: usize = 2000;
-/// Different values that data of many digits must have to be taken for rounded.
-const MIN_DISTINCT: usize = 3;
 /// Different values, in the lower decades, that data of few digits must have to be taken for rounded.
 const MIN_DISTINCT_SHORT: usize = 20;
 /// Different last decimals of rounded values: 18 numbers without a pattern have fewer with a chance of one in ten thousand.

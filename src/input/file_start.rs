@@ -36,6 +36,13 @@ impl<'a> FileStart<'a> {
         [0, 512].iter().any(|at| self.head.get(*at..).is_some_and(|rest| rest.starts_with(SIGNATURE)))
     }
 
+    /// Whether the first character that is not a blank opens a tag.
+    #[cfg(feature = "hdf5")]
+    pub(super) fn is_xml(&self) -> bool {
+        let text = self.head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&self.head);
+        text.trim_ascii_start().starts_with(b"<")
+    }
+
     pub(super) fn holds(&self, word: &[u8]) -> bool {
         self.head.windows(word.len()).any(|window| window == word)
     }

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeSet;
 
-/// Lines that are looked at.
-const SAMPLE: usize = 2000;
+/// Lines, or values, that are looked at.
+pub(super) const SAMPLE: usize = 2000;
 /// The most digits that every decimal fraction keeps in a double.
-const MAX_DECIMAL_DIGITS: u32 = 15;
-/// Different values that use all the digits of their format.
-const MIN_DISTINCT: usize = 3;
+pub(super) const MAX_DECIMAL_DIGITS: u32 = 15;
+/// Different values that use all their digits, without which none are taken for rounded.
+pub(super) const MIN_DISTINCT: usize = 3;
 /// Different values of a fixed format that never ends with a zero: the chance that none of so many does is one in two.
 const MIN_DISTINCT_WITHOUT_ZEROS: usize = 6;
 /// Different values of such a format of five digits and more: numbers that are exact have fewer.
@@ -34,6 +34,12 @@ pub(super) fn written(text: &[u8]) -> Option<Written> {
     digits(text).map(Written::Digits).or_else(|| decimals(text).map(Written::Decimals))
 }
 
+/// The last word of each of the first lines.
+fn numbers(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let lines = text.split(|byte| *byte == b'\n').take(SAMPLE);
+    lines.map(|line| line.trim_ascii().rsplit(u8::is_ascii_whitespace).next().unwrap_or_default())
+}
+
 /// Digits that a fixed format wrote of every number: of `1.31e-02` three, where all of the first lines have as many, trailing zeros
 /// counted, and several different numbers use them all. Few different numbers show no pattern in their values, this shows in the text.
 ///
@@ -42,8 +48,7 @@ pub(super) fn written(text: &[u8]) -> Option<Written> {
 fn digits(text: &[u8]) -> Option<u32> {
     let (mut full, mut n_with_zeros) = (BTreeSet::new(), 0);
     let mut n_digits = None;
-    for line in text.split(|byte| *byte == b'\n').take(SAMPLE) {
-        let number = line.trim_ascii().rsplit(u8::is_ascii_whitespace).next().unwrap_or_default();
+    for number in numbers(text) {
         let Some(end) = number.iter().position(|byte| b"eEdD".contains(byte)) else {
             // Comments and blank lines tell nothing, a number in another format does.
             if number.first().is_some_and(u8::is_ascii_digit) {
@@ -85,8 +90,7 @@ fn digits(text: &[u8]) -> Option<u32> {
 fn decimals(text: &[u8]) -> Option<i32> {
     let mut n_decimals = None;
     let mut distinct: BTreeSet<&[u8]> = BTreeSet::new();
-    for line in text.split(|byte| *byte == b'\n').take(SAMPLE) {
-        let number = line.trim_ascii().rsplit(u8::is_ascii_whitespace).next().unwrap_or_default();
+    for number in numbers(text) {
         let number = number.strip_prefix(b"-").unwrap_or(number);
         if !number.first().is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.') {
             continue;

@@ -40,19 +40,19 @@ impl de::Visitor<'_> for WholeVisitor {
     }
 }
 
+fn not_negative<E: de::Error>(Whole(value): Whole) -> Result<usize, E> {
+    usize::try_from(value).map_err(|_| E::custom(format!("{value} is below zero")))
+}
+
 /// A number of things.
 pub(super) fn size<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<usize>, D::Error> {
-    let whole = Option::<Whole>::deserialize(deserializer)?;
-    whole
-        .map(|Whole(value)| usize::try_from(value).map_err(|_| de::Error::custom(format!("{value} is below zero"))))
-        .transpose()
+    Option::<Whole>::deserialize(deserializer)?.map(not_negative).transpose()
 }
 
 /// Numbers of things.
 pub(super) fn sizes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Vec<usize>>, D::Error> {
     let wholes = Option::<Vec<Whole>>::deserialize(deserializer)?;
-    let size = |Whole(value)| usize::try_from(value).map_err(|_| de::Error::custom(format!("{value} is below zero")));
-    wholes.map(|wholes| wholes.into_iter().map(size).collect()).transpose()
+    wholes.map(|wholes| wholes.into_iter().map(not_negative).collect()).transpose()
 }
 
 /// Labels.

@@ -60,16 +60,14 @@ pub(super) fn refuse_indefinite(mass: &SparseMatrix, rounding: Rounding, names: 
     // Only now is the motion itself of interest: the same steps again, summed with the weights of the Ritz vector.
     let mut motion = vec![0.0; scale.len()];
     lanczos.run(&mut |step, unit| dense::add_scaled(&mut motion, vectors[(step, 0)], unit));
-    if rounding.is_beyond_entries() && -energy * squared(&motion) <= noise(mass, rounding, (&scale, &motion)) {
+    if rounding.is_beyond_entries()
+        && -energy * dense::dot(&motion, &motion) <= noise(mass, rounding, (&scale, &motion))
+    {
         return Ok(());
     }
     let row = (0..motion.len()).max_by(|a, b| motion[*a].abs().total_cmp(&motion[*b].abs())).unwrap_or(0);
     let place = format!("in a motion that is largest at {}", names.full(row));
     Err(Error::IndefiniteMass { place, energy })
-}
-
-fn squared(motion: &[f64]) -> f64 {
-    dense::dot(motion, motion)
 }
 
 /// What roundings of M, all with one sign, can make of the energy of a motion in scaled dofs.

@@ -60,13 +60,15 @@ pub(super) fn compared(
     names: RowNames<'_>,
 ) -> Result<Option<Finding>> {
     let of_row = node_of_row(mass.rows(), dofs);
-    let least_share = if dofs.is_some() { LEAST_SHARE_OF_PAIRS } else { LEAST_SHARE_OF_ROWS };
+    let (what, least_share) =
+        if dofs.is_some() { ("nodes", LEAST_SHARE_OF_PAIRS) } else { ("rows", LEAST_SHARE_OF_ROWS) };
     let Apart { nodes, moved, n_nodes } = Apart::of(stiffness, mass, &of_row, least_share);
+    // The counts of rows alone prove nothing.
+    let is_moved = dofs.is_some() && !moved.is_empty();
     let name_of = |node: &u32| of_row.iter().position(|of_row| of_row == node).map(|row| names.full(row));
-    let what = if dofs.is_some() { "nodes" } else { "rows" };
-    let proof = if dofs.is_some() && !moved.is_empty() { &moved } else { &nodes };
+    let proof = if is_moved { &moved } else { &nodes };
     let Some(first) = proof.first().and_then(name_of) else { return Ok(None) };
-    if 2 * nodes.len() > n_nodes || (dofs.is_some() && !moved.is_empty()) {
+    if 2 * nodes.len() > n_nodes || is_moved {
         return Err(Error::MassInAnotherOrder { n_apart: proof.len(), n_nodes, what, first });
     }
     let at = nodes.iter().take(SHOWN_NODES).filter_map(name_of).collect::<Vec<_>>().join(", ");

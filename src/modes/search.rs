@@ -142,11 +142,7 @@ impl ModeSource for Search<'_> {
         while count > 0 && count < lambda.len() && are_clustered(lambda[count - 1], lambda[count]) {
             count += 1;
         }
-        let searched_to = match self.wanted {
-            Wanted::Count(_) => None,
-            Wanted::UpTo(limit) => Some(limit),
-        };
-        Modes { searched_to, ..modes.truncated(count) }
+        Modes { searched_to: self.wanted.band_end(), ..modes.truncated(count) }
     }
 
     fn is_exhausted_by(&self, modes: &Modes) -> bool {

@@ -6,7 +6,7 @@ use crate::error::Warning;
 use crate::factor::Refinement;
 use crate::input::MatrixFacts;
 use crate::job::{Boundary, Precision};
-use crate::number::{counted, decimals};
+use crate::number::{counted, known_to};
 use crate::rigid::RigidSource;
 use crate::verification::check::Verdict;
 use crate::verification::{LARGEST_OF_MESHES, Penalties, penalties as penalties_of};
@@ -150,13 +150,9 @@ pub(super) fn data_precision(results: &Results<'_>) -> Option<Warning> {
         message: format!(
             "{} of the stiffness and {} of the mass leave {} less certain than {WANTED:.0e}, {first}; \
              {advice}",
-            digits_of(stiffness),
-            digits_of(mass),
+            known_to(stiffness.digits, stiffness.decimals),
+            known_to(mass.digits, mass.decimals),
             counted(uncertain.len(), "frequency", "frequencies")
         ),
     })
-}
-
-fn digits_of(facts: &MatrixFacts) -> String {
-    facts.decimals.map_or_else(|| format!("{} digits", facts.digits), decimals)
 }

@@ -52,7 +52,7 @@ impl Partition {
     pub fn energy_noise(&self, x: MatRef<'_, f64>) -> Vec<f64> {
         assert!(x.nrows() == self.n_dofs() || x.nrows() == self.n_internal, "{} rows of {}", x.nrows(), self.n_dofs());
         if !self.has_few_digits() {
-            let sizes = faer::Mat::from_fn(x.nrows(), x.ncols(), |i, j| x[(i, j)].abs());
+            let sizes = dense::absolute(x);
             let terms = absolute_product(crate::sparse::Leading::new(&self.stiffness, x.nrows()), x);
             return dense::dots(sizes.as_ref(), terms.as_ref())
                 .iter()

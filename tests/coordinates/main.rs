@@ -10,4 +10,25 @@ mod table;
 mod thin;
 mod told;
 
+use std::collections::HashSet;
+
+use supel::error::Result;
+use supel::model::Model;
 use supel_testing::{chain, place};
+
+/// The nodes that rigid patches tie.
+#[derive(Clone, Copy)]
+enum Ties {
+    All,
+    None,
+}
+
+/// A model whose coordinates were compared with its stiffness.
+fn compared(model: Model, ties: Ties) -> Result<Model> {
+    let labels = || model.dofs.iter().flatten().map(|dof| dof.node);
+    let tied: HashSet<i64> = match ties {
+        Ties::All => labels().collect(),
+        Ties::None => HashSet::new(),
+    };
+    supel::coordinates::compared(model, &[], &tied)
+}

@@ -1,15 +1,15 @@
 //! Sound models, however thin, slender, held or movable, are not suspected.
 
-use supel::coordinates::{Levers, compared};
 use supel::error::Error;
 use supel::model::{CoordinateFit, Model as Checked};
 use supel_models::transform::{grounded, join, supported, translated};
 use supel_models::{Ends, Inertia, Material, Model, Section, brick, frame, membrane, spring};
 
 use crate::chain::input;
+use crate::{Ties, compared};
 
 fn fit(model: &Model) -> Result<CoordinateFit, Error> {
-    Ok(compared(Checked::new(input(model))?, &[], Levers::Used)?.fit)
+    Ok(compared(Checked::new(input(model))?, Ties::All)?.fit)
 }
 
 /// A block whose last layer turns about an edge of the rest.
@@ -78,8 +78,8 @@ fn rounded_coordinates_are_mended() {
             let mut model = sound.clone();
             let round = |value: &mut f64| *value = format!("{value:.*e}", digits - 1).parse().expect("a number");
             model.nodes.iter_mut().flatten().for_each(round);
-            let checked = compared(Checked::new(input(&model)).expect("a model"), &[], Levers::Unused)
-                .expect("rounded coordinates");
+            let checked =
+                compared(Checked::new(input(&model)).expect("a model"), Ties::None).expect("rounded coordinates");
             let CoordinateFit::Rounded(rounded) = &checked.fit else { panic!("{name}, {digits} digits") };
             let (forces, terms) = supel::sparse::product_and_terms(&checked.stiffness, rounded.motions.as_ref());
             // The combinations of the six motions of least force: as many as K lets pass.

@@ -1,21 +1,21 @@
 //! Models that leave few witnesses: thin, slender, flat, or of a single node.
 
-use supel::coordinates::{Levers, compared};
 use supel::error::Error;
 use supel::model::{CoordinateFit, Model as Checked};
 use supel_models::transform::supported;
 use supel_models::{Inertia, Material, Model, Section, brick, frame};
 
+use crate::Ties;
 use crate::chain::input;
 
-fn fit(model: &Model, levers: Levers<'_>) -> Result<CoordinateFit, Error> {
-    Ok(compared(Checked::new(input(model))?, &[], levers)?.fit)
+fn fit(model: &Model, ties: Ties) -> Result<CoordinateFit, Error> {
+    Ok(crate::compared(Checked::new(input(model))?, ties)?.fit)
 }
 
 #[track_caller]
 fn assert_refused(model: &Model, what: &str) {
-    for levers in [Levers::Used, Levers::Unused] {
-        let found = fit(model, levers);
+    for ties in [Ties::All, Ties::None] {
+        let found = fit(model, ties);
         assert!(matches!(found, Err(Error::CoordinatesDoNotFit { .. })), "{what}: {found:?}");
     }
 }
@@ -39,9 +39,9 @@ fn grillage() -> Model {
 #[test]
 fn wrong_coordinates_of_a_plate_without_inplane_dofs() {
     let sound = grillage();
-    assert!(matches!(fit(&sound, Levers::Used), Ok(CoordinateFit::Exact)));
+    assert!(matches!(fit(&sound, Ties::All), Ok(CoordinateFit::Exact)));
     // In-plane places matter and heights do not: nothing in K depends on them.
-    assert!(matches!(fit(&with_nodes(&sound, |[x, y, z]| [x, y, z + 0.3]), Levers::Used), Ok(CoordinateFit::Exact)));
+    assert!(matches!(fit(&with_nodes(&sound, |[x, y, z]| [x, y, z + 0.3]), Ties::All), Ok(CoordinateFit::Exact)));
     assert_refused(&with_nodes(&sound, |[x, y, z]| [z, y, x]), "x and z exchanged");
     assert_refused(&with_nodes(&sound, |[x, y, z]| [x, z, y]), "y and z exchanged");
     assert_refused(&with_nodes(&sound, |[x, y, z]| [y, z, x]), "axes cycled");
@@ -59,7 +59,7 @@ fn rows_in_another_order_of_a_slender_frame() {
     let edges: Vec<[usize; 2]> = (0..19).map(|k| [k, k + 1]).collect();
     for diameter in [0.02, 0.002, 0.0002] {
         let sound = frame(&nodes, &edges, &Section::round(diameter), &Material::STEEL_SI, Inertia::Consistent);
-        assert!(matches!(fit(&sound, Levers::Used), Ok(CoordinateFit::Exact)), "{diameter}");
+        assert!(matches!(fit(&sound, Ties::All), Ok(CoordinateFit::Exact)), "{diameter}");
         let mut wrong = sound.clone();
         wrong.dofs.sort_by_key(|(node, direction)| (*direction, *node));
         assert_refused(&wrong, &format!("{diameter}, direction by direction"));
@@ -73,7 +73,7 @@ fn a_body_of_one_node_is_held_like_any_other() {
     let edges: Vec<[usize; 2]> = (0..11).map(|k| [k, k + 1]).collect();
     let whole = frame(&nodes, &edges, &Section::round(0.03), &Material::STEEL_SI, Inertia::Consistent);
     let clamped = supported(&whole, |(label, _)| label == 11);
-    let found = fit(&clamped, Levers::Used);
+    let found = fit(&clamped, Ties::All);
     assert!(matches!(found, Ok(CoordinateFit::Exact)), "{found:?}");
 }
 
@@ -84,9 +84,9 @@ fn coordinates_of_another_state_of_a_thin_held_part() {
     let wall = plate.groups["XMIN"].clone();
     let held = supported(&plate, move |(label, _)| wall.contains(&label));
     let wavy = with_nodes(&held, |[x, y, z]| [x, y, z + 0.002 * (9.0 * x).sin()]);
-    let found = fit(&wavy, Levers::Used);
+    let found = fit(&wavy, Ties::All);
     assert!(matches!(found, Err(Error::CoordinatesDoNotFit { .. })), "{found:?}");
     let five_digits =
         with_nodes(&held, |place| place.map(|x| format!("{:.4e}", x + 0.1234567).parse().expect("a number")));
-    assert!(fit(&five_digits, Levers::Used).is_ok());
+    assert!(fit(&five_digits, Ties::All).is_ok());
 }

@@ -17,6 +17,7 @@ use faer::{Mat, MatRef};
 use super::columns::Named;
 use super::projection::Projected;
 use super::scaled::Scaled;
+use crate::audit::named_modes::{WithInverse, terms_of_unmixing, unmixing};
 use crate::dense::{self, NOISE_FACTOR};
 
 /// Weight of recovered rows relative to those of the mass: in single precision they have seven digits, which may decide on what
@@ -48,7 +49,9 @@ pub(super) struct Combination {
 pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedom<'_>) -> Option<Combination> {
     let (p, n_named, n_eta) = (projected.n_probes(), projected.named.len(), freedom.kept.len());
     let seen = seen(file, projected, freedom.mixing);
-    let noise = noise(projected, freedom, seen[1].as_ref());
+    let inverse = freedom.mixing.map(unmixing);
+    let mixing = freedom.mixing.zip(inverse.as_ref().map(Mat::as_ref));
+    let noise = noise(projected, freedom.kept, (seen[1].as_ref(), mixing));
     let mut turned = Mat::zeros(n_named, n_eta);
     let mut place = |columns: &[usize], slots: &[usize], block: MatRef<'_, f64>| {
         for (i, column) in columns.iter().enumerate() {
@@ -78,11 +81,9 @@ pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedo
         }
     }
     let mut amplified = Mat::zeros(n_named, n_eta);
-    if let Some(mixing) = freedom.mixing {
-        let inverse = mixing.partial_piv_lu().solve(Mat::<f64>::identity(n_eta, n_eta));
-        let [sizes, of_inverse, of_turned] = [mixing, inverse.as_ref(), turned.as_ref()].map(absolute);
-        let back = dense::product(of_inverse.as_ref(), sizes.as_ref());
-        amplified = dense::product(of_turned.as_ref(), dense::product(sizes.as_ref(), back.as_ref()).as_ref());
+    if let Some((mixing, inverse)) = mixing {
+        let terms = terms_of_unmixing(turned.as_ref(), (mixing, inverse));
+        amplified = dense::product(terms.as_ref(), dense::absolute(mixing).as_ref());
         turned = dense::product(turned.as_ref(), mixing);
     }
     let with_probes = |of_probes: Mat<f64>, of_named: &Mat<f64>| {
@@ -103,10 +104,6 @@ impl Combination {
         let (p, q) = (projected.n_probes(), projected.n_probes() + projected.named.len());
         Self { columns: Mat::identity(q, p), amplified: Mat::zeros(q, p) }
     }
-}
-
-fn absolute(a: MatRef<'_, f64>) -> Mat<f64> {
-    Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)].abs())
 }
 
 /// Places of the named columns that turn together, in their order.
@@ -197,17 +194,17 @@ fn turns_unseen(projected: &Projected, columns: &[usize], (mine, noise): (MatRef
 }
 
 /// What the columns made again and rounding of the mixing leave open of each named column of the file, as it is seen.
-fn noise(projected: &Projected, freedom: &Freedom<'_>, named: MatRef<'_, f64>) -> Vec<f64> {
+fn noise(
+    projected: &Projected,
+    kept: &[usize],
+    (named, mixing): (MatRef<'_, f64>, Option<WithInverse<'_>>),
+) -> Vec<f64> {
     let p = projected.n_probes();
-    let own = freedom.kept.iter().map(|column| projected.mass.errors[p + column]);
-    let n_eta = freedom.kept.len();
-    let Some(mixing) = freedom.mixing else { return own.collect() };
-    let inverse = mixing.partial_piv_lu().solve(Mat::<f64>::identity(n_eta, n_eta));
-    let [sizes, of_inverse, seen] = [mixing, inverse.as_ref(), named].map(absolute);
-    let there_and_back = dense::product(sizes.as_ref(), of_inverse.as_ref());
-    let rounding = dense::product(seen.as_ref(), there_and_back.as_ref());
+    let own = kept.iter().map(|column| projected.mass.errors[p + column]);
+    let Some(mixing) = mixing else { return own.collect() };
+    let rounding = terms_of_unmixing(named, mixing);
     let of_slot = |j: usize| NOISE_FACTOR * f64::EPSILON * dense::norm(dense::column(rounding.as_ref(), j));
-    own.zip((0..n_eta).map(of_slot)).map(|(own, rounding)| own + rounding).collect()
+    own.zip((0..kept.len()).map(of_slot)).map(|(own, rounding)| own + rounding).collect()
 }
 
 /// A and the columns B of a file with, where it left out some of a group, what is seen of those: for [B D] = A Q with an orthogonal

@@ -1,18 +1,16 @@
 //! Nodes of a mesh in one of the formats that live in HDF5; the content tells which.
 
-use std::io::Read;
 use std::path::Path;
 
 use super::file::{H5, with_memory};
 use super::{layout, xdmf};
 use crate::dofs::Nodes;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::input::Allowance;
 use crate::input::file_start::FileStart;
 use crate::input::hdf5::group::Group;
 use crate::input::hdf5::mesh::Mesh;
 use crate::input::unsupported_format::{self, Wanted};
-use crate::regular_file;
 
 /// Bytes of a node: position, label, and the labels once more while they are compared.
 const NODE: u64 = 40;
@@ -36,7 +34,7 @@ pub fn read_nodes(path: &Path) -> Result<Nodes> {
 ///
 /// # Errors
 ///
-/// [`Error::MemoryRead`] and those of [`read_nodes`].
+/// [`crate::error::Error::MemoryRead`] and those of [`read_nodes`].
 pub(crate) fn read_nodes_within(path: &Path, allowance: &Allowance) -> Result<(Nodes, Option<String>)> {
     let (mesh, digest) = if is_xml(path)? {
         xdmf::read(path, allowance)?
@@ -53,12 +51,9 @@ pub(crate) fn referenced_files(path: &Path) -> Vec<std::path::PathBuf> {
 
 /// True if the first character that is not a blank opens a tag, or if the file is called XDMF and is empty.
 pub(super) fn is_xml(path: &Path) -> Result<bool> {
-    let read = |source| Error::Read { path: path.to_owned(), source };
-    let mut head = Vec::new();
-    regular_file::open(path)?.take(256).read_to_end(&mut head).map_err(read)?;
-    let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&head);
-    let is_empty = || head.is_empty() && path.extension().is_some_and(|name| name == "xdmf" || name == "xmf");
-    Ok(text.trim_ascii_start().starts_with(b"<") || is_empty())
+    let start = FileStart::of(path)?;
+    let is_empty = start.head.is_empty() && path.extension().is_some_and(|name| name == "xdmf" || name == "xmf");
+    Ok(start.is_xml() || is_empty)
 }
 
 fn read_hdf5(path: &Path, allowance: &Allowance) -> Result<Mesh> {

@@ -75,7 +75,7 @@ fn model(page: &mut Page, model: &ModelReport) {
 
 fn matrix(matrix: &MatrixReport) -> String {
     let nonzeros = number::counted(matrix.n_nonzeros, "nonzero", "nonzeros");
-    let digits = matrix.decimals.map_or_else(|| number::counted(matrix.digits, "digit", "digits"), number::decimals);
+    let digits = number::known_to(matrix.digits, matrix.decimals);
     format!("{nonzeros} · {digits} · blake3 {}…", short(&matrix.digest))
 }
 

@@ -139,11 +139,10 @@ struct Terms {
 
 impl Terms {
     fn of(a: &Mat<f64>, x: &Mat<f64>) -> Self {
-        let size = |a: &Mat<f64>| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)].abs());
         let quadratic = |a: &Mat<f64>, x: &Mat<f64>| -> Vec<f64> {
             let image = dense::product(a.as_ref(), x.as_ref());
             (0..x.ncols()).map(|j| dense::dot(dense::column(x.as_ref(), j), dense::column(image.as_ref(), j))).collect()
         };
-        Self { values: quadratic(a, x), sizes: quadratic(&size(a), &size(x)) }
+        Self { values: quadratic(a, x), sizes: quadratic(&dense::absolute(a.as_ref()), &dense::absolute(x.as_ref())) }
     }
 }

@@ -18,7 +18,7 @@ use supel::input::{Input, MatrixInput};
 pub use supel::job::Method;
 use supel::job::{Coupling, Eigensolver, InterfaceJob, NodeSelection, Origin};
 use supel::model::Model;
-use supel::partition::Partition;
+use supel::partition::{self, Partition};
 use supel::random::SEED;
 use supel::reduction::Reduction;
 use supel::rigid::{self, RigidBodyModes};
@@ -99,7 +99,9 @@ pub struct Chain {
 
 /// The partition of a generated model.
 pub fn partition(model: &models::Model, interfaces: &[InterfaceJob]) -> Result<Partition, Error> {
-    Partition::new(coordinates::compared(Model::new(input(model))?, &[], coordinates::Levers::Used)?, interfaces)
+    let model = Model::new(input(model))?;
+    let tied = partition::nodes_of_patches(&model, interfaces);
+    Partition::new(coordinates::compared(model, &[], &tied)?, interfaces)
 }
 
 /// The partition and its rigid-body modes, from coordinates where there are any.
