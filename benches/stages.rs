@@ -112,7 +112,7 @@ fn measure(criterion: &mut Criterion, family: Family, folder: &Path) {
     let component = prepared.component(&analysis, &factor, &constraint);
     group.bench_function(id("Lanczos"), |b| b.iter(|| prepared.lowest_modes(component)));
     let retained = prepared.lowest_modes(component);
-    let columns = retained_columns(component, job.reduction.method, &retained);
+    let columns = retained_columns(component, &job.reduction, &retained);
     let basis = Basis::new(&constraint, columns, partition.internal().mass);
     group.bench_function(id("project"), |b| b.iter(|| Reduction::new(partition, &basis, rigid)));
 

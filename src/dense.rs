@@ -4,6 +4,7 @@
 //! Decompositions of small matrices run sequentially.
 
 use faer::linalg::matmul::matmul;
+use faer::linalg::solvers::SolveLstsq;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
 
@@ -152,9 +153,32 @@ pub fn worse(error: f64, worst: f64) -> bool {
     !worst.is_nan() && (error.is_nan() || error > worst)
 }
 
+/// x with the least ‖A x − f‖; A has at least as many rows as columns. Where columns vanish or are the same, because the interface
+/// has modes of its own at this frequency, x is the shortest such.
+pub fn least_squares(a: MatRef<'_, f64>, f: MatRef<'_, f64>) -> Mat<f64> {
+    let x = a.qr().solve_lstsq(f);
+    if x.is_all_finite() {
+        return x;
+    }
+    let Ok(svd) = a.thin_svd() else { return x };
+    let singular: Vec<f64> = svd.S().column_vector().iter().copied().collect();
+    let least = a.nrows() as f64 * f64::EPSILON * singular.first().copied().unwrap_or(0.0);
+    let mut parts = product(svd.U().transpose(), f);
+    for (i, value) in singular.iter().enumerate() {
+        let factor = if *value > least { 1.0 / value } else { 0.0 };
+        parts.row_mut(i).iter_mut().for_each(|part| *part *= factor);
+    }
+    product(svd.V(), parts.as_ref())
+}
+
 /// |A|, entry by entry.
 pub fn absolute(a: MatRef<'_, f64>) -> Mat<f64> {
     Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)].abs())
+}
+
+/// A matrix of a superelement by columns.
+pub fn unpacked(matrix: &supel_runtime::Matrix) -> Mat<f64> {
+    Mat::from_fn(matrix.rows(), matrix.cols(), |i, j| matrix[(i, j)])
 }
 
 /// [A B].

@@ -1110,6 +1110,15 @@ pub enum Error {
         /// What belongs there.
         expected: &'static str,
     },
+    /// The job has no modes where its method needs them, or modes where its method has none.
+    #[entry("E-JOB-MODES", Usage, "say how many modes are kept, or remove the key with the method guyan")]
+    #[error("`reduction.modes` is {found} – {expected}")]
+    JobModes {
+        /// Whether the key is there.
+        found: &'static str,
+        /// What the method needs.
+        expected: String,
+    },
     /// Two interfaces have one name.
     #[entry("E-INTERFACE-NAME", Usage, "give each its own")]
     #[error("interface `{name}` is defined twice – names must be unique")]
@@ -1779,6 +1788,24 @@ pub enum Error {
         /// The free motion in words.
         motion: String,
     },
+    /// A superelement has no inertia-relief modes, which Rubin's matrices are made from.
+    #[entry("E-NO-RELIEF", Usage, "reduce with rubin or herting")]
+    #[error(
+        "{} lacks inertia relief for every rigid-body motion, or has modes of the held interface – expected free modes \
+        with inertia relief, of which Rubin's matrices are made – reduce with rubin or herting",
+        path.display()
+    )]
+    NoInertiaRelief {
+        /// The superelement.
+        path: PathBuf,
+    },
+    /// Unit accelerations do not deform the interior, so that rigid-body motion cannot be taken out of its static modes.
+    #[entry("E-ATTACHMENT", ModelPhysics, "use herting, or craig-bampton with inertia relief")]
+    #[error(
+        "the interior hardly deforms when the body is accelerated – expected a strain in it for every rigid-body motion, \
+        of which Rubin's attachment modes are made – use herting or craig-bampton"
+    )]
+    NoAttachmentModes,
     /// The digits of the stiffness leave open whether it is definite, or how many motions cost no energy.
     #[entry("E-DATA-PRECISION", InputData, "write the stiffness with more digits, best in binary")]
     #[error(

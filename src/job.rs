@@ -22,7 +22,7 @@ pub use crate::eigen::Eigensolver;
 pub use document::Notation;
 pub use interface::{Coupling, InterfaceJob, NodeSelection, Origin, Region};
 pub use location::Holder;
-pub use method::{Boundary, Columns, Method};
+pub use method::{Boundary, Method};
 pub use recovery::RecoveryJob;
 pub use scene::{DampingJob, SceneJob, Support};
 pub use schema::{Role, schema};

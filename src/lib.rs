@@ -77,7 +77,7 @@
 //! ```text
 //! number · dofs · error · heap · foreign_exit · regular_file · linked · random · dense · sparse
 //! factor · eigen
-//! job · input · model · partition · rigid · coordinates · constraint · modes · basis · reduction
+//! job · input · model · partition · rigid · coordinates · constraint · modes · basis · reduction · rubin
 //! memory_forecast · verification · audit
 //! report · output · outcome · cli
 //! ```
@@ -86,9 +86,9 @@
 //!
 //! 1. Of the stages only [`input`] and [`output`] touch files. Around them [`job`] reads its document, [`report`] reads the
 //!    clock, [`cli`] and the program have the terminal, and [`heap`] writes the last line of a run that finds no memory.
-//! 2. [`job::Method`] alone decides what a reduction method means: the boundary under which its modes are sought, and the
-//!    columns that are made of them. No later stage asks which method it is: modes and verification know the boundary,
-//!    basis and audit the columns, output and report the name.
+//! 2. [`job::Method`] alone decides what a reduction method means: the boundary under which its modes are sought, whether it
+//!    has inertia relief, and what is proved of it. No later stage asks which method it is: modes, basis and verification know
+//!    the boundary, basis and audit whether there is inertia relief, output and report the name.
 //! 3. A matrix is factored once per shift and solved many times; no inverse is ever formed.
 //! 4. The superelement format has one owner, the crate `supel-runtime`, used by the writer and by every reader.
 //! 5. `supel-runtime` depends on nothing of this crate.
@@ -122,6 +122,7 @@ pub mod reduction;
 mod regular_file;
 pub mod report;
 pub mod rigid;
+pub mod rubin;
 pub mod sparse;
 pub mod verification;
 
@@ -178,11 +179,12 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let retained = Retained { modes: found, boundary: search.problem.boundary };
 
     observer.stage("basis");
-    let columns = basis::retained_columns(component, job.reduction.method, &retained);
+    let columns = basis::retained_columns(component, &job.reduction, &retained);
     let basis = Basis::new(&constraint, columns, partition.internal().mass);
 
     observer.stage("projection");
     let reduction = Reduction::new(&partition, &basis, &rigid);
+    let rubin = rubin::rubin_where_asked(&job.reduction, &basis, &reduction, &retained)?;
 
     observer.stage("enclosures");
     let enclosures = verification::enclosures_where_asked(component, &retained, job.run.certify)?;
@@ -197,6 +199,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         retained: &retained,
         basis: &basis,
         reduction: &reduction,
+        rubin: rubin.as_ref(),
         certificate: certificate.as_ref(),
         enclosures: enclosures.as_ref(),
         expect: job.model.expect.as_ref(),

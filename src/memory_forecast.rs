@@ -90,7 +90,7 @@ pub fn slices_within_memory(
     let Some(available) = resources.allowed(job) else {
         return Ok(n_threads);
     };
-    let n_modes = match (n_modes, job.reduction.modes) {
+    let n_modes = match (n_modes, job.reduction.wanted()) {
         (Some(count), _) | (None, ModeSelection::Count { count }) => (count as u64).min(partition.n_dofs() as u64),
         (None, ModeSelection::UpTo { .. }) => MODES_IN_A_BAND,
     };

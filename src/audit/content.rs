@@ -1,11 +1,11 @@
 //! The content of a superelement file, in the form the checks work on.
 
 use faer::{Mat, MatRef};
-use supel_runtime::{Coordinate, Matrix, Superelement};
+use supel_runtime::{Coordinate, Superelement};
 
 use super::pencil::eigenvalues;
 use super::version::kept_job;
-use crate::dense::{self, NOISE_FACTOR};
+use crate::dense::{self, NOISE_FACTOR, unpacked};
 use crate::error::Result;
 use crate::job::{Boundary, Job};
 use crate::verification::check::Limits;
@@ -158,11 +158,6 @@ pub(super) fn coordinate_name(superelement: &Superelement, coordinate: usize) ->
             format!("mode {}", mode + 1)
         }
     }
-}
-
-/// A matrix of the file by columns.
-pub(super) fn unpacked(matrix: &Matrix) -> Mat<f64> {
-    Mat::from_fn(matrix.rows(), matrix.cols(), |i, j| matrix[(i, j)])
 }
 
 /// The kind of a mode tells where it was computed, whatever the method is called.

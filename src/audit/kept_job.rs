@@ -10,7 +10,7 @@ use super::mass::is_of_a_body;
 use super::record;
 use super::rigid_motion::is_nearly_unit;
 use super::version::{applied, is_of_this_version};
-use crate::job::{Boundary, Columns, Job, Method, ModeSelection, NodeSelection};
+use crate::job::{Boundary, Job, Method, ModeSelection, NodeSelection};
 use crate::verification::check::{Check, Limits};
 
 /// Method, units, interfaces, axes, band and recovery are those of the job kept in the file.
@@ -127,7 +127,7 @@ fn rows_asked(job: &Job) -> Vec<u64> {
 
 /// The band that a reduction states: as far as the job asks for modes, or as far as there are.
 pub(super) fn band(superelement: &Superelement, job: &Job) -> Option<[f64; 2]> {
-    match job.reduction.modes {
+    match job.reduction.wanted() {
         ModeSelection::UpTo { up_to_hz } => Some([0.0, up_to_hz]),
         ModeSelection::Count { .. } => {
             superelement.tensors().frequencies.last().map(|omega| [0.0, omega / std::f64::consts::TAU])
@@ -141,7 +141,7 @@ pub(super) fn n_modes(content: &Content<'_>) -> Option<Check> {
     /// A mode on the edge of a band belongs to it.
     const EDGE: f64 = 1e-6;
     let stated = content.superelement.tensors().frequencies.as_slice();
-    let (value, words) = match content.job.as_ref()?.reduction.modes {
+    let (value, words) = match content.job.as_ref()?.reduction.wanted() {
         ModeSelection::Count { count } => {
             let n_without = if content.boundary == Boundary::FixedInterface { content.n_b } else { content.n_rigid() };
             let n_dofs = usize::try_from(content.superelement.metadata().model.n_dofs).unwrap_or(usize::MAX);
@@ -235,7 +235,12 @@ fn of_method(content: &Content<'_>, method: Method) -> Vec<&'static str> {
         _ => None,
     });
     let all = |is_there: bool| if is_there { (0..n_r).collect() } else { Vec::new() };
-    expect(relief == all(method.columns() == Columns::ModeAcceleration && !is_modal), "inertia relief");
+    // Where it is no part of the method, a job may still ask for it.
+    let is_relieved = match &content.job {
+        Some(job) => job.reduction.has_inertia_relief(),
+        None => method.has_inertia_relief() || !relief.is_empty(),
+    };
+    expect(relief == all(is_relieved && !is_modal), "inertia relief");
     expect(rigid == all(is_modal), "rigid-body coordinates");
     // Mass properties and gravity take the six unit motions, which are the first six of seven and more.
     let is_told = metadata.model.rigid_body_modes == RigidBodyModes::Geometric || n_r > 6 || is_nearly_unit(content);
@@ -246,7 +251,8 @@ fn of_method(content: &Content<'_>, method: Method) -> Vec<&'static str> {
 /// What this version writes with the columns of a method, and other programs and versions need not.
 fn with_method(content: &Content<'_>) -> Vec<String> {
     let (metadata, tensors) = (content.superelement.metadata(), content.superelement.tensors());
-    let is_mixed = !is_held(content) && content.n_reduced() > content.n_b;
+    let mut modal = metadata.coordinates[content.n_b..].iter();
+    let is_mixed = modal.any(|coordinate| !matches!(coordinate, Coordinate::FixedInterfaceMode { .. }));
     let is_classical = tensors.gravity.is_some();
     let is_geometric = metadata.model.rigid_body_modes == RigidBodyModes::Geometric;
     let found = [
@@ -263,12 +269,6 @@ fn with_method(content: &Content<'_>) -> Vec<String> {
 /// Whether the columns are the modes of a free component without interface.
 fn is_modal(content: &Content<'_>) -> bool {
     content.n_b == 0 && content.n_rigid() > 0
-}
-
-/// Whether the modes are those of the held interface.
-fn is_held(content: &Content<'_>) -> bool {
-    let method = Method::of_file(content.superelement.metadata().method);
-    method.is_some_and(|method| method.boundary() == Boundary::FixedInterface) && !is_modal(content)
 }
 
 /// M-26: the program that made it, as far as this one can speak for it. What a file says of that is no reason to believe the rest of

@@ -3,9 +3,9 @@
 use faer::{Mat, MatRef};
 use supel_runtime::{MassProperties, RigidBodyModes, mass_properties};
 
-use super::content::{Content, unpacked};
+use super::content::Content;
 use super::rigid_motion::is_nearly_unit;
-use crate::dense::{self, NOISE_FACTOR};
+use crate::dense::{self, NOISE_FACTOR, unpacked};
 use crate::verification;
 use crate::verification::check::{Check, Limits};
 

@@ -84,6 +84,9 @@ impl<'a> Reference<'a> {
             }
             asked => {
                 let (relieved, source) = match motions.has_unit() {
+                    _ if !job.reduction.has_inertia_relief() => {
+                        (given.modes.as_ref().subcols(0, 0), RigidSource::Geometric)
+                    }
                     true => (given.modes.as_ref(), RigidSource::Geometric),
                     false => (zero.orthonormal.as_ref(), RigidSource::Algebraic),
                 };

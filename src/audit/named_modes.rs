@@ -7,12 +7,12 @@
 //! By equations (34) and (35) (K̂ − ω²M̂) v = 0 for some displacement v_B of the interface. It is not in the file and is
 //! found by least squares; that something is left over tells that mixing, frequency and matrices do not belong together.
 
-use faer::linalg::solvers::{Solve, SolveLstsq};
+use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef};
 use supel_runtime::Coordinate;
 
-use super::content::{Content, unpacked};
-use crate::dense::{self, NOISE_FACTOR};
+use super::content::Content;
+use crate::dense::{self, NOISE_FACTOR, unpacked};
 use crate::job::Boundary;
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::LARGEST_EXCUSE;
@@ -141,7 +141,7 @@ fn backward_error(content: &Content<'_>, lambda: f64, q: &[f64]) -> f64 {
         let interface = rows.subcols(0, b);
         let mut load = residual.clone();
         load *= faer::Scale(-1.0);
-        let displacement = least_squares(interface, load.as_ref());
+        let displacement = dense::least_squares(interface, load.as_ref());
         dense::add_product(residual.as_mut(), 1.0, interface, displacement.as_ref());
         motion += dense::norm(dense::column(displacement.as_ref(), 0)).powi(2);
     }
@@ -151,24 +151,6 @@ fn backward_error(content: &Content<'_>, lambda: f64, q: &[f64]) -> f64 {
     };
     let size = norm(&content.k) + lambda * norm(&content.m);
     dense::norm(dense::column(residual.as_ref(), 0)) / (size * motion.sqrt())
-}
-
-/// x with the least ‖A x − f‖; A has at least as many rows as columns. Where columns vanish or are the same, because the interface
-/// has modes of its own at this frequency, x is the shortest such.
-fn least_squares(a: MatRef<'_, f64>, f: MatRef<'_, f64>) -> Mat<f64> {
-    let x = a.qr().solve_lstsq(f);
-    if x.is_all_finite() {
-        return x;
-    }
-    let Ok(svd) = a.thin_svd() else { return x };
-    let singular: Vec<f64> = svd.S().column_vector().iter().copied().collect();
-    let least = a.nrows() as f64 * f64::EPSILON * singular.first().copied().unwrap_or(0.0);
-    let mut parts = dense::product(svd.U().transpose(), f);
-    for (i, value) in singular.iter().enumerate() {
-        let factor = if *value > least { 1.0 / value } else { 0.0 };
-        parts.row_mut(i).iter_mut().for_each(|part| *part *= factor);
-    }
-    dense::product(svd.V(), parts.as_ref())
 }
 
 /// The inertia-relief coordinates: slot among the modal ones and number of the rigid-body mode.

@@ -8,8 +8,8 @@
 
 use supel_runtime::{Direction, Precision, RecoveredDof, RigidBodyModes};
 
-use super::content::{Content, unpacked};
-use crate::dense::{self, NOISE_FACTOR};
+use super::content::Content;
+use crate::dense::{self, NOISE_FACTOR, unpacked};
 use crate::verification::check::{Check, Limits};
 
 /// M-11: recovered rows carry rigid-body motion, where that is the six unit motions.

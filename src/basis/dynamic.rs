@@ -1,6 +1,5 @@
 //! Dynamic modes: what the interior does beyond following the interface statically.
 
-use faer::prelude::ReborrowMut;
 use faer::{Mat, MatRef};
 
 use super::orthonormal::orthonormalised;
@@ -9,6 +8,8 @@ use crate::constraint::ConstraintModes;
 use crate::dense;
 use crate::eigen::{Modes, mass_qr, rows_with_mass};
 use crate::factor::SolveOperator;
+use crate::job::Boundary;
+use crate::modes::Retained;
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
 use crate::sparse::Leading;
@@ -51,11 +52,13 @@ const CLEARLY_INDEPENDENT: [f64; 4] = [1e-4, 1e-5, 1e-6, 1e-7];
 /// Columns orthogonalised together.
 const PANEL: usize = 8;
 
-/// Craig-Bampton: the fixed-interface normal modes themselves (38).
-pub fn fixed_interface_columns(modes: &Modes) -> DynamicColumns {
-    DynamicColumns {
-        columns: modes.shapes.clone(),
-        coordinates: (0..modes.count()).map(DynamicCoordinate::FixedInterface).collect(),
+impl DynamicColumns {
+    /// These columns, then others.
+    pub(super) fn followed_by(self, others: Self) -> Self {
+        Self {
+            columns: dense::side_by_side(self.columns.as_ref(), others.columns.as_ref()),
+            coordinates: self.coordinates.into_iter().chain(others.coordinates).collect(),
+        }
     }
 }
 
@@ -66,31 +69,37 @@ pub fn modal_columns(rigid: &RigidBodyModes, modes: &Modes) -> DynamicColumns {
     DynamicColumns { columns, coordinates: zero.chain((0..modes.count()).map(DynamicCoordinate::FreeFree)).collect() }
 }
 
-/// Herting: inertia-relief modes K_II⁻¹ (MU)_I (37) and mode-accelerated free-free modes X_I − Ψ_S X_B (23).
+/// Inertia-relief modes K_II⁻¹ (MU)_I (37).
+pub fn inertia_relief_columns(
+    partition: &Partition,
+    factor: &dyn SolveOperator,
+    rigid: &RigidBodyModes,
+) -> DynamicColumns {
+    // The modes of the file, not the orthonormal ones: a coordinate then answers to one named unit acceleration.
+    let inertia = product(&partition.mass, rigid.modes.as_ref());
+    let mut columns = inertia.as_ref().subrows(0, partition.n_internal).to_owned();
+    clear_unloaded(partition, rigid, columns.as_mut());
+    factor.solve_in_place(columns.as_mut());
+    DynamicColumns { columns, coordinates: (0..rigid.count()).map(DynamicCoordinate::InertiaRelief).collect() }
+}
+
+/// Mode-accelerated modes X_I − Ψ_S X_B (23); modes of the held interface, X_B = 0, stay as they are (38).
 ///
 /// Equation (23) asks for K_II⁻¹ (M_II X_I + M_IB X_B); for an eigenvector that is ω⁻² (X_I − Ψ_S X_B), without a solve.
 /// Every column is scaled to unit length, so the factor does not matter.
-pub fn mode_acceleration_columns(
-    partition: &Partition,
-    factor: &dyn SolveOperator,
-    constraint: &ConstraintModes,
-    rigid: &RigidBodyModes,
-    modes: &Modes,
-) -> DynamicColumns {
-    let (n_i, n_b, n_r) = (partition.n_internal, partition.n_interface(), rigid.count());
-    let mut columns = Mat::zeros(n_i, n_r + modes.count());
-    // The modes of the file, not the orthonormal ones: a coordinate then answers to one named unit acceleration.
-    let inertia = product(&partition.mass, rigid.modes.as_ref());
-    columns.as_mut().subcols_mut(0, n_r).copy_from(inertia.as_ref().subrows(0, n_i));
-    clear_unloaded(partition, rigid, columns.as_mut().subcols_mut(0, n_r));
-    factor.solve_in_place(columns.as_mut().subcols_mut(0, n_r));
-    let (x_i, x_b) = (modes.shapes.as_ref().subrows(0, n_i), modes.shapes.as_ref().subrows(n_i, n_b));
-    let mut accelerated = columns.as_mut().subcols_mut(n_r, modes.count());
-    accelerated.copy_from(x_i);
-    dense::add_product(accelerated.rb_mut(), -1.0, constraint.modes.as_ref(), x_b);
-    clear_rounding(partition, constraint, modes, accelerated);
-    let relief = (0..n_r).map(DynamicCoordinate::InertiaRelief);
-    DynamicColumns { columns, coordinates: relief.chain((0..modes.count()).map(DynamicCoordinate::FreeFree)).collect() }
+pub fn accelerated_columns(partition: &Partition, constraint: &ConstraintModes, retained: &Retained) -> DynamicColumns {
+    let (n_i, n_b, modes) = (partition.n_internal, partition.n_interface(), &retained.modes);
+    let mut columns = modes.shapes.as_ref().subrows(0, n_i).to_owned();
+    let kind = match retained.boundary {
+        Boundary::FixedInterface => DynamicCoordinate::FixedInterface,
+        Boundary::FreeInterface => {
+            let x_b = modes.shapes.as_ref().subrows(n_i, n_b);
+            dense::add_product(columns.as_mut(), -1.0, constraint.modes.as_ref(), x_b);
+            clear_rounding(partition, constraint, modes, columns.as_mut());
+            DynamicCoordinate::FreeFree
+        }
+    };
+    DynamicColumns { columns, coordinates: (0..modes.count()).map(kind).collect() }
 }
 
 /// Columns that are M_II-orthonormal, with the triangle that gives the named ones back.

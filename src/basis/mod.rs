@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! Ψ_S   n_I × n_B   constraint modes −K_II⁻¹ K_IB, corrected so that they carry rigid-body motion exactly (24)
-//! Ψ_D   n_I × n_η   dynamic modes: fixed-interface modes (38), or inertia-relief (37) and mode-accelerated modes (23)
+//! Ψ_D   n_I × n_η   dynamic modes: inertia-relief modes (37), fixed-interface modes (38) or mode-accelerated ones (23)
 //! ```
 //! The reduction method decided which modes were chosen. From here on every method has this one form.
 
@@ -15,5 +15,5 @@ mod rounding;
 
 pub use basis::Basis;
 pub use dynamic::{DroppedColumn, DynamicCoordinate};
-pub use dynamic::{DynamicColumns, fixed_interface_columns, modal_columns, mode_acceleration_columns};
+pub use dynamic::{DynamicColumns, accelerated_columns, inertia_relief_columns, modal_columns};
 pub use retained_columns::retained_columns;

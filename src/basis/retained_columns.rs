@@ -1,16 +1,19 @@
-//! The columns that retained modes make: the one place where the methods differ once their modes are known.
+//! The columns that retained modes make.
 
-use super::dynamic::{DynamicColumns, fixed_interface_columns, modal_columns, mode_acceleration_columns};
-use crate::job::{Columns, Method};
+use super::dynamic::{DynamicColumns, accelerated_columns, inertia_relief_columns, modal_columns};
+use crate::job::ReductionJob;
 use crate::modes::{Component, Retained};
 
-/// The columns of Ψ_D of the retained modes. A free component without interface has its rigid-body and elastic modes. Of others
-/// Craig and Bampton keep the fixed-interface modes as they are (38), Herting's method accelerates the free-free ones (23), (37).
-pub fn retained_columns(component: Component<'_>, method: Method, retained: &Retained) -> DynamicColumns {
+/// The columns of Ψ_D: inertia relief (37), where the job has it, and then the modes, accelerated (23), which leaves modes of the held
+/// interface as they are (38). A free component without interface has its rigid-body and elastic modes themselves.
+pub fn retained_columns(component: Component<'_>, job: &ReductionJob, retained: &Retained) -> DynamicColumns {
     let Component { partition, factor, rigid, constraint, .. } = component;
-    match method.columns() {
-        _ if component.is_modal() => modal_columns(rigid, &retained.modes),
-        Columns::Modes => fixed_interface_columns(&retained.modes),
-        Columns::ModeAcceleration => mode_acceleration_columns(partition, factor, constraint, rigid, &retained.modes),
+    if component.is_modal() {
+        return modal_columns(rigid, &retained.modes);
+    }
+    let modes = accelerated_columns(partition, constraint, retained);
+    match job.has_inertia_relief() {
+        true => inertia_relief_columns(partition, factor, rigid).followed_by(modes),
+        false => modes,
     }
 }

@@ -94,6 +94,7 @@ pub(super) enum Answer {
 pub(super) enum InspectAnswer {
     Text,
     Json,
+    Rubin,
     Job,
 }
 
@@ -116,11 +117,12 @@ impl Command {
         match line.command {
             Typed::Reduce(flags) => build_reduce(*flags).map(|command| Self::Reduce(Box::new(command))),
             Typed::Verify(flags) => build_verify(flags).map(|command| Self::Verify(Box::new(command))),
-            Typed::Inspect(InspectFlags { file, json, job }) => {
-                let answer = match (json, job) {
-                    (_, true) => InspectAnswer::Job,
-                    (true, false) => InspectAnswer::Json,
-                    (false, false) => InspectAnswer::Text,
+            Typed::Inspect(InspectFlags { file, json, rubin, job }) => {
+                let answer = match (json, rubin, job) {
+                    (_, _, true) => InspectAnswer::Job,
+                    (_, true, false) => InspectAnswer::Rubin,
+                    (true, false, false) => InspectAnswer::Json,
+                    (false, false, false) => InspectAnswer::Text,
                 };
                 Ok(Self::Inspect(InspectCommand { file, answer }))
             }
@@ -190,7 +192,12 @@ fn override_job(
     job.model.symmetric = model.symmetric.or(job.model.symmetric);
     job.model.drop_empty |= model.drop_empty;
     replace(&mut job.reduction.method, reduction.method);
-    replace(&mut job.reduction.modes, mode_selection(reduction));
+    job.reduction.modes = mode_selection(reduction).or(job.reduction.modes);
+    if reduction.method.is_some_and(|method| !method.has_modes()) && mode_selection(reduction).is_none() {
+        // Those of the job were meant for its own method.
+        job.reduction.modes = None;
+    }
+    job.reduction.inertia_relief |= reduction.inertia_relief;
     replace(&mut job.reduction.eigensolver, reduction.eigensolver);
     replace(&mut job.write.superelement, output.output);
     job.write.report = output.report.or(job.write.report);
@@ -227,14 +234,16 @@ fn override_interfaces(interfaces: &mut Vec<InterfaceJob>, typed: Vec<InterfaceJ
 
 fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlags) -> Result<Job> {
     let interfaces = interfaces(&model)?;
-    let (Some(stiffness), Some(mass), Some(method), Some(modes), Some(superelement)) =
-        (&model.stiffness, &model.mass, reduction.method, mode_selection(reduction), &output.output)
+    let modes = mode_selection(reduction);
+    let are_modes_told = modes.is_some() || reduction.method.is_some_and(|method| !method.has_modes());
+    let (Some(stiffness), Some(mass), Some(method), true, Some(superelement)) =
+        (&model.stiffness, &model.mass, reduction.method, are_modes_told, &output.output)
     else {
         let flags = [
             ("--stiffness", model.stiffness.is_some()),
             ("--mass", model.mass.is_some()),
             ("--method", reduction.method.is_some()),
-            ("--up-to-hz or --modes", mode_selection(reduction).is_some()),
+            ("--up-to-hz or --modes", are_modes_told),
             ("--output", output.output.is_some()),
         ];
         let missing = flags.into_iter().filter(|(_, is_given)| !is_given).map(|(flag, _)| flag);
@@ -251,7 +260,12 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
             ..ModelJob::default()
         },
         interfaces,
-        reduction: ReductionJob { method, modes, eigensolver: reduction.eigensolver.unwrap_or_default() },
+        reduction: ReductionJob {
+            method,
+            modes,
+            inertia_relief: reduction.inertia_relief,
+            eigensolver: reduction.eigensolver.unwrap_or_default(),
+        },
         scene: None,
         run: RunJob::default(),
         write: WriteJob {

@@ -90,6 +90,9 @@ pub(super) struct ReductionFlags {
     /// Keep this many modes, extended to complete clusters
     #[arg(long, value_name = "N")]
     pub(super) modes: Option<usize>,
+    /// Add inertia-relief modes to the basis; herting and rubin have them anyway
+    #[arg(long)]
+    pub(super) inertia_relief: bool,
     /// Eigensolver [default: lanczos]
     #[arg(long, value_parser = values::<Eigensolver>())]
     pub(super) eigensolver: Option<Eigensolver>,
@@ -150,8 +153,11 @@ pub(super) struct InspectFlags {
     /// Superelement file
     pub(super) file: PathBuf,
     /// Print all content except the matrices as JSON
-    #[arg(long, conflicts_with = "job")]
+    #[arg(long, conflicts_with_all = ["job", "rubin"])]
     pub(super) json: bool,
+    /// Print Rubin's own matrices (45) and (47) and the map (51) to the coordinates of the file, as JSON
+    #[arg(long, conflicts_with = "job")]
+    pub(super) rubin: bool,
     /// Print the job that made the file, as JSON that `supel reduce` accepts in any folder: its paths are absolute
     #[arg(long)]
     pub(super) job: bool,

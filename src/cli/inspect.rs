@@ -1,5 +1,8 @@
 //! `supel inspect`: what is in a superelement file.
 
+use std::path::Path;
+
+use faer::Mat;
 use serde_json::{Value, json};
 use supel_runtime::{Coordinate, FORMAT_VERSION, Superelement, file_bytes};
 
@@ -10,6 +13,7 @@ use super::verify::job_of_file;
 use crate::error::{Error, Result, json_value};
 use crate::regular_file;
 use crate::report::{inspection, value_text};
+use crate::rubin::{Herting, Rubin};
 
 pub(super) fn run(command: &InspectCommand, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
     let failed = |error| Error::of_superelement(&command.file, error);
@@ -21,6 +25,7 @@ pub(super) fn run(command: &InspectCommand, terminal: &mut Terminal<'_>) -> Resu
     let text = match command.answer {
         InspectAnswer::Text => inspection(&superelement, file_bytes as u64, terminal.paint),
         InspectAnswer::Json => value_text(&document(&superelement)?),
+        InspectAnswer::Rubin => value_text(&rubin(&superelement, &command.file)?),
         InspectAnswer::Job => {
             let (job, remark) = job_of_file(&superelement, &command.file)?;
             remark.iter().for_each(|remark| terminal.complain(remark));
@@ -30,6 +35,25 @@ pub(super) fn run(command: &InspectCommand, terminal: &mut Terminal<'_>) -> Resu
     };
     terminal.answer(&text);
     Ok(ExitCode::Done)
+}
+
+/// Rubin's matrices, and how their coordinates [u_B; η; u_F] make those of the file; matrices as lists of rows.
+fn rubin(superelement: &Superelement, path: &Path) -> Result<Value> {
+    let herting = Herting::of_file(superelement).ok_or_else(|| Error::NoInertiaRelief { path: path.to_owned() })?;
+    let rubin = Rubin::new(herting)?;
+    let rows = |a: &Mat<f64>| -> Vec<Vec<f64>> {
+        (0..a.nrows()).map(|i| (0..a.ncols()).map(|j| a[(i, j)]).collect()).collect()
+    };
+    Ok(json!({
+        "sizes": {
+            "n_interface": rubin.n_interface(),
+            "n_modes": rubin.columns.ncols() - rubin.n_interface(),
+            "n_rigid": rubin.n_rigid(),
+        },
+        "stiffness": rows(&rubin.stiffness()),
+        "mass": rows(&rubin.mass()),
+        "to_file": rows(&rubin.to_herting()),
+    }))
 }
 
 /// Everything but the matrices.

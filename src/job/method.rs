@@ -12,6 +12,10 @@ pub enum Method {
     CraigBampton,
     /// Constraint modes, inertia-relief modes and mode-accelerated free-free modes.
     Herting,
+    /// Residual attachment modes and free-free modes: the space of Herting's method, written in Herting's variables.
+    Rubin,
+    /// Constraint modes alone: exact in statics, without modes.
+    Guyan,
 }
 
 /// The boundary condition modes are computed under.
@@ -23,27 +27,25 @@ pub enum Boundary {
     FixedInterface,
 }
 
-/// What becomes of modes as columns of the dynamic mode matrix.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Columns {
-    /// They stay as they are (38).
-    Modes,
-    /// They are accelerated, and inertia-relief modes come before them (23), (37).
-    ModeAcceleration,
-}
-
 impl Method {
     /// What a superelement file calls it.
     pub fn in_file(self) -> supel_runtime::Method {
         match self {
             Self::CraigBampton => supel_runtime::Method::CraigBampton,
             Self::Herting => supel_runtime::Method::Herting,
+            Self::Rubin => supel_runtime::Method::Rubin,
+            Self::Guyan => supel_runtime::Method::Guyan,
         }
     }
 
     /// Its name in reports.
     pub fn name(self) -> &'static str {
         self.in_file().name()
+    }
+
+    /// Its name in jobs.
+    pub fn key(self) -> String {
+        self.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
     }
 
     /// The method of a file; none where this program does not make it.
@@ -54,16 +56,23 @@ impl Method {
     /// The boundary whose modes it keeps.
     pub fn boundary(self) -> Boundary {
         match self {
-            Self::CraigBampton => Boundary::FixedInterface,
-            Self::Herting => Boundary::FreeInterface,
+            Self::CraigBampton | Self::Guyan => Boundary::FixedInterface,
+            Self::Herting | Self::Rubin => Boundary::FreeInterface,
         }
     }
 
-    /// What it makes of them.
-    pub fn columns(self) -> Columns {
-        match self {
-            Self::CraigBampton => Columns::Modes,
-            Self::Herting => Columns::ModeAcceleration,
-        }
+    /// Whether it keeps any modes.
+    pub fn has_modes(self) -> bool {
+        self != Self::Guyan
+    }
+
+    /// Whether inertia-relief modes are part of it; of other methods the job may ask for them.
+    pub fn has_inertia_relief(self) -> bool {
+        self.boundary() == Boundary::FreeInterface
+    }
+
+    /// Whether it is proved that the space is that of the residual attachment modes (50).
+    pub fn has_attachment_modes(self) -> bool {
+        self == Self::Rubin
     }
 }

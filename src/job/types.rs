@@ -129,15 +129,42 @@ pub struct Expectation {
 /// Method and modes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend(
+    "if" = { "properties": { "method": { "const": "guyan" } } },
+    "then" = { "not": { "required": ["modes"] } },
+    "else" = { "required": ["modes"] },
+))]
 pub struct ReductionJob {
     /// The method.
     pub method: Method,
-    /// How many elastic modes.
-    pub modes: ModeSelection,
+    /// How many elastic modes; Guyan's method keeps none, every other one needs it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub modes: Option<ModeSelection>,
+    /// Whether inertia-relief modes join the basis: the answers to unit accelerations of the free component, which the methods of free
+    /// modes have anyway.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub inertia_relief: bool,
     /// Which eigensolver finds them.
     #[serde(default)]
     #[schemars(extend("x-role" = "way"))]
     pub eigensolver: Eigensolver,
+}
+
+impl ReductionJob {
+    /// A method with its modes, found by Lanczos.
+    pub fn new(method: Method, modes: ModeSelection) -> Self {
+        Self { method, modes: Some(modes), inertia_relief: false, eigensolver: Eigensolver::default() }
+    }
+
+    /// The modes that are kept: none, where the method has none.
+    pub fn wanted(&self) -> ModeSelection {
+        self.modes.unwrap_or(ModeSelection::Count { count: 0 })
+    }
+
+    /// Whether inertia-relief modes are part of the basis.
+    pub fn has_inertia_relief(&self) -> bool {
+        self.inertia_relief || self.method.has_inertia_relief()
+    }
 }
 
 /// How many elastic modes are kept.

@@ -6,16 +6,14 @@ use std::path::Path;
 use super::interface::{InterfaceJob, NodeSelection, Origin};
 use super::ranges::{self, positive, size};
 use super::selection::{first_repeated, selection};
-use super::types::{Job, ModeSelection};
+use super::types::{Job, ModeSelection, ReductionJob};
 use crate::dofs::Direction;
 use crate::error::{Error, Result};
 
 pub(super) fn validate(job: &Job) -> Result<()> {
     model(job)?;
     interfaces(&job.interfaces)?;
-    if let ModeSelection::UpTo { up_to_hz } = job.reduction.modes {
-        size("reduction.modes.up_to_hz", up_to_hz)?;
-    }
+    reduction(&job.reduction)?;
     if let Some(scene) = &job.scene {
         super::scene::validate(scene, &job.interfaces)?;
     }
@@ -31,6 +29,22 @@ pub(super) fn validate(job: &Job) -> Result<()> {
         ("write.junit", write.junit.as_deref(), ".xml"),
     ];
     others.into_iter().try_for_each(|(key, path, ending)| path.map_or(Ok(()), |path| output(key, path, ending)))
+}
+
+fn reduction(job: &ReductionJob) -> Result<()> {
+    let method = job.method.key();
+    match job.modes {
+        None if job.method.has_modes() => Err(Error::JobModes {
+            found: "missing",
+            expected: format!("expected how many modes {method} keeps: {{ count = 40 }} or {{ up_to_hz = 1000 }}"),
+        }),
+        Some(_) if !job.method.has_modes() => Err(Error::JobModes {
+            found: "given",
+            expected: format!("{method} keeps no modes: remove the key or use craig-bampton"),
+        }),
+        Some(ModeSelection::UpTo { up_to_hz }) => size("reduction.modes.up_to_hz", up_to_hz),
+        _ => Ok(()),
+    }
 }
 
 fn model(job: &Job) -> Result<()> {

@@ -43,12 +43,12 @@ impl<'a> Search<'a> {
         indefinite::refuse(component)?;
         let boundary = if component.is_modal() { Boundary::FreeInterface } else { job.method.boundary() };
         let problem = BoundaryProblem { component, boundary };
-        let wanted = mode_wish(job.modes, component.partition);
+        let wanted = mode_wish(job.wanted(), component.partition);
         let edge = match wanted {
             Wanted::UpTo(limit) if limit > 0.0 => edge_of(&problem, limit)?,
             _ => None,
         };
-        let n_asked = match job.modes {
+        let n_asked = match job.wanted() {
             ModeSelection::Count { count } => Some(count),
             ModeSelection::UpTo { .. } => None,
         };

@@ -267,7 +267,7 @@ fn reason(results: &Results<'_>) -> String {
 fn number_of_modes(results: &Results<'_>) -> Option<Warning> {
     let modes = &results.evidence.retained.modes;
     let found = modes.count();
-    match results.job.reduction.modes {
+    match results.job.reduction.wanted() {
         ModeSelection::Count { count } if found < count => Some(Warning {
             code: "W-FEWER-MODES",
             message: format!(

@@ -10,7 +10,7 @@ use super::recovery::recovery;
 use super::results::Results;
 use crate::basis::DynamicCoordinate;
 use crate::error::{Error, Result, json_value};
-use crate::job::{Boundary, Job, ModeSelection};
+use crate::job::{Job, ModeSelection};
 use crate::partition::DofOrigin;
 use crate::verification::check::{Check, Verdict};
 
@@ -81,7 +81,7 @@ fn frequencies(results: &Results<'_>) -> Vec<f64> {
 /// Stored dynamic modes = named modes · mixing, in the user's units; none where every column is its named mode.
 fn mixing(results: &Results<'_>) -> Option<Mat<f64>> {
     let evidence = &results.evidence;
-    if evidence.retained.boundary == Boundary::FixedInterface || evidence.basis.n_dynamic() == 0 {
+    if evidence.basis.coordinates.iter().all(|c| matches!(c, DynamicCoordinate::FixedInterface(_))) {
         return None;
     }
     let scaling = evidence.partition.scaling;
@@ -185,7 +185,7 @@ fn dynamic_coordinate(results: &Results<'_>, tensors: &Tensors, coordinate: Dyna
 
 /// From zero to the frequency the modes reach.
 fn band(job: &Job, tensors: &Tensors) -> Option<[f64; 2]> {
-    match job.reduction.modes {
+    match job.reduction.wanted() {
         ModeSelection::UpTo { up_to_hz } => Some([0.0, up_to_hz]),
         ModeSelection::Count { .. } => tensors.frequencies.last().map(|omega| [0.0, omega / std::f64::consts::TAU]),
     }

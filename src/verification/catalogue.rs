@@ -255,6 +255,14 @@ pub const CATALOGUE: &[Entry] = &[
         "The comparison at the frequency named says little: give more damping in [scene], or a band that ends below it.",
     ),
     line(
+        "M-22",
+        Proof::Measured,
+        Recorded::Sometimes,
+        "Rubin's residual attachment modes are put into the full matrices: nothing of them is rigid-body motion, and the forces that \
+         keep them act on the interface alone, but for the inertia of the free body.",
+        "Unit accelerations hardly deform the interior: use --method herting, which has its inertia-relief modes as coordinates.",
+    ),
+    line(
         "M-23",
         Proof::Estimated,
         Recorded::Always(2),

@@ -10,6 +10,7 @@ use crate::modes::{Certificate, Retained};
 use crate::partition::Partition;
 use crate::reduction::Reduction;
 use crate::rigid::{InterfaceRank, RigidBodyModes};
+use crate::rubin::Rubin;
 
 use super::enclosure::Enclosures;
 
@@ -36,6 +37,8 @@ pub struct Evidence<'a> {
     pub basis: &'a Basis,
     /// The reduced matrices.
     pub reduction: &'a Reduction,
+    /// Rubin's form of the reduced matrices, where the method is his.
+    pub rubin: Option<&'a Rubin>,
     /// The Sturm count, where one was asked for.
     pub certificate: Option<&'a Certificate>,
     /// The intervals that are proved to hold the modes, where they were asked for.

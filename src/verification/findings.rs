@@ -5,7 +5,9 @@ use super::evidence::Evidence;
 use super::grounding::{self, Grounding};
 use super::loads::{self, EffectiveMasses};
 use super::rigid_body::{self, MassRoutes};
-use super::{completeness, conditioning, eigenpairs, enclosed, mass, reduced, rigid_motion, solves, spectrum};
+use super::{
+    attachment, completeness, conditioning, eigenpairs, enclosed, mass, reduced, rigid_motion, solves, spectrum,
+};
 use crate::error::Result;
 
 /// What verification found.
@@ -79,6 +81,7 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     checks.extend(mass::expected(evidence));
     checks.extend(loads::accelerations(evidence, condition));
     checks.extend(rigid_body.effective_mass.as_ref().and_then(loads::effective_mass));
+    checks.extend(attachment::checks(evidence)?);
     checks.extend(conditioning::conditioning(evidence, condition)?);
     checks.push(reduced::symmetry(evidence, &terms));
     checks.push(reduced::definiteness(evidence, &spectrum));

@@ -3,6 +3,7 @@
 //! Verification never changes a result. It measures, names the equation and compares with a limit of the form
 //! max(engineering, arithmetic, data). Each check says which of the three was active. Identifiers of checks are stable.
 
+mod attachment;
 pub mod catalogue;
 pub mod check;
 mod completeness;

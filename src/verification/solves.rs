@@ -29,12 +29,8 @@ pub(super) fn static_solves(evidence: &Evidence<'_>) -> Result<Check> {
     let partition = evidence.partition;
     let rows = Rows::of(partition.pencil());
     let n_b = partition.n_interface();
-    let (combinations, column_is) = if n_b <= MAX_SINGLE_COLUMNS {
-        (Mat::identity(n_b, n_b), "constraint mode")
-    } else {
-        (gaussian(n_b, &rows.norms.scale[partition.n_internal..]), "random combination")
-    };
-    let (forces, lift) = forces_of_correction(evidence)?;
+    let Statics { combinations, forces, lift } = statics(evidence, &rows)?;
+    let column_is = if n_b <= MAX_SINGLE_COLUMNS { "constraint mode" } else { "random combination" };
     let (mut worst, mut explained) = (Worst::none(), Worst::none());
     for columns in panels(combinations.ncols()) {
         let panel = constraint_panel(evidence, combinations.as_ref().get(.., columns.clone()));
@@ -66,6 +62,30 @@ pub(super) fn static_solves(evidence: &Evidence<'_>) -> Result<Check> {
         fail_above: limits.value().max(FAIL),
         worst: worst.name(evidence, column_is),
     })
+}
+
+/// Which static solutions are looked at, and what force the correction (24) leaves in them.
+pub(super) struct Statics<'a> {
+    /// Motions of the interface, n_B × k: each dof, or random combinations of many.
+    pub(super) combinations: Mat<f64>,
+    /// (KU)_I, n' × n_r, as far as the digits of K excuse it.
+    pub(super) forces: Mat<f64>,
+    /// U_B⁺, n_r × n_B.
+    pub(super) lift: MatRef<'a, f64>,
+}
+
+/// The motions of the interface whose static solutions are looked at.
+///
+/// # Errors
+/// A dense eigenproblem that does not converge.
+pub(super) fn statics<'a>(evidence: &Evidence<'a>, rows: &Rows<'_>) -> Result<Statics<'a>> {
+    let n_b = evidence.partition.n_interface();
+    let combinations = match n_b <= MAX_SINGLE_COLUMNS {
+        true => Mat::identity(n_b, n_b),
+        false => gaussian(n_b, &rows.norms.scale[evidence.partition.n_internal..]),
+    };
+    let (forces, lift) = forces_of_correction(evidence)?;
+    Ok(Statics { combinations, forces, lift })
 }
 
 /// Forces of rigid-body motion at the internal dofs, n' × n_r, twice over, with the U_B⁺ that the correction of Ψ_S used.

@@ -4,7 +4,7 @@ use supel::basis::Basis;
 use supel::constraint::constraint_modes;
 use supel::factor::Cholesky;
 use supel::input::Input;
-use supel::job::{Eigensolver, InterfaceJob, Method, ModeSelection, ReductionJob};
+use supel::job::{InterfaceJob, Method, ModeSelection, ReductionJob};
 use supel::model::Model;
 use supel::modes::{Component, ModeSource, Retained, Search};
 use supel::partition::Partition;
@@ -31,14 +31,11 @@ pub fn with_evidence<T>(
     let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof)).expect("definite");
     let constraint = constraint_modes(&partition, &factor, &rigid);
     let component = Component::new(&partition, &analysis, &factor, &rigid, &constraint);
-    let job = ReductionJob { method, modes: ModeSelection::Count { count }, eigensolver: Eigensolver::Lanczos };
+    let job = ReductionJob::new(method, ModeSelection::Count { count });
     let search = Search::new(component, &job).expect("a stable component");
     let retained = Retained { modes: search.lowest(SEED).expect("modes"), boundary: search.problem.boundary };
-    let basis = Basis::new(
-        &constraint,
-        supel::basis::retained_columns(component, method, &retained),
-        partition.internal().mass,
-    );
+    let basis =
+        Basis::new(&constraint, supel::basis::retained_columns(component, &job, &retained), partition.internal().mass);
     let reduction = Reduction::new(&partition, &basis, &rigid);
     look(Evidence {
         partition: &partition,
@@ -49,6 +46,7 @@ pub fn with_evidence<T>(
         retained: &retained,
         basis: &basis,
         reduction: &reduction,
+        rubin: None,
         certificate: None,
         enclosures: None,
         expect: None,

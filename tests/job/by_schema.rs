@@ -25,7 +25,7 @@ fn jobs() -> Vec<Value> {
                 "expect": { "mass": 2.5, "cg": [0.25, 1.25, 2.25] },
             },
             "interface": interfaces,
-            "reduction": { "method": "herting", "modes": modes, "eigensolver": "arpack" },
+            "reduction": { "method": "herting", "modes": modes, "inertia_relief": true, "eigensolver": "arpack" },
             "scene": { "band_hz": [0.25, 500.5], "boundaries": ["free", "fix:hub", "mass:hub", "mass:hub=2.5"], "damping": { "ratio": 0.25 } },
             "run": { "certify": "full", "memory_gib": 4.5, "precision": "mixed" },
             "write": {

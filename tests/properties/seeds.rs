@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use supel::basis::Basis;
 use supel::constraint::constraint_modes;
 use supel::factor::Cholesky;
-use supel::job::{Eigensolver, Method, ModeSelection, ReductionJob};
+use supel::job::{Method, ModeSelection, ReductionJob};
 use supel::modes::{Component, ModeSource, Retained, Search};
 use supel::partition::Partition;
 use supel::random::SEED;
@@ -38,15 +38,12 @@ fn built(method: Method, count: usize, seed: u64) -> Built {
         rigid: &rigid,
         constraint: &constraint,
     };
-    let job = ReductionJob { method, modes: ModeSelection::Count { count }, eigensolver: Eigensolver::Lanczos };
+    let job = ReductionJob::new(method, ModeSelection::Count { count });
     let search = Search::new(component, &job).expect("counts");
     let found = search.lowest(seed).expect("converges");
     let retained = Retained { modes: found, boundary: search.problem.boundary };
-    let basis = Basis::new(
-        &constraint,
-        supel::basis::retained_columns(component, method, &retained),
-        partition.internal().mass,
-    );
+    let basis =
+        Basis::new(&constraint, supel::basis::retained_columns(component, &job, &retained), partition.internal().mass);
     let reduction = Reduction::new(&partition, &basis, &rigid);
     drop(factor);
     Built { reduction, retained, partition }

@@ -7,5 +7,6 @@ mod basis;
 mod eigenpairs;
 mod reduction;
 mod rigid_body;
+mod rubin;
 
 use supel_testing::{cases, chain};

@@ -102,7 +102,7 @@ impl AskedModes {
     /// The eigensolver fails; the count falls on an eigenvalue.
     pub(super) fn held(interior: Option<&Interior<'_>>, partition: &Partition, job: &ReductionJob) -> Result<Self> {
         let Some(interior) = interior else {
-            return Ok(Self::none(partition, mode_wish(job.modes, partition)));
+            return Ok(Self::none(partition, mode_wish(job.wanted(), partition)));
         };
         let problem = partition.held_problem();
         Self::of(problem, (&interior.factor, interior.sigma), job, partition)
@@ -114,7 +114,7 @@ impl AskedModes {
         job: &ReductionJob,
         partition: &Partition,
     ) -> Result<Self> {
-        let wanted = mode_wish(job.modes, partition);
+        let wanted = mode_wish(job.wanted(), partition);
         let by = |eigensolver: Eigensolver| {
             elastic_modes(problem, &Factored::new(factor, sigma), ModeRequest { wanted, eigensolver, seed: SEED })
         };

@@ -85,8 +85,7 @@ impl Columns {
         (asked, probes): (&AskedModes, Mat<f64>),
     ) -> Self {
         let (n_i, p, n_modes) = (partition.n_internal, probes.ncols(), asked.modes.count());
-        let is_accelerated = asked.boundary == Boundary::FreeInterface;
-        let n_relief = if is_accelerated { motions.relieved.ncols() } else { 0 };
+        let n_relief = motions.relieved.ncols();
         let relief = (0..n_relief).map(Named::Relief);
         let named: Vec<Named> = relief.chain((0..n_modes).map(Named::Mode)).collect();
         let mut columns = Self {
@@ -102,12 +101,14 @@ impl Columns {
         let follower = Follower::new(partition, interior, motions.carried);
         let statics = follower.follow(columns.probes.as_ref());
         columns.residual = columns.take(0, statics);
-        if is_accelerated {
-            columns.accelerate(&follower, (motions.relieved, asked));
-            columns.add_turns(&follower, motions);
-        } else {
-            let mut at = columns.shapes.as_mut().subrows_mut(0, n_i).subcols_mut(p, n_modes);
-            at.copy_from(&asked.modes.shapes);
+        columns.relieve(&follower, motions.relieved);
+        columns.add_turns(&follower, motions);
+        match asked.boundary {
+            Boundary::FreeInterface => columns.accelerate(&follower, (n_relief, asked)),
+            Boundary::FixedInterface => {
+                let mut at = columns.shapes.as_mut().subrows_mut(0, n_i).subcols_mut(p + n_relief, n_modes);
+                at.copy_from(&asked.modes.shapes);
+            }
         }
         columns.add_angles(partition, asked);
         columns
@@ -134,17 +135,21 @@ impl Columns {
         self.probes.ncols()
     }
 
-    /// N of inertia relief and mode acceleration.
-    fn accelerate(&mut self, follower: &Follower<'_>, (relieved, asked): (MatRef<'_, f64>, &AskedModes)) {
-        let (n_i, p, n_r) = (follower.partition.n_internal, self.n_probes(), relieved.ncols());
+    /// N of inertia relief.
+    fn relieve(&mut self, follower: &Follower<'_>, relieved: MatRef<'_, f64>) {
         let momenta = product(&follower.partition.mass, relieved);
-        let relief = follower.answer(momenta.as_ref().subrows(0, n_i));
-        self.take(p, relief);
+        let relief = follower.answer(momenta.as_ref().subrows(0, follower.partition.n_internal));
+        self.take(self.n_probes(), relief);
+    }
+
+    /// N of mode acceleration, after the columns of inertia relief.
+    fn accelerate(&mut self, follower: &Follower<'_>, (n_relief, asked): (usize, &AskedModes)) {
+        let (n_i, p) = (follower.partition.n_internal, self.n_probes());
         let (x_i, x_b) = asked.modes.shapes.as_ref().split_at_row(n_i);
         let mut accelerated = follower.follow(x_b);
         accelerated.x *= faer::Scale(-1.0);
         accelerated.x += x_i;
-        self.take(p + n_r, accelerated);
+        self.take(p + n_relief, accelerated);
     }
 
     /// Puts answers into the interior of columns, with what they lack; gives back how much that is.

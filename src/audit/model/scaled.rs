@@ -3,7 +3,7 @@
 use faer::Mat;
 use supel_runtime::{Coordinate, Precision, Superelement};
 
-use crate::audit::content::unpacked;
+use crate::dense::unpacked;
 use crate::partition::Partition;
 
 /// K̂, M̂, Û and all the rest as the stages of the model see them.

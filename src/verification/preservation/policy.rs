@@ -107,7 +107,7 @@ impl Cost {
 
 /// From zero to where the modes that were kept serve.
 fn default_band(evidence: &Evidence<'_>, job: &Job) -> Option<[f64; 2]> {
-    let highest = match job.reduction.modes {
+    let highest = match job.reduction.wanted() {
         ModeSelection::UpTo { up_to_hz } => Some(up_to_hz),
         ModeSelection::Count { .. } => {
             evidence.retained.modes.lambda.last().map(|lambda| evidence.partition.scaling.hertz(*lambda))

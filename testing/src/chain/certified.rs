@@ -37,12 +37,12 @@ pub fn eigensolver_words() -> &'static [&'static str] {
 
 /// Fixed-interface modes, with no interface those of the model as it is.
 pub fn held(modes: ModeSelection, eigensolver: Eigensolver) -> ReductionJob {
-    ReductionJob { method: Method::CraigBampton, modes, eigensolver }
+    ReductionJob { eigensolver, ..ReductionJob::new(Method::CraigBampton, modes) }
 }
 
 /// Free-interface modes.
 pub fn free(modes: ModeSelection, eigensolver: Eigensolver) -> ReductionJob {
-    ReductionJob { method: Method::Herting, modes, eigensolver }
+    ReductionJob { eigensolver, ..ReductionJob::new(Method::Herting, modes) }
 }
 
 /// So many modes.

@@ -6,7 +6,7 @@
 pub mod certified;
 mod twin;
 
-use supel::basis::{Basis, DynamicColumns, fixed_interface_columns, mode_acceleration_columns};
+use supel::basis::{Basis, DynamicColumns, retained_columns};
 use supel::constraint::FreeAtZero;
 use supel::constraint::{ConstraintModes, constraint_modes};
 use supel::coordinates;
@@ -16,8 +16,9 @@ use supel::error::Error;
 use supel::factor::Cholesky;
 use supel::input::{Input, MatrixInput};
 pub use supel::job::Method;
-use supel::job::{Coupling, Eigensolver, InterfaceJob, NodeSelection, Origin};
+use supel::job::{Boundary, Coupling, Eigensolver, InterfaceJob, ModeSelection, NodeSelection, Origin, ReductionJob};
 use supel::model::Model;
+use supel::modes::{Component, Retained};
 use supel::partition::{self, Partition};
 use supel::random::SEED;
 use supel::reduction::Reduction;
@@ -125,21 +126,23 @@ pub fn reduce(
     let constraint = constraint_modes(&partition, &factor, &rigid);
     let request = ModeRequest { wanted: Wanted::Count(count), eigensolver: Eigensolver::Lanczos, seed: SEED };
     let precision = partition.precision;
-    let (modes, named) = match method {
-        Method::CraigBampton => {
+    let boundary = method.boundary();
+    let modes = match boundary {
+        Boundary::FixedInterface => {
             let problem = ModalProblem::of(partition.internal(), precision);
-            let modes = elastic_modes(problem, &Factored::new(&factor, 0.0), request)?;
-            let named = fixed_interface_columns(&modes);
-            (modes, named)
+            elastic_modes(problem, &Factored::new(&factor, 0.0), request)?
         }
-        Method::Herting => {
+        Boundary::FreeInterface => {
             let operator = FreeAtZero::new(&factor, &partition.stiffness, &constraint, &rigid)?;
             let problem = ModalProblem::of(partition.pencil(), precision).deflating(rigid.deflated());
-            let modes = elastic_modes(problem, &operator, request)?;
-            let named = mode_acceleration_columns(&partition, &factor, &constraint, &rigid, &modes);
-            (modes, named)
+            elastic_modes(problem, &operator, request)?
         }
     };
+    let component = Component::new(&partition, &analysis, &factor, &rigid, &constraint);
+    let retained = Retained { modes, boundary };
+    let job = ReductionJob::new(method, ModeSelection::Count { count });
+    let named = retained_columns(component, &job, &retained);
+    let modes = retained.modes;
     let basis = Basis::new(&constraint, named.clone(), partition.internal().mass);
     let reduction = Reduction::new(&partition, &basis, &rigid);
     Ok(Chain { partition, rigid, constraint, modes, named, basis, reduction })

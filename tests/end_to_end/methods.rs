@@ -1,0 +1,135 @@
+//! Rubin's and Guyan's methods, and inertia relief with any of them.
+
+use faer::Mat;
+use serde_json::Value;
+use supel::cli::ExitCode;
+use supel_models::{Ends, spring};
+use supel_runtime::{Coordinate, Matrix, Method, Superelement};
+
+use crate::place::{Place, supel};
+
+const INTERFACE: &str = "--interface foot=1,11,31,41 --rigid-interface head=5,15,35";
+
+/// Reduces the brick, has the file verified by itself and against the model, and returns it.
+fn verified(place: &Place, method: &str) -> Superelement {
+    place.reduce(&place.model_flags(), &format!("{INTERFACE} --method {method}")).expect(ExitCode::Done);
+    let file = place.text("x.supel");
+    supel(&["verify", &file, "--strict"]).expect(ExitCode::Done);
+    place.write("job.json", supel(&["inspect", &file, "--job"]).expect(ExitCode::Done).out.as_bytes());
+    supel(&["verify", &file, "--strict", "--job", &place.text("job.json")]).expect(ExitCode::Done);
+    place.superelement("x.supel")
+}
+
+fn unpacked(matrix: &Matrix) -> Mat<f64> {
+    Mat::from_fn(matrix.rows(), matrix.cols(), |i, j| matrix[(i, j)])
+}
+
+fn value_of(place: &Place, name: &str) -> f64 {
+    let report = place.report("x.report.json");
+    let checks = report["body"]["checks"].as_array().expect("checks");
+    let check = checks.iter().find(|check| check["name"] == name).unwrap_or_else(|| panic!("{name} is not there"));
+    check["value"].as_f64().expect("a number")
+}
+
+#[test]
+fn rubin_is_herting_with_a_proof_of_its_attachment_modes() {
+    let place = Place::with_brick();
+    let herting = verified(&place, "herting --modes 5");
+    let rubin = verified(&place, "rubin --modes 5");
+    assert_eq!(rubin.metadata().method, Method::Rubin);
+    assert!(rubin.tensors() == herting.tensors(), "the matrices of both");
+    assert!(value_of(&place, "attachment modes are free of rigid-body motion") <= 1e-12);
+    assert!(value_of(&place, "attachment modes are in equilibrium with inertia") <= 1e-12);
+
+    let printed = supel(&["inspect", &place.text("x.supel"), "--rubin"]).expect(ExitCode::Done).out;
+    let printed: Value = serde_json::from_str(&printed).expect("json");
+    let matrix = |key: &str| {
+        let rows: Vec<Vec<f64>> = serde_json::from_value(printed[key].clone()).expect("rows");
+        Mat::from_fn(rows.len(), rows[0].len(), |i, j| rows[i][j])
+    };
+    let (to, n) = (matrix("to_file"), rubin.n_coordinates());
+    assert_eq!((to.nrows(), to.ncols()), (n, n));
+    for (key, of_file) in [("stiffness", &rubin.tensors().stiffness), ("mass", &rubin.tensors().mass)] {
+        let expected = to.transpose() * unpacked(of_file) * &to;
+        let found = matrix(key);
+        for i in 0..n {
+            for j in 0..n {
+                // Rows of K̂ cancel for rigid-body motion: what is left is relative to the largest entry of both coordinates.
+                let size = (0..n).map(|k| expected[(i, k)].abs().max(expected[(j, k)].abs())).fold(0.0, f64::max);
+                let error = (found[(i, j)] - expected[(i, j)]).abs();
+                assert!(error <= 1e-8 * size, "{key} {i}, {j}: {error:e} of {size:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn guyan_is_craig_bampton_without_modes() {
+    let place = Place::with_brick();
+    let guyan = verified(&place, "guyan");
+    assert_eq!(guyan.metadata().method, Method::Guyan);
+    assert_eq!(guyan.n_modal(), 0);
+    let craig_bampton = verified(&place, "craig-bampton --modes 0");
+    assert!(guyan.tensors() == craig_bampton.tensors());
+}
+
+/// With inertia relief no deflection under unit accelerations is left out, whatever the method; without it most is.
+#[test]
+fn inertia_relief_makes_unit_accelerations_exact() {
+    const DEFLECTION: &str = "deflection under unit accelerations";
+    let place = Place::with_brick();
+    for method in ["guyan", "craig-bampton --modes 2"] {
+        verified(&place, method);
+        assert!(value_of(&place, DEFLECTION) > 1e-3, "{method}");
+        let relieved = verified(&place, &format!("{method} --inertia-relief"));
+        assert!(value_of(&place, DEFLECTION) < 1e-9, "{method}");
+        let is_relief = |c: &&Coordinate| matches!(c, Coordinate::InertiaRelief { .. });
+        assert_eq!(relieved.metadata().coordinates.iter().filter(is_relief).count(), 6, "{method}");
+        assert!(relieved.tensors().mixing.is_some(), "{method}");
+    }
+}
+
+#[test]
+fn modes_and_method_have_to_fit() {
+    let place = Place::with(&spring(5, Ends::Free));
+    let refused = |flags: &str| {
+        place.reduce(&place.matrix_flags(), &format!("--interface ends=rows:0,4 {flags}")).expect(ExitCode::Usage).err
+    };
+    let given = refused("--method guyan --modes 3");
+    assert!(given.contains("E-JOB-MODES") && given.contains("guyan keeps no modes"), "{given}");
+    let missing = refused("--method rubin");
+    assert!(missing.contains("--up-to-hz or --modes"), "{missing}");
+    let job = |reduction: &str| {
+        format!(
+            "{{\"model\": {{\"stiffness\": \"K.mtx\", \"mass\": \"M.mtx\"}}, \"reduction\": {{{reduction}}}, \
+             \"write\": {{\"superelement\": \"x.supel\"}}}}"
+        )
+    };
+    place.write("job.json", job("\"method\": \"rubin\"").as_bytes());
+    let missing = supel(&["reduce", &place.text("job.json")]).expect(ExitCode::Usage).err;
+    assert!(missing.contains("`reduction.modes` is missing – expected how many modes rubin keeps"), "{missing}");
+    // Modes of the job were meant for its own method.
+    place.write("job.json", job("\"method\": \"rubin\", \"modes\": {\"count\": 1}").as_bytes());
+    supel(&["reduce", &place.text("job.json"), "--method", "guyan", "--interface", "ends=rows:0,4"])
+        .expect(ExitCode::Done);
+}
+
+#[test]
+fn rubins_matrices_need_inertia_relief() {
+    let place = Place::with(&spring(5, Ends::Free));
+    place
+        .reduce(&place.matrix_flags(), "--interface ends=rows:0,4 --method craig-bampton --modes 1")
+        .expect(ExitCode::Done);
+    let refused = supel(&["inspect", &place.text("x.supel"), "--rubin"]).expect(ExitCode::Usage).err;
+    assert!(refused.contains("E-NO-RELIEF") && refused.contains("rubin or herting"), "{refused}");
+
+    // All mass at the interface: nothing inside answers an acceleration.
+    let mut bare = spring(5, Ends::Free);
+    bare.mass.retain(|entry| [0, 4].contains(&entry.0) && [0, 4].contains(&entry.1));
+    let place = Place::with(&bare);
+    let refused = place
+        .reduce(&place.matrix_flags(), "--interface ends=rows:0,4 --method rubin --modes 0")
+        .expect(ExitCode::ModelPhysics)
+        .err;
+    assert!(refused.contains("E-ATTACHMENT"), "{refused}");
+}
