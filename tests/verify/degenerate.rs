@@ -4,6 +4,7 @@
 use supel::cli::ExitCode;
 use supel_models::frame::{Inertia, Section, frame};
 use supel_models::model::Assembler;
+use supel_models::transform::join;
 use supel_models::{Material, Model, brick};
 
 use crate::place::{Place, supel};
@@ -56,6 +57,37 @@ fn mode_that_lives_in_the_interface_is_left_out() {
     let kept = place.superelement("x.supel").metadata().coordinates.len();
     // Inertia relief of the first body, three of its modes.
     assert_eq!((kept, sizes(&place).1), (7 + 1 + 3, 2));
+}
+
+/// Three beams and masses between them: eighteen motions without energy, more than are looked at first, which one by one have the mass of
+/// each beam and no space of their own in M.
+#[test]
+fn bodies_that_only_the_mass_couples_agree() {
+    let nodes = |t: usize| [0.0, 0.1, 0.2].map(|x| [x, 0.05 * t as f64, 0.01 * (t * t) as f64]);
+    let section = Section { area: 1e-4, second_moment_y: 1e-9, second_moment_z: 2e-9, torsion: 2e-9 };
+    let beam = |t| frame(&nodes(t), &[[0, 1], [1, 2]], &section, &Material::STEEL_SI, Inertia::Consistent);
+    let beams = join(&join(&beam(0), &beam(1), &[]), &beam(2), &[]);
+    for [own, between] in [[1.0, -1.0], [2.0, 1.0]] {
+        let mut mass = Assembler::default();
+        mass.extend(beams.mass.iter().copied());
+        for (first, second) in (0..6).map(|node| (6 * node, 6 * node + 18)) {
+            for [i, j] in [0, 1, 2].map(|direction| [first + direction, second + direction]) {
+                for (row, column, value) in [(i, i, own), (j, j, own), (i, j, between), (j, i, between)] {
+                    mass.add(row, column, 0.02 * value);
+                }
+            }
+        }
+        let place = Place::with(&Model { mass: mass.finish(), ..beams.clone() });
+        for method in ["herting", "craig-bampton"] {
+            let rest = format!("--interface a=1 --interface b=4 --interface c=7 --method {method} --modes 3");
+            agree(&place, &place.model_flags(), &rest);
+        }
+        if cfg!(feature = "arpack") {
+            let rest =
+                "--interface a=1 --interface b=4 --interface c=7 --method herting --modes 3 --eigensolver arpack";
+            agree(&place, &place.model_flags(), rest);
+        }
+    }
 }
 
 /// All modes of a bar of square section: pairs of one frequency, and interfaces that leave fewer dofs than there are modes.
