@@ -150,6 +150,21 @@ fn count_between_two_near_frequencies() {
     assert_eq!(sizes(&place), (12 + 6 + 1, 0));
 }
 
+/// Light oscillators whose frequencies are near and no cluster: their accelerated columns keep 10⁻⁴ to 10⁻⁵ of their length, and the
+/// amplitudes of a mode are known to what the inverse of that mixing leaves.
+#[test]
+fn modes_of_short_columns_are_judged_by_what_the_mixing_leaves() {
+    for (n, within, stiffness, count) in
+        [(6u32, 2e-6, 1e-3, 9), (12, 2e-6, 1e-3, 15), (8, 5e-6, 1e-4, 13), (8, 2e-5, 1e-3, 13)]
+    {
+        let mut between: Vec<(u32, u32, f64)> = (0..n - 1).map(|row| (row, row + 1, 1.0)).collect();
+        between.extend((0..n).map(|at| (at, n + at, stiffness * (1.0 + within * f64::from(at)))));
+        let masses: Vec<f64> = (0..2 * n).map(|row| if row < n { 1.0 } else { 1e-6 }).collect();
+        let place = Place::with(&springs(&masses, &[], &between));
+        agree(&place, &place.matrix_flags(), &format!("--interface r=rows:0 --method herting --modes {count}"));
+    }
+}
+
 /// Forty oscillators that are one cluster, which ARPACK does not find its way out of.
 #[test]
 fn cluster_that_the_other_eigensolver_fails_on_is_verified_by_the_same() {
