@@ -50,6 +50,19 @@ fn direct_sum(a: &[Entry], b: &[Entry], rows_of_b: &[u32]) -> Vec<Entry> {
     sum.finish()
 }
 
+/// `model` with a device that some nodes carry by the mean of their translations: mass alone, with no stiffness between them.
+pub fn carrying(model: &Model, labels: &[i64], mass: f64) -> Model {
+    let mut with_device = Assembler::default();
+    with_device.extend(model.mass.iter().copied());
+    let share = mass / (labels.len() * labels.len()) as f64;
+    for direction in 0..3 {
+        let is_carrier = |dof: &(i64, u8)| labels.contains(&dof.0) && dof.1 == direction;
+        let rows = || (0..).zip(&model.dofs).filter(|(_, dof)| is_carrier(dof)).map(|(row, _): (u32, _)| row);
+        with_device.extend(rows().flat_map(|i| rows().map(move |j| (i, j, share))));
+    }
+    Model { mass: with_device.finish(), ..model.clone() }
+}
+
 /// `model` at another place.
 pub fn translated(model: &Model, by: [f64; 3]) -> Model {
     let nodes = model.nodes.iter().map(|x| std::array::from_fn(|d| x[d] + by[d])).collect();

@@ -92,12 +92,13 @@ impl<'a> Content<'a> {
         self.u.ncols()
     }
 
-    /// Limits of an energy that should be nothing, relative to that of the first elastic mode. A file does not say how many digits
-    /// its matrices had, and all that its bars explain counts alike.
-    pub(super) fn energy_limits(&self) -> Judged {
+    /// Limits of an energy that should be nothing, relative to an eigenvalue. A file does not say how many digits its matrices had, and
+    /// all that its bars explain counts alike.
+    pub(super) fn energy_limits(&self, eigenvalue: f64) -> Judged {
+        let noise = self.noise.size() * self.first / eigenvalue;
         match self.noise {
-            Noise::OfModel(noise) => limits::of_energy(noise, 1.0),
-            Noise::OfFile(noise) => limits::of_unexplained_energy(noise),
+            Noise::OfModel(_) => limits::of_energy(noise, 1.0),
+            Noise::OfFile(_) => limits::of_unexplained_energy(noise),
         }
     }
 

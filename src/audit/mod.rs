@@ -98,7 +98,7 @@ fn checked(content: &Content<'_>) -> Result<Audit> {
     audit.checks.push(spectrum::modal_masses(content));
     audit.checks.extend(rigid_motion::positions(content));
     audit.checks.push(rigid_motion::null_space(content));
-    audit.checks.push(rigid_motion::energy(content));
+    audit.checks.push(rigid_motion::energy(content, &spectrum));
     audit.checks.push(rigid_motion::zero_modes(content)?);
     audit.checks.push(spectrum::block_coupling(content));
     audit.checks.push(spectrum::frequencies(content, &spectrum));

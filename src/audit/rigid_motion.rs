@@ -5,6 +5,7 @@ use supel_runtime::{Coordinate, RigidBodyModes};
 
 use super::content::Content;
 use super::flaw::flaw;
+use super::spectrum::Spectrum;
 use crate::dense;
 use crate::dofs::Direction;
 use crate::eigen::{Equilibrated, zero};
@@ -89,7 +90,8 @@ pub(super) fn null_space(content: &Content<'_>) -> Check {
 }
 
 /// M-05: what the stiffest rigid-body motion costs, relative to the first elastic mode.
-pub(super) fn energy(content: &Content<'_>) -> Check {
+pub(super) fn energy(content: &Content<'_>, spectrum: &Spectrum) -> Check {
+    let elastic = spectrum.of_energies(content);
     let momenta = dense::product(content.m.as_ref(), content.u.as_ref());
     let forces = dense::product(content.k.as_ref(), content.u.as_ref());
     let mut worst = (0.0, None);
@@ -97,14 +99,14 @@ pub(super) fn energy(content: &Content<'_>) -> Check {
         let u = dense::column(content.u.as_ref(), j);
         let energy = dense::dot(u, dense::column(forces.as_ref(), j));
         let inertia = dense::dot(u, dense::column(momenta.as_ref(), j));
-        let ratio = energy.abs() / (content.first * inertia);
+        let ratio = energy.abs() / (elastic * inertia);
         // A motion without inertia is not a motion of a body.
         let ratio = if inertia > 0.0 { ratio } else { f64::NAN };
         if dense::worse(ratio, worst.0) {
             worst = (ratio, Some(format!("rigid-body mode {}", j + 1)));
         }
     }
-    let Judged { limits, fail_above } = content.energy_limits();
+    let Judged { limits, fail_above } = content.energy_limits(elastic);
     Check {
         id: "M-05",
         name: "rigid-body motion costs no energy",

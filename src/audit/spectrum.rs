@@ -8,7 +8,7 @@ use crate::dense;
 use crate::error::Result;
 use crate::job::Boundary;
 use crate::verification::check::{Check, Limits};
-use crate::verification::limits::Judged;
+use crate::verification::limits::{Judged, NEARLY_FREE};
 
 /// The eigenvalues that the checks need.
 pub(super) struct Spectrum {
@@ -30,6 +30,21 @@ impl Spectrum {
             }
         };
         Ok(Self { free, same_boundary })
+    }
+}
+
+/// Motions of a body as a whole.
+const MOTIONS: usize = 6;
+
+impl Spectrum {
+    /// What the energy of rigid-body motion is compared with: the first elastic eigenvalue, or the one beyond motions of the body as a whole
+    /// that cost energy and are free in practice all the same. Springs so soft hold some of the six, and the others are left with roundings
+    /// that are nothing but compared with those.
+    pub(super) fn of_energies(&self, content: &Content<'_>) -> f64 {
+        let mut beyond =
+            (content.n_rigid() + 1..=MOTIONS).filter_map(|k| Some([*self.free.get(k - 1)?, *self.free.get(k)?]));
+        let step = beyond.find(|[soft, next]| *soft <= NEARLY_FREE * next);
+        step.map_or(content.first, |[_, next]| next)
     }
 }
 
@@ -153,7 +168,7 @@ pub(super) fn definiteness(content: &Content<'_>, spectrum: &Spectrum) -> Check 
         None if content.n_reduced() > 0 => (f64::INFINITY, Some("K̂ + λ₁M̂ is not definite".to_owned())),
         lowest => ((-lowest.copied().unwrap_or(0.0) / content.first).max(0.0), None),
     };
-    let Judged { limits, fail_above } = content.energy_limits();
+    let Judged { limits, fail_above } = content.energy_limits(content.first);
     Check {
         id: "M-25",
         name: "reduced mass and stiffness are not negative",

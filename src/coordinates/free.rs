@@ -26,7 +26,7 @@ pub(super) struct Free {
 }
 
 impl Free {
-    /// Of a body; `momenta` is M C.
+    /// Of a body; `momenta` are those of [`Motions::momenta`].
     pub(super) fn of(motions: &Motions<'_>, body: &Body, momenta: &Mat<f64>) -> Result<Self> {
         let rows = |a: &Mat<f64>| Mat::from_fn(body.rows.len(), 6, |i, j| a[(body.rows[i], j)]);
         let c = rows(&motions.centred);

@@ -10,7 +10,6 @@ use super::zeros::{Zeros, counted, n_loose_rows, whole};
 use crate::error::{Error, ErrorClass, Result};
 use crate::model::{CoordinateFit, Misfit};
 use crate::number::quantity;
-use crate::sparse::product;
 use supel_runtime::MOTIONS;
 
 /// Share of the Rayleigh quotient of the first elastic mode that rounded coordinates may cost. Five digits of a plate of
@@ -40,7 +39,7 @@ struct Case<'a> {
 
 /// Settles the doubts about coordinates, by the motions without energy that K has.
 pub(super) fn settled(motions: &Motions<'_>, doubts: &[Doubt], tied: &HashSet<i64>) -> Result<CoordinateFit> {
-    let momenta = product(&motions.model.mass, motions.centred.as_ref());
+    let momenta = motions.momenta();
     let free: Vec<Free> = motions.bodies.iter().map(|body| Free::of(motions, body, &momenta)).collect::<Result<_>>()?;
     let n_explained = free.iter().map(|free| free.n_free).sum::<usize>() + n_loose_rows(motions);
     let case = Case { motions, doubts, free, n_explained, tied };

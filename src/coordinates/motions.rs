@@ -4,7 +4,7 @@ use faer::Mat;
 
 use crate::dense;
 use crate::model::{Frame, Model, Site};
-use crate::sparse::product_and_terms;
+use crate::sparse::{product, product_and_terms};
 
 /// Motions of all bodies of a model, in the same six columns: no two bodies share a row.
 pub(super) struct Motions<'a> {
@@ -65,6 +65,17 @@ impl<'a> Motions<'a> {
                 None => rounding.relative,
             };
         Self { model, sites, bodies, centred, forces, terms, of_digits, rounding }
+    }
+
+    /// M C of each body moving alone, n × 6: what M carries over from one body to another is left out.
+    pub(super) fn momenta(&self) -> Mat<f64> {
+        let Model { mass, bodies, .. } = self.model;
+        let mut momenta = product(mass, self.centred.as_ref());
+        for (row, view) in mass.outer_iterator().enumerate() {
+            let of_others = view.iter().filter(|(col, _)| bodies.of_row[*col] != bodies.of_row[row]);
+            of_others.for_each(|(col, value)| (0..6).for_each(|j| momenta[(row, j)] -= value * self.centred[(col, j)]));
+        }
+        momenta
     }
 
     /// Relative size of what rounding of K can make of the forces and the energy of a motion.

@@ -33,7 +33,7 @@ pub struct Shifted<'a> {
 const FIRST_SHIFT: f64 = 1e-6;
 /// The first shift in units of the precision of the data, whose rounding may leave eigenvalues below zero.
 const ROUNDINGS_OF_DATA: f64 = 10.0;
-/// Refactorisations before the shift is taken as it is.
+/// Shifts tried before one is taken as it is.
 const MAX_ROUNDS: usize = 4;
 /// How much farther from zero a shift is tried where K − σM is not definite, and how often.
 const RETREAT: f64 = 10.0;
@@ -63,7 +63,7 @@ pub fn shifted<'a>(
     let mut count = LOOK_AT;
     let rounding = problem.precision.stiffness;
     let may_retreat = !rounding.is_coarse() || rounding.is_beyond_entries();
-    let (mut round, mut n_retreats) = (1, 0);
+    let (mut round, mut n_retreats, mut n_wider) = (1, 0, 0);
     loop {
         let factor = match Cholesky::new(analysis, problem.pencil(), sigma, name) {
             // Rounding of ties far above all else may be larger than a shift that suits the softest modes.
@@ -79,14 +79,17 @@ pub fn shifted<'a>(
         let lowest = elastic_modes(problem, &Factored::new(&factor, sigma), request)?;
         let n_zero = n_zero(&lowest);
         let all_zero = n_zero == lowest.count() && lowest.next.is_some();
+        let first_elastic = lowest.lambda.get(n_zero).copied().or_else(|| elastic_beyond(&lowest));
         if all_zero && count < problem.mass.rows() {
-            count *= 2;
+            (count, n_wider) = (2 * count, n_wider + 1);
+            // Where it is another zero mode that follows, it is no measure of a shift.
+            sigma = first_elastic.map_or(sigma, |lambda| -lambda);
+            continue;
         }
-        let first_elastic = lowest.lambda.get(n_zero).copied().or(lowest.next);
         let settled = n_retreats > 0 || first_elastic.is_none_or(|lambda| WINDOW.contains(&(-sigma / lambda)));
-        if (settled && !all_zero) || round == MAX_ROUNDS {
+        if settled || round == MAX_ROUNDS {
             refuse_negative(analysis, problem, (&lowest, first_elastic))?;
-            return Ok(Shifted { factor, sigma, lowest, n_zero, n_factorisations: round + n_retreats });
+            return Ok(Shifted { factor, sigma, lowest, n_zero, n_factorisations: round + n_retreats + n_wider });
         }
         if let Some(lambda) = first_elastic.filter(|lambda| *lambda > 0.0) {
             sigma = -lambda;
@@ -113,6 +116,12 @@ fn n_zero(lowest: &Modes) -> usize {
             || **lambda <= rounding.max(0.0)
     };
     pairs().take_while(is_zero).count()
+}
+
+/// The eigenvalue after modes that are all zero, where it is elastic and not one more zero.
+fn elastic_beyond(lowest: &Modes) -> Option<f64> {
+    let level = lowest.errors.iter().map(|error| error.zero_level).fold(0.0, f64::max);
+    lowest.next.filter(|next| *next > 0.0 && !zero::is_zero(*next, level))
 }
 
 /// An eigenvalue below zero by more than noise belongs to an indefinite K, not to a rigid-body motion: where a count half way to it

@@ -19,6 +19,10 @@
 //! An order changes no count: the mass of the elements couples as many pairs of nodes as their stiffness. Where M couples fewer, a
 //! lumped mass with that of a fluid between pairs of nodes for instance, other neighbours are no sign of an order.
 //!
+//! A mass that couples no rotation with another node, where K does, is none of the elements of beams and shells: it is lumped, and what it
+//! couples was added, between the tubes of a bundle in a fluid for instance. As many tubes as nodes along each are the mesh in another
+//! order, as far as pairs tell. Nothing of that is proof, and it is a warning.
+//!
 //! A diagonal mass couples nothing, and no order of it contradicts K here.
 
 use rayon::prelude::*;
@@ -52,7 +56,7 @@ struct Apart {
 ///
 /// # Errors
 /// [`Error::MassInAnotherOrder`] where more than half of all nodes are apart, or where M is that of the mesh in another order. Fewer are a
-/// finding where a dof map tells nodes; of rows alone K and M of one element may couple different ones.
+/// finding, and so are those of an added mass, where a dof map tells nodes; of rows alone K and M of one element may couple different ones.
 pub(super) fn compared(
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,
@@ -68,11 +72,26 @@ pub(super) fn compared(
     let name_of = |node: &u32| of_row.iter().position(|of_row| of_row == node).map(|row| names.full(row));
     let proof = if is_moved { &moved } else { &nodes };
     let Some(first) = proof.first().and_then(name_of) else { return Ok(None) };
-    if 2 * nodes.len() > n_nodes || is_moved {
+    let is_of_elements = || dofs.is_none_or(|dofs| !is_added([stiffness, mass], dofs));
+    if (2 * nodes.len() > n_nodes || is_moved) && is_of_elements() {
         return Err(Error::MassInAnotherOrder { n_apart: proof.len(), n_nodes, what, first });
     }
-    let at = nodes.iter().take(SHOWN_NODES).filter_map(name_of).collect::<Vec<_>>().join(", ");
-    Ok(dofs.map(|_| Finding::MassCouplesOthers { n_apart: nodes.len(), n_nodes, at }))
+    let at = proof.iter().take(SHOWN_NODES).filter_map(name_of).collect::<Vec<_>>().join(", ");
+    Ok(dofs.map(|_| Finding::MassCouplesOthers { n_apart: proof.len(), n_nodes, at }))
+}
+
+/// Whether K couples rotations with other nodes and M none.
+fn is_added(matrices: [&SparseMatrix; 2], dofs: &[Dof]) -> bool {
+    let couples_rotations = |matrix: &SparseMatrix| {
+        let couples = |row: usize| {
+            let entries = matrix.outer_view(row);
+            let mut entries = entries.iter().flat_map(|row| row.iter());
+            entries.any(|(col, value)| *value != 0.0 && dofs[col].node != dofs[row].node)
+        };
+        (0..dofs.len()).filter(|row| dofs[*row].direction.is_rotation()).any(couples)
+    };
+    let [stiffness, mass] = matrices;
+    couples_rotations(stiffness) && !couples_rotations(mass)
 }
 
 impl Apart {

@@ -1,4 +1,4 @@
-//! Rigid-body modes from coordinates, body by body, verified against K.
+//! Rigid-body modes from coordinates, body by body, verified against K; M-orthonormal over the bodies that M couples.
 
 use faer::{Mat, MatRef};
 
@@ -10,8 +10,7 @@ use crate::error::{Error, Result};
 use crate::factor::{Analysis, whole_count};
 use crate::model::{Bodies, Frame, Site};
 use crate::partition::Partition;
-use crate::sparse::energies_of_terms;
-use crate::sparse::{product, product_and_terms};
+use crate::sparse::{absolute_energy, energies_of_terms, product, product_and_terms};
 
 /// Singular values of a body's six unit motions, relative to the largest, below which the motion moves no dof (rotation
 /// of a straight row of translations about its own axis): a thousand times rounding, far below any real thickness.
@@ -19,6 +18,8 @@ const NO_DISPLACEMENT: f64 = 1e-11;
 /// Modal masses relative to the largest below which a rigid motion has no inertia: the square of the rounding that the
 /// direction of the motion carries, with a factor of ten thousand. A real one may be small next to a seismic mass.
 pub(crate) const NO_MASS: f64 = 1e-24;
+/// Modal masses relative to their terms that are rounding of the sums, where masses between bodies cancel those of the bodies.
+const MASS_OF_ROUNDING: f64 = NOISE_FACTOR * f64::EPSILON;
 
 /// The zero-energy rigid motions of every body.
 pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<RigidBodyModes> {
@@ -38,8 +39,9 @@ pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<
         angle: 0.0,
     });
     let n = sites.len();
-    let massive = found.iter().map(|body| body.orthonormal.as_ref());
-    let massless = || found.iter().map(|body| body.massless.as_ref());
+    let spaces = coupled_by_mass(partition, &bodies, &found)?;
+    let massive = spaces.iter().map(|(massive, _)| massive.as_ref());
+    let massless = || spaces.iter().map(|(_, massless)| massless.as_ref());
     let orthonormal = dense::concatenated(n, massive.chain(massless()));
     let modes = match found.as_slice() {
         [body] if body.is_classical => partition.rigid_motions(&body.dofs, [0.0; 3]),
@@ -56,6 +58,28 @@ pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<
         is_classical,
         energy,
     })
+}
+
+/// Motions with mass, M-orthonormal, and those without, for each group of bodies that M couples: what is orthonormal body by body is not
+/// where a mass lies between two of them, and one that resists nothing but their relative motion leaves a common motion without mass.
+fn coupled_by_mass(partition: &Partition, bodies: &Bodies, found: &[Body]) -> Result<Vec<(Mat<f64>, Mat<f64>)>> {
+    let groups = Bodies::of(&partition.mass, &bodies.of_row);
+    let mut members = vec![Vec::new(); groups.n_bodies];
+    for body in found {
+        members[groups.of_row[body.dofs[0]] as usize].push(body);
+    }
+    let space = |group: &Vec<&Body>| match group.as_slice() {
+        [body] => Ok((body.orthonormal.clone(), body.massless.clone())),
+        group => {
+            let n = partition.n_dofs();
+            let massive = dense::concatenated(n, group.iter().map(|body| body.orthonormal.as_ref()));
+            let (massive, without) = mass_orthonormal(partition, massive.as_ref(), MASS_OF_ROUNDING)?;
+            let massless = group.iter().map(|body| body.massless.as_ref());
+            let massless = dense::concatenated(n, std::iter::once(without.as_ref()).chain(massless));
+            Ok((massive, massless))
+        }
+    };
+    members.iter().map(space).collect()
 }
 
 /// A body that can move and that no interface holds makes K_II singular, and nothing could drive it (catalogue S-04).
@@ -108,7 +132,7 @@ fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body
     centred.as_mut().subcols_mut(3, 3).col_iter_mut().for_each(|mut rotation| rotation /= faer::Scale(frame.size));
     let moving = moving_directions(centred.as_ref())?;
     let (orthonormal, massless) =
-        mass_orthonormal(partition, dense::product(centred.as_ref(), moving.as_ref()).as_ref())?;
+        mass_orthonormal(partition, dense::product(centred.as_ref(), moving.as_ref()).as_ref(), 0.0)?;
     let massless = without_energy(partition, massless)?;
     let Energies { energies, directions, noise, zero } = Energies::of(partition, orthonormal.as_ref())?;
     if let Some(energy) = energies.first().filter(|energy| **energy < -zero) {
@@ -184,8 +208,12 @@ fn padded(matrix: MatRef<'_, f64>) -> Mat<f64> {
     Mat::from_fn(6, matrix.ncols(), |i, j| if i < matrix.nrows() { matrix[(i, j)] } else { 0.0 })
 }
 
-/// The space of `motions` as Q with QᵀMQ = I, and the motions without mass.
-fn mass_orthonormal(partition: &Partition, motions: MatRef<'_, f64>) -> Result<(Mat<f64>, Mat<f64>)> {
+/// The space of `motions` as Q with QᵀMQ = I, and the motions without mass; `rounding` is the share of its terms up to which a mass is
+/// none.
+fn mass_orthonormal(partition: &Partition, motions: MatRef<'_, f64>, rounding: f64) -> Result<(Mat<f64>, Mat<f64>)> {
+    if motions.ncols() == 0 {
+        return Ok((motions.to_owned(), motions.to_owned()));
+    }
     let modal_mass = |q: MatRef<'_, f64>| {
         let mut modal_mass = dense::gram(q, product(&partition.mass, q).as_ref());
         dense::symmetrise(&mut modal_mass);
@@ -200,7 +228,9 @@ fn mass_orthonormal(partition: &Partition, motions: MatRef<'_, f64>) -> Result<(
     if largest.is_nan() || largest <= 0.0 {
         return Err(Error::MasslessRigidMotion { relative_mass: 0.0 });
     }
-    let (massive, massless): (Vec<usize>, Vec<usize>) = (0..q.ncols()).partition(|j| masses[*j] > NO_MASS * largest);
+    let terms = absolute_energy(&partition.mass, q.as_ref());
+    let has_mass = |j: &usize| masses[*j] > (NO_MASS * largest).max(rounding * terms[*j]);
+    let (massive, massless): (Vec<usize>, Vec<usize>) = (0..q.ncols()).partition(has_mass);
     let of = |kept: &[usize], factor: &dyn Fn(usize) -> f64| {
         Mat::from_fn(q.nrows(), kept.len(), |i, j| q[(i, kept[j])] * factor(kept[j]))
     };

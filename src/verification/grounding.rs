@@ -4,6 +4,7 @@ use faer::MatRef;
 
 use super::directions::Directions;
 use super::evidence::Evidence;
+use super::limits::NEARLY_FREE;
 use super::spectrum::{Spectrum, lowest_eigenpairs};
 use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::Equilibrated;
@@ -38,8 +39,6 @@ pub enum Restraint {
     Held,
 }
 
-/// Energy ratio above which a free motion is not free: a rigid-body frequency of a thousandth of the first elastic one.
-const GROUNDED_ABOVE: f64 = 1e-6;
 /// Energy ratio above which a support holds a motion: its frequency is a tenth of the first elastic one.
 const HELD_ABOVE: f64 = 1e-2;
 /// Largest ratio of the Rayleigh quotient of a motion to the eigenvalue of its number where the component moves as a whole. With
@@ -86,7 +85,7 @@ pub(super) fn groundings(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result
                 (largest, at) = (d * force[row].abs(), Some(row));
             }
         }
-        let least = if all_free { noise.max(GROUNDED_ABOVE) } else { noise };
+        let least = if all_free { noise.max(NEARLY_FREE) } else { noise };
         let restraint = if energy_ratio <= least {
             Restraint::Free
         } else if all_free || energy_ratio < HELD_ABOVE && moves_as_a_whole(dense::dot(u, force) / directions.masses[j])

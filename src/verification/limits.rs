@@ -14,6 +14,9 @@ const SAME_FREQUENCY: f64 = 1e-9;
 /// Noise of energies and of frequencies at which their limits are still those of practice.
 pub(crate) const ENERGY_ASKED: f64 = RIGID_ENERGY / NOISE_FACTOR;
 pub(crate) const FREQUENCY_ASKED: f64 = SAME_FREQUENCY / NOISE_FACTOR;
+/// Energy of a motion relative to that of the first elastic mode up to which it is free all the same: a frequency of a thousandth of the
+/// first elastic one.
+pub(crate) const NEARLY_FREE: f64 = 1e-6;
 /// Energy at which the component is held: a rigid-body frequency of a hundredth of the first elastic one.
 pub(crate) const GROUNDED: f64 = 1e-4;
 /// What rounding may excuse of an energy without a warning: at a tenth of the first elastic frequency a rigid-body motion

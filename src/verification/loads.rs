@@ -31,27 +31,28 @@ pub(super) fn accelerations(evidence: &Evidence<'_>, condition: f64) -> Option<C
     let directions = Directions::of(evidence).translations()?;
     let inertia = product(&partition.mass, directions.motions.as_ref());
     let loads = inertia.as_ref().subrows(0, n_i);
-    let mut full = loads.to_owned();
-    evidence.factor.solve_in_place(full.as_mut());
+    let along = dense::gram(evidence.rigid.mass_orthonormal.as_ref(), directions.motions.as_ref());
+    let beyond = beyond_rigid(evidence, along.as_ref(), loads);
+    let mut answers = dense::side_by_side(loads, beyond.as_ref());
+    evidence.factor.solve_in_place(answers.as_mut());
+    let (full, of_beyond) = answers.as_ref().split_at_col(directions.count());
     let reduced = reduced_deflections(evidence, loads)?;
-    let error = &full - &reduced;
+    let error = full - &reduced;
     let forces = product(partition.internal().stiffness, error.as_ref());
-    let mut worst = (0.0, None);
+    let (mut worst, mut left) = ((0.0, None), 0.0f64);
     for j in 0..directions.count() {
-        let energy = |a: &Mat<f64>, b: MatRef<'_, f64>| {
-            let energy = dense::dot(dense::column(a.as_ref(), j), dense::column(b, j));
-            // Below zero it is rounding; NaN stays NaN.
-            if energy < 0.0 { 0.0 } else { energy.sqrt() }
-        };
-        let (missed, whole) = (energy(&error, forces.as_ref()), energy(&full, loads));
+        let (missed, whole) = (root_of_energy(error.as_ref(), forces.as_ref(), j), root_of_energy(full, loads, j));
         let share = if missed == 0.0 { 0.0 } else { missed / whole };
+        left = left.max(root_of_energy(of_beyond, beyond.as_ref(), j) / whole);
         if dense::worse(share, worst.0) {
             worst =
                 (share, Some(format!("acceleration along {}", directions.names[j].trim_start_matches("translation "))));
         }
     }
-    let limits = if is_exact(evidence, &directions) {
-        let arithmetic = f64::EPSILON * condition;
+    let limits = if is_exact(evidence, &directions, along.as_ref()) {
+        // The columns answer the part of an acceleration that is a rigid-body motion. Of the rest, which rounding leaves where soft motions
+        // cannot be told from free ones, they miss no more energy than it has: they answer best of all their combinations.
+        let arithmetic = f64::EPSILON * condition + left;
         // The condition is that of the matrix, not of this solve; a thousandth of a deflection makes no difference.
         Limits { engineering: 1e-9, arithmetic, data: data_noise(partition) * condition }.capped(1e-3, 1e-2)
     } else {
@@ -66,6 +67,21 @@ pub(super) fn accelerations(evidence: &Evidence<'_>, condition: f64) -> Option<C
         fail_above: if limits.engineering.is_finite() { limits.value().max(FAIL) } else { f64::INFINITY },
         worst: worst.1,
     })
+}
+
+/// √(aᵀb) of a column of displacements and one of forces.
+fn root_of_energy(a: MatRef<'_, f64>, b: MatRef<'_, f64>, j: usize) -> f64 {
+    let energy = dense::dot(dense::column(a, j), dense::column(b, j));
+    // Below zero it is rounding; NaN stays NaN.
+    if energy < 0.0 { 0.0 } else { energy.sqrt() }
+}
+
+/// (M (t − Q Qᵀ M t))_I of the loads (M t)_I, with QᵀMt given: inertia of what is no rigid-body motion.
+fn beyond_rigid(evidence: &Evidence<'_>, along: MatRef<'_, f64>, loads: MatRef<'_, f64>) -> Mat<f64> {
+    let mut beyond = loads.to_owned();
+    let momenta = evidence.rigid.mass_orthonormal.as_ref().subrows(0, loads.nrows());
+    dense::add_product(beyond.as_mut(), -1.0, momenta, along);
+    beyond
 }
 
 /// Ψ_D K̂_ηη⁻¹ Ψ_Dᵀ F; none where K̂_ηη is not definite, which M-25 says.
@@ -87,7 +103,7 @@ fn reduced_deflections(evidence: &Evidence<'_>, loads: MatRef<'_, f64>) -> Optio
 
 /// Whether the answers to these accelerations are among the columns of Ψ_D: Ψ_D has inertia relief for every rigid-body
 /// mode, and the accelerations are rigid-body motions that K lets pass.
-fn is_exact(evidence: &Evidence<'_>, directions: &Directions) -> bool {
+fn is_exact(evidence: &Evidence<'_>, directions: &Directions, along: MatRef<'_, f64>) -> bool {
     // A translation that is a rigid-body motion leaves only rounding; one that is held stays whole.
     const SAME: f64 = 1e-6;
     let basis = evidence.basis;
@@ -98,7 +114,6 @@ fn is_exact(evidence: &Evidence<'_>, directions: &Directions) -> bool {
     if rigid.count() == 0 || kept + dropped < rigid.count() {
         return false;
     }
-    let along = dense::gram(rigid.mass_orthonormal.as_ref(), directions.motions.as_ref());
     (0..directions.count()).all(|j| {
         let kept: f64 = (0..along.nrows()).map(|i| along[(i, j)].powi(2)).sum();
         (1.0 - kept / directions.masses[j]).abs() <= SAME

@@ -25,8 +25,9 @@ pub(super) struct Spectrum {
     /// Rigid-body motions that cost energy in K̂, and motions without energy that are not rigid-body motions.
     pub(super) n_held: usize,
     pub(super) n_others: usize,
-    /// Zero modes that have mass, and with it a place in the spectrum.
-    n_zero_of_pencil: usize,
+    /// Eigenvalues below the first elastic one that energies are compared with: zero modes that have mass, and with it a place in the
+    /// spectrum, and motions so soft that the data hardly tell them from those.
+    n_soft: usize,
     /// The first elastic eigenvalue of the full model under the boundary of the retained modes, where one is known.
     of_full: Option<f64>,
     /// The coordinate that takes the largest part in the smallest eigenvalue of K̂, in the scales of its coordinates.
@@ -41,7 +42,8 @@ impl Spectrum {
     pub(super) fn of(evidence: &Evidence<'_>) -> Result<Self> {
         let (k, m) = (evidence.reduction.stiffness.as_ref(), evidence.reduction.mass.as_ref());
         let n_b = evidence.partition.n_interface();
-        let lambda = evidence.retained.modes.lambda.first().copied().unwrap_or(1.0);
+        let of_full = first_of_full(evidence);
+        let lambda = of_full.unwrap_or(1.0);
         let (_, vectors) = dense::symmetric_eigen(scaled_by(k, &coordinate_scales(evidence)).as_ref())?;
         let (masses, mass_vectors) = dense::symmetric_eigen(equilibrated(m, m).as_ref())?;
         let (k_held, n_pencil) = (with_massless_lifted(evidence), evidence.rigid.count() - evidence.rigid.n_massless);
@@ -65,7 +67,8 @@ impl Spectrum {
         let levels = zero_levels(evidence, shapes.as_ref());
         let is_zero = |j: usize| zero::is_zero(free[j], levels[j]);
         let n_others = (n_pencil..shapes.ncols()).filter(|j| is_zero(*j)).count();
-        let first = free.get(n_pencil + n_others).copied().unwrap_or(0.0);
+        let n_soft = n_pencil + n_others.max(evidence.rigid.n_grey);
+        let first = free.get(n_soft).copied().unwrap_or(0.0);
         let is_free = |j: usize| is_zero(j) || free[j].abs() <= GROUNDED * first;
         let n_free = (0..n_pencil.min(shapes.ncols())).filter(|j| is_free(*j)).count();
         Ok(Self {
@@ -76,8 +79,8 @@ impl Spectrum {
             same_boundary,
             n_held: n_pencil - n_free,
             n_others,
-            n_zero_of_pencil: n_pencil + n_others,
-            of_full: evidence.retained.modes.lambda.first().copied().or(evidence.retained.modes.next),
+            n_soft,
+            of_full,
             softest: largest_component(vectors.as_ref()),
             lowest_mass: (masses.first().copied().unwrap_or(0.0), largest_component(mass_vectors.as_ref())),
         })
@@ -110,8 +113,8 @@ impl Spectrum {
     /// As many interface dofs as rigid-body motions then hold the component, and that is not above the first elastic one
     /// (Cauchy). None where that is not known either.
     pub(super) fn scale(&self, index: usize) -> Option<f64> {
-        let elastic = self.free.get(self.n_zero_of_pencil..).unwrap_or_default();
-        self.free.get(index.max(self.n_zero_of_pencil)).or(elastic.last()).copied().or(self.of_full)
+        let elastic = self.free.get(self.n_soft..).unwrap_or_default();
+        self.free.get(index.max(self.n_soft)).or(elastic.last()).copied().or(self.of_full)
     }
 
     /// The lowest eigenvalues, one for each rigid-body mode.
@@ -121,8 +124,18 @@ impl Spectrum {
 
     /// The scale of the first elastic eigenvalue.
     pub(super) fn first_elastic(&self) -> Option<f64> {
-        self.scale(self.n_zero_of_pencil)
+        self.scale(self.n_soft)
     }
+}
+
+/// The first elastic eigenvalue of the full model under the boundary of the retained modes, soft motions left out as in the reduced one.
+fn first_of_full(evidence: &Evidence<'_>) -> Option<f64> {
+    let modes = &evidence.retained.modes;
+    let n_grey = match evidence.retained.boundary {
+        Boundary::FreeInterface => evidence.rigid.n_grey,
+        Boundary::FixedInterface => 0,
+    };
+    modes.lambda.get(n_grey).copied().or(modes.next)
 }
 
 /// Force of a rigid-body motion in K̂, in the scales of its coordinates, at which M-12 fails.

@@ -1,7 +1,7 @@
 //! The models the theorems are tested on.
 
 use supel::job::InterfaceJob;
-use supel_models::transform::{join, supported};
+use supel_models::transform::{carrying, join, supported};
 use supel_models::{Inertia, Material, Model, Section, brick, frame, membrane};
 
 use crate::chain::{Chain, Method, Twin, direct, reduce, rigid_group, rows};
@@ -22,6 +22,8 @@ pub fn cases() -> Vec<Case> {
     let patches = || vec![rigid_group("XMIN"), rigid_group("XMAX")];
     let two_bodies = join(&solid(), &small_solid(), &[]);
     let offset = solid().labels.len() as i64;
+    let pins = || vec![direct("pins", &[1, 5, 45]), direct("others", &[1, 3, 4].map(|l| l + offset))];
+    let one_device = carrying(&two_bodies, &[40, 44, 45, offset + 1, offset + 2], 1.0);
     vec![
         case("free solid, nodes", solid(), vec![direct("pins", &[1, 5, 15, 45])], 6),
         case("free solid, patches", steel(), patches(), 6),
@@ -30,12 +32,8 @@ pub fn cases() -> Vec<Case> {
         case("free frame", elbow(Inertia::Consistent), vec![direct("ends", &[1, 6])], 6),
         case("free frame, massless rotations", elbow(Inertia::LumpedTranslations), vec![direct("ends", &[1, 6])], 6),
         case("free membrane", sheet(), vec![direct("corners", &[1, 20])], 3),
-        case(
-            "two bodies",
-            two_bodies,
-            vec![direct("pins", &[1, 5, 45]), direct("others", &[1, 3, 4].map(|l| l + offset))],
-            12,
-        ),
+        case("two bodies", two_bodies, pins(), 12),
+        case("two bodies that carry one device", one_device, pins(), 12),
         case("held solid", supported(&solid(), |(label, _)| label % 5 == 1), vec![rigid_group("XMAX")], 0),
         case("pendulum", pendulum(), vec![direct("tip", &[6])], 1),
     ]

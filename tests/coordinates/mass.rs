@@ -1,8 +1,8 @@
 //! M with its rows in another order than those of K, to which map and coordinates belong: never verified where it can be seen.
 
 use supel::cli::ExitCode;
-use supel_models::Model;
 use supel_models::model::{Assembler, Entry};
+use supel_models::{Inertia, Material, Model, Section, frame};
 
 use crate::faults::{block, shuffled};
 use crate::place::{Ended, Place, supel};
@@ -125,6 +125,51 @@ fn nodes_of_a_lumped_mass_in_another_order_are_not_seen() {
     assert_said(&nodes_moved(&lumped(), |node| order[node as usize] as u32), "verified");
     let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/what-the-report-proves.md"));
     assert!(page.expect("the page").contains("the nodes of a lumped mass are in the order of those of the stiffness"));
+}
+
+/// Tubes side by side with lumped masses and that of the fluid between neighbours: M couples across them what K couples along them.
+fn tubes(n_tubes: usize, n_nodes: usize, inertia: Inertia) -> Model {
+    let place =
+        |k: usize| [0.1 * (k % n_nodes) as f64, 0.05 * (k / n_nodes) as f64, 0.01 * (k / n_nodes).pow(2) as f64];
+    let nodes: Vec<[f64; 3]> = (0..n_tubes * n_nodes).map(place).collect();
+    let along = |k: &usize| k % n_nodes + 1 < n_nodes;
+    let edges: Vec<[usize; 2]> = (0..nodes.len()).filter(along).map(|k| [k, k + 1]).collect();
+    frame(&nodes, &edges, &Section::round(0.006), &Material::STEEL_SI, inertia)
+}
+
+/// A bundle of as many tubes as nodes along each has as many neighbours in M as in K, and other ones. Nothing of it is proof: the mass of
+/// the tubes themselves couples rotations, and in another order it is refused.
+#[test]
+fn added_mass_between_the_tubes_of_a_bundle_warns() {
+    for (n_tubes, n_nodes) in [(2, 2), (3, 3)] {
+        let bundle = tubes(n_tubes, n_nodes, Inertia::LumpedTranslations);
+        for [own, between] in [[1.0, -1.0], [2.0, 1.0]] {
+            let mut mass = bundle.mass.clone();
+            // Else the tubes spin without inertia.
+            mass.extend((0..bundle.n as u32).filter(|row| row % 6 > 2).map(|row| (row, row, 1e-5)));
+            for node in 0..(n_tubes - 1) * n_nodes {
+                for [i, j] in [0, 1, 2].map(|axis| [6 * node + axis, 6 * (node + n_nodes) + axis].map(|row| row as u32))
+                {
+                    mass.extend(
+                        [(i, i, own), (j, j, own), (i, j, between), (j, i, between)].map(|(i, j, m)| (i, j, 0.02 * m)),
+                    );
+                }
+            }
+            let place = Place::with(&with_mass(&bundle, mass));
+            let ends: Vec<String> = (0..n_tubes).map(|t| format!("--interface t{t}={}", t * n_nodes + 1)).collect();
+            let ended =
+                place.reduce(&place.model_flags(), &format!("{} --method craig-bampton --modes 3", ends.join(" ")));
+            assert_eq!(ended.code, ExitCode::Done, "{n_tubes} by {n_nodes}: {}{}", ended.out, ended.err);
+            assert!(ended.out.contains("W-MASS-ORDER"), "{n_tubes} by {n_nodes}: {}", ended.out);
+        }
+    }
+    let consistent = tubes(3, 3, Inertia::Consistent);
+    let across = |row: u32| 6 * (row / 6 % 3 * 3 + row / 18) + row % 6;
+    let moved = moved(&consistent, across);
+    let place = Place::with(&moved);
+    let ended = place
+        .reduce(&place.model_flags(), "--interface a=1 --interface b=4 --interface c=7 --method herting --modes 3");
+    assert!(ended.err.contains("E-MASS-ORDER"), "{}{}", ended.out, ended.err);
 }
 
 /// Mass that couples nodes which no element joins: what a fluid adds at one face, and an instrument over distant nodes.

@@ -77,6 +77,25 @@ fn a_body_of_one_node_is_held_like_any_other() {
     assert!(matches!(found, Ok(CoordinateFit::Exact)), "{found:?}");
 }
 
+/// Of a held part the result depends on the coordinates of the nodes that rigid patches tie, and on no others.
+#[test]
+fn coordinates_of_another_state_count_where_patches_tie() {
+    let plate = brick([16, 8, 1], [1.0, 0.5, 0.005], &Material::STEEL_SI);
+    let wall = plate.groups["XMIN"].clone();
+    let held = supported(&plate, move |(label, _)| wall.contains(&label));
+    // The quarter next to the wall is as it was.
+    let wavy = with_nodes(&held, |[x, y, z]| [x, y, z + 0.002 * (9.0 * (x - 0.25).max(0.0)).sin()]);
+    let tied_at = |x: f64| {
+        let at = |place: &[f64; 3]| (place[0] - x).abs() < 1e-9;
+        let labels = wavy.labels.iter().zip(&wavy.nodes).filter(|(_, place)| at(place)).map(|(label, _)| *label);
+        supel::coordinates::compared(Checked::new(input(&wavy)).expect("a model"), &[], &labels.collect())
+    };
+    let found = tied_at(1.0).map(|model| model.fit);
+    assert!(matches!(&found, Err(Error::CoordinatesDoNotFit { .. })), "{found:?}");
+    let found = tied_at(0.125).map(|model| model.fit);
+    assert!(matches!(&found, Ok(CoordinateFit::Rounded(_))), "{found:?}");
+}
+
 /// Nothing mends what rigid patches tie by the coordinates of another state of a held part; without patches nothing depends on them.
 #[test]
 fn coordinates_of_another_state_of_a_thin_held_part() {

@@ -3,7 +3,7 @@
 use supel::error::{Error, ErrorClass};
 use supel::rigid::{self, RigidSource};
 use supel_models as models;
-use supel_models::transform::{grounded, join, scaled, supported, translated};
+use supel_models::transform::{carrying, grounded, join, scaled, supported, translated};
 use supel_models::{Ends, Inertia, Material, Section, brick, frame, membrane, spring};
 
 use crate::chain::{direct, rigid_of, rows};
@@ -57,9 +57,11 @@ fn hinged_pair_has_a_seventh_zero_mode() {
 
 #[test]
 fn matrices_alone_count_alike() {
+    let pair = || spring(2, Ends::Free);
     for (name, model, expected) in [
         ("free block", block(), 6),
         ("two disjoint blocks", join(&block(), &block(), &[]), 12),
+        ("two hundred pairs of masses", (1..200).fold(pair(), |pairs, _| join(&pairs, &pair(), &[])), 200),
         ("membrane", membrane([3, 2], [3.0, 2.0], &Material::UNIT), 3),
         ("held chain", spring(8, Ends::Fixed), 0),
         ("free chain", spring(8, Ends::Free), 1),
@@ -128,6 +130,40 @@ fn rotation_without_inertia_is_kept_apart() {
     let spinning = frame(&nodes, &[[0, 1], [1, 2]], &section, &Material::UNIT, Inertia::LumpedTranslations);
     let (_, rigid) = rigid_of(&spinning, &[direct("pin", &[1])]).expect("rigid-body modes");
     assert_eq!((rigid.count(), rigid.n_massless, rigid.massive().ncols()), (6, 1, 5));
+}
+
+/// Two beams whose mass resists nothing but their motion against each other: what they do together has no mass, and six motions have.
+#[test]
+fn common_motion_of_bodies_without_mass_of_their_own_is_kept_apart() {
+    let beam =
+        frame(&[[0.0; 3], [1.0, 2.0, 0.5]], &[[0, 1]], &Section::round(0.1), &Material::UNIT, Inertia::Consistent);
+    let mut pair = join(&beam, &beam, &[]);
+    let n = beam.n as u32;
+    let between = beam.mass.iter().flat_map(|&(i, j, value)| [(i, j + n, -value), (i + n, j, -value)]);
+    pair.mass.extend(between.collect::<Vec<_>>());
+    pair.mass.sort_by_key(|&(i, j, _)| (i, j));
+    let (partition, rigid) = rigid_of(&pair, &[direct("pins", &[1, 3])]).expect("rigid-body modes");
+    assert_eq!((rigid.count(), rigid.n_massless, rigid.massive().ncols()), (12, 6, 6));
+    let momenta = supel::sparse::product(&partition.mass, rigid.massless());
+    // Of 12 terms each, which cancel; scaled masses and motions are of order one.
+    assert!(momenta.norm_max() <= 1e-13 * rigid.massless().norm_max(), "{:e}", momenta.norm_max());
+}
+
+/// Coordinates of seven digits are mended by the zero modes of K: of each body by its own mass, whatever mass couples it with others.
+#[test]
+fn rounded_coordinates_of_bodies_that_carry_one_device_are_mended() {
+    let part = brick([4, 3, 2], [4.0, 3.0, 2.0].map(|size| size / 7.0), &Material::UNIT);
+    let pair = join(&part, &translated(&part, [1.0, 0.0, 0.0]), &[]);
+    let offset = part.labels.len() as i64;
+    // Ten times as heavy as both.
+    let mut model = carrying(&pair, &[5, 10, offset + 1, offset + 6], 10.0 * pair.total_mass(0));
+    for value in model.nodes.iter_mut().flatten() {
+        *value = format!("{value:.6e}").parse().expect("a number");
+    }
+    let (_, rigid) = rigid_of(&model, &[direct("pins", &[1, offset + 1])]).expect("rigid-body modes");
+    assert_eq!(rigid.count(), 12);
+    // Seven digits of coordinates alone leave a residual of 10⁻⁷.
+    assert!(rigid.energy.largest_residual < 1e-12, "{:e}", rigid.energy.largest_residual);
 }
 
 fn rank_refused(model: &models::Model, labels: &[i64]) -> (usize, usize, String) {

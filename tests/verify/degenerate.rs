@@ -4,6 +4,7 @@
 use supel::cli::ExitCode;
 use supel_models::frame::{Inertia, Section, frame};
 use supel_models::model::Assembler;
+use supel_models::transform::join;
 use supel_models::{Material, Model, brick};
 
 use crate::place::{Place, supel};
@@ -56,6 +57,37 @@ fn mode_that_lives_in_the_interface_is_left_out() {
     let kept = place.superelement("x.supel").metadata().coordinates.len();
     // Inertia relief of the first body, three of its modes.
     assert_eq!((kept, sizes(&place).1), (7 + 1 + 3, 2));
+}
+
+/// Three beams and masses between them: eighteen motions without energy, more than are looked at first, which one by one have the mass of
+/// each beam and no space of their own in M.
+#[test]
+fn bodies_that_only_the_mass_couples_agree() {
+    let nodes = |t: usize| [0.0, 0.1, 0.2].map(|x| [x, 0.05 * t as f64, 0.01 * (t * t) as f64]);
+    let section = Section { area: 1e-4, second_moment_y: 1e-9, second_moment_z: 2e-9, torsion: 2e-9 };
+    let beam = |t| frame(&nodes(t), &[[0, 1], [1, 2]], &section, &Material::STEEL_SI, Inertia::Consistent);
+    let beams = join(&join(&beam(0), &beam(1), &[]), &beam(2), &[]);
+    for [own, between] in [[1.0, -1.0], [2.0, 1.0]] {
+        let mut mass = Assembler::default();
+        mass.extend(beams.mass.iter().copied());
+        for (first, second) in (0..6).map(|node| (6 * node, 6 * node + 18)) {
+            for [i, j] in [0, 1, 2].map(|direction| [first + direction, second + direction]) {
+                for (row, column, value) in [(i, i, own), (j, j, own), (i, j, between), (j, i, between)] {
+                    mass.add(row, column, 0.02 * value);
+                }
+            }
+        }
+        let place = Place::with(&Model { mass: mass.finish(), ..beams.clone() });
+        for method in ["herting", "craig-bampton"] {
+            let rest = format!("--interface a=1 --interface b=4 --interface c=7 --method {method} --modes 3");
+            agree(&place, &place.model_flags(), &rest);
+        }
+        if cfg!(feature = "arpack") {
+            let rest =
+                "--interface a=1 --interface b=4 --interface c=7 --method herting --modes 3 --eigensolver arpack";
+            agree(&place, &place.model_flags(), rest);
+        }
+    }
 }
 
 /// All modes of a bar of square section: pairs of one frequency, and interfaces that leave fewer dofs than there are modes.
@@ -118,6 +150,21 @@ fn count_between_two_near_frequencies() {
     assert_eq!(sizes(&place), (12 + 6 + 1, 0));
 }
 
+/// Light oscillators whose frequencies are near and no cluster: their accelerated columns keep 10⁻⁴ to 10⁻⁵ of their length, and the
+/// amplitudes of a mode are known to what the inverse of that mixing leaves.
+#[test]
+fn modes_of_short_columns_are_judged_by_what_the_mixing_leaves() {
+    for (n, within, stiffness, count) in
+        [(6u32, 2e-6, 1e-3, 9), (12, 2e-6, 1e-3, 15), (8, 5e-6, 1e-4, 13), (8, 2e-5, 1e-3, 13)]
+    {
+        let mut between: Vec<(u32, u32, f64)> = (0..n - 1).map(|row| (row, row + 1, 1.0)).collect();
+        between.extend((0..n).map(|at| (at, n + at, stiffness * (1.0 + within * f64::from(at)))));
+        let masses: Vec<f64> = (0..2 * n).map(|row| if row < n { 1.0 } else { 1e-6 }).collect();
+        let place = Place::with(&springs(&masses, &[], &between));
+        agree(&place, &place.matrix_flags(), &format!("--interface r=rows:0 --method herting --modes {count}"));
+    }
+}
+
 /// Forty oscillators that are one cluster, which ARPACK does not find its way out of.
 #[test]
 fn cluster_that_the_other_eigensolver_fails_on_is_verified_by_the_same() {
@@ -128,6 +175,7 @@ fn cluster_that_the_other_eigensolver_fails_on_is_verified_by_the_same() {
     if cfg!(feature = "arpack") {
         assert!(told.contains("the modes were found again"), "{told}");
     }
+    assert!(told.contains("modes of one cluster may turn without the interface seeing it"), "{told}");
 }
 
 /// Forty light oscillators far above a bar, each on a mass of its own: chains of eight neighbours a share of λ apart. A search meets the

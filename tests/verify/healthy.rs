@@ -1,8 +1,9 @@
 //! Files as the program writes them pass every check, with warnings counted as failures.
 
 use supel::cli::ExitCode;
-use supel_models::transform::{join, translated};
-use supel_models::{Ends, Material, brick, spring};
+use supel_models::model::Assembler;
+use supel_models::transform::{grounded, join, translated};
+use supel_models::{Ends, Inertia, Material, Model, Section, brick, frame, spring};
 
 use crate::place::{Place, supel};
 
@@ -117,6 +118,58 @@ fn two_bodies_with_a_hinge_or_a_ball_joint() {
             assert!(ended.out.contains("W-MECHANISM"), "{}", ended.out);
             passes(&place, &rest);
         }
+    }
+}
+
+/// Springs against rotation alone, so soft that some rotations are zero within rounding and others a little more. K is as it was but for
+/// three entries, and what is said of them does not depend on which.
+#[test]
+fn rotations_held_next_to_nothing() {
+    let nodes = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.1, 0.0, 0.0], [2.1, 0.9, 0.0], [2.1, 1.7, 0.3], [2.1, 2.8, 0.3]];
+    let edges = [[0, 1], [1, 2], [2, 3], [3, 4], [4, 5]];
+    let free = frame(&nodes, &edges, &Section::round(0.05), &Material::STEEL_SI, Inertia::Consistent);
+    for exponent in [-4.4, -3.0, -1.0] {
+        // At the third node.
+        let springs = (15..18).fold(free.clone(), |model, row| grounded(&model, row, 10f64.powf(exponent)));
+        let place = Place::with(&springs);
+        for method in ["herting", "craig-bampton"] {
+            let rest = format!("--interface a=1 --interface b=6 --method {method} --modes 8");
+            let what = format!("springs of 10^{exponent}, {method}");
+            let ended = place.reduce(&place.model_flags(), &rest);
+            assert_eq!(ended.code, ExitCode::Done, "{what}:\n{}{}", ended.out, ended.err);
+            passes(&place, &what);
+        }
+    }
+}
+
+/// Oscillators of a millionth of the component, whose frequencies are one or nearly: the interface hardly sees which of them a mode moves.
+#[test]
+fn light_oscillators_of_near_frequencies() {
+    let block = brick([4, 1, 1], [0.4, 0.06, 0.09], &Material::STEEL_SI);
+    let omega = std::f64::consts::TAU * 4000.0;
+    for (within, mass, count) in [(0.0, 1e-7, 35), (3e-7, 1e-7, 7), (2e-7, 1e-8, 15)] {
+        let mut model = block.clone();
+        let (mut stiffness, mut inertia) = (Assembler::default(), Assembler::default());
+        stiffness.extend(block.stiffness.iter().copied());
+        inertia.extend(block.mass.iter().copied());
+        let inner = [2, 3, 4, 7, 8, 9, 12, 13, 14, 17];
+        for (number, host) in inner.into_iter().enumerate() {
+            let label = 500_000 + number as i64;
+            model.labels.push(label);
+            model.nodes.push(block.nodes[host - 1]);
+            for direction in 0..3 {
+                let (i, j) = (3 * (host as u32 - 1) + u32::from(direction), model.n as u32);
+                model.dofs.push((label, direction));
+                model.n += 1;
+                let k = omega * omega * (1.0 + within * number as f64) * mass;
+                [(i, i, k), (j, j, k), (i, j, -k), (j, i, -k)].into_iter().for_each(|(i, j, k)| stiffness.add(i, j, k));
+                inertia.add(j, j, mass);
+            }
+        }
+        let place = Place::with(&Model { stiffness: stiffness.finish(), mass: inertia.finish(), ..model });
+        let rest = format!("--rigid-interface a=1,6,11,16 --interface b=5,10,15,20 --method herting --modes {count}");
+        place.reduce(&place.model_flags(), &rest).expect(ExitCode::Done);
+        passes(&place, &format!("{within:e} apart, {mass:e} each"));
     }
 }
 

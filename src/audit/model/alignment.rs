@@ -41,7 +41,7 @@ pub(super) struct Combination {
     /// B.
     pub(super) columns: Mat<f64>,
     /// |R||C||C⁻¹||C|: ε times this is what B may be off by (Higham 2002, section 8.1). Columns that nearly depend on each other
-    /// are put together from large parts of little.
+    /// are put together from large parts of little. To this comes what the fit leaves open of R, over ε.
     pub(super) amplified: Mat<f64>,
 }
 
@@ -52,8 +52,8 @@ pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedo
     let inverse = freedom.mixing.map(unmixing);
     let mixing = freedom.mixing.zip(inverse.as_ref().map(Mat::as_ref));
     let noise = noise(projected, freedom.kept, (seen[1].as_ref(), mixing));
-    let mut turned = Mat::zeros(n_named, n_eta);
-    let mut place = |columns: &[usize], slots: &[usize], block: MatRef<'_, f64>| {
+    let (mut turned, mut open) = (Mat::zeros(n_named, n_eta), Mat::zeros(n_named, n_eta));
+    let place = |turned: &mut Mat<f64>, (columns, slots): (&[usize], &[usize]), block: MatRef<'_, f64>| {
         for (i, column) in columns.iter().enumerate() {
             slots.iter().enumerate().for_each(|(j, slot)| turned[(*column, *slot)] = block[(i, j)]);
         }
@@ -65,24 +65,26 @@ pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedo
                 let n = columns.len();
                 let all = freedom.relief.clone().unwrap_or_else(|| Mat::identity(n, n));
                 let numbers: Vec<usize> = slots.iter().map(|slot| freedom.kept[*slot] - columns[0]).collect();
-                place(&columns, &slots, dense::columns(all.as_ref(), &numbers).as_ref());
+                place(&mut turned, (&columns, &slots), dense::columns(all.as_ref(), &numbers).as_ref());
             }
             Named::Rigid(_) | Named::Mode(_) => {
                 let [mine, files] =
                     [(&seen[0], &columns), (&seen[1], &slots)].map(|(a, at)| dense::columns(a.as_ref(), at));
-                let noise = slots.iter().map(|slot| noise[*slot]).fold(0.0, f64::max);
-                if turns_unseen(projected, &columns, (mine.as_ref(), noise)) {
+                let noise: Vec<f64> = slots.iter().map(|slot| noise[*slot]).collect();
+                if turns_unseen(projected, &columns, (mine.as_ref(), noise.iter().copied().fold(0.0, f64::max))) {
                     return None;
                 }
                 let [mine, files] = completed(mine.as_ref(), files.as_ref());
                 let turn = nearest_rotation(mine.as_ref(), files.as_ref());
-                place(&columns, &slots, turn.as_ref().subcols(0, slots.len()));
+                let left_open = left_open(mine.as_ref(), turn.as_ref(), dense::norm(&noise));
+                place(&mut turned, (&columns, &slots), turn.as_ref().subcols(0, slots.len()));
+                place(&mut open, (&columns, &slots), left_open.as_ref().subcols(0, slots.len()));
             }
         }
     }
-    let mut amplified = Mat::zeros(n_named, n_eta);
+    let mut amplified = open * faer::Scale(1.0 / f64::EPSILON);
     if let Some((mixing, inverse)) = mixing {
-        let terms = terms_of_unmixing(turned.as_ref(), (mixing, inverse));
+        let terms = terms_of_unmixing(turned.as_ref(), (mixing, inverse)) + amplified;
         amplified = dense::product(terms.as_ref(), dense::absolute(mixing).as_ref());
         turned = dense::product(turned.as_ref(), mixing);
     }
@@ -228,6 +230,27 @@ fn completed(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> [Mat<f64>; 2] {
         if first + j < values.len() { values[first + j].max(0.0).sqrt() * vectors[(i, first + j)] } else { 0.0 }
     });
     [a.to_owned(), dense::side_by_side(b, left_out.as_ref())]
+}
+
+/// What an error of the columns B, of this size, leaves open of the entries of the R that brings A R nearest to them.
+///
+/// With A = U Σ Vᵀ and B = A R + N the fit is off by V E VᵀR, E skew with |E_ab| ≤ ‖N‖ (σ_a + σ_b) / (σ_a² + σ_b²) (Kenney and Laub 1991):
+/// two combinations that are hardly seen, those of oscillators of little mass for instance, may be turned into each other by much more than
+/// ‖N‖. Errors of the pairs are independent: their squares add up.
+fn left_open(a: MatRef<'_, f64>, turn: MatRef<'_, f64>, error: f64) -> Mat<f64> {
+    let n = a.ncols();
+    let Ok((squares, v)) = dense::symmetric_eigen(dense::gram(a, a).as_ref()) else { return Mat::zeros(n, n) };
+    let angle = |i: usize, j: usize| {
+        let [s, t] = [squares[i], squares[j]].map(|square| square.max(0.0));
+        // One alone has nothing to turn into, and no turn is more than a whole one.
+        if i == j { 0.0 } else { (error * (s.sqrt() + t.sqrt()) / (s + t).max(f64::MIN_POSITIVE)).min(1.0) }
+    };
+    let squared = |x: MatRef<'_, f64>| Mat::from_fn(n, n, |i, j| x[(i, j)].powi(2));
+    let angles = Mat::from_fn(n, n, |i, j| angle(i, j).powi(2));
+    let with_file = squared(dense::product(v.transpose(), turn).as_ref());
+    let sum =
+        dense::product(squared(v.as_ref()).as_ref(), dense::product(angles.as_ref(), with_file.as_ref()).as_ref());
+    Mat::from_fn(n, n, |i, j| sum[(i, j)].sqrt())
 }
 
 /// The orthonormal columns R that bring A R nearest to B (Schönemann 1966): U Vᵀ of AᵀB = U Σ Vᵀ.
