@@ -28,8 +28,10 @@
 use std::collections::BTreeSet;
 
 use rayon::prelude::*;
+use serde::Serialize;
 
 use super::written::{MAX_DECIMAL_DIGITS, MIN_DISTINCT, SAMPLE, Written};
+use crate::number::{counted, decimals};
 
 /// Digits that any double needs at most.
 const DOUBLE_DIGITS: u32 = 17;
@@ -43,29 +45,81 @@ const MIN_DISTINCT_SHORT: usize = 20;
 const MIN_LAST_DECIMALS: usize = 6;
 
 /// How many digits the source of some values had.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Digits {
     /// Significant decimal digits: 17 for binary data and for exact short numbers; of the largest values where `decimals` are known.
+    #[serde(rename = "digits")]
     pub significant: u32,
     /// Decimals after the point that all values were rounded to, negative before it; none where digits are relative to each value.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub decimals: Option<i32>,
-    /// Whether values are single precision numbers, which no format makes more precise.
-    is_single: bool,
+    /// What tells so.
+    #[serde(rename = "digits_by", skip_serializing_if = "DigitsBy::is_values")]
+    pub by: DigitsBy,
+}
+
+/// What tells how many digits values have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DigitsBy {
+    /// The values, and the text they were written in.
+    Values,
+    /// All values are single precision numbers: seven digits whatever the format, and its decimals where it is fixed point.
+    SinglePrecision,
+    /// The job states them.
+    Job,
+}
+
+impl DigitsBy {
+    fn is_values(&self) -> bool {
+        *self == Self::Values
+    }
 }
 
 impl Digits {
-    const SINGLE: Self = Self { is_single: true, ..Self::relative(SINGLE_DIGITS) };
-    const DOUBLE: Self = Self::relative(DOUBLE_DIGITS);
+    /// Of numbers in double precision, and of exact ones.
+    pub const DOUBLE: Self = Self::relative(DOUBLE_DIGITS);
+    const SINGLE: Self = Self { by: DigitsBy::SinglePrecision, ..Self::relative(SINGLE_DIGITS) };
 
     const fn relative(significant: u32) -> Self {
-        Self { significant, decimals: None, is_single: false }
+        Self { significant, decimals: None, by: DigitsBy::Values }
+    }
+
+    /// As a job states them, each value relative to itself.
+    pub(super) const fn stated(significant: u32) -> Self {
+        Self { by: DigitsBy::Job, ..Self::relative(significant) }
+    }
+
+    /// Of values that are stored in a type of so many digits.
+    #[cfg_attr(not(feature = "hdf5"), expect(dead_code, reason = "text has no types"))]
+    pub(super) fn at_most(self, stored: u32) -> Self {
+        Self { significant: self.significant.min(stored), ..self }
+    }
+
+    /// Digits that each value has relative to itself: decimals that it was rounded to leave it all of them.
+    pub fn of_each_value(self) -> u32 {
+        match (self.decimals, self.by) {
+            (Some(_), DigitsBy::Values) => DOUBLE_DIGITS,
+            _ => self.significant,
+        }
+    }
+
+    /// `7 digits`, `4 decimals`, `7 digits and 4 decimals` of single precision in fixed point, `17 digits as the job states`.
+    pub fn in_words(self) -> String {
+        let digits = counted(self.significant, "digit", "digits");
+        match (self.decimals.map(decimals), self.by) {
+            (_, DigitsBy::Job) => format!("{digits} as the job states"),
+            (Some(decimals), DigitsBy::SinglePrecision) => format!("{digits} and {decimals}"),
+            (Some(decimals), DigitsBy::Values) => decimals,
+            (None, _) => digits,
+        }
     }
 
     /// With what the format of a text shows.
     pub(super) fn with(self, written: Option<Written>) -> Self {
         match written {
             Some(Written::Digits(digits)) => Self { significant: self.significant.min(digits), ..self },
-            Some(Written::Decimals(decimals)) if !self.is_single => {
+            Some(Written::Decimals(decimals)) if self.by == DigitsBy::Values => {
                 Self { decimals: Some(self.decimals.unwrap_or(decimals).min(decimals)), ..self }
             }
             _ => self,

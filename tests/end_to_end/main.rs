@@ -6,6 +6,7 @@ mod few_digits;
 mod fixed_point;
 mod foreign_names;
 mod links;
+mod misleading;
 mod penalties;
 mod recovery;
 mod results;
