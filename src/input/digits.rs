@@ -9,8 +9,8 @@
 //! - Values that are all single precision numbers, or texts of such, are single precision: 7. A quarter of them at least uses the
 //!   last five of the 24 bits; whole numbers and quarters that are short enough by themselves do not count.
 //! - d is the number of digits that 99 of 100 sampled values do not exceed. With d above 15 the data are binary: 17.
-//! - d from 7 to 15 is taken as the precision of the source. Values that are exact by design and need so many digits
-//!   in *every* entry are taken for rounded; for this there must be three different ones.
+//! - d from 7 to 15 is taken as the precision of the source where there are three different values, unless they are exact by design: sums
+//!   of short numbers, or multiples of a half, a quarter or an eighth, see [`super::exact`].
 //! - d up to 6 is otherwise a source of that few digits only if the values look rounded *relative to their size*: many different
 //!   ones, over more than a decade, where those of the lower decades need d digits as often as those of the highest.
 //! - Values in fixed point, such as `%.4f`, have one last decimal and digits by their size. D is the number of decimals that 99 of 100
@@ -30,6 +30,8 @@ use std::collections::BTreeSet;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::decimal::Decimal;
+use super::exact::{MAX_EXACT_DIGITS, is_exact};
 use super::written::{MAX_DECIMAL_DIGITS, MIN_DISTINCT, SAMPLE, Written};
 use crate::number::{counted, decimals};
 
@@ -37,8 +39,6 @@ use crate::number::{counted, decimals};
 const DOUBLE_DIGITS: u32 = 17;
 /// Digits that a single precision number carries.
 const SINGLE_DIGITS: u32 = 7;
-/// The most digits that occur in exact data.
-const MAX_EXACT_DIGITS: u32 = 6;
 /// Different values, in the lower decades, that data of few digits must have to be taken for rounded.
 const MIN_DISTINCT_SHORT: usize = 20;
 /// Different last decimals of rounded values: 18 numbers without a pattern have fewer with a chance of one in ten thousand.
@@ -144,7 +144,7 @@ pub fn digits_of(values: &[f64]) -> Digits {
     let distinct: BTreeSet<Decimal> = sample.iter().map(|&value| Decimal::of(value)).collect();
     let is_of_few = match digits {
         _ if digits <= MAX_EXACT_DIGITS => is_rounded(&distinct, digits),
-        _ if digits <= MAX_DECIMAL_DIGITS => n_mantissas(&distinct) >= MIN_DISTINCT,
+        _ if digits <= MAX_DECIMAL_DIGITS => n_mantissas(&distinct) >= MIN_DISTINCT && !is_exact(&distinct, digits),
         _ => false,
     };
     let relative = if is_of_few { Digits::relative(digits) } else { Digits::DOUBLE };
@@ -165,41 +165,6 @@ pub(super) fn most_alike(values: &[f64]) -> usize {
 fn spread(values: &[f64]) -> impl Iterator<Item = f64> {
     let n_sampled = values.len().min(SAMPLE);
     (0..n_sampled).map(move |k| values[(k as u128 * values.len() as u128 / n_sampled as u128) as usize])
-}
-
-/// The shortest decimal form of the size of a number that reads back as the same double.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Decimal {
-    exponent: i32,
-    mantissa: u64,
-    n_digits: u32,
-}
-
-impl Decimal {
-    fn of(value: f64) -> Self {
-        Self::of_text(&format!("{:e}", value.abs()))
-    }
-
-    /// Of a number as `{:e}` writes it.
-    fn of_text(text: &str) -> Self {
-        let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
-        let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
-        let digits = digits.trim_end_matches('0');
-        Self {
-            exponent: exponent.parse().unwrap_or(0),
-            mantissa: digits.parse().unwrap_or(0),
-            n_digits: digits.len() as u32,
-        }
-    }
-
-    /// Decimals after the point, negative where the number ends with zeros before it.
-    fn n_decimals(self) -> i32 {
-        self.n_digits as i32 - 1 - self.exponent
-    }
-
-    fn last_digit(self) -> u64 {
-        self.mantissa % 10
-    }
 }
 
 fn n_mantissas(distinct: &BTreeSet<Decimal>) -> usize {
@@ -318,6 +283,21 @@ mod tests {
         for values in exact {
             assert_eq!(digits_of(&values), Digits::DOUBLE, "{:?}", &values[..values.len().min(3)]);
         }
+    }
+
+    /// Springs of 1000, 2.5, 0.25 and 10⁴ and their sums; springs of quarters up to 10⁵; of 1, 3 and 10¹⁰.
+    #[test]
+    fn exact_values_of_seven_digits_and_more_are_exact() {
+        let sums = vec![-10000.0, -1000.0, -2.5, -0.25, 2.75, 1002.5, 10000.25, 11000.0];
+        let quarters: Vec<f64> = (0..200).map(|k| f64::from(k * 7919 % 400_000) / 4.0 + 1e5).collect();
+        let far = vec![1.0, 3.0, 4.0, 1e10, 10_000_000_001.0, 10_000_000_003.0];
+        for values in [sums, quarters, far] {
+            assert_eq!(digits_of(&values), Digits::DOUBLE, "{:?}", &values[..4]);
+        }
+        // Thirds and what a short number makes of them, and tenths of which a few are halves.
+        assert_ne!(digits_of(&[0.3333333, 0.5, 0.8333333, 1.0, 0.6666667, 1.3333333]), Digits::DOUBLE);
+        let tenths: Vec<f64> = (0..20).map(|k| f64::from(12_345 + k * 70_001) / 10.0).collect();
+        assert_eq!(digits_of(&tenths).decimals, Some(1));
     }
 
     #[test]

@@ -5,10 +5,12 @@
 mod allowance;
 mod banner;
 mod blocks;
+mod decimal;
 mod digits;
 mod dof_map;
 mod empty_rows;
 mod entries;
+mod exact;
 mod facts;
 mod file_start;
 mod format;

@@ -3,8 +3,46 @@
 use supel::cli::ExitCode;
 
 use crate::few_digits::Found;
-use crate::fixed_point::{components, full, printed, reduced};
-use crate::place::supel;
+use crate::fixed_point::{Entry, components, full, matrix_market, printed, reduced};
+use crate::place::{Place, supel};
+
+/// Three chains of springs of 1000, 2.5, 0.25 and 10⁴: an entry of seven digits, 10000.25, is a sum.
+#[test]
+fn sums_of_short_numbers_are_exact() {
+    const N_MASSES: usize = 50;
+    let springs = [1000.0, 2.5, 0.25, 1e4];
+    let row = |mass: usize, direction: usize| (3 * mass + direction) as u32;
+    let (mut stiffness, mut mass): (Vec<Entry>, Vec<Entry>) = (Vec::new(), Vec::new());
+    for (k, direction) in (0..N_MASSES).flat_map(|k| (0..3).map(move |direction| (k, direction))) {
+        let of = |k: usize| springs[(k + direction) % 4];
+        let before = if k > 0 { of(k - 1) } else { 0.0 };
+        let after = if k + 1 < N_MASSES { of(k) } else { 0.0 };
+        stiffness.push((row(k, direction), row(k, direction), before + after));
+        if after > 0.0 {
+            stiffness.push((row(k + 1, direction), row(k, direction), -after));
+        }
+        mass.push((row(k, direction), row(k, direction), [1.0, 2.5, 0.25][k % 3]));
+    }
+    let place = Place::new();
+    place.write("K.mtx", matrix_market(3 * N_MASSES, &stiffness, &|value| value.to_string()).as_bytes());
+    place.write("M.mtx", matrix_market(3 * N_MASSES, &mass, &full).as_bytes());
+    let of = |name: &str, keys: &str| {
+        let job = format!(
+            "model = {{ stiffness = \"K.mtx\", mass = \"M.mtx\"{keys} }}\n\
+             interface = [{{ name = \"end\", nodes = {{ rows = [0, 1, 2] }} }}]\n\
+             reduction = {{ method = \"herting\", modes = {{ count = 6 }} }}\n\
+             write = {{ superelement = \"{name}.supel\" }}\n"
+        );
+        place.write(&format!("{name}.toml"), job.as_bytes());
+        supel(&["reduce", &place.text(&format!("{name}.toml"))]).expect(ExitCode::Done);
+        place.report(&format!("{name}.report.json"))["body"].clone()
+    };
+    let (judged, stated) = (of("judged", ""), of("stated", ", stiffness_digits = 17"));
+    assert!(judged["model"]["stiffness"]["digits"] == 17, "{}", judged["model"]["stiffness"]);
+    let [judged, stated] = [judged, stated].map(|body| Found::of(&body));
+    assert_eq!(judged.frequencies, stated.frequencies);
+    assert!(judged.frequencies.iter().all(|[hertz, bar]| *bar < 1e-6 * hertz), "{:?}", judged.frequencies);
+}
 
 /// Single precision in other units has all digits of a double, and exact numbers may have seven.
 #[test]
