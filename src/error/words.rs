@@ -13,8 +13,8 @@ pub(super) const BY_ROWS: &str = "go on by rows: leave dof map and nodes out and
 pub(super) const STATE_EXACT: &str = "or say model.stiffness_digits = 17 in the job if its numbers are exact";
 
 /// How to go on where the digits of a stiffness may be misjudged either way.
-pub(super) const STATE_DIGITS: &str = "if its numbers have fewer digits than they are written with (7 in single precision), or are exact (17), say so in \
-     model.stiffness_digits of the job";
+pub(super) const STATE_DIGITS: &str = "if its numbers have fewer digits than they are written with (7 in \
+    single precision), or are exact (17), say so in model.stiffness_digits of the job";
 
 /// [`STATE_EXACT`] as one more piece of advice.
 pub(super) const FEW_DIGITS: &str =

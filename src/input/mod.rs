@@ -25,6 +25,7 @@ mod node_table;
 mod note;
 mod patch;
 mod patch_faces;
+mod single_precision;
 mod source;
 mod table;
 mod unsupported_format;

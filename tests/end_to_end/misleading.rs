@@ -3,8 +3,40 @@
 use supel::cli::ExitCode;
 
 use crate::few_digits::Found;
-use crate::fixed_point::{Entry, components, full, matrix_market, printed, reduced};
+use crate::fixed_point::{Entry, components, full, hold, matrix_market, printed, reduced};
 use crate::place::{Place, supel};
+
+/// In fixed point, where small numbers lose digits and large ones never had them, and each number as short as it can be.
+#[test]
+fn frequencies_of_single_precision_in_any_text_stay_within_their_bars() {
+    let in_fixed_point = |value: f64| format!("{:.1}", value as f32);
+    let shortest = |value: f64| format!("{:e}", value as f32);
+    // A mass of next to one number, which nine digits would not show.
+    let in_thirteen_digits = |value: f64| format!("{:.12e}", f64::from(value as f32));
+    hold([4e7, 0.3], &|model| printed(model, [&in_fixed_point, &full]), "· 7 digits");
+    hold([4e10, 0.3], &|model| printed(model, [&shortest, &full]), "· 7 digits");
+    hold([4e10, 0.3], &|model| printed(model, [&full, &in_thirteen_digits]), "· 7 digits");
+}
+
+/// As many digits as there is room for in ten characters.
+fn in_ten_characters(value: f64) -> String {
+    const WIDTH: usize = 10;
+    let shortened =
+        |text: String| text.replacen("0.", ".", usize::from(text.trim_start_matches('-').starts_with("0.")));
+    let forms = |n: usize| [shortened(format!("{value:.n$}")), format!("{value:.n$e}")];
+    let fits = |text: &String| text.len() <= WIDTH && text.parse::<f64>().is_ok_and(|read| read != 0.0);
+    let best = (0..WIDTH).rev().flat_map(forms).filter(fits).min_by(|a, b| {
+        let off = |text: &String| (text.parse::<f64>().expect("a number") - value).abs();
+        off(a).total_cmp(&off(b))
+    });
+    best.unwrap_or_else(|| "0.".to_owned())
+}
+
+/// As many digits, decimals or both as the numbers leave.
+#[test]
+fn frequencies_of_numbers_that_fill_their_fields_stay_within_their_bars() {
+    hold([4e3, 0.3], &|model| printed(model, [&in_ten_characters, &full]), "");
+}
 
 /// Three chains of springs of 1000, 2.5, 0.25 and 10⁴: an entry of seven digits, 10000.25, is a sum.
 #[test]
