@@ -27,8 +27,8 @@ struct Found {
 
 fn look(model: &supel_models::Model, interfaces: &[InterfaceJob], digits: u32) -> Found {
     let input = chain::input(&if digits < 17 { rounded(model, digits as usize) } else { model.clone() });
-    let digits = Digits { significant: digits, ..Digits::DOUBLE };
-    let of = |matrix: MatrixInput| MatrixInput { digits, ..matrix };
+    let known = Digits { significant: digits, ..Digits::DOUBLE };
+    let of = |matrix: MatrixInput| MatrixInput { digits: known, ..matrix };
     let input = Input { stiffness: of(input.stiffness), mass: of(input.mass), ..input };
     let partition = Partition::new(Model::new(input).expect("sound"), interfaces).expect("interfaces");
     let rigid = rigid::rigid_body_modes(&partition).expect("free").0;
