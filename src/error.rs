@@ -16,7 +16,7 @@ use serde::Serialize;
 use supel_runtime::FileError;
 
 use code::catalogued;
-use words::{At, BY_ROWS, Suggested, forecast, groups, listed, not_text, place};
+use words::{At, BY_ROWS, FEW_DIGITS, STATE_DIGITS, STATE_EXACT, Suggested, forecast, groups, listed, not_text, place};
 
 use crate::number::{bytes, count, counted, quantity, typed};
 
@@ -1520,7 +1520,7 @@ pub enum Error {
     #[entry("E-NEG-RIGID", ModelPhysics, "check preload and negative springs")]
     #[error(
         "a rigid-body motion has the negative energy {energy:.1e} – expected zero within {noise:.1e} – a Sturm count \
-        finds {} below half of it: the stiffness is indefinite – check preload and negative springs",
+        finds {} below half of it: the stiffness is indefinite – check preload and negative springs; {STATE_DIGITS}",
         counted(*count, "eigenvalue", "eigenvalues")
     )]
     NegativeRigidEnergy {
@@ -1777,8 +1777,8 @@ pub enum Error {
     #[entry("E-INTERFACE-RANK", ModelPhysics, "add interface nodes off the axis named, or give them rotations")]
     #[error(
         "the interface can react only {rank} of the {}{motion} – expected all – add \
-        interface nodes off that axis or give the nodes rotations",
-        counted(*n_rigid, "rigid-body motion", "rigid-body motions")
+        interface nodes off that axis or give the nodes rotations{}",
+        counted(*n_rigid, "rigid-body motion", "rigid-body motions"), if *has_few_digits { FEW_DIGITS } else { "" }
     )]
     InterfaceRank {
         /// Motions it reacts.
@@ -1787,6 +1787,8 @@ pub enum Error {
         n_rigid: usize,
         /// The free motion in words.
         motion: String,
+        /// Whether the stiffness has few digits, which may be all that is wrong.
+        has_few_digits: bool,
     },
     /// A superelement has no inertia-relief modes, which Rubin's matrices are made from.
     #[entry("E-NO-RELIEF", Usage, "reduce with rubin or herting")]
@@ -1807,11 +1809,15 @@ pub enum Error {
     )]
     NoAttachmentModes,
     /// The digits of the stiffness leave open whether it is definite, or how many motions cost no energy.
-    #[entry("E-DATA-PRECISION", InputData, "write the stiffness with more digits, best in binary")]
+    #[entry(
+        "E-DATA-PRECISION",
+        InputData,
+        "write the stiffness with more digits, best in binary, or say `model.stiffness_digits = 17` in the job if its numbers are exact"
+    )]
     #[error(
         "the digits of the stiffness do not tell {what} – {known} – \
         expected entries whose last digit does not decide that – write the stiffness with more digits, best in \
-        binary"
+        binary, {STATE_EXACT}"
     )]
     DigitsTooFew {
         /// What is open.
@@ -1827,7 +1833,7 @@ pub enum Error {
     )]
     #[error(
         "the stiffness is not positive definite with {} – elimination stopped at {dof} – expected a positive pivot – \
-        the structure has a mechanism there or is unstable, or a penalty far above all else takes its digits",
+        the structure has a mechanism there or is unstable, or a penalty far above all else takes its digits; {STATE_DIGITS}",
         held_words(boundary)
     )]
     NotDefinite {
@@ -1845,7 +1851,7 @@ pub enum Error {
     #[error(
         "the stiffness has {} with {}, by a Sturm count – expected none – the component is \
         preloaded beyond buckling, has negative springs, or its matrix lacks digits, which a penalty far above all \
-        else takes too; reduce it at a smaller preload",
+        else takes too; reduce it at a smaller preload; {STATE_DIGITS}",
         counted(*count, "negative eigenvalue", "negative eigenvalues"), held_words(boundary)
     )]
     IndefiniteStiffness {

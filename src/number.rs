@@ -24,11 +24,6 @@ pub(crate) fn decimals(count: i32) -> String {
     if count < 0 { format!("multiples of 1e{}", -count) } else { counted(count, "decimal", "decimals") }
 }
 
-/// How well the entries of a matrix are known: `4 decimals`, or `7 digits` where digits are relative to each entry.
-pub(crate) fn known_to(digits: u32, count_of_decimals: Option<i32>) -> String {
-    count_of_decimals.map_or_else(|| counted(digits, "digit", "digits"), decimals)
-}
-
 /// A quantity with about `digits` significant digits, in plain notation where that is short.
 pub(crate) fn quantity(value: f64, digits: usize) -> String {
     if value == 0.0 {

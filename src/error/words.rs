@@ -9,6 +9,17 @@ use crate::number::{bytes, quantity};
 /// How to go on where a dof map cannot be used.
 pub(super) const BY_ROWS: &str = "go on by rows: leave dof map and nodes out and give interfaces as rows from zero, as in reduce --interface hub=rows:0,1,2";
 
+/// How to go on where exact numbers were taken for rounded ones.
+pub(super) const STATE_EXACT: &str = "or say model.stiffness_digits = 17 in the job if its numbers are exact";
+
+/// How to go on where the digits of a stiffness may be misjudged either way.
+pub(super) const STATE_DIGITS: &str = "if its numbers have fewer digits than they are written with (7 in \
+    single precision), or are exact (17), say so in model.stiffness_digits of the job";
+
+/// [`STATE_EXACT`] as one more piece of advice.
+pub(super) const FEW_DIGITS: &str =
+    ", or say model.stiffness_digits = 17 in the job if the numbers of the stiffness are exact";
+
 /// `:12` after a path, where the line is known.
 pub(super) struct At(pub(super) Option<usize>);
 

@@ -6,11 +6,10 @@
 //!
 //! The rule, and its limits:
 //!
-//! - Values that are all single precision numbers, or texts of such, are single precision: 7. A quarter of them at least uses the
-//!   last five of the 24 bits; whole numbers and quarters that are short enough by themselves do not count.
+//! - Values that are all single precision numbers, or texts of such, are single precision: 7, see [`super::single_precision`].
 //! - d is the number of digits that 99 of 100 sampled values do not exceed. With d above 15 the data are binary: 17.
-//! - d from 7 to 15 is taken as the precision of the source. Values that are exact by design and need so many digits
-//!   in *every* entry are taken for rounded; for this there must be three different ones.
+//! - d from 7 to 15 is taken as the precision of the source where there are three different values, unless they are exact by design: sums
+//!   of short numbers, or multiples of a half, a quarter or an eighth, see [`super::exact`].
 //! - d up to 6 is otherwise a source of that few digits only if the values look rounded *relative to their size*: many different
 //!   ones, over more than a decade, where those of the lower decades need d digits as often as those of the highest.
 //! - Values in fixed point, such as `%.4f`, have one last decimal and digits by their size. D is the number of decimals that 99 of 100
@@ -21,52 +20,110 @@
 //!   decimals are six different digits at least. Halves and quarters end with a 5, multiples of 0.2 with even digits. So whole numbers
 //!   up to 999999, springs of 2 and −1 and lumped masses of 0.25 are exact: 17. A computed double has 16 or 17 digits; above 15, a tenth
 //!   of the values must have fewer.
-//! - A text in a fixed format shows its digits or decimals, see [`super::written`].
+//! - A text in a fixed format or in fields of a fixed width shows its digits or decimals, see [`super::written`].
 //!
 //! Not seen: entries that were rounded to zero and left out; whole numbers below 10⁶ that were rounded (`%.0f`); fewer values than these.
 
 use std::collections::BTreeSet;
 
 use rayon::prelude::*;
+use serde::Serialize;
 
+use super::decimal::Decimal;
+use super::exact::{MAX_EXACT_DIGITS, is_exact};
+use super::single_precision::{SINGLE_DIGITS, Single, single_precision};
 use super::written::{MAX_DECIMAL_DIGITS, MIN_DISTINCT, SAMPLE, Written};
+use crate::number::{counted, decimals};
 
 /// Digits that any double needs at most.
 const DOUBLE_DIGITS: u32 = 17;
-/// Digits that a single precision number carries.
-const SINGLE_DIGITS: u32 = 7;
-/// The most digits that occur in exact data.
-const MAX_EXACT_DIGITS: u32 = 6;
 /// Different values, in the lower decades, that data of few digits must have to be taken for rounded.
 const MIN_DISTINCT_SHORT: usize = 20;
 /// Different last decimals of rounded values: 18 numbers without a pattern have fewer with a chance of one in ten thousand.
 const MIN_LAST_DECIMALS: usize = 6;
 
 /// How many digits the source of some values had.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Digits {
     /// Significant decimal digits: 17 for binary data and for exact short numbers; of the largest values where `decimals` are known.
+    #[serde(rename = "digits")]
     pub significant: u32,
     /// Decimals after the point that all values were rounded to, negative before it; none where digits are relative to each value.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub decimals: Option<i32>,
-    /// Whether values are single precision numbers, which no format makes more precise.
-    is_single: bool,
+    /// What tells so.
+    #[serde(rename = "digits_by", skip_serializing_if = "DigitsBy::is_values")]
+    pub by: DigitsBy,
+}
+
+/// What tells how many digits values have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DigitsBy {
+    /// The values, and the text they were written in.
+    Values,
+    /// All values are single precision numbers: seven digits whatever the format, and its decimals where it is fixed point.
+    SinglePrecision,
+    /// Numbers fill fields of a fixed width: each is known to the digits, or to the decimals where these are coarser.
+    FieldWidth,
+    /// The job states them.
+    Job,
+}
+
+impl DigitsBy {
+    fn is_values(&self) -> bool {
+        *self == Self::Values
+    }
 }
 
 impl Digits {
-    const SINGLE: Self = Self { is_single: true, ..Self::relative(SINGLE_DIGITS) };
-    const DOUBLE: Self = Self::relative(DOUBLE_DIGITS);
+    /// Of numbers in double precision, and of exact ones.
+    pub const DOUBLE: Self = Self::relative(DOUBLE_DIGITS);
+    const SINGLE: Self = Self { by: DigitsBy::SinglePrecision, ..Self::relative(SINGLE_DIGITS) };
 
     const fn relative(significant: u32) -> Self {
-        Self { significant, decimals: None, is_single: false }
+        Self { significant, decimals: None, by: DigitsBy::Values }
+    }
+
+    /// As a job states them, each value relative to itself.
+    pub(super) const fn stated(significant: u32) -> Self {
+        Self { by: DigitsBy::Job, ..Self::relative(significant) }
+    }
+
+    /// Of values that are stored in a type of so many digits.
+    #[cfg_attr(not(feature = "hdf5"), expect(dead_code, reason = "text has no types"))]
+    pub(super) fn at_most(self, stored: u32) -> Self {
+        Self { significant: self.significant.min(stored), ..self }
+    }
+
+    /// Digits that each value has relative to itself: decimals that it was rounded to leave it all of them.
+    pub fn of_each_value(self) -> u32 {
+        match (self.decimals, self.by) {
+            (Some(_), DigitsBy::Values) => DOUBLE_DIGITS,
+            _ => self.significant,
+        }
+    }
+
+    /// `7 digits`, `4 decimals`, `7 digits and 4 decimals` where either may hold, `17 digits as the job states`.
+    pub fn in_words(self) -> String {
+        let digits = counted(self.significant, "digit", "digits");
+        match (self.decimals.map(decimals), self.by) {
+            (_, DigitsBy::Job) => format!("{digits} as the job states"),
+            (Some(decimals), DigitsBy::SinglePrecision | DigitsBy::FieldWidth) => format!("{digits} and {decimals}"),
+            (Some(decimals), DigitsBy::Values) => decimals,
+            (None, _) => digits,
+        }
     }
 
     /// With what the format of a text shows.
     pub(super) fn with(self, written: Option<Written>) -> Self {
         match written {
             Some(Written::Digits(digits)) => Self { significant: self.significant.min(digits), ..self },
-            Some(Written::Decimals(decimals)) if !self.is_single => {
+            Some(Written::Decimals(decimals)) if self.by == DigitsBy::Values => {
                 Self { decimals: Some(self.decimals.unwrap_or(decimals).min(decimals)), ..self }
+            }
+            Some(Written::Fields { digits, decimals }) => {
+                Self { significant: self.significant.min(digits), decimals, by: DigitsBy::FieldWidth }
             }
             _ => self,
         }
@@ -84,13 +141,13 @@ pub fn digits_of(values: &[f64]) -> Digits {
     let mut counts: Vec<u32> = sample.iter().map(|&value| Decimal::of(value).n_digits).collect();
     counts.sort_unstable();
     let digits = counts[(counts.len() * 99).div_ceil(100) - 1];
-    if is_single(&sample, digits) {
-        return Digits::SINGLE;
+    if let Some(Single { decimals }) = single_precision(&sample, digits) {
+        return Digits { decimals, ..Digits::SINGLE };
     }
     let distinct: BTreeSet<Decimal> = sample.iter().map(|&value| Decimal::of(value)).collect();
     let is_of_few = match digits {
         _ if digits <= MAX_EXACT_DIGITS => is_rounded(&distinct, digits),
-        _ if digits <= MAX_DECIMAL_DIGITS => n_mantissas(&distinct) >= MIN_DISTINCT,
+        _ if digits <= MAX_DECIMAL_DIGITS => n_mantissas(&distinct) >= MIN_DISTINCT && !is_exact(&distinct, digits),
         _ => false,
     };
     let relative = if is_of_few { Digits::relative(digits) } else { Digits::DOUBLE };
@@ -111,41 +168,6 @@ pub(super) fn most_alike(values: &[f64]) -> usize {
 fn spread(values: &[f64]) -> impl Iterator<Item = f64> {
     let n_sampled = values.len().min(SAMPLE);
     (0..n_sampled).map(move |k| values[(k as u128 * values.len() as u128 / n_sampled as u128) as usize])
-}
-
-/// The shortest decimal form of the size of a number that reads back as the same double.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Decimal {
-    exponent: i32,
-    mantissa: u64,
-    n_digits: u32,
-}
-
-impl Decimal {
-    fn of(value: f64) -> Self {
-        Self::of_text(&format!("{:e}", value.abs()))
-    }
-
-    /// Of a number as `{:e}` writes it.
-    fn of_text(text: &str) -> Self {
-        let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
-        let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
-        let digits = digits.trim_end_matches('0');
-        Self {
-            exponent: exponent.parse().unwrap_or(0),
-            mantissa: digits.parse().unwrap_or(0),
-            n_digits: digits.len() as u32,
-        }
-    }
-
-    /// Decimals after the point, negative where the number ends with zeros before it.
-    fn n_decimals(self) -> i32 {
-        self.n_digits as i32 - 1 - self.exponent
-    }
-
-    fn last_digit(self) -> u64 {
-        self.mantissa % 10
-    }
 }
 
 fn n_mantissas(distinct: &BTreeSet<Decimal>) -> usize {
@@ -186,38 +208,6 @@ fn fixed_point(distinct: &BTreeSet<Decimal>, digits: u32, relative: Digits) -> O
     let is_believed = distinct.len() >= MIN_DISTINCT_SHORT && last.len() >= MIN_LAST_DECIMALS;
     let is_short = digits <= MAX_DECIMAL_DIGITS || (10 * n_short >= distinct.len() && n_short >= MIN_DISTINCT_SHORT);
     (decimals > 0 && is_believed && is_short).then_some(decimals)
-}
-
-/// Whether values of more than seven digits are single precision numbers, or decimal forms of such: the shortest, or one of `digits`.
-fn is_single(sample: &[f64], digits: u32) -> bool {
-    // One number of 10¹⁰ in a thousand is one by chance, of nine digits one in thirty is such a form, and of eight one in three.
-    let (min_exact, min_printed) = match digits {
-        _ if digits <= SINGLE_DIGITS => return false,
-        8 => (MIN_DISTINCT, MIN_DISTINCT_SHORT),
-        _ if digits <= MAX_DECIMAL_DIGITS => (MIN_DISTINCT, 2 * MIN_DISTINCT),
-        _ => (1, 2 * MIN_DISTINCT),
-    };
-    let n_decimals = digits.min(DOUBLE_DIGITS) as usize - 1;
-    let is_printed = |value: f64| {
-        let single = value as f32;
-        let shortest = || Decimal::of_text(&format!("{:e}", single.abs())) == Decimal::of(value);
-        single.is_normal() && (shortest() || format!("{:.n_decimals$e}", f64::from(single)).parse() == Ok(value))
-    };
-    let is_exact = |value: f64| f64::from(value as f32) == value;
-    // Numbers that are short by themselves end with many zeros among the 24 bits, and whole numbers and quarters may be any.
-    let uses_all_bits = |bits: &u32| bits.trailing_zeros() <= 4;
-    let is_short = |value: f64| (4.0 * value).fract() == 0.0 && value.abs() < 2f64.powi(24);
-    let mantissas: BTreeSet<u32> = sample.iter().map(|value| (*value as f32).to_bits() & ((1 << 23) - 1)).collect();
-    let n_long = mantissas.iter().filter(|bits| uses_all_bits(bits)).count();
-    // What cancels in the sums of a regular mesh leaves numbers of few bits.
-    let is_believed = |least: usize| n_long >= least.max(mantissas.len() / 4);
-    if sample.iter().all(|value| is_short(*value)) {
-        return false;
-    }
-    match sample.iter().all(|value| is_exact(*value)) {
-        true => is_believed(min_exact),
-        false => is_believed(min_printed) && sample.iter().all(|value| is_exact(*value) || is_printed(*value)),
-    }
 }
 
 #[cfg(test)]
@@ -266,6 +256,21 @@ mod tests {
         }
     }
 
+    /// Springs of 1000, 2.5, 0.25 and 10⁴ and their sums; springs of quarters up to 10⁵; of 1, 3 and 10¹⁰.
+    #[test]
+    fn exact_values_of_seven_digits_and_more_are_exact() {
+        let sums = vec![-10000.0, -1000.0, -2.5, -0.25, 2.75, 1002.5, 10000.25, 11000.0];
+        let quarters: Vec<f64> = (0..200).map(|k| f64::from(k * 7919 % 400_000) / 4.0 + 1e5).collect();
+        let far = vec![1.0, 3.0, 4.0, 1e10, 10_000_000_001.0, 10_000_000_003.0];
+        for values in [sums, quarters, far] {
+            assert_eq!(digits_of(&values), Digits::DOUBLE, "{:?}", &values[..4]);
+        }
+        // Thirds and what a short number makes of them, and tenths of which a few are halves.
+        assert_ne!(digits_of(&[0.3333333, 0.5, 0.8333333, 1.0, 0.6666667, 1.3333333]), Digits::DOUBLE);
+        let tenths: Vec<f64> = (0..20).map(|k| f64::from(12_345 + k * 70_001) / 10.0).collect();
+        assert_eq!(digits_of(&tenths).decimals, Some(1));
+    }
+
     #[test]
     fn one_long_constant_is_no_rounding() {
         assert_eq!(digits_of(&[1_234_567.5, -1_234_567.5, 2_469_135.0]), Digits::DOUBLE);
@@ -287,6 +292,37 @@ mod tests {
             let values: Vec<f64> = scattered(2000).iter().map(|value| (value * 1e4).round() * unit).collect();
             assert_eq!(digits_of(&values).decimals, Some(decimals));
         }
+    }
+
+    /// As numpy's `str` and C++ write them, in which ties may go either way, in fixed point, and few numbers in nine to thirteen digits.
+    #[test]
+    fn single_precision_shows_in_whatever_text() {
+        for size in [1.0, 1e-9, 1e10] {
+            let single = |value: &f64| (value * size) as f32;
+            let values: Vec<f64> = scattered(500).iter().map(|value| f64::from(single(value))).collect();
+            for (n_decimals, largest) in [(1, 1e8), (3, 1e6), (6, 1e4)] {
+                let fixed = |value: &f64| {
+                    let single = (value / 1e5 * largest / size) as f32;
+                    format!("{single:.n_decimals$}").parse::<f64>().expect("a number")
+                };
+                let found = digits_of(&values.iter().map(fixed).collect::<Vec<_>>());
+                let expected = Digits { decimals: Some(n_decimals as i32), ..Digits::SINGLE };
+                assert_eq!(found, expected, "%.{n_decimals}f up to {largest:e}");
+            }
+            for n_digits in [9, 10, 13] {
+                let few = printed(&values[100..108], n_digits);
+                assert_eq!(digits_of(&few), Digits::SINGLE, "{n_digits} digits, {size:e}: {few:?}");
+            }
+        }
+        // 1595731.25 is a tie, and 2^-21 has a shortest form that is not its nearest of eight digits.
+        let as_text = |value: &f64| (*value as f32).to_string().parse().expect("a number");
+        let shortest: Vec<f64> = scattered(500).iter().map(as_text).collect();
+        let ties = vec![1_595_731.2, 1_595_731.3, 4.7683716e-7, 342_810.62, 342_810.63];
+        assert_eq!(digits_of(&[shortest, ties].concat()), Digits::SINGLE);
+        // Doubles in nine digits, and in a format that single precision fills to the last digit.
+        assert_eq!(digits_of(&printed(&scattered(500), 9)), Digits::relative(9));
+        let tenths: Vec<f64> = (0..64).map(|k| f64::from(2 + 777_777 * k) / 10.0).collect();
+        assert_eq!(digits_of(&tenths).decimals, Some(1));
     }
 
     /// In SI units stiffnesses are whole numbers above 2²⁴ that need ten digits.

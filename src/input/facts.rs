@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Input, InputNote, MatrixInput, PatchFaces};
+use super::{Digits, Input, InputNote, MatrixInput, PatchFaces};
 use crate::error::Warning;
 
 /// What is remembered of the input after its matrices have gone into the model.
@@ -25,10 +25,8 @@ pub struct InputFacts {
 pub struct MatrixFacts {
     /// Stored entries, both triangles.
     pub n_nonzeros: usize,
-    /// Significant digits.
-    pub digits: u32,
-    /// Decimals after the point, where all entries have so many.
-    pub decimals: Option<i32>,
+    /// How many digits or decimals its entries carry.
+    pub digits: Digits,
     /// BLAKE3 of the file.
     pub digest: String,
 }
@@ -39,7 +37,6 @@ impl InputFacts {
         let facts = |matrix: &MatrixInput| MatrixFacts {
             n_nonzeros: matrix.matrix.nnz(),
             digits: matrix.digits,
-            decimals: matrix.decimals,
             digest: matrix.digest.clone(),
         };
         Self {

@@ -44,6 +44,8 @@ pub(super) struct MatrixSource<'a> {
     pub(super) role: MatrixRole,
     /// The triangle that the job asks for.
     pub(super) triangle: Option<Triangle>,
+    /// Significant digits that the job states.
+    pub(super) stated_digits: Option<u32>,
     pub(super) allowance: &'a Allowance,
 }
 

@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::Allowance;
+#[cfg(feature = "hdf5")]
+use super::Digits;
 use super::file_start::{FileStart, has_extension};
 use super::format::{Format, MatrixFormat, MatrixSource, NodeFormat, ReadMatrix, Sureness};
 #[cfg(feature = "hdf5")]
@@ -68,8 +70,10 @@ impl Format for Hdf5Mesh {
 #[cfg(feature = "hdf5")]
 impl MatrixFormat for Hdf5Matrix {
     fn read(&self, source: &MatrixSource<'_>) -> Result<ReadMatrix> {
-        let MatrixSource { file, group, role, allowance, .. } = source;
-        hdf5::read_matrix_within(file, group.as_deref(), *role, allowance).map(ReadMatrix::with_size)
+        let MatrixSource { file, group, role, stated_digits, allowance, .. } = source;
+        let mut input = hdf5::read_matrix_within(file, group.as_deref(), *role, allowance)?;
+        input.digits = stated_digits.map_or(input.digits, Digits::stated);
+        Ok(ReadMatrix::with_size(input))
     }
 }
 

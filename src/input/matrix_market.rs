@@ -8,7 +8,7 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::MatrixInput;
-use super::allowance::{Allowance, Claim};
+use super::allowance::Claim;
 use super::banner::{Head, HeadReader, square_order};
 use super::blocks::{BLOCK_BYTES, for_each_batch};
 use super::digits::{Digits, most_alike};
@@ -18,7 +18,6 @@ use super::format::{Format, MatrixFormat, MatrixSource, OrderSource, ReadMatrix,
 use super::gathering::{Gathered, Gathering};
 use super::written::{MAX_DECIMAL_DIGITS, Written, written};
 use crate::error::{Error, Result};
-use crate::sparse::Triangle;
 use crate::sparse::{Declared, ENTRY_BYTES, MAX_ORDER, ROW_BYTES, TRIPLET_BYTES};
 
 /// Order up to which a matrix may be empty; its row pointers take 8 MiB.
@@ -42,29 +41,20 @@ impl Format for TextMatrix {
 
 impl MatrixFormat for TextMatrix {
     fn read(&self, source: &MatrixSource<'_>) -> Result<ReadMatrix> {
-        read(&source.file, source.triangle, source.allowance)
+        read_in_blocks(source, BLOCK_BYTES)
     }
 }
 
-/// Reads a matrix from text, plain or gzipped.
-/// With a `triangle` asked for, entries on both sides of the diagonal of a matrix declared symmetric are let pass.
-fn read(path: &Path, triangle: Option<Triangle>, allowance: &Allowance) -> Result<ReadMatrix> {
-    read_in_blocks(path, triangle, BLOCK_BYTES, allowance)
-}
-
-/// Reads a matrix in blocks of about this many bytes. The block size changes no result.
-fn read_in_blocks(
-    path: &Path,
-    triangle: Option<Triangle>,
-    block_bytes: usize,
-    allowance: &Allowance,
-) -> Result<ReadMatrix> {
+/// Reads a matrix from text, plain or gzipped, in blocks of about this many bytes. The block size changes no result.
+/// With a triangle asked for, entries on both sides of the diagonal of a matrix declared symmetric are let pass.
+fn read_in_blocks(source: &MatrixSource<'_>, block_bytes: usize) -> Result<ReadMatrix> {
+    let path = source.file.as_path();
     let mut reading = Reading {
         path,
         head_reader: HeadReader::new(path),
         head: None,
         entries: Gathering::new(),
-        claim: allowance.claim(path),
+        claim: source.allowance.claim(path),
         written: None,
         n_lines: 0,
     };
@@ -87,17 +77,17 @@ fn read_in_blocks(
     };
     let Gathered { triplets, n_merged, most_merged, digits } = gathered;
     check_emptiness(path, n, triplets.len())?;
-    let assembled = if triangle.is_some() { Declared::General } else { declared };
-    let Digits { significant: digits, decimals, .. } = digits.with(written);
+    let assembled = if source.triangle.is_some() { Declared::General } else { declared };
+    let digits = source.stated_digits.map_or_else(|| digits.with(written), Digits::stated);
     // Needed for sums of numbers of few digits alone.
-    let most_alike = (digits <= MAX_DECIMAL_DIGITS && n_merged == 0).then(|| most_alike(&triplets.values));
+    let most_alike = (digits.significant <= MAX_DECIMAL_DIGITS && n_merged == 0).then(|| most_alike(&triplets.values));
     let (matrix, mut notes) = triplets.assemble(n as usize, assembled, path)?;
     notes.mirrored &= declared == Declared::General;
     notes.n_duplicates += n_merged;
     notes.most_repeated += most_merged;
     claim.set(ENTRY_BYTES * matrix.nnz() as u64 + ROW_BYTES * u64::from(n))?;
     notes.most_alike = most_alike.filter(|_| notes.most_repeated > 0);
-    let input = MatrixInput { matrix, notes, digits, decimals, path: path.to_owned(), digest: ending.digest };
+    let input = MatrixInput { matrix, notes, digits, path: path.to_owned(), digest: ending.digest };
     Ok(ReadMatrix { input, order, last_line: ending.last_line })
 }
 
@@ -212,7 +202,19 @@ fn check_emptiness(path: &Path, n: u32, n_entries: usize) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::input::MatrixRole;
+    use crate::input::allowance::Allowance;
     use crate::input::blocks::LastLine;
+
+    fn read_in_blocks(path: &Path, block_bytes: usize) -> Result<ReadMatrix> {
+        let (file, role, allowance) = (path.to_owned(), MatrixRole::Stiffness, &Allowance::of(None));
+        let source = MatrixSource { file, group: None, role, triangle: None, stated_digits: None, allowance };
+        super::read_in_blocks(&source, block_bytes)
+    }
+
+    fn read(path: &Path) -> Result<ReadMatrix> {
+        read_in_blocks(path, BLOCK_BYTES)
+    }
 
     /// A file of lines of many lengths, and what reading it in one block gives.
     fn sample(folder: &Path) -> (std::path::PathBuf, ReadMatrix) {
@@ -227,7 +229,7 @@ mod tests {
         }
         let path = folder.join("a.mtx");
         std::fs::write(&path, text).expect("a file");
-        let whole = read(&path, None, &Allowance::of(None)).expect("a matrix");
+        let whole = read(&path).expect("a matrix");
         (path, whole)
     }
 
@@ -236,7 +238,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let (path, whole) = sample(folder.path());
         for block_bytes in 1..=64 {
-            let blocks = read_in_blocks(&path, None, block_bytes, &Allowance::of(None)).expect("a matrix");
+            let blocks = read_in_blocks(&path, block_bytes).expect("a matrix");
             assert_eq!(blocks.input.matrix, whole.input.matrix, "{block_bytes}");
             assert_eq!(blocks.input.digest, whole.input.digest);
             assert_eq!(blocks.last_line, LastLine::Terminated);
@@ -252,7 +254,7 @@ mod tests {
         std::fs::write(&path, head).expect("a file");
         let file = std::fs::OpenOptions::new().write(true).open(&path).expect("the file");
         file.set_len(1 << 40).expect("a file with a hole");
-        let error = read_in_blocks(&path, None, 1 << 10, &Allowance::of(None)).err().expect("an error");
+        let error = read_in_blocks(&path, 1 << 10).err().expect("an error");
         assert!(matches!(&error, Error::EntryField { line: 4, .. } | Error::LineTooLong { line: 4, .. }), "{error}");
     }
 
@@ -263,10 +265,9 @@ mod tests {
         let head = "%%MatrixMarket matrix coordinate real general\n3 3 3\n1 1 1\n\n% x\n";
         for tail in ["2 2 x\n3 3 3\n", "2 2 2\n4 1 1\n", "1 1 1\n2 2 2\n3 3 3\n", "1 1 1\n"] {
             std::fs::write(&path, format!("{head}{tail}")).expect("a file");
-            let whole = read(&path, None, &Allowance::of(None)).err().expect("an error").to_string();
+            let whole = read(&path).err().expect("an error").to_string();
             for block_bytes in 1..=64 {
-                let blocks =
-                    read_in_blocks(&path, None, block_bytes, &Allowance::of(None)).err().expect("an error").to_string();
+                let blocks = read_in_blocks(&path, block_bytes).err().expect("an error").to_string();
                 assert_eq!(blocks, whole, "{block_bytes}");
             }
         }

@@ -5,10 +5,12 @@
 mod allowance;
 mod banner;
 mod blocks;
+mod decimal;
 mod digits;
 mod dof_map;
 mod empty_rows;
 mod entries;
+mod exact;
 mod facts;
 mod file_start;
 mod format;
@@ -23,13 +25,14 @@ mod node_table;
 mod note;
 mod patch;
 mod patch_faces;
+mod single_precision;
 mod source;
 mod table;
 mod unsupported_format;
 mod written;
 
 pub use allowance::Allowance;
-pub use digits::{Digits, digits_of};
+pub use digits::{Digits, DigitsBy, digits_of};
 pub use facts::{InputFacts, MatrixFacts};
 pub use model_files::{Input, files, hdf5_file, read, read_hdf5_parts, read_within, start_hdf5};
 pub use note::InputNote;
@@ -47,11 +50,8 @@ pub struct MatrixInput {
     pub matrix: SparseMatrix,
     /// What assembling it needed.
     pub notes: AssemblyNotes,
-    /// Significant decimal digits the values carry: 17 for binary data, fewer where every sampled value is a short
-    /// decimal fraction. Those of the largest values where `decimals` are known.
-    pub digits: u32,
-    /// Decimals after the point to which all values were rounded, negative before it; none where digits are relative to each value.
-    pub decimals: Option<i32>,
+    /// How many digits or decimals the values carry.
+    pub digits: Digits,
     /// The file.
     pub path: PathBuf,
     /// BLAKE3 digest of the file's bytes, lower-case hexadecimal.

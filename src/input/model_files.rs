@@ -144,12 +144,14 @@ pub fn read_hdf5_parts(model: &ModelJob, cells: Cells, allowance: &Allowance) ->
 }
 
 fn matrix_source<'a>(model: &ModelJob, role: MatrixRole, allowance: &'a Allowance) -> MatrixSource<'a> {
-    let path = match role {
-        MatrixRole::Stiffness => &model.stiffness,
-        MatrixRole::Mass => &model.mass,
+    let (path, stated) = match role {
+        MatrixRole::Stiffness => (&model.stiffness, model.stiffness_digits),
+        MatrixRole::Mass => (&model.mass, model.mass_digits),
     };
     let (file, group) = split_group(path);
-    MatrixSource { file, group, role, triangle: model.symmetric, allowance }
+    // A job states 17 at most.
+    let stated_digits = stated.map(|digits| digits as u32);
+    MatrixSource { file, group, role, triangle: model.symmetric, stated_digits, allowance }
 }
 
 fn read_matrix(source: &MatrixSource<'_>) -> Result<ReadMatrix> {
@@ -250,12 +252,10 @@ fn last_row_empty(matrix: &MatrixInput) -> Option<InputNote> {
 
 /// Adds empty rows and columns up to the order n.
 fn extend(input: MatrixInput, n: usize, notes: &mut Vec<InputNote>) -> MatrixInput {
-    let MatrixInput { matrix, notes: assembly, digits, decimals, path, digest } = input;
-    notes.push(InputNote::Extended { path: path.clone(), from: matrix.rows(), to: n });
-    let (mut pointers, indices, data) = matrix.into_raw_storage();
+    notes.push(InputNote::Extended { path: input.path.clone(), from: input.matrix.rows(), to: n });
+    let (mut pointers, indices, data) = input.matrix.into_raw_storage();
     pointers.resize(n + 1, indices.len());
-    let matrix = SparseMatrix::new((n, n), pointers, indices, data);
-    MatrixInput { matrix, notes: assembly, digits, decimals, path, digest }
+    MatrixInput { matrix: SparseMatrix::new((n, n), pointers, indices, data), ..input }
 }
 
 fn read_dofs(path: &Path, n: usize, nodes: Option<(&Nodes, &Path)>, notes: &mut Vec<InputNote>) -> Result<DofMap> {

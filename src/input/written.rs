@@ -1,6 +1,9 @@
 //! What a text shows of the format that wrote its numbers.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::decimal::Decimal;
+use super::exact::are_sums;
 
 /// Lines, or values, that are looked at.
 pub(super) const SAMPLE: usize = 2000;
@@ -10,7 +13,7 @@ pub(super) const MAX_DECIMAL_DIGITS: u32 = 15;
 pub(super) const MIN_DISTINCT: usize = 3;
 /// Different values of a fixed format that never ends with a zero: the chance that none of so many does is one in two.
 const MIN_DISTINCT_WITHOUT_ZEROS: usize = 6;
-/// Different values of such a format of five digits and more: numbers that are exact have fewer.
+/// Different values of a format of five digits and more, of which one at least uses all of them: numbers that are exact have fewer digits.
 const MIN_DISTINCT_OF_MANY_DIGITS: usize = 4;
 const MANY_DIGITS: u32 = 5;
 /// The fewest digits of a fixed format.
@@ -27,11 +30,18 @@ pub(super) enum Written {
     Digits(u32),
     /// Decimals after the point.
     Decimals(i32),
+    /// As many characters as a field has: each number is known to one of the two.
+    Fields {
+        /// Significant digits.
+        digits: u32,
+        /// Decimals after the point.
+        decimals: Option<i32>,
+    },
 }
 
 /// What the first lines of entries show.
 pub(super) fn written(text: &[u8]) -> Option<Written> {
-    digits(text).map(Written::Digits).or_else(|| decimals(text).map(Written::Decimals))
+    digits(text).map(Written::Digits).or_else(|| decimals(text).map(Written::Decimals)).or_else(|| fields(text))
 }
 
 /// The last word of each of the first lines.
@@ -43,10 +53,10 @@ fn numbers(text: &[u8]) -> impl Iterator<Item = &[u8]> {
 /// Digits that a fixed format wrote of every number: of `1.31e-02` three, where all of the first lines have as many, trailing zeros
 /// counted, and several different numbers use them all. Few different numbers show no pattern in their values, this shows in the text.
 ///
-/// Numbers that need fewer digits than their format writes, those of springs and lumped masses, are exact. Numbers that are written as
-/// short as they can be have no zeros at their end, and a format without any is believed where there are many numbers.
+/// Numbers that need fewer digits than their format writes, those of springs and lumped masses, are exact, and so are sums of such. Numbers
+/// that are written as short as they can be have no zeros at their end, and a format without any is believed where there are many numbers.
 fn digits(text: &[u8]) -> Option<u32> {
-    let (mut full, mut n_with_zeros) = (BTreeSet::new(), 0);
+    let (mut full, mut n_with_zeros, mut distinct) = (BTreeSet::new(), 0, BTreeSet::new());
     let mut n_digits = None;
     for number in numbers(text) {
         let Some(end) = number.iter().position(|byte| b"eEdD".contains(byte)) else {
@@ -66,6 +76,7 @@ fn digits(text: &[u8]) -> Option<u32> {
         if *n_digits.get_or_insert(digits.len()) != digits.len() {
             return None;
         }
+        distinct.extend(value(number).map(Decimal::of));
         if digits.last() == Some(&b'0') {
             n_with_zeros += 1;
         } else {
@@ -73,13 +84,14 @@ fn digits(text: &[u8]) -> Option<u32> {
         }
     }
     let n_digits = u32::try_from(n_digits?).ok()?;
-    let n_needed = match n_with_zeros {
-        0 if n_digits < MANY_DIGITS => MIN_DISTINCT_WITHOUT_ZEROS,
-        0 => MIN_DISTINCT_OF_MANY_DIGITS,
-        _ => MIN_DISTINCT,
+    let is_enough = match n_with_zeros {
+        _ if full.len() >= MIN_DISTINCT_WITHOUT_ZEROS => true,
+        0 if n_digits < MANY_DIGITS => false,
+        _ if n_digits >= MANY_DIGITS && distinct.len() >= MIN_DISTINCT_OF_MANY_DIGITS => !full.is_empty(),
+        n_with_zeros => n_with_zeros > 0 && full.len() >= MIN_DISTINCT,
     };
-    let is_fixed = (MIN_FIXED_DIGITS..=MAX_DECIMAL_DIGITS).contains(&n_digits) && full.len() >= n_needed;
-    is_fixed.then_some(n_digits)
+    let is_fixed = (MIN_FIXED_DIGITS..=MAX_DECIMAL_DIGITS).contains(&n_digits) && is_enough;
+    (is_fixed && !are_sums(&distinct, n_digits)).then_some(n_digits)
 }
 
 /// Decimals that fixed point wrote of every number: of `12.870` three, where all of the first lines have as many and no exponent,
@@ -115,6 +127,77 @@ fn decimals(text: &[u8]) -> Option<i32> {
     i32::try_from(n_decimals).ok()
 }
 
+/// A number that fills its field.
+struct Filling {
+    size: f64,
+    /// Digits from the first one that is not zero.
+    digits: u32,
+    /// Decimals of its last digit, as if it had no exponent.
+    decimals: i32,
+}
+
+impl Filling {
+    fn of(number: &[u8]) -> Option<Self> {
+        let end = number.iter().position(|byte| b"eEdD".contains(byte)).unwrap_or(number.len());
+        let (mantissa, power) = (&number[..end], number.get(end + 1..));
+        let exponent = power.map_or(Some(0), |power| std::str::from_utf8(power).ok()?.parse::<i32>().ok())?;
+        let after = mantissa.iter().position(|byte| *byte == b'.').map_or(0, |point| mantissa.len() - point - 1);
+        let digits = mantissa.iter().filter(|byte| byte.is_ascii_digit()).skip_while(|byte| **byte == b'0').count();
+        let decimals = i32::try_from(after).ok()?.checked_sub(exponent)?;
+        Some(Self { size: value(number)?.abs(), digits: u32::try_from(digits).ok()?, decimals })
+    }
+}
+
+/// The value of a number that is neither zero nor infinite.
+fn value(number: &[u8]) -> Option<f64> {
+    let text = std::str::from_utf8(number).ok()?.replace(['d', 'D'], "e");
+    text.parse().ok().filter(|value: &f64| value.is_normal())
+}
+
+/// What fields of one width leave of numbers that fill them, with as many digits as there is room for: `-.002467` and `.0605571` of eight
+/// characters.
+///
+/// Numbers of as many digits, or decimals, are longer with a sign and shorter where they end with zeros, one in ten of them. So fields are
+/// believed where three in five of the different numbers have the largest length, six at least, whose digits and decimals both differ, in
+/// a quarter of them at least, and which do not end with zeros. The digits and decimals of which one holds for each are those that leave
+/// the least of all numbers open.
+fn fields(text: &[u8]) -> Option<Written> {
+    let words: BTreeSet<&[u8]> = numbers(text).filter(|number| value(number).is_some()).collect();
+    let width = words.iter().map(|number| number.len()).max()?;
+    let full: Vec<&[u8]> = words.iter().copied().filter(|number| number.len() == width).collect();
+    let filling: Vec<Filling> = full.iter().filter_map(|number| Filling::of(number)).collect();
+    let differ = |of: &dyn Fn(&Filling) -> i32| {
+        let mut counts: BTreeMap<i32, usize> = BTreeMap::new();
+        filling.iter().for_each(|number| *counts.entry(of(number)).or_default() += 1);
+        counts.values().all(|count| 4 * count <= 3 * filling.len())
+    };
+    let last: BTreeSet<u64> = full.iter().filter_map(|number| Some(Decimal::of(value(number)?).last_digit())).collect();
+    let n_zeros = filling.iter().filter(|number| Decimal::of(number.size).n_digits < number.digits).count();
+    let is_filled = filling.len() >= MIN_DISTINCT_WITHOUT_ZEROS
+        && 5 * filling.len() >= 3 * words.len()
+        && 4 * n_zeros <= filling.len()
+        && last.len() >= MIN_LAST_DECIMALS
+        && differ(&|number| number.digits as i32)
+        && differ(&|number| number.decimals);
+    if !is_filled {
+        return None;
+    }
+    let choices: BTreeSet<i32> = filling.iter().map(|number| number.decimals).collect();
+    let open = |decimals: Option<i32>| {
+        let is_coarser = |number: &&Filling| decimals.is_none_or(|decimals| number.decimals < decimals);
+        let digits = filling.iter().filter(is_coarser).map(|number| number.digits).min().unwrap_or(u32::MAX);
+        let (share, least) =
+            (10f64.powf(-f64::from(digits)), decimals.map_or(0.0, |decimals| 0.1 * 10f64.powi(-decimals)));
+        (filling.iter().map(|number| (share * number.size).max(least)).sum::<f64>(), digits, decimals)
+    };
+    let choices = std::iter::once(None).chain(choices.into_iter().map(Some)).map(open);
+    let (_, digits, decimals) = choices.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    match decimals {
+        Some(decimals) if digits > MAX_DECIMAL_DIGITS => Some(Written::Decimals(decimals)),
+        _ => (digits <= MAX_DECIMAL_DIGITS).then_some(Written::Fields { digits, decimals }),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -127,6 +210,9 @@ mod tests {
         assert_eq!(digits(b"1 1  0.1312E-01\n2 2  0.6543E+02\n3 3  0.9999D+00\n2 1 0.2500E+01\n"), Some(4));
         // The parts of a regular mesh: four numbers.
         assert_eq!(digits(b"1 1 5.4514e-03\n2 1 2.7257e-03\n2 2 1.3628e-03\n3 1 6.8142e-04\n"), Some(5));
+        // One number that uses all of five digits, and is no sum of shorter ones as 100.25 is.
+        assert_eq!(digits(b"1 1 1.0600e-06\n2 2 1.2720e-01\n3 3 2.1200e-06\n4 4 9.5399e-06\n"), Some(5));
+        assert_eq!(digits(b"1 1 1.0000e+02\n2 2 2.5000e-01\n3 3 1.0025e+02\n4 4 5.0000e-01\n"), None);
         // Exact numbers in a format with room to spare, too few numbers, numbers as short as they can be, and all their digits.
         assert_eq!(digits(b"1 1 2.5000e+00\n2 2 1.2500e-01\n3 3 -1.0000e+00\n4 4 7.5000e+01\n"), None);
         assert_eq!(digits(b"1 1 1.31e-02\n2 2 6.54e-03\n"), None);
@@ -154,6 +240,24 @@ mod tests {
             b"1 1 1.51\n2 2 2.27\n3 3 1.33\n4 4 1.79\n",
         ] {
             assert_eq!(written(exact), None, "{}", String::from_utf8_lossy(exact));
+        }
+    }
+
+    /// Of a frame of beams: most entries of a mass are small, and the longest numbers have the fewest digits.
+    #[test]
+    fn fields_of_one_width_show_where_digits_and_decimals_vary() {
+        let eight: &[u8] = b"1 1 0.157\n2 2 .1749429\n4 4 .0000171\n5 3 -.002467\n5 5 .0000449\n6 2 .0024671\n11 5 -.000034\n12 2 -.001458\n\
+            14 8 .0605571\n15 15 .3498857\n17 15 -1.3e-18\n7 7 0.314\n";
+        assert_eq!(written(eight), Some(Written::Decimals(6)));
+        let large: &[u8] = b"1 1 1.2346e+9\n2 2 123456.787\n3 3 -1.234e+10\n4 4 -98765.432\n5 5 7.6543e+8\n6 6 1234567.81\n7 7 -2345678.9\n8 8 12345.6783\n";
+        assert_eq!(written(large), Some(Written::Fields { digits: 4, decimals: None }));
+        for other in [
+            // Seven digits, which a sign and a decade make longer; fixed point; doubles.
+            &b"1 1 1.234567\n2 2 -12.34567\n3 3 .1234568\n4 4 -765.4321\n5 5 12345.67\n6 6 -.7654321\n7 7 1.357913\n8 8 -2.468024\n"[..],
+            b"1 1 0.001234\n2 2 0.123457\n3 3 0.012346\n4 4 0.765432\n5 5 0.000351\n6 6 0.234567\n",
+            b"1 1 0.12345678901234567\n2 2 -0.1234567890123456\n3 3 12.345678901234567\n4 4 1.2345678901234567\n5 5 123.45678901234567\n6 6 -7.654321098765433\n",
+        ] {
+            assert!(!matches!(written(other), Some(Written::Fields { .. })), "{:?}", written(other));
         }
     }
 }

@@ -11,8 +11,12 @@ pub(super) const SMALLEST: f64 = 1e-48;
 /// The largest one.
 pub(super) const LARGEST: f64 = 1e48;
 
+/// The most significant digits that a number in double precision needs.
+pub(super) const MAX_DIGITS: usize = 17;
+
 const POSITIVE: &str = "a positive number";
 const SIZE: &str = "a positive number between 1e-48 and 1e48";
+const DIGITS: &str = "a whole number from 1 to 17";
 const FINITE: &str = "a finite number";
 const COORDINATE: &str = "coordinates of at most 1e48 in size";
 
@@ -25,6 +29,11 @@ pub(super) fn positive(key: &str, value: f64) -> Result<()> {
 pub(super) fn size(key: &str, value: f64) -> Result<()> {
     positive(key, value)?;
     if (SMALLEST..=LARGEST).contains(&value) { Ok(()) } else { Err(number(key.to_owned(), value, SIZE)) }
+}
+
+/// A number of significant digits.
+pub(super) fn digits(key: &str, value: usize) -> Result<()> {
+    if (1..=MAX_DIGITS).contains(&value) { Ok(()) } else { Err(number(key.to_owned(), value as f64, DIGITS)) }
 }
 
 pub(super) fn not_negative(key: &str, value: f64) -> Result<()> {

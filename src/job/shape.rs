@@ -189,7 +189,10 @@ fn expected(allowed: &Place<'_>) -> String {
                 None => "a text".to_owned(),
             }),
             Some("integer") if choice["minimum"].as_i64() == Some(0) => add("a whole number, zero or more".to_owned()),
-            Some("integer") => add("a whole number".to_owned()),
+            Some("integer") => add(match (choice["minimum"].as_i64(), choice["maximum"].as_i64()) {
+                (Some(least), Some(most)) => format!("a whole number from {least} to {most}"),
+                _ => "a whole number".to_owned(),
+            }),
             Some("number") => add("a number".to_owned()),
             Some("boolean") => add("true or false".to_owned()),
             Some("array") => add(match schema::list_length(choice) {

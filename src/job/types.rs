@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 use super::interface::InterfaceJob;
 use super::method::Method;
-use super::ranges::{LARGEST, SMALLEST};
+use super::ranges::{LARGEST, MAX_DIGITS, SMALLEST};
 use super::recovery::RecoveryJob;
 use super::scene::SceneJob;
 use super::selection::first_repeated;
@@ -72,6 +72,15 @@ pub struct ModelJob {
     /// Whether rows without stiffness and mass are dropped; they are an error otherwise.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub drop_empty: bool,
+    /// Significant digits that the numbers of the stiffness have, in place of those that they seem to have: 17 where they are exact or
+    /// binary, 7 where they were computed in single precision. Of numbers that are added up, the digits of each.
+    #[schemars(extend("minimum" = 1, "maximum" = MAX_DIGITS))]
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "super::whole::size")]
+    pub stiffness_digits: Option<usize>,
+    /// Significant digits that the numbers of the mass have, in place of those that they seem to have.
+    #[schemars(extend("minimum" = 1, "maximum" = MAX_DIGITS))]
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "super::whole::size")]
+    pub mass_digits: Option<usize>,
     /// Label of the unit system, copied to the superelement; no number is converted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub units: Option<String>,

@@ -60,6 +60,10 @@ fn model(job: &Job) -> Result<()> {
             return Err(Error::JobEmpty { key: key.to_owned(), expected: "the name of a file" });
         }
     }
+    let stated = [("model.stiffness_digits", model.stiffness_digits), ("model.mass_digits", model.mass_digits)];
+    for (key, digits) in stated {
+        digits.map_or(Ok(()), |digits| ranges::digits(key, digits))?;
+    }
     let Some(expect) = &model.expect else { return Ok(()) };
     if let Some(mass) = expect.mass {
         size("model.expect.mass", mass)?;

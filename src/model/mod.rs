@@ -152,15 +152,15 @@ fn refuse_same(stiffness: &MatrixInput, mass: &MatrixInput) -> Result<()> {
 fn rounding(matrix: &MatrixInput) -> Rounding {
     let n_parts = matrix.notes.most_repeated.max(1);
     let is_of_parts = n_parts > 1;
-    if let Some(decimals) = matrix.decimals {
-        return Rounding { absolute: 0.5 * 10f64.powi(-decimals) * n_parts as f64, ..Rounding::BINARY };
-    }
+    let half_unit = |decimals: i32| 0.5 * 10f64.powi(-decimals) * n_parts as f64;
+    let absolute = matrix.digits.decimals.map_or(0.0, half_unit);
+    let digits = matrix.digits.of_each_value();
     // Seventeen digits identify every double, sixteen almost every one: both are as good as binary.
-    if matrix.digits >= 16 {
-        return Rounding::BINARY;
+    if digits >= 16 {
+        return Rounding { absolute, ..Rounding::BINARY };
     }
     let n_alike = matrix.notes.most_alike.map_or(f64::INFINITY, |most| most as f64);
-    Rounding { is_of_parts, n_alike, ..Rounding::relative(0.5 * 10f64.powi(1 - matrix.digits as i32)) }
+    Rounding { absolute, is_of_parts, n_alike, ..Rounding::relative(0.5 * 10f64.powi(1 - digits as i32)) }
 }
 
 fn in_units(rounding: Rounding, unit: f64) -> Rounding {

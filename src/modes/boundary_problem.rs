@@ -237,7 +237,7 @@ mod tests {
     use super::*;
     use crate::eigen::{ModeRequest, Wanted, elastic_modes};
     use crate::factor::Cholesky;
-    use crate::input::{Input, MatrixInput};
+    use crate::input::{Digits, Input, MatrixInput};
     use crate::job::{Coupling, Eigensolver, InterfaceJob, NodeSelection, Origin};
     use crate::model::Model;
     use crate::random::SEED;
@@ -251,7 +251,7 @@ mod tests {
             entries.iter().for_each(|(row, col, value)| triplets.push(*row as u32, *col as u32, *value));
             let (matrix, _) = triplets.assemble(n, Declared::General, "chain".as_ref()).expect("sound");
             let (path, digest) = ("chain".into(), String::new());
-            MatrixInput { matrix, notes: AssemblyNotes::default(), digits: 17, decimals: None, path, digest }
+            MatrixInput { matrix, notes: AssemblyNotes::default(), digits: Digits::DOUBLE, path, digest }
         };
         let mut k = Vec::new();
         for i in 0..n - 1 {

@@ -55,12 +55,7 @@ fn model(results: &Results<'_>) -> ModelReport {
 }
 
 fn matrix(facts: &MatrixFacts) -> MatrixReport {
-    MatrixReport {
-        n_nonzeros: facts.n_nonzeros,
-        digits: facts.digits,
-        decimals: facts.decimals,
-        digest: facts.digest.clone(),
-    }
+    MatrixReport { n_nonzeros: facts.n_nonzeros, digits: facts.digits, digest: facts.digest.clone() }
 }
 
 fn mass_properties(results: &Results<'_>) -> MassProperties {

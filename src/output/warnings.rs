@@ -6,7 +6,7 @@ use crate::error::Warning;
 use crate::factor::Refinement;
 use crate::input::MatrixFacts;
 use crate::job::{Boundary, Precision};
-use crate::number::{counted, known_to};
+use crate::number::counted;
 use crate::rigid::RigidSource;
 use crate::verification::check::Verdict;
 use crate::verification::{LARGEST_OF_MESHES, Penalties, penalties as penalties_of};
@@ -139,19 +139,20 @@ pub(super) fn data_precision(results: &Results<'_>) -> Option<Warning> {
     let first = uncertain.first()?;
     let [stiffness, mass] = &results.input.matrices;
     // Sixteen digits are all that a number in double precision has.
-    let is_full = |facts: &MatrixFacts| facts.digits >= 16 && facts.decimals.is_none();
+    let is_full = |facts: &MatrixFacts| facts.digits.significant >= 16 && facts.digits.decimals.is_none();
     let advice = if is_full(stiffness) && is_full(mass) {
         "double precision has no more for stiffnesses of such different size: make stiff ties and thin elements softer or leave them out"
     } else {
-        "write the matrices with all their digits, and stiffnesses of like size"
+        "write the matrices with all their digits, and stiffnesses of like size, or say model.stiffness_digits = 17 and \
+         model.mass_digits = 17 in the job if their numbers are exact"
     };
     Some(Warning {
         code: "W-DATA-PRECISION",
         message: format!(
             "{} of the stiffness and {} of the mass leave {} less certain than {WANTED:.0e}, {first}; \
              {advice}",
-            known_to(stiffness.digits, stiffness.decimals),
-            known_to(mass.digits, mass.decimals),
+            stiffness.digits.in_words(),
+            mass.digits.in_words(),
             counted(uncertain.len(), "frequency", "frequencies")
         ),
     })

@@ -25,6 +25,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use crate::error::Warning;
+use crate::input::Digits;
 use crate::job::{Coupling, Eigensolver, Method};
 use crate::number;
 use crate::rigid::RigidSource;
@@ -121,11 +122,9 @@ pub struct ModelReport {
 pub struct MatrixReport {
     /// Stored entries, both triangles counted.
     pub n_nonzeros: usize,
-    /// Significant decimal digits of the values; 17 for binary data.
-    pub digits: u32,
-    /// Decimals after the point to which all values were rounded; none where digits are relative to each value.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub decimals: Option<i32>,
+    /// How many digits or decimals the values carry.
+    #[serde(flatten)]
+    pub digits: Digits,
     /// BLAKE3 digest of the file's bytes.
     pub digest: String,
 }

@@ -6,7 +6,7 @@ use supel::constraint::constraint_modes;
 use supel::dense;
 use supel::eigen::{EigenWork, ModeRequest, ShiftInvert, Wanted, elastic_modes};
 use supel::factor::Cholesky;
-use supel::input::{Input, MatrixInput};
+use supel::input::{Digits, Input, MatrixInput};
 use supel::job::{Eigensolver, InterfaceJob};
 use supel::model::Model;
 use supel::partition::Partition;
@@ -27,7 +27,8 @@ struct Found {
 
 fn look(model: &supel_models::Model, interfaces: &[InterfaceJob], digits: u32) -> Found {
     let input = chain::input(&if digits < 17 { rounded(model, digits as usize) } else { model.clone() });
-    let of = |matrix: MatrixInput| MatrixInput { digits, ..matrix };
+    let known = Digits { significant: digits, ..Digits::DOUBLE };
+    let of = |matrix: MatrixInput| MatrixInput { digits: known, ..matrix };
     let input = Input { stiffness: of(input.stiffness), mass: of(input.mass), ..input };
     let partition = Partition::new(Model::new(input).expect("sound"), interfaces).expect("interfaces");
     let rigid = rigid::rigid_body_modes(&partition).expect("free").0;

@@ -94,7 +94,7 @@ fn job(place: &Place, component: &Component, run: Run) -> String {
 
 /// Frequencies and their bars in Hz, and the number of rigid-body modes.
 pub(crate) struct Found {
-    frequencies: Vec<[f64; 2]>,
+    pub(crate) frequencies: Vec<[f64; 2]>,
     n_rigid: u64,
 }
 

@@ -19,16 +19,16 @@ const SAMPLES: usize = 3;
 const WIDEST: f64 = 1e3;
 
 /// Row, column, value.
-type Entry = (u32, u32, f64);
+pub(crate) type Entry = (u32, u32, f64);
 
 /// A component that is held, and its interface.
-struct Held {
+pub(crate) struct Held {
     name: &'static str,
-    model: Model,
+    pub(crate) model: Model,
     interface: String,
 }
 
-fn components() -> [Held; 2] {
+pub(crate) fn components() -> [Held; 2] {
     // Elements of different lengths: entries over three decades.
     let mut bar = brick([6, 2, 2], [6.0, 1.1, 0.9], &Material::UNIT);
     bar = supported(&bar, |(node, _)| (node - 1) % 7 == 0);
@@ -50,7 +50,7 @@ fn largest(entries: &[Entry]) -> f64 {
 }
 
 /// One triangle, each number as `print` has it.
-fn matrix_market(n: usize, entries: &[Entry], print: &dyn Fn(f64) -> String) -> String {
+pub(crate) fn matrix_market(n: usize, entries: &[Entry], print: &dyn Fn(f64) -> String) -> String {
     let lower: Vec<&Entry> = entries.iter().filter(|(row, column, _)| row >= column).collect();
     let mut text = format!("%%MatrixMarket matrix coordinate real symmetric\n{n} {n} {}\n", lower.len());
     for (row, column, value) in lower {
@@ -60,12 +60,18 @@ fn matrix_market(n: usize, entries: &[Entry], print: &dyn Fn(f64) -> String) -> 
 }
 
 /// The frequencies of a model by the texts of its two matrices, and what was said of it.
-fn found(held: &Held, model: &Model, [stiffness, mass]: [&str; 2]) -> (Found, String) {
+fn found(held: &Held, model: &Model, texts: [&str; 2]) -> (Found, String) {
+    let (place, out) = reduced(held, model, texts, "");
+    (Found::of(&place.report("x.report.json")["body"]), out)
+}
+
+/// Reduces and verifies a model by the texts of its two matrices, with more keys of `model`; the folder, and what was said.
+pub(crate) fn reduced(held: &Held, model: &Model, [stiffness, mass]: [&str; 2], keys: &str) -> (Place, String) {
     let place = Place::with(model);
     place.write("K.mtx", stiffness.as_bytes());
     place.write("M.mtx", mass.as_bytes());
     let text = format!(
-        "model = {{ stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\" }}\n\
+        "model = {{ stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\"{keys} }}\n\
          interface = [{}]\n\
          reduction = {{ method = \"herting\", modes = {{ count = 6 }} }}\n\
          scene = {{ boundaries = [] }}\n\
@@ -75,22 +81,22 @@ fn found(held: &Held, model: &Model, [stiffness, mass]: [&str; 2]) -> (Found, St
     place.write("job.toml", text.as_bytes());
     let ended = supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
     supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]).expect(ExitCode::Done);
-    (Found::of(&place.report("x.report.json")["body"]), ended.out)
+    (place, ended.out)
 }
 
-fn full(value: f64) -> String {
+pub(crate) fn full(value: f64) -> String {
     format!("{value:e}")
 }
 
 /// The texts of the two matrices of a model.
-type Texts<'a> = &'a dyn Fn(&Model) -> [String; 2];
+pub(crate) type Texts<'a> = &'a dyn Fn(&Model) -> [String; 2];
 
-fn printed(model: &Model, [stiffness, mass]: [&dyn Fn(f64) -> String; 2]) -> [String; 2] {
+pub(crate) fn printed(model: &Model, [stiffness, mass]: [&dyn Fn(f64) -> String; 2]) -> [String; 2] {
     [matrix_market(model.n, &model.stiffness, stiffness), matrix_market(model.n, &model.mass, mass)]
 }
 
 /// Runs all samples of a way to print, and holds bars to what they promise. `sizes` are those of the largest entries.
-fn hold(sizes: [f64; 2], texts: Texts<'_>, said: &str) {
+pub(crate) fn hold(sizes: [f64; 2], texts: Texts<'_>, said: &str) {
     for held in components() {
         let units = [sizes[0] / largest(&held.model.stiffness), sizes[1] / largest(&held.model.mass)];
         let mut worst = 0.0f64;

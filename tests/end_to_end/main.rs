@@ -7,6 +7,7 @@ mod fixed_point;
 mod foreign_names;
 mod links;
 mod methods;
+mod misleading;
 mod penalties;
 mod recovery;
 mod results;

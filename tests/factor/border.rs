@@ -3,7 +3,7 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef, Side};
 use supel::factor::{Cholesky, ShiftedFactor, Storage, condensed, count_below};
-use supel::input::{Input, MatrixInput};
+use supel::input::{Digits, Input, MatrixInput};
 use supel::job::{Coupling, InterfaceJob, NodeSelection, Origin};
 use supel::model::Model;
 use supel::partition::Partition;
@@ -26,8 +26,7 @@ fn partition(matrix: &SparseMatrix, mass: impl Fn(usize) -> f64, interface: &[us
     let read = |matrix| MatrixInput {
         matrix,
         notes: AssemblyNotes::default(),
-        digits: 17,
-        decimals: None,
+        digits: Digits::DOUBLE,
         path: "generated".into(),
         digest: String::new(),
     };

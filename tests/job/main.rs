@@ -234,6 +234,16 @@ fn numbers_out_of_range_are_refused() {
     assert!(read(&with("/reduction/modes", json!({ "count": 0 }))).is_ok(), "no modes is static condensation");
     assert!(read(&with("/run", json!({ "memory_gib": 0 }))).is_err());
     assert!(read(&with("/model/expect", json!({ "mass": -1 }))).is_err());
+    for key in ["stiffness_digits", "mass_digits"] {
+        for digits in [1, 17] {
+            assert!(read(&with(&format!("/model/{key}"), json!(digits))).is_ok());
+        }
+        for digits in [0, 18] {
+            let message = message(&with(&format!("/model/{key}"), json!(digits)));
+            let expected = format!("`model.{key}` is {digits} – expected a whole number from 1 to 17");
+            assert!(message.ends_with(&expected), "{message}");
+        }
+    }
 }
 
 /// Numbers whose squares and products would leave the range of double precision are refused before anything is computed with them.

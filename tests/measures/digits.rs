@@ -1,6 +1,6 @@
 //! Matrices written with few digits: the limits follow the data and say so, and nothing warns but what is true.
 
-use supel::input::{Input, MatrixInput};
+use supel::input::{Digits, Input, MatrixInput};
 use supel::job::Method;
 use supel::verification::check::{ActiveLimit, Verdict};
 use supel_models::transform::rounded;
@@ -11,7 +11,8 @@ use crate::evidence::{checks, complaints, line, with_evidence};
 
 fn with_digits(model: &Model, digits: u32) -> Input {
     let input = input(&rounded(model, digits as usize));
-    let of = |matrix: MatrixInput| MatrixInput { digits, ..matrix };
+    let known = Digits { significant: digits, ..Digits::DOUBLE };
+    let of = |matrix: MatrixInput| MatrixInput { digits: known, ..matrix };
     Input { stiffness: of(input.stiffness), mass: of(input.mass), ..input }
 }
 

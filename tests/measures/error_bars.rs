@@ -2,7 +2,7 @@
 
 use faer::Mat;
 use supel::eigen::{ModalProblem, ModeRequest, ShiftInvert, Wanted, elastic_modes};
-use supel::input::{Input, MatrixInput};
+use supel::input::{Digits, Input, MatrixInput};
 use supel::job::{Eigensolver, Method};
 use supel::random::SEED;
 use supel_models::transform::rounded;
@@ -28,7 +28,8 @@ fn families() -> Vec<(&'static str, Model, Vec<f64>)> {
 /// A model whose files held that many digits.
 fn with_digits(model: &Model, digits: u32) -> Input {
     let input = input(&if digits < 17 { rounded(model, digits as usize) } else { model.clone() });
-    let of = |matrix: MatrixInput| MatrixInput { digits, ..matrix };
+    let known = Digits { significant: digits, ..Digits::DOUBLE };
+    let of = |matrix: MatrixInput| MatrixInput { digits: known, ..matrix };
     Input { stiffness: of(input.stiffness), mass: of(input.mass), ..input }
 }
 

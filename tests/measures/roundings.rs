@@ -1,6 +1,6 @@
 //! The bound on what roundings of K make of an energy, against roundings.
 
-use supel::input::{Input, MatrixInput};
+use supel::input::{Digits, Input, MatrixInput};
 use supel::job::InterfaceJob;
 use supel::model::Model;
 use supel::partition::Partition;
@@ -17,7 +17,8 @@ const SAMPLES: usize = 40;
 
 fn partition(model: &supel_models::Model, interfaces: &[InterfaceJob], digits: u32) -> Partition {
     let input = input(model);
-    let of = |matrix: MatrixInput| MatrixInput { digits, ..matrix };
+    let known = Digits { significant: digits, ..Digits::DOUBLE };
+    let of = |matrix: MatrixInput| MatrixInput { digits: known, ..matrix };
     let input = Input { stiffness: of(input.stiffness), mass: of(input.mass), ..input };
     Partition::new(Model::new(input).expect("sound"), interfaces).expect("interfaces")
 }

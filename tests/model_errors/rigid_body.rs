@@ -171,7 +171,7 @@ fn rank_refused(model: &models::Model, labels: &[i64]) -> (usize, usize, String)
     let error = refusal(rigid::interface_rank(&partition, &rigid));
     assert_says(&error, ErrorClass::ModelPhysics, &["add interface nodes", "rotations"]);
     match error {
-        Error::InterfaceRank { rank, n_rigid, motion } => (rank, n_rigid, motion),
+        Error::InterfaceRank { rank, n_rigid, motion, .. } => (rank, n_rigid, motion),
         other => panic!("{other}"),
     }
 }
@@ -214,7 +214,7 @@ fn rank_without_coordinates() {
     let anonymous = models::Model { dofs: Vec::new(), ..block() };
     let (partition, rigid) = rigid_of(&anonymous, &[rows("pin", &[0, 1, 2])]).expect("zero modes");
     let error = refusal(rigid::interface_rank(&partition, &rigid));
-    assert!(matches!(&error, Error::InterfaceRank { rank: 3, n_rigid: 6, motion } if motion.is_empty()), "{error}");
+    assert!(matches!(&error, Error::InterfaceRank { rank: 3, n_rigid: 6, motion, .. } if motion.is_empty()), "{error}");
 }
 
 /// The point and the direction in `rotation about the axis through (x, y, z) along (a, b, c)`.

@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::input::file_start::FileStart;
 use crate::input::hdf5::group::Group;
 use crate::input::unsupported_format::{self, Wanted};
-use crate::input::{Allowance, Digits, MatrixInput, MatrixRole, digits_of};
+use crate::input::{Allowance, MatrixInput, MatrixRole, digits_of};
 use crate::regular_file::digest;
 use crate::sparse::{Declared, ENTRY_BYTES, ROW_BYTES, TRIPLET_BYTES};
 
@@ -52,11 +52,10 @@ fn read_matrix_once(path: &Path, group: Option<&str>, role: MatrixRole, allowanc
         None => find_matrix(start, role)?,
     };
     let (compressed, stored_digits) = convention.read(&group)?;
-    let Digits { significant, decimals, .. } = digits_of(compressed.values());
-    let digits = significant.min(stored_digits);
+    let digits = digits_of(compressed.values()).at_most(stored_digits);
     let n = compressed.check(h5.path(), group.name())?;
     h5.hold((TRIPLET_BYTES + ENTRY_BYTES) * compressed.values().len() as u64 + ROW_BYTES * n as u64)?;
     let (matrix, notes) = compressed.into_triplets(h5.path())?.assemble(n, Declared::General, h5.path())?;
     h5.keep(ENTRY_BYTES * matrix.nnz() as u64 + ROW_BYTES * n as u64)?;
-    Ok(MatrixInput { matrix, notes, digits, decimals, path: path.to_owned(), digest: digest(path)? })
+    Ok(MatrixInput { matrix, notes, digits, path: path.to_owned(), digest: digest(path)? })
 }

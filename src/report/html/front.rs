@@ -136,10 +136,7 @@ fn units(model: &ModelReport) -> String {
 
 fn matrix(matrix: &MatrixReport) -> String {
     let nonzeros = counted(matrix.n_nonzeros, "nonzero", "nonzeros");
-    format!(
-        "{nonzeros}, {}",
-        matrix.decimals.map_or_else(|| format!("{} significant digits", matrix.digits), number::decimals)
-    )
+    format!("{nonzeros}, {}", matrix.digits.in_words().replacen("digit", "significant digit", 1))
 }
 
 fn method(reduction: &ReductionReport) -> String {

@@ -75,7 +75,7 @@ fn model(page: &mut Page, model: &ModelReport) {
 
 fn matrix(matrix: &MatrixReport) -> String {
     let nonzeros = number::counted(matrix.n_nonzeros, "nonzero", "nonzeros");
-    let digits = number::known_to(matrix.digits, matrix.decimals);
+    let digits = matrix.digits.in_words();
     format!("{nonzeros} · {digits} · blake3 {}…", short(&matrix.digest))
 }
 

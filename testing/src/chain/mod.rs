@@ -14,7 +14,7 @@ use supel::dofs::{Direction, Dof, Nodes};
 use supel::eigen::{Factored, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes};
 use supel::error::Error;
 use supel::factor::Cholesky;
-use supel::input::{Input, MatrixInput};
+use supel::input::{Digits, Input, MatrixInput};
 pub use supel::job::Method;
 use supel::job::{Boundary, Coupling, Eigensolver, InterfaceJob, ModeSelection, NodeSelection, Origin, ReductionJob};
 use supel::model::Model;
@@ -53,8 +53,7 @@ fn matrix(n: usize, entries: &[Entry]) -> MatrixInput {
     MatrixInput {
         matrix: sparse(n, entries),
         notes,
-        digits: 17,
-        decimals: None,
+        digits: Digits::DOUBLE,
         path: "generated".into(),
         digest: String::new(),
     }

@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use supel::error::Result;
 use supel::error::Warning;
+use supel::input::Digits;
 use supel::job::{Coupling, Eigensolver, Job, Method};
 use supel::memory_forecast::Resources;
 use supel::outcome::Outcome;
@@ -136,8 +137,11 @@ fn body() -> ReportBody {
 }
 
 fn model() -> ModelReport {
-    let matrix =
-        |n_nonzeros, digit: &str| MatrixReport { n_nonzeros, digits: 12, decimals: None, digest: digit.repeat(64) };
+    let matrix = |n_nonzeros, digit: &str| MatrixReport {
+        n_nonzeros,
+        digits: Digits { significant: 12, ..Digits::DOUBLE },
+        digest: digit.repeat(64),
+    };
     ModelReport {
         n_dofs: 123_486,
         n_nodes: Some(41_162),

@@ -30,7 +30,7 @@ fn c_13_bars_follow_the_digits_of_the_text() {
                 continue;
             }
             let outcome = case.accepted();
-            assert_eq!(outcome.report.body.model.stiffness.digits as usize, digits);
+            assert_eq!(outcome.report.body.model.stiffness.digits.significant as usize, digits);
             assert_eq!(n_rigid(&outcome), 6, "{digits} digits");
             let found = eigenvalues(&outcome);
             let errors = found.iter().zip(&exact).map(|(found, exact)| (found / exact - 1.0).abs());

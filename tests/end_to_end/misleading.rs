@@ -1,0 +1,112 @@
+//! Numbers that look more precise than they are, or less: what the numbers and their text show, and what only the job can say.
+
+use supel::cli::ExitCode;
+
+use crate::few_digits::Found;
+use crate::fixed_point::{Entry, components, full, hold, matrix_market, printed, reduced};
+use crate::place::{Place, supel};
+
+/// In fixed point, where small numbers lose digits and large ones never had them, and each number as short as it can be.
+#[test]
+fn frequencies_of_single_precision_in_any_text_stay_within_their_bars() {
+    let in_fixed_point = |value: f64| format!("{:.1}", value as f32);
+    let shortest = |value: f64| format!("{:e}", value as f32);
+    // A mass of next to one number, which nine digits would not show.
+    let in_thirteen_digits = |value: f64| format!("{:.12e}", f64::from(value as f32));
+    hold([4e7, 0.3], &|model| printed(model, [&in_fixed_point, &full]), "· 7 digits");
+    hold([4e10, 0.3], &|model| printed(model, [&shortest, &full]), "· 7 digits");
+    hold([4e10, 0.3], &|model| printed(model, [&full, &in_thirteen_digits]), "· 7 digits");
+}
+
+/// As many digits as there is room for in ten characters.
+fn in_ten_characters(value: f64) -> String {
+    const WIDTH: usize = 10;
+    let shortened =
+        |text: String| text.replacen("0.", ".", usize::from(text.trim_start_matches('-').starts_with("0.")));
+    let forms = |n: usize| [shortened(format!("{value:.n$}")), format!("{value:.n$e}")];
+    let fits = |text: &String| text.len() <= WIDTH && text.parse::<f64>().is_ok_and(|read| read != 0.0);
+    let best = (0..WIDTH).rev().flat_map(forms).filter(fits).min_by(|a, b| {
+        let off = |text: &String| (text.parse::<f64>().expect("a number") - value).abs();
+        off(a).total_cmp(&off(b))
+    });
+    best.unwrap_or_else(|| "0.".to_owned())
+}
+
+/// As many digits, decimals or both as the numbers leave.
+#[test]
+fn frequencies_of_numbers_that_fill_their_fields_stay_within_their_bars() {
+    hold([4e3, 0.3], &|model| printed(model, [&in_ten_characters, &full]), "");
+}
+
+/// Three chains of springs of 1000, 2.5, 0.25 and 10⁴: an entry of seven digits, 10000.25, is a sum.
+#[test]
+fn sums_of_short_numbers_are_exact() {
+    const N_MASSES: usize = 50;
+    let springs = [1000.0, 2.5, 0.25, 1e4];
+    let row = |mass: usize, direction: usize| (3 * mass + direction) as u32;
+    let (mut stiffness, mut mass): (Vec<Entry>, Vec<Entry>) = (Vec::new(), Vec::new());
+    for (k, direction) in (0..N_MASSES).flat_map(|k| (0..3).map(move |direction| (k, direction))) {
+        let of = |k: usize| springs[(k + direction) % 4];
+        let before = if k > 0 { of(k - 1) } else { 0.0 };
+        let after = if k + 1 < N_MASSES { of(k) } else { 0.0 };
+        stiffness.push((row(k, direction), row(k, direction), before + after));
+        if after > 0.0 {
+            stiffness.push((row(k + 1, direction), row(k, direction), -after));
+        }
+        mass.push((row(k, direction), row(k, direction), [1.0, 2.5, 0.25][k % 3]));
+    }
+    let place = Place::new();
+    place.write("K.mtx", matrix_market(3 * N_MASSES, &stiffness, &|value| value.to_string()).as_bytes());
+    place.write("M.mtx", matrix_market(3 * N_MASSES, &mass, &full).as_bytes());
+    let of = |name: &str, keys: &str| {
+        let job = format!(
+            "model = {{ stiffness = \"K.mtx\", mass = \"M.mtx\"{keys} }}\n\
+             interface = [{{ name = \"end\", nodes = {{ rows = [0, 1, 2] }} }}]\n\
+             reduction = {{ method = \"herting\", modes = {{ count = 6 }} }}\n\
+             write = {{ superelement = \"{name}.supel\" }}\n"
+        );
+        place.write(&format!("{name}.toml"), job.as_bytes());
+        supel(&["reduce", &place.text(&format!("{name}.toml"))]).expect(ExitCode::Done);
+        place.report(&format!("{name}.report.json"))["body"].clone()
+    };
+    let (judged, stated) = (of("judged", ""), of("stated", ", stiffness_digits = 17"));
+    assert!(judged["model"]["stiffness"]["digits"] == 17, "{}", judged["model"]["stiffness"]);
+    let [judged, stated] = [judged, stated].map(|body| Found::of(&body));
+    assert_eq!(judged.frequencies, stated.frequencies);
+    assert!(judged.frequencies.iter().all(|[hertz, bar]| *bar < 1e-6 * hertz), "{:?}", judged.frequencies);
+}
+
+/// Single precision in other units has all digits of a double, and exact numbers may have seven.
+#[test]
+fn stated_digits_replace_those_that_the_numbers_show() {
+    const FOOT: f64 = 0.3048;
+    let [held, _] = components();
+    let of = |stiffness: &dyn Fn(f64) -> String, keys: &str| {
+        let texts = printed(&held.model, [stiffness, &full]);
+        let (place, out) = reduced(&held, &held.model, texts.each_ref().map(String::as_str), keys);
+        let found = Found::of(&place.report("x.report.json")["body"]);
+        (found, out, place)
+    };
+    let in_feet = |value: f64| full(FOOT * value);
+    let single_in_feet = |value: f64| full(FOOT * f64::from(value as f32));
+    let (exact, ..) = of(&in_feet, "");
+    let (judged, out, _) = of(&single_in_feet, "");
+    assert!(judged.worst(&exact) > 1.0 && out.contains("17 digits"), "{out}");
+    let (stated, out, place) = of(&single_in_feet, ", stiffness_digits = 7");
+    assert!(stated.worst(&exact) <= 1.0 && out.contains("7 digits as the job states"), "{out}");
+    let matrices = &place.report("x.report.json")["body"]["model"];
+    assert!(matrices["stiffness"]["digits"] == 7 && matrices["stiffness"]["digits_by"] == "job", "{matrices}");
+    assert!(matrices["mass"]["digits"] == 17 && matrices["mass"]["digits_by"].is_null(), "{matrices}");
+
+    let in_seven = |value: f64| format!("{value:.6e}");
+    let bar = |found: &Found| found.frequencies[0][1] / found.frequencies[0][0];
+    let (rounded, ..) = of(&in_seven, "");
+    let (stated, out, place) = of(&in_seven, ", stiffness_digits = 17");
+    assert!(bar(&stated) < 1e-3 * bar(&rounded), "{out}");
+    // Digits decide which motions are free: another job than the one that the file was made by.
+    let job = String::from_utf8(place.bytes("job.toml")).expect("text").replace(", stiffness_digits = 17", "");
+    place.write("other.toml", job.as_bytes());
+    let ended = supel(&["verify", &place.text("x.supel"), "--job", &place.text("other.toml")]);
+    let ended = ended.expect(ExitCode::CheckFailed);
+    assert!(ended.out.contains("model.stiffness_digits"), "{}", ended.out);
+}
