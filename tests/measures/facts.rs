@@ -2,8 +2,10 @@
 
 use faer::Mat;
 use supel::basis::Basis;
+use supel::dense;
 use supel::job::Method;
 use supel::reduction::Reduction;
+use supel::sparse::product_and_terms;
 use supel::verification::check::{ActiveLimit, Check, Limits, Verdict};
 use supel_models::{Ends, Material, bar, bar_spectrum, brick, spring, spring_spectrum};
 
@@ -29,6 +31,18 @@ fn eigenvalues_are_rayleigh_quotients() {
                 let off = (lambda * unit / exact - 1.0).abs();
                 let bound = f64::EPSILON * error.cancellation / (n as f64).sqrt();
                 assert!(off <= bound, "{name}: off {off:.1e}, bound {bound:.1e}");
+            }
+            // Of simple eigenvalues they are the quotients of the very shapes that are handed over, to the last bit.
+            let pencil = match method {
+                Method::CraigBampton => evidence.partition.internal(),
+                _ => evidence.partition.pencil(),
+            };
+            let [forces, momenta] =
+                [pencil.stiffness, pencil.mass].map(|matrix| product_and_terms(matrix, modes.shapes.as_ref()).0);
+            for (j, lambda) in modes.lambda.iter().enumerate() {
+                let [x, force, momentum] =
+                    [&modes.shapes, &forces, &momenta].map(|columns| dense::column(columns.as_ref(), j));
+                assert_eq!(*lambda, dense::dot(x, force) / dense::dot(x, momentum), "{name}, mode {}", j + 1);
             }
         });
     }
