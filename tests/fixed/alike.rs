@@ -9,9 +9,11 @@ use supel_testing::place::{Place, steel_brick, supel};
 use crate::{Case, METHODS, elbow, n_rigid};
 
 type Dof = (i64, u8);
+/// Whether a dof is held.
+type Holds = fn(Dof) -> bool;
 
 /// A case, which dofs it holds, and how many rigid-body modes are left.
-fn cases() -> Vec<(Case, fn(Dof) -> bool, u64)> {
+fn cases() -> Vec<(Case, Holds, u64)> {
     let tip = r#"{ name = "tip", nodes = [5, 15, 45] }"#;
     let patch = r#"{ name = "tip", coupling = "rigid", nodes = { within = { box = { min = [0.9, 0, 0], max = [1, 1, 1] } } } }"#;
     let foot = r#"{ nodes = { within = { plane = { point = [0, 0, 0], normal = [1, 0, 0], tolerance = 0.01 } } }, name = "foot" }"#;
