@@ -1130,7 +1130,7 @@ pub enum Error {
         /// Names of the job's interfaces.
         known: Vec<String>,
     },
-    /// An interface lists a node, row or direction twice.
+    /// An interface or held dofs list a node, row or direction twice.
     #[entry("E-DUP-INTERFACE", Usage, "list each once")]
     #[error("{selector}: {what} is listed twice – list each once")]
     InterfaceRepeats {
@@ -1166,7 +1166,7 @@ pub enum Error {
         /// The text found.
         text: String,
     },
-    /// A key of an interface contradicts its nodes or coupling.
+    /// A key of an interface or of held dofs contradicts nodes or coupling.
     #[entry("E-INTERFACE-KEY", Usage, "remove it, or do as the message says")]
     #[error("{selector}: `{key}` has no meaning for {situation} – remove it{remedy}")]
     InterfaceConflict {
@@ -1595,7 +1595,7 @@ pub enum Error {
         /// The most there may be.
         limit: usize,
     },
-    /// An interface names nodes and the model has none.
+    /// A selection names nodes and the model has none.
     #[entry(
         "E-NO-NODES",
         InputData,
@@ -1603,7 +1603,7 @@ pub enum Error {
     )]
     #[error(
         "{selector} names nodes – the model has no dof map or no nodes – give model.dofs and model.nodes \
-        (reduce --dofs, reduce --nodes); an interface may also list rows by number"
+        (reduce --dofs, reduce --nodes); interfaces and held dofs may also be rows by number"
     )]
     SelectionNeedsNodes {
         /// Who selects.
@@ -1630,7 +1630,7 @@ pub enum Error {
         /// Those there are.
         known: Vec<String>,
     },
-    /// An interface selects no node.
+    /// A selection finds no node.
     #[entry("E-INTERFACE-EMPTY", InputData, "check the list or the region against the coordinates")]
     #[error(
         "{selector} selects no node – expected at least one – check the list or the region against the \
@@ -1640,7 +1640,7 @@ pub enum Error {
         /// Who selects.
         selector: Selector,
     },
-    /// An interface node has no row in the matrices.
+    /// A node that the job selects has no row in the matrices.
     #[entry(
         "E-CONSTRAINED-INTERFACE",
         InputData,
@@ -1656,7 +1656,7 @@ pub enum Error {
         /// The node.
         node: i64,
     },
-    /// An interface asks for a dof that its node does not have.
+    /// A selection asks for a dof that its node does not have.
     #[entry("E-DOF-MISSING", InputData, "list the dofs, or use `coupling = \"rigid\"`")]
     #[error(
         "{selector}: {dof} does not exist – expected a direction the node has – solids have no \
@@ -1668,7 +1668,7 @@ pub enum Error {
         /// The dof.
         dof: crate::dofs::Dof,
     },
-    /// An interface names a row beyond the matrices.
+    /// A selection names a row beyond the matrices.
     #[entry("E-INTERFACE-ROW", InputData, "count rows from zero")]
     #[error(
         "{selector}: row {row} {found} – expected one of 0 to {} with stiffness or mass – rows count \
