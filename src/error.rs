@@ -6,6 +6,7 @@
 //! errors of one stage apart from those of another, so that stages have no types of their own.
 
 mod code;
+mod selector;
 mod warning;
 mod words;
 
@@ -21,6 +22,7 @@ use words::{At, BY_ROWS, FEW_DIGITS, STATE_DIGITS, STATE_EXACT, Suggested, forec
 use crate::number::{bytes, count, counted, quantity, typed};
 
 pub use code::{ErrorClass, ErrorEntry, INTERNAL_CODE, USAGE_CODE};
+pub use selector::Selector;
 pub use warning::Warning;
 pub(crate) use words::held_words;
 
@@ -1137,14 +1139,21 @@ pub enum Error {
         /// Names of the job's interfaces.
         known: Vec<String>,
     },
-    /// An interface lists a node, row or direction twice.
+    /// An interface or held dofs list a node, row or direction twice.
     #[entry("E-DUP-INTERFACE", Usage, "list each once")]
-    #[error("interface `{interface}`: {what} is listed twice – list each once")]
+    #[error("{selector}: {what} is listed twice – list each once")]
     InterfaceRepeats {
-        /// Name of the interface.
-        interface: String,
+        /// Who selects.
+        selector: Selector,
         /// What is repeated: `node 12`.
         what: String,
+    },
+    /// Two parts of `fixed` have one name.
+    #[entry("E-FIXED-NAME", Usage, "give each its own, or none")]
+    #[error("fixed `{name}` is defined twice – names must be unique – give each its own, or none")]
+    FixedTwice {
+        /// The name.
+        name: String,
     },
     /// Two interfaces list the same node or row.
     #[entry("E-INTERFACE-OVERLAP", Usage, "leave it in one of them")]
@@ -1159,21 +1168,19 @@ pub enum Error {
     },
     /// A selection of nodes cannot be understood.
     #[entry("E-INTERFACE-NODES", Usage, "write a list, \"group:NAME\", a region or rows")]
-    #[error(
-        "interface `{interface}`: nodes `{text}` – expected \"group:NAME\", a list of node labels, a region or rows"
-    )]
+    #[error("{selector}: nodes `{text}` – expected \"group:NAME\", a list of node labels, a region or rows")]
     InterfaceNodes {
-        /// Name of the interface.
-        interface: String,
+        /// Who selects.
+        selector: Selector,
         /// The text found.
         text: String,
     },
-    /// A key of an interface contradicts its nodes or coupling.
+    /// A key of an interface or of held dofs contradicts nodes or coupling.
     #[entry("E-INTERFACE-KEY", Usage, "remove it, or do as the message says")]
-    #[error("interface `{interface}`: `{key}` has no meaning for {situation} – remove it{remedy}")]
+    #[error("{selector}: `{key}` has no meaning for {situation} – remove it{remedy}")]
     InterfaceConflict {
-        /// Name of the interface.
-        interface: String,
+        /// Who selects.
+        selector: Selector,
         /// The key.
         key: String,
         /// What it does not go with.
@@ -1597,19 +1604,19 @@ pub enum Error {
         /// The most there may be.
         limit: usize,
     },
-    /// An interface names nodes and the model has none.
+    /// A selection names nodes and the model has none.
     #[entry(
         "E-NO-NODES",
         InputData,
         "give `model.dofs` and `model.nodes` (`reduce --dofs`, `reduce --nodes`), or select rows"
     )]
     #[error(
-        "interface {interface:?} names nodes – the model has no dof map or no nodes – give model.dofs and model.nodes \
-        (reduce --dofs, reduce --nodes); an interface may also list rows by number"
+        "{selector} names nodes – the model has no dof map or no nodes – give model.dofs and model.nodes \
+        (reduce --dofs, reduce --nodes); interfaces and held dofs may also be rows by number"
     )]
     SelectionNeedsNodes {
-        /// The interface.
-        interface: String,
+        /// Who selects.
+        selector: Selector,
     },
     /// A rigid interface has nodes without coordinates.
     #[entry("E-NO-COORDINATES", InputData, "give a table or mesh with every node of the patch")]
@@ -1623,63 +1630,63 @@ pub enum Error {
     },
     /// The mesh has no such group.
     #[entry("E-GROUP", InputData, "use one of the names in the message")]
-    #[error("interface {interface:?}: no group {group:?} – {}", groups(known))]
+    #[error("{selector}: no group {group:?} – {}", groups(known))]
     UnknownGroup {
-        /// The interface.
-        interface: String,
+        /// Who selects.
+        selector: Selector,
         /// The group asked for.
         group: String,
         /// Those there are.
         known: Vec<String>,
     },
-    /// An interface selects no node.
+    /// A selection finds no node.
     #[entry("E-INTERFACE-EMPTY", InputData, "check the list or the region against the coordinates")]
     #[error(
-        "interface {interface:?} selects no node – expected at least one – check the list or the region against the \
+        "{selector} selects no node – expected at least one – check the list or the region against the \
         coordinates"
     )]
     EmptyInterface {
-        /// The interface.
-        interface: String,
+        /// Who selects.
+        selector: Selector,
     },
-    /// An interface node has no row in the matrices.
+    /// A node that the job selects has no row in the matrices.
     #[entry(
         "E-CONSTRAINED-INTERFACE",
         InputData,
         "it is constrained, unused or not in the dof map: take another or free it"
     )]
     #[error(
-        "interface {interface:?}: node {node} has no row in the matrices – expected a free dof – the node is \
+        "{selector}: node {node} has no row in the matrices – expected a free dof – the node is \
         constrained, unused or not in the dof map"
     )]
     InterfaceNodeWithoutRows {
-        /// The interface.
-        interface: String,
+        /// Who selects.
+        selector: Selector,
         /// The node.
         node: i64,
     },
-    /// An interface asks for a dof that its node does not have.
+    /// A selection asks for a dof that its node does not have.
     #[entry("E-DOF-MISSING", InputData, "list the dofs, or use `coupling = \"rigid\"`")]
     #[error(
-        "interface {interface:?}: {dof} does not exist – expected a direction the node has – solids have no \
+        "{selector}: {dof} does not exist – expected a direction the node has – solids have no \
         rotations; use coupling = \"rigid\" or list the dofs"
     )]
     DofMissing {
-        /// The interface.
-        interface: String,
+        /// Who selects.
+        selector: Selector,
         /// The dof.
         dof: crate::dofs::Dof,
     },
-    /// An interface names a row beyond the matrices.
+    /// A selection names a row beyond the matrices.
     #[entry("E-INTERFACE-ROW", InputData, "count rows from zero")]
     #[error(
-        "interface {interface:?}: row {row} {found} – expected one of 0 to {} with stiffness or mass – rows count \
+        "{selector}: row {row} {found} – expected one of 0 to {} with stiffness or mass – rows count \
         from zero, as in the files",
         n.saturating_sub(1)
     )]
     InterfaceRow {
-        /// The interface.
-        interface: String,
+        /// Who selects.
+        selector: Selector,
         /// The row, from zero.
         row: usize,
         /// What is wrong with it.
@@ -1700,6 +1707,39 @@ pub enum Error {
         first: String,
         /// Second owner.
         second: String,
+    },
+    /// A dof that the job holds belongs to an interface, which moves it.
+    #[entry(
+        "E-FIXED-INTERFACE",
+        InputData,
+        "take it out of one of them; a direct interface may list its other directions in `dofs`"
+    )]
+    #[error(
+        "{dof} is held by {fixed} and belongs to interface {interface:?} – expected a dof that is at rest or that an interface \
+        moves – take it out of one of them; `dofs` lists the directions of either"
+    )]
+    FixedInterface {
+        /// The dof.
+        dof: String,
+        /// Who holds it.
+        fixed: Selector,
+        /// Who moves it.
+        interface: String,
+    },
+    /// Nothing is left to move: every dof is held, or every dof with mass.
+    #[entry("E-FIXED-ALL", InputData, "hold fewer dofs; `dofs` lists the directions in which nodes are held")]
+    #[error(
+        "the job holds {} of {n_dofs} – {left} – expected a component that can move – hold fewer dofs; `dofs` lists \
+        the directions in which nodes are held",
+        counted(*n_held, "dof", "dofs")
+    )]
+    AllFixed {
+        /// Dofs that are held.
+        n_held: usize,
+        /// Dofs there are.
+        n_dofs: usize,
+        /// What is left, in words.
+        left: &'static str,
     },
     /// The origin of a rigid patch is more than a hundred times the size of the part away from it.
     #[entry(

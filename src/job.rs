@@ -4,9 +4,11 @@
 //! makes them absolute before any stage sees them. Unknown keys are errors.
 
 mod document;
+mod fixed;
 mod interface;
 mod location;
 mod method;
+mod node_selection;
 mod ranges;
 mod reading;
 mod recovery;
@@ -20,12 +22,15 @@ mod whole;
 
 pub use crate::eigen::Eigensolver;
 pub use document::Notation;
-pub use interface::{Coupling, InterfaceJob, NodeSelection, Origin, Region};
+pub use fixed::FixedJob;
+pub use interface::{Coupling, InterfaceJob, Origin};
 pub use location::Holder;
 pub use method::{Boundary, Method};
+pub use node_selection::{NodeSelection, Region};
 pub use recovery::RecoveryJob;
 pub use scene::{DampingJob, SceneJob, Support};
 pub use schema::{Role, schema};
+pub use selection::Selection;
 pub use types::{
     Certify, Duplicates, Expectation, Job, ModeSelection, ModelJob, Precision, ReductionJob, RunJob, WriteJob,
 };

@@ -18,7 +18,7 @@
 //! | [`input`] | files | K, M, dof map, nodes as they were read |
 //! | [`model`] | those | symmetric, scaled, checked matrices |
 //! | [`coordinates`] | the model | the model, its coordinates and dof map compared with K |
-//! | [`partition`] | the interfaces | K, M on internal and interface dofs, rigid patches applied, in order of elimination |
+//! | [`partition`] | the interfaces | K, M on internal and interface dofs, held dofs out, rigid patches applied, in order of elimination |
 //! | [`rigid`] | the partition | U, verified against K; the rank of U_B |
 //! | [`factor`] | K, the interface last | L Lᵀ of K_II, solves, counts of eigenvalues |
 //! | [`constraint`] | the factor | constraint modes, mechanisms; K̂_BB |
@@ -243,8 +243,10 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     observer.stage("partition");
     let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;
     let patches = partition::patches(&model, &job.interfaces);
-    let weight = job.model.expect.as_ref().and_then(|_| model.weight());
-    let mut partition = Partition::new(model, &job.interfaces)?;
+    let is_weighed = job.model.expect.is_some() || !job.fixed.is_empty();
+    let weight = if is_weighed { model.weight() } else { None };
+    let held = partition::held(&model, &job.fixed)?;
+    let mut partition = Partition::with_held(model, &job.interfaces, held)?;
     partition.recovered = recovered;
     partition.model.weight = weight;
     facts.faces = input::patch_faces(&job.model, &patches, &allowance)?;

@@ -31,7 +31,7 @@ pub struct Reduction {
     pub rigid_body_modes: Mat<f64>,
     /// M_F.
     pub rigid_body_mass: Mat<f64>,
-    /// ΨᵀM of the three unit translations, r × 3, where the directions are known and the component is free.
+    /// ΨᵀM of the three unit translations, r × 3, where the directions are known and the component is free or held by the job.
     pub gravity: Option<Mat<f64>>,
     /// What projecting measured.
     pub measured: Projection,
@@ -78,10 +78,10 @@ impl Reduction {
             let momenta = product(&partition.mass, rigid.modes.as_ref());
             rigid_body_modes = transpose_apply(basis, momenta.as_ref());
         }
-        let gravity = rigid.is_classical.then(|| {
-            let momenta = product(&partition.mass, rigid.modes.as_ref().subcols(0, 3));
-            transpose_apply(basis, momenta.as_ref())
-        });
+        let of_free = || product(&partition.mass, rigid.modes.as_ref().subcols(0, 3));
+        let of_held = partition.gravity.as_ref().map(|gravity| gravity.loads.clone());
+        let gravity = of_held.or_else(|| rigid.is_classical.then(of_free));
+        let gravity = gravity.map(|loads| transpose_apply(basis, loads.as_ref()));
         Self {
             stiffness,
             mass,

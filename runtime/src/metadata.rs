@@ -245,7 +245,7 @@ pub enum Flag {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelSummary {
-    /// Degrees of freedom.
+    /// Degrees of freedom, without those that were held.
     pub n_dofs: u64,
     /// What the columns of `rigid_body_modes` are.
     pub rigid_body_modes: RigidBodyModes,

@@ -32,12 +32,13 @@ pub(super) fn agrees(content: &Content<'_>) -> Check {
 /// What no reduction by this version makes, and other programs and versions may.
 fn made_by_none(content: &Content<'_>) -> Vec<String> {
     let (metadata, tensors) = (content.superelement.metadata(), content.superelement.tensors());
+    let assumptions = content.job.as_ref().map_or_else(Vec::new, Job::assumptions);
     let found = [
         (content.job.is_none(), "it is no job of the version that wrote it"),
         (tensors.damping.is_some(), "damping"),
         (tensors.load_vectors.is_some(), "load vectors"),
         (!metadata.flags.is_empty(), "flags"),
-        (!metadata.validity.assumptions.is_empty(), "assumptions about the simulation"),
+        (metadata.validity.assumptions != assumptions, "assumptions about the simulation"),
         (!metadata.validity.unloaded.is_empty(), "unloaded directions"),
         (!metadata.inputs.contains_key("stiffness") || !metadata.inputs.contains_key("mass"), "no digests"),
     ];
@@ -244,7 +245,7 @@ fn of_method(content: &Content<'_>, method: Method) -> Vec<&'static str> {
     expect(rigid == all(is_modal), "rigid-body coordinates");
     // Mass properties and gravity take the six unit motions, which are the first six of seven and more.
     let is_told = metadata.model.rigid_body_modes == RigidBodyModes::Geometric || n_r > 6 || is_nearly_unit(content);
-    expect(tensors.gravity.is_none() || is_told, "rigid-body modes said to be algebraic");
+    expect(tensors.gravity.is_none() || is_told || holds_dofs(content), "rigid-body modes said to be algebraic");
     flaws
 }
 
@@ -253,7 +254,7 @@ fn with_method(content: &Content<'_>) -> Vec<String> {
     let (metadata, tensors) = (content.superelement.metadata(), content.superelement.tensors());
     let mut modal = metadata.coordinates[content.n_b..].iter();
     let is_mixed = modal.any(|coordinate| !matches!(coordinate, Coordinate::FixedInterfaceMode { .. }));
-    let is_classical = tensors.gravity.is_some();
+    let is_classical = tensors.gravity.is_some() && !holds_dofs(content);
     let is_geometric = metadata.model.rigid_body_modes == RigidBodyModes::Geometric;
     let found = [
         (tensors.mixing.is_some() != is_mixed, "mixing"),
@@ -261,9 +262,14 @@ fn with_method(content: &Content<'_>) -> Vec<String> {
             metadata.model.mass_properties.is_some() != (is_classical && is_of_a_body(content.m_f.as_ref())),
             "gravity without mass properties, or these without it",
         ),
-        (!is_classical && is_geometric, "no gravity"),
+        (tensors.gravity.is_none() && is_geometric, "no gravity"),
     ];
     found.iter().filter(|(is_there, _)| *is_there).map(|(_, what)| (*what).to_owned()).collect()
+}
+
+/// Whether the job kept in the file holds dofs, under which a component of any rigid-body modes has loads of gravity.
+fn holds_dofs(content: &Content<'_>) -> bool {
+    content.job.as_ref().is_some_and(|job| !job.fixed.is_empty())
 }
 
 /// Whether the columns are the modes of a free component without interface.

@@ -6,10 +6,11 @@ use super::flags::{
     CommandLine, InspectFlags, ModelFlags, OutputFlags, ReduceFlags, ReductionFlags, Typed, VerifyFlags,
 };
 use super::process;
+use crate::dofs::Direction;
 use crate::error::{Error, Result};
 use crate::job::{
-    Coupling, Duplicates, InterfaceJob, Job, ModeSelection, ModelJob, NodeSelection, Origin, ReductionJob, RunJob,
-    WriteJob,
+    Coupling, Duplicates, FixedJob, InterfaceJob, Job, ModeSelection, ModelJob, NodeSelection, Origin, ReductionJob,
+    RunJob, WriteJob,
 };
 
 /// One command, ready to run.
@@ -33,7 +34,7 @@ pub(super) struct ReduceCommand {
     pub(super) answer: Answer,
     pub(super) unverified: Unverified,
     pub(super) strictness: Strictness,
-    /// From which folder the paths of the document count, and what the flags did to its interfaces.
+    /// From which folder the paths of the document count, and what the flags did to its interfaces and held dofs.
     pub(super) remarks: Vec<String>,
 }
 
@@ -177,14 +178,15 @@ fn build_reduce(flags: ReduceFlags) -> Result<ReduceCommand> {
     Ok(ReduceCommand { job, document, threads: Threads::of(run.threads), answer, unverified, strictness, remarks })
 }
 
-/// The job with what the flags say in place of its own, and what they did to its interfaces.
+/// The job with what the flags say in place of its own, and what they did to its interfaces and held dofs.
 fn override_job(
     mut job: Job,
     model: ModelFlags,
     reduction: &ReductionFlags,
     output: OutputFlags,
 ) -> Result<(Job, Vec<String>)> {
-    let remarks = override_interfaces(&mut job.interfaces, interfaces(&model)?)?;
+    let mut remarks = override_interfaces(&mut job.interfaces, interfaces(&model)?)?;
+    remarks.extend(override_fixed(&mut job.fixed, fixed(&model)?)?);
     replace(&mut job.model.stiffness, model.stiffness);
     replace(&mut job.model.mass, model.mass);
     job.model.dofs = model.dofs.or(job.model.dofs);
@@ -232,8 +234,33 @@ fn override_interfaces(interfaces: &mut Vec<InterfaceJob>, typed: Vec<InterfaceJ
     Ok(typed.into_iter().map(&mut put).collect())
 }
 
+/// Puts the held dofs of the flags in the places of those of their names, or after all others, and says which.
+///
+/// # Errors
+/// [`Error::FixedTwice`] where two flags have one name.
+fn override_fixed(fixed: &mut Vec<FixedJob>, typed: Vec<FixedJob>) -> Result<Vec<String>> {
+    if let Some(at) = (1..typed.len()).find(|at| typed[..*at].iter().any(|other| other.name == typed[*at].name)) {
+        return Err(Error::FixedTwice { name: typed[at].name.clone().unwrap_or_default() });
+    }
+    let n_own = fixed.len();
+    let mut put = |new: FixedJob| {
+        let name = new.name.clone().unwrap_or_default();
+        match fixed[..n_own].iter_mut().find(|own| own.name == new.name) {
+            Some(own) => {
+                *own = new;
+                format!("supel: the flag replaces fixed {name:?} of the job")
+            }
+            None => {
+                fixed.push(new);
+                format!("supel: the flag adds fixed {name:?} to the {n_own} of the job")
+            }
+        }
+    };
+    Ok(typed.into_iter().map(&mut put).collect())
+}
+
 fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlags) -> Result<Job> {
-    let interfaces = interfaces(&model)?;
+    let (interfaces, fixed) = (interfaces(&model)?, fixed(&model)?);
     let modes = mode_selection(reduction);
     let are_modes_told = modes.is_some() || reduction.method.is_some_and(|method| !method.has_modes());
     let (Some(stiffness), Some(mass), Some(method), true, Some(superelement)) =
@@ -260,6 +287,7 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
             ..ModelJob::default()
         },
         interfaces,
+        fixed,
         reduction: ReductionJob {
             method,
             modes,
@@ -299,16 +327,40 @@ fn interfaces(model: &ModelFlags) -> Result<Vec<InterfaceJob>> {
 fn interface(flag: &'static str, text: &str, coupling: Coupling) -> Result<InterfaceJob> {
     let wrong = |expected| Error::FlagText { flag, text: text.to_owned(), expected };
     let (name, nodes) = text.split_once('=').ok_or_else(|| wrong("NAME=NODES, as in hub=12,17,19"))?;
-    let nodes = if nodes.starts_with("group:") {
-        NodeSelection::Group(nodes.to_owned())
-    } else if let Some(rows) = nodes.strip_prefix("rows:") {
-        let rows = numbers(rows).ok_or_else(|| wrong("row numbers from zero, as in hub=rows:0,1,2"))?;
-        NodeSelection::Rows { rows }
-    } else {
-        let labels = numbers(nodes).ok_or_else(|| wrong("node labels, group:NAME or rows:0,1,2 after the ="))?;
-        NodeSelection::Labels(labels)
-    };
+    let nodes = nodes_of(nodes).map_err(wrong)?;
     Ok(InterfaceJob { name: name.to_owned(), nodes, coupling, origin: Origin::Centroid, dofs: None })
+}
+
+/// The held dofs of the flags, in the order typed.
+fn fixed(model: &ModelFlags) -> Result<Vec<FixedJob>> {
+    let of_flag = |text: &String| {
+        let wrong = |expected| Error::FlagText { flag: "--fix", text: text.clone(), expected };
+        let (name, nodes) = text.split_once('=').ok_or_else(|| wrong("NAME=NODES[:DOFS], as in foot=12,17:ux,uy"))?;
+        let (nodes, dofs) = match nodes.rsplit_once(':').map(|(nodes, last)| (nodes, directions(last))) {
+            // `group:ux` is the group of that name.
+            Some((nodes, Some(dofs))) if nodes != "group" => (nodes, Some(dofs)),
+            _ => (nodes, None),
+        };
+        Ok(FixedJob { name: Some(name.to_owned()), nodes: nodes_of(nodes).map_err(wrong)?, dofs })
+    };
+    model.fix.iter().map(of_flag).collect()
+}
+
+/// The nodes that follow the name in a flag; what was expected where they are none.
+fn nodes_of(text: &str) -> std::result::Result<NodeSelection, &'static str> {
+    if text.starts_with("group:") {
+        return Ok(NodeSelection::Group(text.to_owned()));
+    }
+    if let Some(rows) = text.strip_prefix("rows:") {
+        let rows = numbers(rows).ok_or("row numbers from zero, as in hub=rows:0,1,2")?;
+        return Ok(NodeSelection::Rows { rows });
+    }
+    numbers(text).map(NodeSelection::Labels).ok_or("node labels, group:NAME or rows:0,1,2 after the =")
+}
+
+fn directions(text: &str) -> Option<Vec<Direction>> {
+    let direction = |word: &str| Direction::ALL.into_iter().find(|direction| direction.to_string() == word.trim());
+    text.split(',').map(direction).collect()
 }
 
 fn numbers<T: std::str::FromStr>(text: &str) -> Option<Vec<T>> {

@@ -37,7 +37,7 @@ Exit codes: 0 done and verified; 1 done, a check failed; 2 usage; 3 input data; 
 
 #[derive(Debug, Args)]
 pub(super) struct ReduceFlags {
-    /// Job document, TOML or JSON; flags override its keys, interfaces by name
+    /// Job document, TOML or JSON; flags override its keys, interfaces and held dofs by name
     pub(super) job: Option<PathBuf>,
     #[command(flatten)]
     pub(super) model: ModelFlags,
@@ -76,6 +76,9 @@ pub(super) struct ModelFlags {
     /// Interface whose nodes move as a rigid body with one node of six dofs: hub=group:HUB (repeatable)
     #[arg(long, value_name = "NAME=NODES")]
     pub(super) rigid_interface: Vec<String>,
+    /// Dofs that are held at rest: foot=group:FOOT, or foot=12,17:ux,uy for some directions (repeatable)
+    #[arg(long, value_name = "NAME=NODES[:DOFS]")]
+    pub(super) fix: Vec<String>,
 }
 
 #[derive(Debug, Args)]

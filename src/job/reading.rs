@@ -46,6 +46,11 @@ impl Job {
         validation::validate(self)
     }
 
+    /// What the job takes for granted of the simulation, one sentence each.
+    pub fn assumptions(&self) -> Vec<String> {
+        self.fixed.iter().enumerate().map(|(index, fixed)| fixed.assumption(index)).collect()
+    }
+
     /// This job with paths relative to `folder` made absolute, their folders without `..` and links: the superelement keeps the way
     /// from its own folder to the inputs, which is counted in names of folders.
     ///

@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use supel_runtime::Precision;
 
-use super::interface::{Coupling, InterfaceJob, NodeSelection, Origin};
-use super::selection::selection;
-use crate::error::Result;
+use super::node_selection::NodeSelection;
+use super::selection::{self, Selection};
+use crate::error::{Result, Selector};
 
 /// Nodes whose displacements the superelement recovers: their rows of the basis Ψ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -21,24 +21,16 @@ pub struct RecoveryJob {
     pub precision: Precision,
 }
 
-/// The key, by which messages call the selection.
-const KEY: &str = "write.recovery";
-
 impl RecoveryJob {
-    /// The selection in the form that interfaces have.
-    pub fn selection(&self) -> InterfaceJob {
-        InterfaceJob {
-            name: KEY.to_owned(),
-            nodes: self.nodes.clone(),
-            coupling: Coupling::Direct,
-            origin: Origin::Centroid,
-            dofs: None,
-        }
+    /// What it selects, with the name for messages.
+    pub fn selection(&self) -> Selection<'_> {
+        Selection { selector: Selector::Recovery, nodes: &self.nodes, directions: None }
     }
 }
 
 pub(super) fn validate(recovery: &RecoveryJob) -> Result<()> {
-    selection(&recovery.selection(), KEY)
+    let selection = recovery.selection();
+    selection::validate(&selection, selection.selector.name())
 }
 
 /// Nodes, not rows.

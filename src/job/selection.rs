@@ -1,18 +1,30 @@
-//! Whether a selection of nodes selects something.
+//! Nodes that a part of the job selects, and whether that selects something.
 
 use std::collections::BTreeSet;
 
-use super::interface::{InterfaceJob, NodeSelection, Region};
+use super::node_selection::{NodeSelection, Region};
 use super::ranges::{self, direction, finite, not_negative, number, positive};
-use crate::error::{Error, Result};
+use crate::dofs::Direction;
+use crate::error::{Error, Result, Selector};
 
-pub(super) fn selection(interface: &InterfaceJob, place: &str) -> Result<()> {
+/// Nodes of the model that a part of the job selects, and in which directions.
+#[derive(Clone, Debug)]
+pub struct Selection<'a> {
+    /// Which part of the job.
+    pub selector: Selector,
+    /// The nodes.
+    pub nodes: &'a NodeSelection,
+    /// Their directions; all that they have where none are listed.
+    pub directions: Option<&'a [Direction]>,
+}
+
+pub(super) fn validate(selection: &Selection<'_>, place: &str) -> Result<()> {
     let key = format!("{place}.nodes");
     let repeats = |what: Option<String>| match what {
-        Some(what) => Err(Error::InterfaceRepeats { interface: interface.name.clone(), what }),
+        Some(what) => Err(Error::InterfaceRepeats { selector: selection.selector.clone(), what }),
         None => Ok(()),
     };
-    match &interface.nodes {
+    match selection.nodes {
         NodeSelection::Labels(labels) if labels.is_empty() => {
             Err(Error::JobEmpty { key, expected: "the labels of one or more nodes" })
         }
@@ -22,10 +34,30 @@ pub(super) fn selection(interface: &InterfaceJob, place: &str) -> Result<()> {
         NodeSelection::Labels(labels) => repeats(first_repeated(labels).map(|label| format!("node {label}"))),
         NodeSelection::Rows { rows } => repeats(first_repeated(rows).map(|row| format!("row {row}"))),
         NodeSelection::Region { within } => region(within, &format!("{key}.within")),
-        NodeSelection::Group(text) => match interface.nodes.group_name() {
+        NodeSelection::Group(text) => match selection.nodes.group_name() {
             Some(name) if !name.is_empty() => Ok(()),
-            _ => Err(Error::InterfaceNodes { interface: interface.name.clone(), text: text.clone() }),
+            _ => Err(Error::InterfaceNodes { selector: selection.selector.clone(), text: text.clone() }),
         },
+    }
+}
+
+/// Directions where some are listed: one at least, none twice.
+pub(super) fn directions(selection: &Selection<'_>, place: &str) -> Result<()> {
+    let Some(directions) = selection.directions else {
+        return Ok(());
+    };
+    if directions.is_empty() {
+        return Err(Error::JobEmpty {
+            key: format!("{place}.dofs"),
+            expected: "one or more of ux, uy, uz, rx, ry, rz",
+        });
+    }
+    match first_repeated(directions) {
+        Some(direction) => Err(Error::InterfaceRepeats {
+            selector: selection.selector.clone(),
+            what: format!("direction {direction}"),
+        }),
+        None => Ok(()),
     }
 }
 

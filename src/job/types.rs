@@ -11,6 +11,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize};
 use std::path::PathBuf;
 
+use super::fixed::FixedJob;
 use super::interface::InterfaceJob;
 use super::method::Method;
 use super::ranges::{LARGEST, MAX_DIGITS, SMALLEST};
@@ -28,6 +29,9 @@ pub struct Job {
     /// The interface nodes, in the order of the reduced coordinates.
     #[serde(default, rename = "interface", skip_serializing_if = "Vec::is_empty")]
     pub interfaces: Vec<InterfaceJob>,
+    /// Degrees of freedom that are held at rest.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub fixed: Vec<FixedJob>,
     /// Method and modes.
     pub reduction: ReductionJob,
     /// What the simulation will ask of the component.

@@ -3,17 +3,19 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::interface::{InterfaceJob, NodeSelection, Origin};
+use super::interface::{InterfaceJob, Origin};
+use super::node_selection::NodeSelection;
 use super::ranges::{self, positive, size};
-use super::selection::{first_repeated, selection};
+use super::selection;
 use super::types::{Job, ModeSelection, ReductionJob};
 use crate::dofs::Direction;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Selector};
 
 pub(super) fn validate(job: &Job) -> Result<()> {
     model(job)?;
     interfaces(&job.interfaces)?;
     reduction(&job.reduction)?;
+    super::fixed::validate(&job.fixed)?;
     if let Some(scene) = &job.scene {
         super::scene::validate(scene, &job.interfaces)?;
     }
@@ -81,37 +83,18 @@ fn interfaces(interfaces: &[InterfaceJob]) -> Result<()> {
         if earlier.clone().any(|other| other.name == interface.name) {
             return Err(Error::InterfaceTwice { name: interface.name.clone() });
         }
-        selection(interface, &place)?;
-        directions(interface, &place)?;
+        selection::validate(&interface.selection(), &place)?;
+        selection::directions(&interface.selection(), &place)?;
         coupling(interface, &place)?;
         earlier.clone().try_for_each(|other| overlap(other, interface))?;
     }
     Ok(())
 }
 
-fn directions(interface: &InterfaceJob, place: &str) -> Result<()> {
-    let Some(directions) = &interface.dofs else {
-        return Ok(());
-    };
-    if directions.is_empty() {
-        return Err(Error::JobEmpty {
-            key: format!("{place}.dofs"),
-            expected: "one or more of ux, uy, uz, rx, ry, rz",
-        });
-    }
-    match first_repeated(directions) {
-        Some(direction) => Err(Error::InterfaceRepeats {
-            interface: interface.name.clone(),
-            what: format!("direction {}", direction_name(direction)),
-        }),
-        None => Ok(()),
-    }
-}
-
 fn coupling(interface: &InterfaceJob, place: &str) -> Result<()> {
     let conflict = |key: &str, situation, remedy| {
-        let (interface, key) = (interface.name.clone(), key.to_owned());
-        Err(Error::InterfaceConflict { interface, key, situation, remedy })
+        let (selector, key) = (Selector::Interface(interface.name.clone()), key.to_owned());
+        Err(Error::InterfaceConflict { selector, key, situation, remedy })
     };
     let is_rows = matches!(interface.nodes, NodeSelection::Rows { .. });
     let is_patch = interface.coupling.is_patch();
@@ -161,18 +144,6 @@ fn output(key: &'static str, path: &Path, expected: &'static str) -> Result<()> 
     let has_ending = path.as_os_str().as_encoded_bytes().ends_with(expected.as_bytes());
     let is_named = has_ending && path.file_name().is_some_and(|name| name.len() > expected.len());
     if is_named { Ok(()) } else { Err(Error::OutputName { key, path: path.to_owned(), expected }) }
-}
-
-/// The word a job uses for a direction.
-fn direction_name(direction: Direction) -> &'static str {
-    match direction {
-        Direction::Ux => "ux",
-        Direction::Uy => "uy",
-        Direction::Uz => "uz",
-        Direction::Rx => "rx",
-        Direction::Ry => "ry",
-        Direction::Rz => "rz",
-    }
 }
 
 fn first_shared<T: Ord + Copy>(a: &[T], b: &[T]) -> Option<T> {

@@ -3,7 +3,7 @@
 //! Connection is judged between nodes, not between rows: the axial and the bending rows of a straight beam are not
 //! coupled in K and yet belong to one body.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::dofs::Dof;
 use crate::sparse::SparseMatrix;
@@ -20,16 +20,7 @@ pub struct Bodies {
 impl Bodies {
     /// Finds the parts by union of the nodes that share an entry of K.
     pub fn of(stiffness: &SparseMatrix, node_of_row: &[u32]) -> Self {
-        let n_nodes = node_of_row.iter().max().map_or(0, |max| *max as usize + 1);
-        let mut parent: Vec<u32> = (0..n_nodes as u32).collect();
-        for (row, view) in stiffness.outer_iterator().enumerate() {
-            for (col, value) in view.iter() {
-                if *value != 0.0 && col < row {
-                    let (a, b) = (root(&mut parent, node_of_row[row]), root(&mut parent, node_of_row[col]));
-                    parent[a.max(b) as usize] = a.min(b);
-                }
-            }
-        }
+        let mut parent = joined(stiffness, node_of_row, |_| true);
         let mut number = HashMap::new();
         let of_row = node_of_row
             .iter()
@@ -40,6 +31,28 @@ impl Bodies {
             .collect();
         Self { of_row, n_bodies: number.len() }
     }
+
+    /// How many parts there are of the rows that a condition keeps.
+    pub fn count_among(stiffness: &SparseMatrix, node_of_row: &[u32], is_kept: impl Fn(usize) -> bool) -> usize {
+        let mut parent = joined(stiffness, node_of_row, &is_kept);
+        let kept = (0..node_of_row.len()).filter(|row| is_kept(*row));
+        kept.map(|row| root(&mut parent, node_of_row[row])).collect::<HashSet<u32>>().len()
+    }
+}
+
+/// The nodes as a forest whose trees are the parts.
+fn joined(stiffness: &SparseMatrix, node_of_row: &[u32], is_kept: impl Fn(usize) -> bool) -> Vec<u32> {
+    let n_nodes = node_of_row.iter().max().map_or(0, |max| *max as usize + 1);
+    let mut parent: Vec<u32> = (0..n_nodes as u32).collect();
+    for (row, view) in stiffness.outer_iterator().enumerate().filter(|(row, _)| is_kept(*row)) {
+        for (col, value) in view.iter() {
+            if *value != 0.0 && col < row && is_kept(col) {
+                let (a, b) = (root(&mut parent, node_of_row[row]), root(&mut parent, node_of_row[col]));
+                parent[a.max(b) as usize] = a.min(b);
+            }
+        }
+    }
+    parent
 }
 
 /// A dense number for the node of each row, in order of first appearance; every row its own node where no map is known.

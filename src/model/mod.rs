@@ -58,11 +58,13 @@ pub struct Model {
 /// What is remembered of a model after its matrices have gone into the partition.
 #[derive(Clone, Debug)]
 pub struct ModelFacts {
-    /// Number of degrees of freedom n.
+    /// Number of degrees of freedom n: rows of K and M.
     pub n_dofs: usize,
+    /// How many of them the job holds.
+    pub n_held: usize,
     /// Number of nodes, where known.
     pub n_nodes: Option<usize>,
-    /// Number of connected parts.
+    /// Number of connected parts that can move.
     pub n_bodies: usize,
     /// The mass of all rows, where the caller asked for it and a dof map is there.
     pub weight: Option<Weight>,
@@ -70,6 +72,13 @@ pub struct ModelFacts {
     pub rows: FileRows,
     /// What was found and mended.
     pub findings: Vec<Finding>,
+}
+
+impl ModelFacts {
+    /// Dofs that the job does not hold.
+    pub fn n_moving(&self) -> usize {
+        self.n_dofs - self.n_held
+    }
 }
 
 /// Above this relative asymmetry the matrix is not that of a conservative structure.
@@ -124,11 +133,17 @@ impl Model {
         self.stiffness.rows()
     }
 
+    /// Number of connected parts of the rows that a condition keeps.
+    pub fn n_bodies_among(&self, is_kept: impl Fn(usize) -> bool) -> usize {
+        Bodies::count_among(&self.stiffness, &node_of_row(self.n_dofs(), self.dofs.as_deref()), is_kept)
+    }
+
     /// Records the facts of the model.
     pub fn facts(&self) -> ModelFacts {
         let n_nodes = |dofs: &DofMap| dofs.iter().map(|dof| dof.node).collect::<HashSet<_>>().len();
         ModelFacts {
             n_dofs: self.n_dofs(),
+            n_held: 0,
             n_nodes: self.dofs.as_ref().map(n_nodes),
             n_bodies: self.bodies.n_bodies,
             weight: None,

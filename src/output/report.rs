@@ -13,9 +13,9 @@ use crate::modes::CountedInterval;
 use crate::number::counted;
 use crate::partition::InterfaceNode;
 use crate::report::{
-    Completeness, DroppedCoordinate, FacesReport, Generator, InterfacePosition, InterfaceReport, MassProperties,
-    MatrixReport, ModeKind, ModeRow, ModelReport, PositionOrigin, ReductionReport, ReportBody, RigidBodyModes,
-    TrustInterval,
+    Completeness, DroppedCoordinate, FacesReport, Generator, HeldReport, InterfacePosition, InterfaceReport,
+    MassProperties, MatrixReport, ModeKind, ModeRow, ModelReport, PositionOrigin, ReductionReport, ReportBody,
+    RigidBodyModes, TrustInterval,
 };
 use crate::rigid::ILL_CONDITIONED;
 
@@ -40,14 +40,19 @@ fn model(results: &Results<'_>) -> ModelReport {
     let mut notes = results.input.notes.clone();
     notes.extend(model.findings.iter().map(ToString::to_string));
     notes.extend(warnings::refinement(results));
+    let mass_properties = mass_properties(results);
+    if mass_properties.mass.is_some() && evidence.partition.held.count() > 0 {
+        notes.push("mass, centre and inertia are those of the whole component, held dofs included".to_owned());
+    }
     ModelReport {
         n_dofs: model.n_dofs,
         n_nodes: model.n_nodes,
         n_bodies: model.n_bodies,
+        held: held(results),
         stiffness: matrix(stiffness),
         mass: matrix(mass),
         files: results.input.files.clone(),
-        mass_properties: mass_properties(results),
+        mass_properties,
         rigid_body_modes: RigidBodyModes { count: evidence.rigid.count(), source: evidence.rigid.source },
         units: results.job.model.units.clone(),
         notes,
@@ -58,8 +63,18 @@ fn matrix(facts: &MatrixFacts) -> MatrixReport {
     MatrixReport { n_nonzeros: facts.n_nonzeros, digits: facts.digits, digest: facts.digest.clone() }
 }
 
+fn held(results: &Results<'_>) -> Option<HeldReport> {
+    let held = &results.evidence.partition.held;
+    (held.count() > 0).then(|| HeldReport { n_dofs: held.count(), selections: held.selections.clone() })
+}
+
+/// Those of one body; of a component that the job holds, those that it has without what holds it.
 fn mass_properties(results: &Results<'_>) -> MassProperties {
     let evidence = &results.evidence;
+    if evidence.partition.held.count() > 0 {
+        let motions = evidence.partition.model.weight.as_ref().and_then(|weight| weight.motions.as_ref());
+        return motions.map_or_else(MassProperties::default, |m_f| rigid_body::mass_properties(results, m_f.as_ref()));
+    }
     if !evidence.rigid.is_classical {
         return MassProperties::default();
     }

@@ -124,7 +124,9 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Resul
         ),
     });
     let of_the_body = || Matrix::from_fn(6, 6, |i, j| tensors.rigid_body_mass[(i, j)]);
-    let classical = evidence.rigid.is_classical.then(|| file::mass_properties(&of_the_body())).flatten();
+    // What moves of a held component has less mass than the whole.
+    let is_whole = evidence.rigid.is_classical && evidence.partition.held.count() == 0;
+    let classical = is_whole.then(|| file::mass_properties(&of_the_body())).flatten();
     let digests = results.input.digests();
     Ok(Metadata {
         generator: file::Generator { name: env!("CARGO_PKG_NAME").into(), version: env!("CARGO_PKG_VERSION").into() },
@@ -134,10 +136,14 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Resul
         coordinates,
         dropped: dropped.collect(),
         load_names: Vec::new(),
-        validity: file::Validity { band_hz: band(results.job, tensors), ..file::Validity::default() },
+        validity: file::Validity {
+            band_hz: band(results.job, tensors),
+            assumptions: results.job.assumptions(),
+            ..file::Validity::default()
+        },
         flags: BTreeSet::new(),
         model: file::ModelSummary {
-            n_dofs: evidence.partition.model.n_dofs as u64,
+            n_dofs: evidence.partition.model.n_moving() as u64,
             rigid_body_modes: match evidence.rigid.are_unit_motions(evidence.partition) {
                 true => file::RigidBodyModes::Geometric,
                 false => file::RigidBodyModes::Algebraic,

@@ -2,24 +2,12 @@
 
 use super::interface_node::{InterfaceNode, Resolved, Rows};
 use super::node_catalogue::NodeCatalogue;
-use crate::dofs::Dof;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::job::{Coupling, InterfaceJob};
 
 /// A node of the model as a node of the interface.
 pub(super) fn node(catalogue: &NodeCatalogue, job: &InterfaceJob, label: i64) -> Result<Resolved> {
-    let of_node = catalogue.rows_of(job, label)?;
-    let mut directions = job.dofs.clone().unwrap_or_else(|| of_node.keys().copied().collect());
-    directions.sort_unstable();
-    let rows = directions
-        .iter()
-        .map(|direction| {
-            of_node.get(direction).copied().ok_or_else(|| Error::DofMissing {
-                interface: job.name.clone(),
-                dof: Dof { node: label, direction: *direction },
-            })
-        })
-        .collect::<Result<_>>()?;
+    let (directions, rows) = catalogue.dofs_of(&job.selection(), label)?.into_iter().unzip();
     let node = InterfaceNode {
         name: job.name.clone(),
         label: Some(label),

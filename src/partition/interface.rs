@@ -6,7 +6,7 @@ use super::interface_node::{InterfaceNode, Interfaces, Resolved, Rows};
 use super::node_catalogue::NodeCatalogue;
 use super::{direct_nodes, rigid_patch};
 use crate::dofs::{Direction, Dof};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Selector};
 use crate::input::{Patch, Patches, has_mean_origin};
 use crate::job::{Coupling, InterfaceJob, NodeSelection, RecoveryJob};
 use crate::model::Model;
@@ -24,11 +24,13 @@ pub(super) fn resolve(model: &Model, interfaces: &[InterfaceJob]) -> Result<Inte
                 return Err(Error::RigidNeedsCoordinates { interface: job.name.clone() });
             }
             (_, Coupling::Direct) => {
-                for label in catalogue.select(model, job)? {
+                for label in catalogue.select(model, &job.selection())? {
                     resolved.push(direct_nodes::node(&catalogue, job, label)?);
                 }
             }
-            (_, Coupling::Rigid) => resolved.push(rigid_patch::node(&catalogue, job, &catalogue.select(model, job)?)?),
+            (_, Coupling::Rigid) => {
+                resolved.push(rigid_patch::node(&catalogue, job, &catalogue.select(model, &job.selection())?)?)
+            }
         }
     }
     refuse_shared_rows(model, &resolved)?;
@@ -43,10 +45,10 @@ pub(super) fn resolve(model: &Model, interfaces: &[InterfaceJob]) -> Result<Inte
 /// dof map or (where the selection needs them) nodes.
 pub fn recovered_rows(model: &Model, recovery: Option<&RecoveryJob>) -> Result<Vec<(usize, Dof)>> {
     let Some(recovery) = recovery else { return Ok(Vec::new()) };
-    let (catalogue, job) = (NodeCatalogue::new(model), recovery.selection());
+    let (catalogue, selection) = (NodeCatalogue::new(model), recovery.selection());
     let mut rows = Vec::new();
-    for node in catalogue.select(model, &job)? {
-        let of_node = catalogue.rows_of(&job, node)?.iter();
+    for node in catalogue.select(model, &selection)? {
+        let of_node = catalogue.rows_of(&selection.selector, node)?.iter();
         rows.extend(of_node.map(|(direction, row)| (*row, Dof { node, direction: *direction })));
     }
     Ok(rows)
@@ -56,7 +58,7 @@ pub fn recovered_rows(model: &Model, recovery: Option<&RecoveryJob>) -> Result<V
 pub fn nodes_of_patches(model: &Model, interfaces: &[InterfaceJob]) -> HashSet<i64> {
     let catalogue = NodeCatalogue::new(model);
     let tied = interfaces.iter().filter(|job| job.coupling.is_patch());
-    tied.filter_map(|job| catalogue.select(model, job).ok()).flatten().collect()
+    tied.filter_map(|job| catalogue.select(model, &job.selection()).ok()).flatten().collect()
 }
 
 /// The patches of several nodes whose origin is the mean of these. A selection that finds none is refused where it is resolved.
@@ -65,7 +67,7 @@ pub fn patches(model: &Model, interfaces: &[InterfaceJob]) -> Patches {
     let catalogue = NodeCatalogue::new(model);
     let indices: HashMap<i64, usize> = nodes.labels.iter().copied().zip(0..).collect();
     let patch = |job: &InterfaceJob| {
-        let labels = catalogue.select(model, job).ok().filter(|labels| labels.len() > 1)?;
+        let labels = catalogue.select(model, &job.selection()).ok().filter(|labels| labels.len() > 1)?;
         let nodes_of: Vec<usize> = labels.iter().map(|label| indices.get(label).copied()).collect::<Option<_>>()?;
         let positions = nodes_of.iter().map(|node| nodes.coordinates[*node]).collect();
         Some(Patch { interface: job.name.clone(), nodes: nodes_of, positions })
@@ -76,7 +78,8 @@ pub fn patches(model: &Model, interfaces: &[InterfaceJob]) -> Patches {
 
 /// Rows by number: interface nodes where the rows belong to nodes with coordinates, bare rows otherwise.
 fn from_rows(model: &Model, catalogue: &NodeCatalogue, job: &InterfaceJob, rows: &[usize]) -> Result<Vec<Resolved>> {
-    let rows = rows.iter().map(|row| row_of_model(model, job, *row)).collect::<Result<Vec<usize>>>()?;
+    let selector = job.selection().selector;
+    let rows = rows.iter().map(|row| row_of_model(model, &selector, *row)).collect::<Result<Vec<usize>>>()?;
     if let (Some(dofs), false) = (&model.dofs, !catalogue.has_positions()) {
         let mut labels: Vec<i64> = Vec::new();
         let mut directions: HashMap<i64, Vec<Direction>> = HashMap::new();
@@ -107,9 +110,9 @@ fn from_rows(model: &Model, catalogue: &NodeCatalogue, job: &InterfaceJob, rows:
 }
 
 /// The row of the model that a row of the files, both from zero, has become.
-fn row_of_model(model: &Model, job: &InterfaceJob, row: usize) -> Result<usize> {
+pub(super) fn row_of_model(model: &Model, selector: &Selector, row: usize) -> Result<usize> {
     let n = model.n_dofs() + model.rows.n_dropped();
-    let wrong = |found| Error::InterfaceRow { interface: job.name.clone(), row, found, n };
+    let wrong = |found| Error::InterfaceRow { selector: selector.clone(), row, found, n };
     if row >= n {
         return Err(wrong("does not exist"));
     }

@@ -1,7 +1,7 @@
 //! The partition: which degrees of freedom are interface, which internal, and the two matrices in that order.
 //!
 //! ```text
-//! T            n × n'      original rows from partitioned dofs; identity but for the rows of patches
+//! T            n × n'      original rows from partitioned dofs; identity but for the rows of patches and those that the job holds, which are empty
 //! K = TᵀKT     n' × n'     internal dofs first, in the order of elimination, then the interface dofs in job order
 //! M = TᵀMT     n' × n'
 //! n' = n_I + n_B
@@ -11,6 +11,8 @@
 
 mod congruence;
 mod direct_nodes;
+mod gravity;
+mod held;
 mod interface;
 mod interface_node;
 mod metis;
@@ -30,6 +32,8 @@ mod sites;
 mod transformation;
 mod transformation_row;
 
+pub use gravity::Gravity;
+pub use held::{Held, HeldSelection, held};
 pub use interface::{nodes_of_patches, patches, recovered_rows};
 pub use interface_node::InterfaceNode;
 pub use noise::CHANCE_OF_MORE;

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::region::contains;
 use crate::dofs::{Direction, Dof};
-use crate::error::{Error, Result};
-use crate::job::{InterfaceJob, NodeSelection};
+use crate::error::{Error, Result, Selector};
+use crate::job::{NodeSelection, Selection};
 use crate::model::Model;
 
 /// The rows and the position of each node of the model.
@@ -28,16 +28,16 @@ impl NodeCatalogue {
     }
 
     /// The labels a job's selection names, in its own order for a list and in table order otherwise.
-    pub(super) fn select(&self, model: &Model, job: &InterfaceJob) -> Result<Vec<i64>> {
-        let interface = || job.name.clone();
-        let nodes = || model.nodes.as_ref().ok_or_else(|| Error::SelectionNeedsNodes { interface: interface() });
-        let labels: Vec<i64> = match &job.nodes {
+    pub(super) fn select(&self, model: &Model, selection: &Selection<'_>) -> Result<Vec<i64>> {
+        let selector = || selection.selector.clone();
+        let nodes = || model.nodes.as_ref().ok_or_else(|| Error::SelectionNeedsNodes { selector: selector() });
+        let labels: Vec<i64> = match selection.nodes {
             NodeSelection::Labels(labels) => labels.clone(),
             NodeSelection::Group(text) => {
                 let nodes = nodes()?;
                 let name = text.strip_prefix("group:").unwrap_or(text);
                 let members = nodes.groups.get(name).ok_or_else(|| Error::UnknownGroup {
-                    interface: interface(),
+                    selector: selector(),
                     group: name.to_owned(),
                     known: nodes.groups.keys().cloned().collect(),
                 })?;
@@ -52,17 +52,33 @@ impl NodeCatalogue {
             }
             NodeSelection::Rows { .. } => Vec::new(),
         };
-        if labels.is_empty() { Err(Error::EmptyInterface { interface: interface() }) } else { Ok(labels) }
+        if labels.is_empty() { Err(Error::EmptyInterface { selector: selector() }) } else { Ok(labels) }
     }
 
     /// The rows of a node by direction.
-    pub(super) fn rows_of(&self, job: &InterfaceJob, label: i64) -> Result<&BTreeMap<Direction, usize>> {
+    pub(super) fn rows_of(&self, selector: &Selector, label: i64) -> Result<&BTreeMap<Direction, usize>> {
         if self.rows.is_empty() {
-            return Err(Error::SelectionNeedsNodes { interface: job.name.clone() });
+            return Err(Error::SelectionNeedsNodes { selector: selector.clone() });
         }
-        self.rows
-            .get(&label)
-            .ok_or_else(|| Error::InterfaceNodeWithoutRows { interface: job.name.clone(), node: label })
+        self.rows.get(&label).ok_or_else(|| Error::InterfaceNodeWithoutRows { selector: selector.clone(), node: label })
+    }
+
+    /// The dofs of a node that a selection names, in the order of the six directions, and their rows.
+    pub(super) fn dofs_of(&self, selection: &Selection<'_>, label: i64) -> Result<Vec<(Direction, usize)>> {
+        let of_node = self.rows_of(&selection.selector, label)?;
+        let Some(directions) = selection.directions else {
+            return Ok(of_node.iter().map(|(direction, row)| (*direction, *row)).collect());
+        };
+        let mut directions = directions.to_vec();
+        directions.sort_unstable();
+        let with_row = |direction: Direction| match of_node.get(&direction) {
+            Some(row) => Ok((direction, *row)),
+            None => {
+                let dof = Dof { node: label, direction };
+                Err(Error::DofMissing { selector: selection.selector.clone(), dof })
+            }
+        };
+        directions.into_iter().map(with_row).collect()
     }
 
     /// The position of a node.

@@ -104,7 +104,7 @@ fn node_graph(model: &Model, transformation: &Transformation, nodes: &InternalNo
         .map(|row| match row {
             TransformationRow::Dof(dof) => nodes.of_dof.get(*dof as usize).copied().unwrap_or(NONE),
             // Dofs of a rigid node that are internal couple densely; METIS may place the node anywhere.
-            TransformationRow::Tied(_) => NONE,
+            TransformationRow::Tied(_) | TransformationRow::Held => NONE,
         })
         .collect();
     let n_nodes = nodes.len();

@@ -14,11 +14,13 @@ use crate::sparse::Pencil;
 use crate::sparse::Precision;
 use crate::sparse::{Leading, SparseMatrix};
 
+use super::gravity::Gravity;
+use super::held::Held;
 use super::interface_node::InterfaceNode;
 use super::roundings::{PatchEntries, Roundings};
 use super::transformation::{DofOrigin, ReducedDof, Transformation};
 use super::transformation_row::TransformationRow;
-use super::{congruence, interface, missing_directions, ordering, origin};
+use super::{congruence, gravity, interface, missing_directions, ordering, origin};
 
 /// Most interface dofs: the two reduced matrices alone take 6.4 GB then, and decomposing them days.
 pub const LARGEST_INTERFACE: usize = 20_000;
@@ -38,6 +40,10 @@ pub struct Partition {
     pub interface: Vec<InterfaceNode>,
     /// Row of T for each row of the model.
     pub transformation: Transformation,
+    /// What the job holds; its rows are at rest.
+    pub held: Held,
+    /// Loads of gravity, where dofs are held and directions are known.
+    pub gravity: Option<Gravity>,
     /// Rows of the model whose displacements the superelement recovers; none unless the caller adds them.
     pub recovered: Vec<(usize, Dof)>,
     /// Powers of two taken out of K and M.
@@ -73,9 +79,21 @@ impl Partition {
     /// # Panics
     /// Where the pattern of K or M is not symmetric, which that of a checked model is.
     pub fn new(model: Model, interfaces: &[InterfaceJob]) -> Result<Self> {
+        Self::with_held(model, interfaces, Held::default())
+    }
+
+    /// The partition of a model of which some dofs are at rest: what [`Self::new`] makes of one without their rows.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`]; an interface that moves a held dof.
+    ///
+    /// # Panics
+    /// As [`Self::new`].
+    pub fn with_held(model: Model, interfaces: &[InterfaceJob], held: Held) -> Result<Self> {
         let resolved = interface::resolve(&model, interfaces)?;
+        held.refuse_interface(&model, &resolved)?;
         let far_origins = origin::far_origins(&model, &resolved)?;
-        let transformation = Transformation::new(&model, &resolved)?;
+        let transformation = Transformation::new(&model, &resolved, &held)?;
         let order = ordering::elimination_order(&model, &transformation)?;
         let transformation = transformation.permuted(&order);
         let n_internal = transformation.n_internal();
@@ -83,8 +101,9 @@ impl Partition {
         if n_interface > LARGEST_INTERFACE {
             return Err(Error::InterfaceTooLarge { n_interface, limit: LARGEST_INTERFACE });
         }
-        let (mut facts, mut findings) = (model.facts(), missing_directions::constrained_nodes(&model, &resolved));
-        facts.findings = untied(facts.findings, &transformation, &model);
+        let mut findings = missing_directions::constrained_nodes(&model, &resolved);
+        let facts = facts(&model, &transformation, &held);
+        let gravity = if held.count() > 0 { gravity::gravity(&model, &transformation) } else { None };
         let stiffness = congruence::congruence(&model.stiffness, &transformation);
         let cancellation = congruence::cancellation(&model.stiffness, &stiffness, &transformation);
         let Precision { stiffness: of_stiffness, mass: of_mass } = model.precision;
@@ -107,6 +126,8 @@ impl Partition {
             dofs: transformation.dofs.clone(),
             interface,
             transformation,
+            held,
+            gravity,
             recovered: Vec::new(),
             scaling: model.scaling,
             precision: model.precision,
@@ -175,8 +196,21 @@ impl Partition {
     }
 }
 
-/// The findings of a model without the particles that a rigid patch ties to others. A patch that no stiffness reaches is one of
-/// [`hanging_dofs`].
+/// What is remembered of the model.
+fn facts(model: &Model, transformation: &Transformation, held: &Held) -> ModelFacts {
+    let facts = model.facts();
+    let moves = |row: usize| !matches!(transformation.rows[row], TransformationRow::Held);
+    let n_bodies = if held.count() > 0 { model.n_bodies_among(moves) } else { facts.n_bodies };
+    ModelFacts {
+        n_held: held.count(),
+        n_bodies,
+        findings: untied(facts.findings.clone(), transformation, model),
+        ..facts
+    }
+}
+
+/// The findings of a model without the particles that the job holds or that a rigid patch ties to others. A patch that no stiffness
+/// reaches is one of [`hanging_dofs`].
 fn untied(findings: Vec<Finding>, transformation: &Transformation, model: &Model) -> Vec<Finding> {
     let is_free = |row: &usize| matches!(transformation.rows[*row], TransformationRow::Dof(_));
     let of_finding = |finding| match finding {

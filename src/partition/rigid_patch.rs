@@ -15,10 +15,11 @@ const PATCH_RANK_TOLERANCE: f64 = 1e-8;
 
 /// The node of a patch, at the place that the job gives or at the mean of the patch.
 pub(super) fn node(catalogue: &NodeCatalogue, job: &InterfaceJob, labels: &[i64]) -> Result<Resolved> {
+    let selector = job.selection().selector;
     let mut rows = Vec::new();
     let mut centroid = [0.0; 3];
     for label in labels {
-        rows.extend(catalogue.rows_of(job, *label)?.values());
+        rows.extend(catalogue.rows_of(&selector, *label)?.values());
         let point =
             catalogue.position(*label).ok_or_else(|| Error::RigidNeedsCoordinates { interface: job.name.clone() })?;
         for axis in 0..3 {

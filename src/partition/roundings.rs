@@ -30,6 +30,8 @@ pub(super) struct Entry {
 impl PatchEntries {
     /// The entries of patches in a matrix of the model.
     pub(super) fn of(matrix: &SparseMatrix, transformation: &Transformation, rounding: Rounding) -> Self {
+        /// The place of a row at rest, whose entries do no work.
+        const NOWHERE: u32 = u32::MAX;
         let n = transformation.dofs.len();
         let mut place = Vec::with_capacity(transformation.rows.len());
         let mut rows = Vec::new();
@@ -40,13 +42,16 @@ impl PatchEntries {
                     place.push((n + rows.len()) as u32);
                     rows.push(entries.clone());
                 }
+                TransformationRow::Held => place.push(NOWHERE),
             }
         }
         let size = Sizes::of(matrix, rounding);
         let mut entries = Vec::new();
-        let is_patch = |row: usize| place[row] as usize >= n;
+        let moves = |row: usize| place[row] != NOWHERE;
+        let is_patch = |row: usize| moves(row) && place[row] as usize >= n;
         for row in (0..place.len()).filter(|row| is_patch(*row)) {
-            for (col, value) in matrix.outer_view(row).iter().flat_map(|row| row.iter()) {
+            let view = matrix.outer_view(row);
+            for (col, value) in view.iter().flat_map(|view| view.iter()).filter(|(col, _)| moves(*col)) {
                 if !is_patch(col) || col <= row {
                     entries.push(Entry { row: place[row], col: place[col], value: size.of_entry(*value, row, col) });
                 }

@@ -4,6 +4,7 @@
 //! rigid patch that is the motion of its point, u = t + θ × r for a translation, θ for a rotation; where coordinates are
 //! rounded, the motion that K knows instead of the one by the coordinates.
 
+use super::held::Held;
 use super::interface_node::{InterfaceNode, Interfaces, Resolved, Rows};
 use super::rigid_patch;
 use super::sites::Sites;
@@ -57,10 +58,10 @@ pub struct Transformation {
 }
 
 impl Transformation {
-    /// Lays out the dofs: internal ones in the model's order, then the interface in the job's order.
-    pub(super) fn new(model: &Model, interfaces: &Interfaces) -> Result<Self> {
+    /// Lays out the dofs that move: internal ones in the model's order, then the interface in the job's order.
+    pub(super) fn new(model: &Model, interfaces: &Interfaces, held: &Held) -> Result<Self> {
         let n = model.n_dofs();
-        let mut taken = vec![false; n];
+        let mut taken: Vec<bool> = (0..n).map(|row| held.holds(row)).collect();
         for Resolved { rows: Rows::Own(rows) | Rows::Patch(rows), .. } in &interfaces.0 {
             for row in rows {
                 taken[*row] = true;
@@ -69,6 +70,9 @@ impl Transformation {
         let sites = Sites::new(model);
         let mut builder =
             Builder { dofs: Vec::with_capacity(n), rows: vec![TransformationRow::Dof(u32::MAX); n], sites };
+        for row in (0..n).filter(|row| held.holds(*row)) {
+            builder.rows[row] = TransformationRow::Held;
+        }
         for row in (0..n).filter(|row| !taken[*row]) {
             builder.own_row(row, Part::Internal);
         }
@@ -108,6 +112,7 @@ impl Transformation {
                 TransformationRow::Tied(entries) => {
                     entries.iter_mut().for_each(|(dof, _)| *dof = place[*dof as usize]);
                 }
+                TransformationRow::Held => {}
             }
         }
         Self { dofs, rows }

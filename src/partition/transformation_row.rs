@@ -7,6 +7,8 @@ pub enum TransformationRow {
     Dof(u32),
     /// The row follows the interface node of a patch.
     Tied(Box<[(u32, f64)]>),
+    /// The row is at rest.
+    Held,
 }
 
 impl TransformationRow {
@@ -14,10 +16,10 @@ impl TransformationRow {
     pub fn entries(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
         let single = match self {
             Self::Dof(dof) => Some((*dof, 1.0)),
-            Self::Tied(_) => None,
+            Self::Tied(_) | Self::Held => None,
         };
         let several = match self {
-            Self::Dof(_) => &[],
+            Self::Dof(_) | Self::Held => &[],
             Self::Tied(entries) => &**entries,
         };
         single.into_iter().chain(several.iter().copied())

@@ -48,6 +48,9 @@ fn head(page: &mut Page, superelement: &Superelement, file_bytes: u64) {
     if !present.is_empty() {
         page.entry("also holds", &present.join(", "));
     }
+    for assumption in &metadata.validity.assumptions {
+        page.entry("assumes", assumption);
+    }
     for flag in &metadata.flags {
         let text = match flag {
             Flag::SingularMass => "the mass matrix is semidefinite and cannot be factored",

@@ -28,6 +28,7 @@ use crate::error::Warning;
 use crate::input::Digits;
 use crate::job::{Coupling, Eigensolver, Method};
 use crate::number;
+use crate::partition::HeldSelection;
 use crate::rigid::RigidSource;
 use crate::verification::check::{Check, Verdict};
 use crate::verification::preservation::Preservation;
@@ -95,12 +96,15 @@ impl Default for Generator {
 /// The finite element model as it was read.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ModelReport {
-    /// Degrees of freedom n: rows of K and M.
+    /// Degrees of freedom n: rows of K and M, held ones included.
     pub n_dofs: usize,
     /// Nodes, where the rows belong to nodes.
     pub n_nodes: Option<usize>,
-    /// Bodies: connected components of K and M.
+    /// Bodies: connected components of K that can move.
     pub n_bodies: usize,
+    /// What the job holds at rest; none where it holds nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub held: Option<HeldReport>,
     /// K.
     pub stiffness: MatrixReport,
     /// M.
@@ -115,6 +119,15 @@ pub struct ModelReport {
     pub units: Option<String>,
     /// What reading and checking did or found, one sentence each, without paths.
     pub notes: Vec<String>,
+}
+
+/// Dofs that the job holds at rest.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct HeldReport {
+    /// How many, each counted once.
+    pub n_dofs: usize,
+    /// By which selections, in the order of the job.
+    pub selections: Vec<HeldSelection>,
 }
 
 /// One matrix as it was read.

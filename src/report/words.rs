@@ -1,8 +1,9 @@
 //! The words and figures that the summary and the page have in common.
 
-use super::{FacesReport, InterfacePosition, InterfaceReport, ModeKind, PositionOrigin, ReductionReport};
+use super::{FacesReport, InterfacePosition, InterfaceReport, ModeKind, ModelReport, PositionOrigin, ReductionReport};
 use crate::job::Eigensolver;
-use crate::number;
+use crate::number::{self, counted};
+use crate::partition::HeldSelection;
 use crate::verification::check::{ActiveLimit, Check, Verdict};
 
 pub(super) fn eigensolver(eigensolver: Eigensolver) -> &'static str {
@@ -49,8 +50,19 @@ pub(super) fn coordinates(reduction: &ReductionReport) -> Vec<String> {
             parts.push(format!("{} {what}", number::count(n as u64)));
         }
     }
-    parts.push(number::counted(reduction.n_modes, "elastic mode", "elastic modes"));
+    parts.push(counted(reduction.n_modes, "elastic mode", "elastic modes"));
     parts
+}
+
+/// What the job holds: how much of the model, then each selection.
+pub(super) fn held(model: &ModelReport) -> Vec<String> {
+    let Some(held) = &model.held else { return Vec::new() };
+    let all = format!("{} of {}", number::count(held.n_dofs as u64), counted(model.n_dofs, "dof", "dofs"));
+    let selection = |selection: &HeldSelection| {
+        let nodes = selection.n_nodes.map(|n_nodes| counted(n_nodes, "node", "nodes") + ", ").unwrap_or_default();
+        format!("{}: {nodes}{}", selection.name, counted(selection.n_dofs, "dof", "dofs"))
+    };
+    std::iter::once(all).chain(held.selections.iter().map(selection)).collect()
 }
 
 /// The lower end of an interval of frequencies; a shift below zero has none.
@@ -118,7 +130,7 @@ pub(super) fn positions(interface: &InterfaceReport) -> Option<String> {
 fn from_centroid(faces: &FacesReport, size: f64) -> String {
     // A mean of coordinates is not known better than they are.
     let distance = if faces.distance <= 1e-12 * size { 0.0 } else { faces.distance };
-    let faces = number::counted(faces.count, "face", "faces");
+    let faces = counted(faces.count, "face", "faces");
     if distance == 0.0 {
         return format!(" and the centroid of its {faces}");
     }

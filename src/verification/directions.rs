@@ -5,7 +5,7 @@ use faer::Mat;
 use super::evidence::{Evidence, NAMES};
 use crate::dense;
 use crate::dofs::Direction;
-use crate::model::Site;
+use crate::model::{Frame, Site};
 use crate::partition::Partition;
 use crate::sparse::product;
 
@@ -17,6 +17,8 @@ pub(super) struct Directions {
     pub(super) motions: Mat<f64>,
     /// uᵀMu of each.
     pub(super) masses: Vec<f64>,
+    /// Whether each moves a dof that the job holds.
+    pub(super) are_held: Vec<bool>,
 }
 
 /// Share of the largest modal mass below which a motion moves no mass, as a rotation about the line on which all mass lies.
@@ -40,7 +42,8 @@ impl Directions {
     fn rigid_body_modes(evidence: &Evidence<'_>) -> Self {
         let motions = evidence.rigid.orthonormal.clone();
         let names = (1..=motions.ncols()).map(|mode| format!("rigid-body mode {mode}")).collect();
-        Self { names, masses: vec![1.0; motions.ncols()], motions }
+        let n = motions.ncols();
+        Self { names, masses: vec![1.0; n], are_held: vec![false; n], motions }
     }
 
     fn unit_motions(partition: &Partition, sites: &[Site]) -> Self {
@@ -53,7 +56,9 @@ impl Directions {
         let largest = |range: std::ops::Range<usize>| masses[range].iter().copied().fold(0.0, f64::max);
         let of_kind = [largest(0..3), largest(3..6)];
         let moving: Vec<usize> = (0..6).filter(|j| masses[*j] > NOTHING * of_kind[j / 3]).collect();
+        let are_held = partition.held.moved_by(centre, Frame::of(sites, &every).size);
         Self {
+            are_held: moving.iter().map(|j| are_held[*j]).collect(),
             names: moving.iter().map(|j| NAMES[*j].to_owned()).collect(),
             motions: dense::columns(motions.as_ref(), &moving),
             masses: moving.iter().map(|j| masses[*j]).collect(),
@@ -66,6 +71,7 @@ impl Directions {
         (!chosen.is_empty()).then(|| Self {
             names: chosen.iter().map(|j| self.names[*j].clone()).collect(),
             motions: dense::columns(self.motions.as_ref(), &chosen),
+            are_held: chosen.iter().map(|j| self.are_held[*j]).collect(),
             masses: chosen.iter().map(|j| self.masses[*j]).collect(),
         })
     }

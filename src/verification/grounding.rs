@@ -71,7 +71,8 @@ pub(super) fn groundings(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result
         let at = quotients.partition_point(|value| *value < (1.0 - SAME) * quotient).min(quotients.len() - 1);
         spectrum.number(at).is_none_or(|lambda| quotients[at] <= AS_A_WHOLE * lambda)
     };
-    let found = (0..directions.count()).map(|j| {
+    // What the supports of the job hold, no spring has to.
+    let found = (0..directions.count()).filter(|j| !directions.are_held[*j]).map(|j| {
         let (u, force) = (dense::column(directions.motions.as_ref(), j), dense::column(forces.as_ref(), j));
         let terms = dense::column(terms.as_ref(), j);
         let of = |energy: f64| energy.abs() / (first * directions.masses[j]);

@@ -146,7 +146,8 @@ struct Place {
 impl Known {
     fn of(evidence: &Evidence<'_>) -> Option<Self> {
         let Evidence { partition, rigid, .. } = evidence;
-        if rigid.is_classical {
+        // What moves of a component that the job holds has less mass than the whole.
+        if rigid.is_classical && partition.held.count() == 0 {
             let m_f = evidence.reduction.rigid_body_mass.as_ref();
             let mass = (m_f[(0, 0)] + m_f[(1, 1)] + m_f[(2, 2)]) / 3.0;
             return Some(Self { mass, place: Some(Place::of(m_f, mass)), is_free: true });

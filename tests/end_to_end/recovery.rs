@@ -192,7 +192,7 @@ write     = { superelement = "x.supel", recovery = { nodes = [9] } }
 "#;
     case.place.write("job.toml", job.as_bytes());
     let ended = supel(&["reduce", &case.place.text("job.toml")]).expect(ExitCode::InputData);
-    assert!(ended.err.contains("\"write.recovery\" names nodes – the model has no dof map"), "{}", ended.err);
+    assert!(ended.err.contains("write.recovery names nodes – the model has no dof map"), "{}", ended.err);
 }
 
 /// The interface's own nodes move with their coordinates alone, and the nodes of a rigid patch with its node.

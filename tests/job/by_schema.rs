@@ -25,6 +25,7 @@ fn jobs() -> Vec<Value> {
                 "expect": { "mass": 2.5, "cg": [0.25, 1.25, 2.25] },
             },
             "interface": interfaces,
+            "fixed": [{ "name": "foot", "nodes": recovered, "dofs": ["uy", "ry"] }],
             "reduction": { "method": "herting", "modes": modes, "inertia_relief": true, "eigensolver": "arpack" },
             "scene": { "band_hz": [0.25, 500.5], "boundaries": ["free", "fix:hub", "mass:hub", "mass:hub=2.5"], "damping": { "ratio": 0.25 } },
             "run": { "certify": "full", "memory_gib": 4.5, "precision": "mixed" },
@@ -146,6 +147,7 @@ fn is_about_two_keys(error: &Error) -> bool {
             | Error::InterfaceConflict { .. }
             | Error::InterfaceOverlap { .. }
             | Error::InterfaceTwice { .. }
+            | Error::FixedTwice { .. }
     )
 }
 

@@ -1,7 +1,7 @@
 //! Interfaces that a model cannot have.
 
 use supel::dofs::Direction;
-use supel::error::{Error, ErrorClass};
+use supel::error::{Error, ErrorClass, Selector};
 use supel::job::{Coupling, InterfaceJob, NodeSelection, Origin, Region};
 use supel::partition::Partition;
 use supel_models as models;
@@ -46,7 +46,10 @@ fn nodes_of_a_model_without_nodes() {
     for job in [direct("tip", &[1]), rigid_group("XMAX"), patch("tip", &[1])] {
         let name = job.name.clone();
         let error = refused(&anonymous(), &[job]);
-        assert!(matches!(&error, Error::SelectionNeedsNodes { interface } if *interface == name), "{error}");
+        assert!(
+            matches!(&error, Error::SelectionNeedsNodes { selector: Selector::Interface(found) } if *found == name),
+            "{error}"
+        );
         assert_says(&error, ErrorClass::InputData, &[&name, "give model.dofs and model.nodes"]);
     }
 }
@@ -86,7 +89,10 @@ fn selection_without_nodes() {
     let nowhere = Region::Sphere { center: [10.0; 3], radius: 1.0 };
     for nodes in [NodeSelection::Region { within: nowhere }, NodeSelection::Labels(Vec::new())] {
         let error = refused(&beam(), &[interface("hub", nodes, Coupling::Direct)]);
-        assert!(matches!(&error, Error::EmptyInterface { interface } if interface == "hub"), "{error}");
+        assert!(
+            matches!(&error, Error::EmptyInterface { selector: Selector::Interface(found) } if found == "hub"),
+            "{error}"
+        );
         assert_says(&error, ErrorClass::InputData, &["hub", "check the list or the region"]);
     }
 }

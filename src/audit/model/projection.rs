@@ -63,7 +63,14 @@ impl Projected {
         let (shapes, n_probes) = (columns.shapes.as_ref(), columns.n_probes());
         let stiffness = form(&partition.stiffness, shapes, columns.energy_errors);
         let mass = form(&partition.mass, shapes, columns.inertia_errors);
-        let gravity = unit.map(|unit| loads(partition, unit.subcols(0, 3), shapes, (&mass, n_probes)));
+        let of_held = partition.gravity.as_ref().map(|gravity| (gravity.loads.clone(), gravity.mass));
+        let loads_of = |unit: MatRef<'_, f64>| {
+            let loads = product(&partition.mass, unit.subcols(0, 3));
+            let mass = dense::dots(unit.subcols(0, 3), loads.as_ref()).into_iter().fold(0.0, f64::max);
+            (loads, mass)
+        };
+        let gravity = of_held.or_else(|| unit.map(loads_of));
+        let gravity = gravity.map(|of| loads((of.0.as_ref(), of.1), shapes, (&mass, n_probes)));
         let recovery = (!partition.recovered.is_empty()).then(|| recovered(partition, shapes, (&mass, n_probes)));
         let is_modal = columns.probes.ncols() == 0;
         let motions =
@@ -120,15 +127,9 @@ fn form(matrix: &SparseMatrix, shapes: MatRef<'_, f64>, errors: Vec<f64>) -> For
     Form { matrix: projected, errors, terms }
 }
 
-/// (WᵀMe)ᵀ for unit motions e: no more than the product of both lengths in the mass.
-fn loads(
-    partition: &Partition,
-    along: MatRef<'_, f64>,
-    shapes: MatRef<'_, f64>,
-    (mass, n_probes): (&Form, usize),
-) -> Rows {
-    let loads = product(&partition.mass, along);
-    let length = dense::dots(along, loads.as_ref()).into_iter().fold(0.0, f64::max).sqrt();
+/// (WᵀMe)ᵀ for unit motions e with the largest eᵀMe: no more than the product of both lengths in the mass.
+fn loads((loads, largest): (MatRef<'_, f64>, f64), shapes: MatRef<'_, f64>, (mass, n_probes): (&Form, usize)) -> Rows {
+    let length = largest.sqrt();
     let columns = 0..shapes.ncols();
     let own = |j: usize| mass.matrix[(j, j)].max(0.0).sqrt();
     // What one column of a kind lacks another may lack as well: all come from the same factor.
@@ -139,7 +140,7 @@ fn loads(
     let shares = [share(0..n_probes), share(n_probes..shapes.ncols())];
     let error = |j: usize| mass.errors[j].max(shares[usize::from(j >= n_probes)] * own(j));
     Rows {
-        rows: dense::gram(loads.as_ref(), shapes),
+        rows: dense::gram(loads, shapes),
         errors: columns.clone().map(|j| length * (error(j) + f64::EPSILON * mass.terms[j])).collect(),
         sizes: columns.map(|j| length * own(j)).collect(),
     }

@@ -49,6 +49,7 @@ pub(super) fn front(page: &mut Markup, body: &ReportBody) {
     page.classed("p", "scope", if verdict == Verdict::Fail { NOT_PROVED } else { SCOPE });
     page.facts(&[
         ("Model", model(&body.model)),
+        ("Held at rest", words::held(&body.model)),
         ("Units", vec![units(&body.model)]),
         ("Stiffness K", vec![matrix(&body.model.stiffness)]),
         ("Mass M", vec![matrix(&body.model.mass)]),

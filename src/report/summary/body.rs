@@ -55,6 +55,10 @@ fn model(page: &mut Page, model: &ModelReport) {
     parts.push(number::counted(model.n_bodies, "body", "bodies"));
     parts.extend(model.units.clone().map(|units| format!("units {units}")));
     page.entry("model", &parts.join(" · "));
+    let held = words::held(model);
+    if !held.is_empty() {
+        page.entry("held", &held.join(" · "));
+    }
     page.entry("stiffness", &matrix(&model.stiffness));
     page.entry("mass", &matrix(&model.mass));
     for (role, digest) in &model.files {

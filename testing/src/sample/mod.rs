@@ -146,6 +146,7 @@ fn model() -> ModelReport {
         n_dofs: 123_486,
         n_nodes: Some(41_162),
         n_bodies: 1,
+        held: None,
         stiffness: matrix(9_472_104, "a"),
         mass: matrix(3_157_368, "b"),
         files: [("dofs", "c".repeat(64)), ("nodes", "d".repeat(64))].into(),

@@ -1,0 +1,34 @@
+//! Which part of a job selects nodes, as messages call it.
+
+use std::fmt;
+
+/// A part of a job that selects nodes or rows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Selector {
+    /// An interface by its name.
+    Interface(String),
+    /// Held dofs by their name, or by their place in the job where they have none.
+    Fixed(String),
+    /// The nodes whose displacements are recovered.
+    Recovery,
+}
+
+impl Selector {
+    /// The name, or the key where there is none.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Interface(name) | Self::Fixed(name) => name,
+            Self::Recovery => "write.recovery",
+        }
+    }
+}
+
+impl fmt::Display for Selector {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Interface(name) => write!(f, "interface {name:?}"),
+            Self::Fixed(name) => write!(f, "fixed {name:?}"),
+            Self::Recovery => f.write_str(self.name()),
+        }
+    }
+}
