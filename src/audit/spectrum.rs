@@ -8,7 +8,7 @@ use crate::dense;
 use crate::error::Result;
 use crate::job::Boundary;
 use crate::verification::check::{Check, Limits};
-use crate::verification::limits::{Judged, NEARLY_FREE};
+use crate::verification::limits::{Judged, n_nearly_free};
 
 /// The eigenvalues that the checks need.
 pub(super) struct Spectrum {
@@ -33,18 +33,13 @@ impl Spectrum {
     }
 }
 
-/// Motions of a body as a whole.
-const MOTIONS: usize = 6;
-
 impl Spectrum {
-    /// What the energy of rigid-body motion is compared with: the first elastic eigenvalue, or the one beyond motions of the body as a whole
-    /// that cost energy and are free in practice all the same. Springs so soft hold some of the six, and the others are left with roundings
-    /// that are nothing but compared with those.
+    /// What the energy of rigid-body motion is compared with: the first elastic eigenvalue, or the one beyond motions that are nearly free.
     pub(super) fn of_energies(&self, content: &Content<'_>) -> f64 {
-        let mut beyond =
-            (content.n_rigid() + 1..=MOTIONS).filter_map(|k| Some([*self.free.get(k - 1)?, *self.free.get(k)?]));
-        let step = beyond.find(|[soft, next]| *soft <= NEARLY_FREE * next);
-        step.map_or(content.first, |[_, next]| next)
+        match n_nearly_free(&self.free, content.n_rigid()) {
+            n_free if n_free > content.n_rigid() => self.free[n_free],
+            _ => content.first,
+        }
     }
 }
 

@@ -17,6 +17,8 @@ pub(crate) const FREQUENCY_ASKED: f64 = SAME_FREQUENCY / NOISE_FACTOR;
 /// Energy of a motion relative to that of the first elastic mode up to which it is free all the same: a frequency of a thousandth of the
 /// first elastic one.
 pub(crate) const NEARLY_FREE: f64 = 1e-6;
+/// Motions of a body as a whole.
+const MOTIONS: usize = 6;
 /// Energy at which the component is held: a rigid-body frequency of a hundredth of the first elastic one.
 pub(crate) const GROUNDED: f64 = 1e-4;
 /// What rounding may excuse of an energy without a warning: at a tenth of the first elastic frequency a rigid-body motion
@@ -53,6 +55,17 @@ pub(crate) struct Judged {
 /// The noise of energies relative to the first elastic one, by the bars of the frequencies known.
 pub(crate) fn noise(known: impl IntoIterator<Item = Known>, first: f64) -> f64 {
     known.into_iter().map(|known| known.lambda * known.relative_bar / first).fold(0.0, f64::max)
+}
+
+/// How many of the lowest eigenvalues are those of rigid-body motion, or of motions of a body as a whole that cost energy and are free in
+/// practice all the same: springs so soft hold some of the six. Energies are compared with the next one, compared with which roundings
+/// are nothing.
+pub(crate) fn n_nearly_free(ascending: &[f64], n_rigid: usize) -> usize {
+    let is_step = |k: &usize| match ascending.get(k - 1..=*k) {
+        Some([soft, next]) => *soft <= NEARLY_FREE * next,
+        _ => false,
+    };
+    (n_rigid + 1..=MOTIONS).find(is_step).unwrap_or(n_rigid)
 }
 
 /// Limits of an energy that should be zero, relative to that of the first elastic mode, at a noise of which the digits of the

@@ -4,7 +4,7 @@ use faer::{Mat, MatRef};
 
 use super::check::Limits;
 use super::evidence::{Evidence, coordinate_scales, data_noise};
-use super::limits::GROUNDED;
+use super::limits::{GROUNDED, n_nearly_free};
 use super::pencil::{Spectral, scaled_by};
 use crate::dense;
 use crate::eigen::{rayleigh_quotients, zero};
@@ -26,7 +26,7 @@ pub(super) struct Spectrum {
     pub(super) n_held: usize,
     pub(super) n_others: usize,
     /// Eigenvalues below the first elastic one that energies are compared with: zero modes that have mass, and with it a place in the
-    /// spectrum, and motions so soft that the data hardly tell them from those.
+    /// spectrum, and motions of a body as a whole that are nearly free.
     n_soft: usize,
     /// The first elastic eigenvalue of the full model under the boundary of the retained modes, where one is known.
     of_full: Option<f64>,
@@ -42,8 +42,7 @@ impl Spectrum {
     pub(super) fn of(evidence: &Evidence<'_>) -> Result<Self> {
         let (k, m) = (evidence.reduction.stiffness.as_ref(), evidence.reduction.mass.as_ref());
         let n_b = evidence.partition.n_interface();
-        let of_full = first_of_full(evidence);
-        let lambda = of_full.unwrap_or(1.0);
+        let lambda = first_of_full(evidence, evidence.rigid.n_grey).unwrap_or(1.0);
         let (_, vectors) = dense::symmetric_eigen(scaled_by(k, &coordinate_scales(evidence)).as_ref())?;
         let (masses, mass_vectors) = dense::symmetric_eigen(equilibrated(m, m).as_ref())?;
         let (k_held, n_pencil) = (with_massless_lifted(evidence), evidence.rigid.count() - evidence.rigid.n_massless);
@@ -67,7 +66,7 @@ impl Spectrum {
         let levels = zero_levels(evidence, shapes.as_ref());
         let is_zero = |j: usize| zero::is_zero(free[j], levels[j]);
         let n_others = (n_pencil..shapes.ncols()).filter(|j| is_zero(*j)).count();
-        let n_soft = n_pencil + n_others.max(evidence.rigid.n_grey);
+        let n_soft = (n_pencil + n_others).max(n_nearly_free(&free, n_pencil));
         let first = free.get(n_soft).copied().unwrap_or(0.0);
         let is_free = |j: usize| is_zero(j) || free[j].abs() <= GROUNDED * first;
         let n_free = (0..n_pencil.min(shapes.ncols())).filter(|j| is_free(*j)).count();
@@ -80,7 +79,7 @@ impl Spectrum {
             n_held: n_pencil - n_free,
             n_others,
             n_soft,
-            of_full,
+            of_full: first_of_full(evidence, n_soft - n_pencil),
             softest: largest_component(vectors.as_ref()),
             lowest_mass: (masses.first().copied().unwrap_or(0.0), largest_component(mass_vectors.as_ref())),
         })
@@ -129,13 +128,13 @@ impl Spectrum {
 }
 
 /// The first elastic eigenvalue of the full model under the boundary of the retained modes, soft motions left out as in the reduced one.
-fn first_of_full(evidence: &Evidence<'_>) -> Option<f64> {
+fn first_of_full(evidence: &Evidence<'_>, n_soft: usize) -> Option<f64> {
     let modes = &evidence.retained.modes;
-    let n_grey = match evidence.retained.boundary {
-        Boundary::FreeInterface => evidence.rigid.n_grey,
+    let n_soft = match evidence.retained.boundary {
+        Boundary::FreeInterface => n_soft,
         Boundary::FixedInterface => 0,
     };
-    modes.lambda.get(n_grey).copied().or(modes.next)
+    modes.lambda.get(n_soft).copied().or(modes.next)
 }
 
 /// Force of a rigid-body motion in K̂, in the scales of its coordinates, at which M-12 fails.

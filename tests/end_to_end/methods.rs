@@ -133,3 +133,27 @@ fn rubins_matrices_need_inertia_relief() {
         .err;
     assert!(refused.contains("E-ATTACHMENT"), "{refused}");
 }
+
+/// The table of costs in the README: Rubin's method needs no solve that Herting's does not make.
+#[cfg(feature = "hdf5")]
+#[test]
+fn each_method_costs_what_the_readme_says() {
+    let readme = include_str!("../../README.md");
+    let (_, table) = readme.split_once("| method | coordinates | factorisations | solves |").expect("the table");
+    let rows: Vec<Vec<&str>> = table
+        .lines()
+        .skip(2)
+        .take_while(|line| line.starts_with('|'))
+        .map(|line| line.trim_matches('|').split('|').map(|cell| cell.trim().trim_matches('`')).collect())
+        .collect();
+    assert_eq!(rows.len(), 4);
+    let place = Place::with_example();
+    for row in rows {
+        let output = place.text("x.supel");
+        supel(&["reduce", &place.text("job.toml"), "--method", row[0], "--output", &output]).expect(ExitCode::Done);
+        let report = place.report("x.report.json");
+        let (work, reduction) = (&report["run"]["work"], &report["body"]["reduction"]);
+        let found = [&reduction["n_reduced"], &work["n_factorisations"], &work["n_solves"]].map(ToString::to_string);
+        assert_eq!(row[1..], found, "{}", row[0]);
+    }
+}
