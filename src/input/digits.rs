@@ -228,6 +228,24 @@ mod tests {
     #[test]
     fn computed_values_carry_all_digits() {
         assert_eq!(digits_of(&scattered(5000)), Digits::DOUBLE);
+        // A beam: a few short numbers among those of all digits are no grid that the others lie on.
+        let beam = [
+            3.2e6,
+            6.4e6,
+            3.2e3,
+            6.4e3,
+            54_716.443_431_176_966,
+            5_349.444_286_121_401,
+            350_185.237_959_532_6,
+            700_370.475_919_065_2,
+            23_498.888_572_242_806,
+            11_749.444_286_121_403,
+        ];
+        assert_eq!(digits_of(&beam), Digits::DOUBLE);
+        // Sums of short numbers, as arithmetic leaves them: springs of hundredths, one of them stiff.
+        let springs: Vec<f64> = (0..30).map(|i| if i == 1 { 700.0 } else { 0.3 + 0.01 * f64::from(i) }).collect();
+        let chain: Vec<f64> = springs.iter().copied().chain(springs.windows(2).map(|two| two[0] + two[1])).collect();
+        assert_eq!(digits_of(&chain), Digits::DOUBLE);
     }
 
     #[test]

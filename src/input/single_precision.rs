@@ -37,24 +37,29 @@ pub(super) fn single_precision(sample: &[f64], digits: u32) -> Option<Single> {
     if sample.iter().all(|value| is_single(*value)) {
         return believed_as_doubles(sample, digits).then_some(Single { decimals: None });
     }
-    let is_unlikely = |n_least: usize| {
-        let chances = chances(sample);
+    let is_unlikely = |n_least: usize, least_step: f64| {
+        let chances = chances(sample, least_step);
         chances.len() >= n_least && chances.iter().product::<f64>() <= CHANCE
     };
-    let in_fixed_point = in_fixed_point(sample).filter(|_| is_unlikely(MIN_DISTINCT));
-    let is_printed = || is_unlikely(1) && sample.iter().all(|value| is_printed(*value, digits));
+    let in_fixed_point = in_fixed_point(sample).filter(|(_, step)| is_unlikely(MIN_DISTINCT, *step)).map(|(of, _)| of);
+    let is_printed = || is_unlikely(1, 0.0) && sample.iter().all(|value| is_printed(*value, digits));
     in_fixed_point.or_else(|| is_printed().then_some(Single { decimals: None }))
 }
 
 /// What numbers are if they are single precision ones in fixed point, as all of them may be. Decimals count where they take more from the
-/// smallest number than single precision does.
-fn in_fixed_point(sample: &[f64]) -> Option<Single> {
+/// smallest number than single precision does. With them goes the step of the last one.
+fn in_fixed_point(sample: &[f64]) -> Option<(Single, f64)> {
     let short = sample.iter().map(|value| Decimal::of(*value)).filter(|decimal| decimal.n_digits <= MAX_DECIMAL_DIGITS);
     let decimals = short.map(Decimal::n_decimals).max()?;
     let last = 10f64.powi(-decimals);
-    let is_fixed = |value: &f64| (value - f64::from(*value as f32)).abs() <= HALF * last + f64::EPSILON * value.abs();
+    let is_fixed = |value: &f64| {
+        let rounding = f64::EPSILON * value.abs();
+        let on_grid = (value / last).round() * last;
+        (value - on_grid).abs() <= 2.0 * rounding && (value - f64::from(*value as f32)).abs() <= HALF * last + rounding
+    };
     let least = sample.iter().fold(f64::INFINITY, |least, value| least.min(value.abs()));
-    sample.iter().all(is_fixed).then(|| Single { decimals: (gap(least as f32) < last).then_some(decimals) })
+    let found = Single { decimals: (gap(least as f32) < last).then_some(decimals) };
+    sample.iter().all(is_fixed).then_some((found, last))
 }
 
 fn is_single(value: f64) -> bool {
@@ -109,15 +114,16 @@ fn gap(single: f32) -> f64 {
     f64::from(single.next_up()) - f64::from(single)
 }
 
-/// The chances of the different numbers that tell something to be forms of single precision numbers without having been such.
-fn chances(sample: &[f64]) -> Vec<f64> {
+/// The chances of the different numbers that tell something to be forms of single precision numbers without having been such, where forms
+/// are no closer to each other than a step.
+fn chances(sample: &[f64], least_step: f64) -> Vec<f64> {
     let mut chances: BTreeMap<u32, f64> = BTreeMap::new();
     for value in sample.iter().map(|value| value.abs()) {
         let (single, decimal) = (value as f32, Decimal::of(value));
         let tells = decimal.n_digits > SINGLE_DIGITS && uses_all_bits(fraction(value)) && !is_short(value);
         if tells && single.is_normal() {
             let of_fraction = chances.entry(fraction(value)).or_insert(1.0);
-            *of_fraction = of_fraction.min(step(decimal) / gap(single));
+            *of_fraction = of_fraction.min(step(decimal).max(least_step) / gap(single));
         }
     }
     chances.into_values().collect()

@@ -140,13 +140,13 @@ fn s_24_every_dof_interface_keeps_the_matrices() {
 
 #[test]
 fn s_25_repeated_interface_nodes() {
-    let twice = Case::new(&block(), &[direct("pins", &[1, 12, 1])]).refused(&["`pins`", "node 1", "list each once"]);
+    let twice = Case::new(&block(), &[direct("pins", &[1, 12, 1])]).refused(&["\"pins\"", "node 1", "list each once"]);
     assert!(matches!(twice, Error::InterfaceRepeats { .. }), "{twice}");
     let shared = Case::new(&block(), &[direct("a", &CORNERS), direct("b", &[12])]).refused(&["`a` and `b`", "node 12"]);
     assert!(matches!(shared, Error::InterfaceOverlap { .. }), "{shared}");
     let again = rows("pins", &[0, 3, 0]);
     let error =
-        Case::new(&Model { dofs: Vec::new(), ..block() }, &[again]).refused(&["`pins`", "row 0", "list each once"]);
+        Case::new(&Model { dofs: Vec::new(), ..block() }, &[again]).refused(&["\"pins\"", "row 0", "list each once"]);
     assert!(matches!(error, Error::InterfaceRepeats { .. }), "{error}");
 }
 
