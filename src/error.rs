@@ -1830,11 +1830,18 @@ pub enum Error {
         /// Whether the stiffness has few digits, which may be all that is wrong.
         has_few_digits: bool,
     },
+    /// A held component is reduced to no coordinates at all.
+    #[entry("E-NO-COORDINATES", Usage, "ask for modes, or add an interface")]
+    #[error(
+        "the reduction leaves no coordinates – expected an interface or modes, because nothing of the component moves as a rigid \
+        body – ask for modes or add an interface"
+    )]
+    NoCoordinates,
     /// A superelement has no inertia-relief modes, which Rubin's matrices are made from.
     #[entry("E-NO-RELIEF", Usage, "reduce with rubin or herting")]
     #[error(
-        "{} lacks inertia relief for every rigid-body motion, or has modes of the held interface – expected free modes \
-        with inertia relief, of which Rubin's matrices are made – reduce with rubin or herting",
+        "{} has no interface, lacks inertia relief for a rigid-body motion, or has modes of the held interface – expected \
+        an interface and free modes with inertia relief, of which Rubin's matrices are made – reduce with rubin or herting",
         path.display()
     )]
     NoInertiaRelief {

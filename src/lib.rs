@@ -180,7 +180,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
 
     observer.stage("basis");
     let columns = basis::retained_columns(component, &job.reduction, &retained);
-    let basis = Basis::new(&constraint, columns, partition.internal().mass);
+    let basis = Basis::new(&constraint, columns, partition.internal().mass).with_coordinates()?;
 
     observer.stage("projection");
     let reduction = Reduction::new(&partition, &basis, &rigid);

@@ -101,7 +101,8 @@ impl Herting {
 /// [X_B; q] of a mode whose modal amplitudes are q: the displacement of the interface that leaves least of (K̂ − λM̂)V̄.
 fn whole_mode((k, m): (&Mat<f64>, &Mat<f64>), lambda: f64, q: MatRef<'_, f64>, n_b: usize) -> Mat<f64> {
     let r = k.nrows();
-    let scale: Vec<f64> = (0..r).map(|i| dense::power_of_two_root(k[(i, i)])).collect();
+    // A body that one interface node holds has rounding on the diagonal of K̂ there, which is no scale.
+    let scale: Vec<f64> = (0..r).map(|i| dense::power_of_two_root(k[(i, i)] + lambda * m[(i, i)])).collect();
     let dynamic = Mat::from_fn(r, r, |i, j| (k[(i, j)] - lambda * m[(i, j)]) * scale[i] * scale[j]);
     let amplitude = Mat::from_fn(r - n_b, 1, |i, _| -q[(i, 0)] / scale[n_b + i]);
     let load = dense::product(dynamic.as_ref().subcols(n_b, r - n_b), amplitude.as_ref());

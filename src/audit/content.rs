@@ -147,17 +147,18 @@ impl<'a> Content<'a> {
 /// The name of a coordinate of a superelement.
 pub(super) fn coordinate_name(superelement: &Superelement, coordinate: usize) -> String {
     let metadata = superelement.metadata();
-    match metadata.coordinates[coordinate] {
-        Coordinate::Interface { node, direction } => {
-            let name = &metadata.interface_nodes[node].name;
+    match metadata.coordinates.get(coordinate) {
+        Some(Coordinate::Interface { node, direction }) => {
+            let name = &metadata.interface_nodes[*node].name;
             format!("{name} {}", format!("{direction:?}").to_lowercase())
         }
-        Coordinate::InterfaceRow { row } => format!("row {}", row + 1),
-        Coordinate::RigidBodyMode { index } => format!("rigid-body mode {}", index + 1),
-        Coordinate::InertiaRelief { index } => format!("inertia relief {}", index + 1),
-        Coordinate::ElasticMode { mode, .. } | Coordinate::FixedInterfaceMode { mode, .. } => {
+        Some(Coordinate::InterfaceRow { row }) => format!("row {}", row + 1),
+        Some(Coordinate::RigidBodyMode { index }) => format!("rigid-body mode {}", index + 1),
+        Some(Coordinate::InertiaRelief { index }) => format!("inertia relief {}", index + 1),
+        Some(Coordinate::ElasticMode { mode, .. } | Coordinate::FixedInterfaceMode { mode, .. }) => {
             format!("mode {}", mode + 1)
         }
+        None => "no coordinate".to_owned(),
     }
 }
 

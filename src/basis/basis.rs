@@ -7,6 +7,7 @@ use super::dynamic::{self, DroppedColumn, DynamicColumns, DynamicCoordinate};
 use crate::constraint::ConstraintModes;
 use crate::dense;
 use crate::eigen::Modes;
+use crate::error::{Error, Result};
 use crate::sparse::Leading;
 
 /// The modal reduction matrix in its blocks.
@@ -38,6 +39,14 @@ impl Basis {
             kept: independent.kept,
             dropped: independent.dropped,
         }
+    }
+
+    /// The basis where it has any columns.
+    ///
+    /// # Errors
+    /// [`Error::NoCoordinates`].
+    pub fn with_coordinates(self) -> Result<Self> {
+        if self.n_reduced() == 0 { Err(Error::NoCoordinates) } else { Ok(self) }
     }
 
     /// n_η.

@@ -343,6 +343,14 @@ mod tests {
         assert_eq!(digits_of(&tenths).decimals, Some(1));
     }
 
+    /// What is left where sums cancel has few bits, and is single precision all the same.
+    #[test]
+    fn residues_of_cancellation_hide_no_single_precision() {
+        let stiff = scattered(40).into_iter().map(|value| f64::from((value * 1e9) as f32));
+        let residues = (1..200).map(|k| f64::from(k) * 2f64.powi(-46));
+        assert_eq!(digits_of(&stiff.chain(residues).collect::<Vec<_>>()), Digits::SINGLE);
+    }
+
     /// In SI units stiffnesses are whole numbers above 2²⁴ that need ten digits.
     #[test]
     fn single_precision_values_carry_seven_digits() {

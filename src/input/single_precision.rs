@@ -8,7 +8,7 @@
 //! bars a hundred times too wide and none too small. Numbers of up to seven digits tell nothing, nor do quarters below 2²⁴ and numbers that
 //! need few of the 24 bits, which are exact in whatever precision.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::decimal::Decimal;
 use super::written::{MAX_DECIMAL_DIGITS, MIN_DISTINCT};
@@ -19,6 +19,8 @@ pub(super) const SINGLE_DIGITS: u32 = 7;
 const MAX_DIGITS: u32 = 17;
 /// Chance below which numbers are no forms of single precision numbers without having been such.
 const CHANCE: f64 = 1e-2;
+/// Share of the largest number up to which others are what was left where sums in double precision cancel: they have few bits.
+const RESIDUE: f64 = 64.0 * f64::EPSILON;
 /// Half a unit of the last digit, and room for rounding.
 const HALF: f64 = 0.5 + 1e-6;
 
@@ -97,10 +99,12 @@ fn uses_all_bits(fraction: u32) -> bool {
 /// Whether there are enough different numbers that single precision holds by no chance. One double in 2²⁹ is such a number, and one number
 /// of 10¹⁰ with ten digits in a thousand.
 fn believed_as_doubles(sample: &[f64], digits: u32) -> bool {
-    let fractions: std::collections::BTreeSet<u32> = sample.iter().map(|value| fraction(*value)).collect();
+    let largest = sample.iter().fold(0.0f64, |largest, value| largest.max(value.abs()));
+    let whole = sample.iter().filter(|value| value.abs() > RESIDUE * largest);
+    let fractions: BTreeSet<u32> = whole.map(|value| fraction(*value)).collect();
     let n_long = fractions.iter().filter(|fraction| uses_all_bits(**fraction)).count();
     let least = if digits <= MAX_DECIMAL_DIGITS { MIN_DISTINCT } else { 1 };
-    // What cancels in the sums of a regular mesh leaves numbers of few bits.
+    // What cancels in the sums of a regular mesh leaves numbers of few bits, too.
     digits > SINGLE_DIGITS && n_long >= least.max(fractions.len() / 4) && !sample.iter().all(|value| is_short(*value))
 }
 

@@ -3,7 +3,8 @@
 use faer::Mat;
 use serde_json::Value;
 use supel::cli::ExitCode;
-use supel_models::{Ends, spring};
+use supel_models::transform::join;
+use supel_models::{Ends, Material, brick, spring};
 use supel_runtime::{Coordinate, Matrix, Method, Superelement};
 
 use crate::place::{Place, supel};
@@ -41,6 +42,11 @@ fn rubin_is_herting_with_a_proof_of_its_attachment_modes() {
     assert!(value_of(&place, "attachment modes are free of rigid-body motion") <= 1e-12);
     assert!(value_of(&place, "attachment modes are in equilibrium with inertia") <= 1e-12);
 
+    assert_rubins_matrices(&place, &rubin);
+}
+
+/// What `inspect --rubin` prints of a file: (45) and (47) are its matrices in the coordinates of (51).
+fn assert_rubins_matrices(place: &Place, rubin: &Superelement) {
     let printed = supel(&["inspect", &place.text("x.supel"), "--rubin"]).expect(ExitCode::Done).out;
     let printed: Value = serde_json::from_str(&printed).expect("json");
     let matrix = |key: &str| {
@@ -132,6 +138,36 @@ fn rubins_matrices_need_inertia_relief() {
         .expect(ExitCode::ModelPhysics)
         .err;
     assert!(refused.contains("E-ATTACHMENT"), "{refused}");
+}
+
+/// A body that one patch holds has no stiffness left there but rounding, and without modes nothing elastic is known of it.
+#[test]
+fn a_body_that_one_patch_holds_keeps_nothing_but_its_inertia() {
+    let bar = brick([2, 1, 1], [2.0, 1.0, 0.9], &Material::UNIT);
+    let place = Place::with(&join(&bar, &bar, &[]));
+    let n = bar.labels.len();
+    for method in ["guyan", "guyan --inertia-relief", "herting --modes 0"] {
+        for b in ["--rigid-interface", "--interface"] {
+            let interfaces = format!("--rigid-interface a=1,3,4,6 {b} b={},{},{},{}", n + 1, n + 3, n + 4, n + 6);
+            place.reduce(&place.model_flags(), &format!("{interfaces} --method {method}")).expect(ExitCode::Done);
+            let file = place.text("x.supel");
+            supel(&["verify", &file]).expect(ExitCode::Done);
+            place.write("job.json", supel(&["inspect", &file, "--job"]).expect(ExitCode::Done).out.as_bytes());
+            supel(&["verify", &file, "--job", &place.text("job.json")]).expect(ExitCode::Done);
+        }
+    }
+    let interfaces = format!("--rigid-interface a=1,3,4,6 --rigid-interface b={},{},{}", n + 1, n + 3, n + 4);
+    place.reduce(&place.model_flags(), &format!("{interfaces} --method rubin --modes 3")).expect(ExitCode::Done);
+    assert_rubins_matrices(&place, &place.superelement("x.supel"));
+}
+
+#[test]
+fn a_reduction_without_coordinates_is_refused() {
+    let place = Place::with(&spring(5, Ends::Fixed));
+    for flags in ["--method guyan", "--method craig-bampton --modes 0", "--method herting --up-to-hz 1e-6"] {
+        let refused = place.reduce(&place.matrix_flags(), flags).expect(ExitCode::Usage).err;
+        assert!(refused.contains("E-NO-COORDINATES"), "{flags}: {refused}");
+    }
 }
 
 /// The table of costs in the README: Rubin's method needs no solve that Herting's does not make.

@@ -1,9 +1,10 @@
 //! Loads of gravity on a held component, and the displacements of its held nodes.
 
+use supel::cli::ExitCode;
 use supel_models::model::{dot, multiply};
-use supel_testing::place::steel_brick;
+use supel_testing::place::{Place, steel_brick, supel};
 
-use crate::Case;
+use crate::{Case, METHODS, elbow};
 
 /// A face of the brick is clamped, and one node on a slide.
 fn case() -> Case {
@@ -79,4 +80,27 @@ fn the_mass_is_that_of_the_whole_component() {
     let notes = model["notes"].as_array().expect("notes");
     assert!(notes.iter().any(|note| note.as_str().is_some_and(|note| note.contains("whole component"))), "{notes:?}");
     assert_eq!(made.file.metadata().model.mass_properties, None, "the file has what moves");
+}
+
+/// Without recovered rows nothing but gravity tells the sign of a mode that the interface hardly sees.
+#[test]
+fn the_full_model_has_the_same_loads_of_gravity() {
+    let case = Case {
+        name: "elbow",
+        model: elbow(),
+        interface: r#"{ name = "tip", nodes = [5, 6] }"#,
+        fixed: r#"{ nodes = [2], dofs = ["uy", "rz"] }"#,
+        has_nodes: true,
+    };
+    for method in METHODS {
+        for n_modes in [3, 6, 9] {
+            let place = Place::with(&case.model);
+            let job = case.job(method, n_modes, &format!("fixed = [{}]", case.fixed));
+            let (job, _) = job.split_once(", recovery").expect("recovery comes last");
+            place.write("job.toml", format!("{job} }}\n").as_bytes());
+            supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+            let ended = supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]);
+            assert_eq!(ended.code, ExitCode::Done, "{method}, {n_modes} modes: {}", ended.out);
+        }
+    }
 }

@@ -136,6 +136,9 @@ fn seen(file: &Scaled, projected: &Projected, mixing: Option<MatRef<'_, f64>>) -
         // Without an interface Û are the amplitudes ΨᵀMU: rigid-body motion as the stored columns see it.
         add(1.0 / motions.norm_max(), [of_mine(motions), file.u.transpose().to_owned()]);
     }
+    if let (Some(weight), Some(known), Some(stored)) = (projected.gravity_weight, &projected.gravity, &file.gravity) {
+        add(weight, [of_mine(&known.rows), of_file(stored)]);
+    }
     if let (Some(known), Some(stored)) = (&projected.recovery, &file.recovery)
         && known.rows.nrows() == stored.nrows()
     {

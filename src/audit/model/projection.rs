@@ -47,6 +47,9 @@ pub(super) struct Projected {
     pub(super) mass: Form,
     /// (WᵀMe)ᵀ, 3 × q, where the directions are known.
     pub(super) gravity: Option<Rows>,
+    /// 1/√m by which the loads of gravity count among what tells columns apart, of a component that the job holds: of a free one they
+    /// are M̂Û, which the interface sees.
+    pub(super) gravity_weight: Option<f64>,
     /// TW, where rows are recovered.
     pub(super) recovery: Option<Rows>,
     /// (WᵀMU)ᵀ, n_r × q, U the unit motions; of a component without interface that has them.
@@ -64,6 +67,7 @@ impl Projected {
         let stiffness = form(&partition.stiffness, shapes, columns.energy_errors);
         let mass = form(&partition.mass, shapes, columns.inertia_errors);
         let of_held = partition.gravity.as_ref().map(|gravity| (gravity.loads.clone(), gravity.mass));
+        let gravity_weight = of_held.as_ref().filter(|(_, mass)| *mass > 0.0).map(|(_, mass)| 1.0 / mass.sqrt());
         let loads_of = |unit: MatRef<'_, f64>| {
             let loads = product(&partition.mass, unit.subcols(0, 3));
             let mass = dense::dots(unit.subcols(0, 3), loads.as_ref()).into_iter().fold(0.0, f64::max);
@@ -77,7 +81,7 @@ impl Projected {
             unit.filter(|_| is_modal).map(|unit| dense::gram(product(&partition.mass, unit).as_ref(), shapes));
         let dependence = Dependence::of(&partition.mass, shapes.subcols(n_probes, columns.named.len()));
         let Columns { probes, named, residual, .. } = columns;
-        Self { probes, named, stiffness, mass, gravity, recovery, motions, residual, dependence }
+        Self { probes, named, stiffness, mass, gravity, gravity_weight, recovery, motions, residual, dependence }
     }
 
     /// p.
