@@ -1831,12 +1831,12 @@ pub enum Error {
         has_few_digits: bool,
     },
     /// A held component is reduced to no coordinates at all.
-    #[entry("E-NO-COORDINATES", Usage, "ask for modes, or add an interface")]
+    #[entry("E-NOTHING-LEFT", Usage, "ask for modes, or add an interface")]
     #[error(
         "the reduction leaves no coordinates – expected an interface or modes, because nothing of the component moves as a rigid \
         body – ask for modes or add an interface"
     )]
-    NoCoordinates,
+    NothingLeft,
     /// A superelement has no inertia-relief modes, which Rubin's matrices are made from.
     #[entry("E-NO-RELIEF", Usage, "reduce with rubin or herting")]
     #[error(

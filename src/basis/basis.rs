@@ -44,9 +44,9 @@ impl Basis {
     /// The basis where it has any columns.
     ///
     /// # Errors
-    /// [`Error::NoCoordinates`].
+    /// [`Error::NothingLeft`].
     pub fn with_coordinates(self) -> Result<Self> {
-        if self.n_reduced() == 0 { Err(Error::NoCoordinates) } else { Ok(self) }
+        if self.n_reduced() == 0 { Err(Error::NothingLeft) } else { Ok(self) }
     }
 
     /// n_η.

@@ -166,7 +166,7 @@ fn a_reduction_without_coordinates_is_refused() {
     let place = Place::with(&spring(5, Ends::Fixed));
     for flags in ["--method guyan", "--method craig-bampton --modes 0", "--method herting --up-to-hz 1e-6"] {
         let refused = place.reduce(&place.matrix_flags(), flags).expect(ExitCode::Usage).err;
-        assert!(refused.contains("E-NO-COORDINATES"), "{flags}: {refused}");
+        assert!(refused.contains("E-NOTHING-LEFT"), "{flags}: {refused}");
     }
 }
 
