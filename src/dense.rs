@@ -4,7 +4,7 @@
 //! Decompositions of small matrices run sequentially.
 
 use faer::linalg::matmul::matmul;
-use faer::linalg::solvers::SolveLstsq;
+use faer::linalg::solvers::{Solve, SolveLstsq};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
 
@@ -169,6 +169,11 @@ pub fn least_squares(a: MatRef<'_, f64>, f: MatRef<'_, f64>) -> Mat<f64> {
         parts.row_mut(i).iter_mut().for_each(|part| *part *= factor);
     }
     product(svd.V(), parts.as_ref())
+}
+
+/// A⁻¹ of a small regular matrix.
+pub fn inverse(a: MatRef<'_, f64>) -> Mat<f64> {
+    a.partial_piv_lu().solve(Mat::<f64>::identity(a.nrows(), a.nrows()))
 }
 
 /// |A|, entry by entry.

@@ -68,7 +68,7 @@ impl Herting {
             [&tensors.stiffness, &tensors.mass, &tensors.rigid_body_modes, &tensors.rigid_body_mass].map(unpacked);
         let n_eta = coordinates.len();
         let named = match &tensors.mixing {
-            Some(mixing) => unpacked(mixing).partial_piv_lu().solve(Mat::<f64>::identity(n_eta, n_eta)),
+            Some(mixing) => dense::inverse(unpacked(mixing).as_ref()),
             None => Mat::identity(n_eta, n_eta),
         };
         let slot_of = |index: usize| {
@@ -130,7 +130,7 @@ pub struct Rubin {
 /// Rubin's form where the method of the job is Rubin's; none in a component without interface, which has its modes themselves.
 ///
 /// # Errors
-/// Those of [`Rubin::new`].
+/// What [`Rubin::new`] refuses.
 pub fn rubin_where_asked(
     job: &ReductionJob,
     basis: &Basis,
@@ -213,7 +213,7 @@ impl Rubin {
         let length = |j: usize| dense::norm(dense::column(to.as_ref(), j));
         let scale: Vec<f64> = (0..r).map(|j| dense::power_of_two_root(length(j).powi(2))).collect();
         let scaled = Mat::from_fn(r, r, |i, j| to[(i, j)] * scale[j]);
-        let inverse = scaled.partial_piv_lu().solve(Mat::<f64>::identity(r, r));
+        let inverse = dense::inverse(scaled.as_ref());
         Some(Mat::from_fn(r, r, |i, j| inverse[(i, j)] * scale[i]))
     }
 

@@ -87,6 +87,11 @@ impl<'a> Content<'a> {
         self.k.nrows()
     }
 
+    /// Whether the job kept in the file holds dofs, under which a component of any rigid-body modes has loads of gravity.
+    pub(super) fn holds_dofs(&self) -> bool {
+        self.job.as_ref().is_some_and(|job| !job.fixed.is_empty())
+    }
+
     /// n_r.
     pub(super) fn n_rigid(&self) -> usize {
         self.u.ncols()

@@ -245,7 +245,7 @@ fn of_method(content: &Content<'_>, method: Method) -> Vec<&'static str> {
     expect(rigid == all(is_modal), "rigid-body coordinates");
     // Mass properties and gravity take the six unit motions, which are the first six of seven and more.
     let is_told = metadata.model.rigid_body_modes == RigidBodyModes::Geometric || n_r > 6 || is_nearly_unit(content);
-    expect(tensors.gravity.is_none() || is_told || holds_dofs(content), "rigid-body modes said to be algebraic");
+    expect(tensors.gravity.is_none() || is_told || content.holds_dofs(), "rigid-body modes said to be algebraic");
     flaws
 }
 
@@ -254,7 +254,7 @@ fn with_method(content: &Content<'_>) -> Vec<String> {
     let (metadata, tensors) = (content.superelement.metadata(), content.superelement.tensors());
     let mut modal = metadata.coordinates[content.n_b..].iter();
     let is_mixed = modal.any(|coordinate| !matches!(coordinate, Coordinate::FixedInterfaceMode { .. }));
-    let is_classical = tensors.gravity.is_some() && !holds_dofs(content);
+    let is_classical = tensors.gravity.is_some() && !content.holds_dofs();
     let is_geometric = metadata.model.rigid_body_modes == RigidBodyModes::Geometric;
     let found = [
         (tensors.mixing.is_some() != is_mixed, "mixing"),
@@ -265,11 +265,6 @@ fn with_method(content: &Content<'_>) -> Vec<String> {
         (tensors.gravity.is_none() && is_geometric, "no gravity"),
     ];
     found.iter().filter(|(is_there, _)| *is_there).map(|(_, what)| (*what).to_owned()).collect()
-}
-
-/// Whether the job kept in the file holds dofs, under which a component of any rigid-body modes has loads of gravity.
-fn holds_dofs(content: &Content<'_>) -> bool {
-    content.job.as_ref().is_some_and(|job| !job.fixed.is_empty())
 }
 
 /// Whether the columns are the modes of a free component without interface.

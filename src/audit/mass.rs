@@ -144,7 +144,7 @@ pub(super) fn gravity(content: &Content<'_>) -> Option<Check> {
     let gravity = unpacked(content.superelement.tensors().gravity.as_ref()?);
     let is_classical = content.superelement.metadata().model.rigid_body_modes == RigidBodyModes::Geometric;
     // Held dofs take part in the loads of gravity through the mass that couples them, and in M̂ they do not.
-    if !is_classical || content.n_rigid() != 6 || content.job.as_ref().is_some_and(|job| !job.fixed.is_empty()) {
+    if !is_classical || content.n_rigid() != 6 || content.holds_dofs() {
         return None;
     }
     let momenta = dense::product(content.m.as_ref(), content.u.as_ref().subcols(0, 3));

@@ -7,7 +7,6 @@
 //! By equations (34) and (35) (K̂ − ω²M̂) v = 0 for some displacement v_B of the interface. It is not in the file and is
 //! found by least squares; that something is left over tells that mixing, frequency and matrices do not belong together.
 
-use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef};
 use supel_runtime::Coordinate;
 
@@ -26,15 +25,9 @@ const LARGEST_EXPLAINED: f64 = 0.1;
 pub(super) fn named_amplitudes(content: &Content<'_>) -> Mat<f64> {
     let n = content.n_reduced() - content.n_b;
     match &content.superelement.tensors().mixing {
-        Some(mixing) => unmixing(unpacked(mixing).as_ref()),
+        Some(mixing) => dense::inverse(unpacked(mixing).as_ref()),
         None => Mat::identity(n, n),
     }
-}
-
-/// C⁻¹ of the mixing C, n_η × n_η.
-pub(super) fn unmixing(mixing: MatRef<'_, f64>) -> Mat<f64> {
-    let n = mixing.nrows();
-    mixing.partial_piv_lu().solve(Mat::<f64>::identity(n, n))
 }
 
 /// A mixing C and its inverse.

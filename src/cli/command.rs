@@ -196,7 +196,7 @@ fn override_job(
     replace(&mut job.reduction.method, reduction.method);
     job.reduction.modes = mode_selection(reduction).or(job.reduction.modes);
     if reduction.method.is_some_and(|method| !method.has_modes()) && mode_selection(reduction).is_none() {
-        // Those of the job were meant for its own method.
+        // The modes of the job were meant for its own method.
         job.reduction.modes = None;
     }
     job.reduction.inertia_relief |= reduction.inertia_relief;
@@ -208,55 +208,44 @@ fn override_job(
     Ok((job, remarks))
 }
 
-/// Puts the interfaces of the flags in the places of those of their names, or after all others, and says which.
+/// Puts what flags name in the places of those of the same names in the job, or after all others, and says which; `what` it is called.
 ///
 /// # Errors
-/// [`Error::InterfaceTwice`] where two flags have one name: the later one would replace the earlier one unseen.
-fn override_interfaces(interfaces: &mut Vec<InterfaceJob>, typed: Vec<InterfaceJob>) -> Result<Vec<String>> {
-    let names: Vec<&str> = typed.iter().map(|interface| interface.name.as_str()).collect();
+/// That of `twice`, where two flags have one name: the later one would replace the earlier one unseen.
+fn override_by_name<T>(
+    own: &mut Vec<T>,
+    typed: Vec<T>,
+    (what, name_of): (&str, impl Fn(&T) -> String),
+    twice: impl Fn(String) -> Error,
+) -> Result<Vec<String>> {
+    let names: Vec<String> = typed.iter().map(&name_of).collect();
     if let Some(at) = (1..names.len()).find(|at| names[..*at].contains(&names[*at])) {
-        return Err(Error::InterfaceTwice { name: names[at].to_owned() });
+        return Err(twice(names[at].clone()));
     }
-    let n_own = interfaces.len();
-    let mut put = |new: InterfaceJob| {
-        let name = new.name.clone();
-        match interfaces[..n_own].iter_mut().find(|own| own.name == name) {
-            Some(own) => {
-                *own = new;
-                format!("supel: the flag replaces interface {name:?} of the job")
-            }
-            None => {
-                interfaces.push(new);
-                format!("supel: the flag adds interface {name:?} to the {n_own} of the job")
-            }
+    let n_own = own.len();
+    let mut put = |(new, name): (T, String)| match own[..n_own].iter_mut().find(|own| name_of(own) == name) {
+        Some(own) => {
+            *own = new;
+            format!("supel: the flag replaces {what} {name:?} of the job")
+        }
+        None => {
+            own.push(new);
+            format!("supel: the flag adds {what} {name:?} to the {n_own} of the job")
         }
     };
-    Ok(typed.into_iter().map(&mut put).collect())
+    Ok(typed.into_iter().zip(names).map(&mut put).collect())
 }
 
-/// Puts the held dofs of the flags in the places of those of their names, or after all others, and says which.
-///
-/// # Errors
-/// [`Error::FixedTwice`] where two flags have one name.
-fn override_fixed(fixed: &mut Vec<FixedJob>, typed: Vec<FixedJob>) -> Result<Vec<String>> {
-    if let Some(at) = (1..typed.len()).find(|at| typed[..*at].iter().any(|other| other.name == typed[*at].name)) {
-        return Err(Error::FixedTwice { name: typed[at].name.clone().unwrap_or_default() });
-    }
-    let n_own = fixed.len();
-    let mut put = |new: FixedJob| {
-        let name = new.name.clone().unwrap_or_default();
-        match fixed[..n_own].iter_mut().find(|own| own.name == new.name) {
-            Some(own) => {
-                *own = new;
-                format!("supel: the flag replaces fixed {name:?} of the job")
-            }
-            None => {
-                fixed.push(new);
-                format!("supel: the flag adds fixed {name:?} to the {n_own} of the job")
-            }
-        }
-    };
-    Ok(typed.into_iter().map(&mut put).collect())
+/// [`override_by_name`] of interfaces.
+fn override_interfaces(own: &mut Vec<InterfaceJob>, typed: Vec<InterfaceJob>) -> Result<Vec<String>> {
+    let name_of = |interface: &InterfaceJob| interface.name.clone();
+    override_by_name(own, typed, ("interface", name_of), |name| Error::InterfaceTwice { name })
+}
+
+/// [`override_by_name`] of held dofs; flags give them names, and a job need not.
+fn override_fixed(own: &mut Vec<FixedJob>, typed: Vec<FixedJob>) -> Result<Vec<String>> {
+    let name_of = |fixed: &FixedJob| fixed.name.clone().unwrap_or_default();
+    override_by_name(own, typed, ("fixed", name_of), |name| Error::FixedTwice { name })
 }
 
 fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlags) -> Result<Job> {

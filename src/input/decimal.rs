@@ -43,3 +43,16 @@ impl Decimal {
         if decimals > 0 { self.mantissa as f64 / power } else { self.mantissa as f64 * power }
     }
 }
+
+/// A number of a sample with its decimal form, which takes long to make.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sampled {
+    pub(super) value: f64,
+    pub(super) decimal: Decimal,
+}
+
+impl Sampled {
+    pub(super) fn of(value: f64) -> Self {
+        Self { value, decimal: Decimal::of(value) }
+    }
+}

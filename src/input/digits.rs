@@ -29,7 +29,7 @@ use std::collections::BTreeSet;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::decimal::Decimal;
+use super::decimal::{Decimal, Sampled};
 use super::exact::{MAX_EXACT_DIGITS, is_exact};
 use super::single_precision::{SINGLE_DIGITS, Single, single_precision};
 use super::written::{MAX_DECIMAL_DIGITS, MIN_DISTINCT, SAMPLE, Written};
@@ -134,17 +134,18 @@ impl Digits {
 ///
 /// Looks at about 2000 values spread over the slice; zeros do not count.
 pub fn digits_of(values: &[f64]) -> Digits {
-    let sample: Vec<f64> = spread(values).filter(|value| value.is_finite() && *value != 0.0).collect();
+    let counted = spread(values).filter(|value| value.is_finite() && *value != 0.0);
+    let sample: Vec<Sampled> = counted.map(Sampled::of).collect();
     if sample.is_empty() {
         return Digits::DOUBLE;
     }
-    let mut counts: Vec<u32> = sample.iter().map(|&value| Decimal::of(value).n_digits).collect();
+    let mut counts: Vec<u32> = sample.iter().map(|sampled| sampled.decimal.n_digits).collect();
     counts.sort_unstable();
     let digits = counts[(counts.len() * 99).div_ceil(100) - 1];
     if let Some(Single { decimals }) = single_precision(&sample, digits) {
         return Digits { decimals, ..Digits::SINGLE };
     }
-    let distinct: BTreeSet<Decimal> = sample.iter().map(|&value| Decimal::of(value)).collect();
+    let distinct: BTreeSet<Decimal> = sample.iter().map(|sampled| sampled.decimal).collect();
     let is_of_few = match digits {
         _ if digits <= MAX_EXACT_DIGITS => is_rounded(&distinct, digits),
         _ if digits <= MAX_DECIMAL_DIGITS => n_mantissas(&distinct) >= MIN_DISTINCT && !is_exact(&distinct, digits),

@@ -10,7 +10,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::decimal::Decimal;
+use super::decimal::{Decimal, Sampled};
 use super::written::{MAX_DECIMAL_DIGITS, MIN_DISTINCT};
 
 /// Digits that a single precision number carries.
@@ -32,11 +32,11 @@ pub(super) struct Single {
 }
 
 /// Whether values, which need at most `digits` digits but for a few, are single precision numbers.
-pub(super) fn single_precision(sample: &[f64], digits: u32) -> Option<Single> {
-    if digits <= SINGLE_DIGITS && !sample.iter().any(|value| Decimal::of(*value).n_digits > SINGLE_DIGITS) {
+pub(super) fn single_precision(sample: &[Sampled], digits: u32) -> Option<Single> {
+    if digits <= SINGLE_DIGITS && !sample.iter().any(|sampled| sampled.decimal.n_digits > SINGLE_DIGITS) {
         return None;
     }
-    if sample.iter().all(|value| is_single(*value)) {
+    if sample.iter().all(|sampled| is_single(sampled.value)) {
         return believed_as_doubles(sample, digits).then_some(Single { decimals: None });
     }
     let is_unlikely = |n_least: usize, least_step: f64| {
@@ -44,24 +44,24 @@ pub(super) fn single_precision(sample: &[f64], digits: u32) -> Option<Single> {
         chances.len() >= n_least && chances.iter().product::<f64>() <= CHANCE
     };
     let in_fixed_point = in_fixed_point(sample).filter(|(_, step)| is_unlikely(MIN_DISTINCT, *step)).map(|(of, _)| of);
-    let is_printed = || is_unlikely(1, 0.0) && sample.iter().all(|value| is_printed(*value, digits));
+    let is_printed = || is_unlikely(1, 0.0) && sample.iter().all(|sampled| is_printed(*sampled, digits));
     in_fixed_point.or_else(|| is_printed().then_some(Single { decimals: None }))
 }
 
 /// What numbers are if they are single precision ones in fixed point, as all of them may be. Decimals count where they take more from the
 /// smallest number than single precision does. With them goes the step of the last one.
-fn in_fixed_point(sample: &[f64]) -> Option<(Single, f64)> {
-    let short = sample.iter().map(|value| Decimal::of(*value)).filter(|decimal| decimal.n_digits <= MAX_DECIMAL_DIGITS);
+fn in_fixed_point(sample: &[Sampled]) -> Option<(Single, f64)> {
+    let short = sample.iter().map(|sampled| sampled.decimal).filter(|decimal| decimal.n_digits <= MAX_DECIMAL_DIGITS);
     let decimals = short.map(Decimal::n_decimals).max()?;
     let last = 10f64.powi(-decimals);
-    let is_fixed = |value: &f64| {
+    let is_fixed = |value: f64| {
         let rounding = f64::EPSILON * value.abs();
         let on_grid = (value / last).round() * last;
-        (value - on_grid).abs() <= 2.0 * rounding && (value - f64::from(*value as f32)).abs() <= HALF * last + rounding
+        (value - on_grid).abs() <= 2.0 * rounding && (value - f64::from(value as f32)).abs() <= HALF * last + rounding
     };
-    let least = sample.iter().fold(f64::INFINITY, |least, value| least.min(value.abs()));
+    let least = sample.iter().fold(f64::INFINITY, |least, sampled| least.min(sampled.value.abs()));
     let found = Single { decimals: (gap(least as f32) < last).then_some(decimals) };
-    sample.iter().all(is_fixed).then_some((found, last))
+    sample.iter().all(|sampled| is_fixed(sampled.value)).then_some((found, last))
 }
 
 fn is_single(value: f64) -> bool {
@@ -69,12 +69,12 @@ fn is_single(value: f64) -> bool {
 }
 
 /// Whether a number is a decimal form of a single precision number: the shortest, or one of `digits`.
-fn is_printed(value: f64, digits: u32) -> bool {
+fn is_printed(Sampled { value, decimal }: Sampled, digits: u32) -> bool {
     let single = value as f32;
     let n_decimals = digits.min(MAX_DIGITS) as usize - 1;
     let is_shortest = || {
         // Programs break ties between two forms of one length either way.
-        let (shortest, decimal) = (Decimal::of_text(&format!("{:e}", single.abs())), Decimal::of(value));
+        let shortest = Decimal::of_text(&format!("{:e}", single.abs()));
         shortest.n_digits == decimal.n_digits && (value - f64::from(single)).abs() <= HALF * step(decimal)
     };
     let is_of_text = || format!("{:.n_decimals$e}", f64::from(single)).parse() == Ok(value);
@@ -98,14 +98,15 @@ fn uses_all_bits(fraction: u32) -> bool {
 
 /// Whether there are enough different numbers that single precision holds by no chance. One double in 2²⁹ is such a number, and one number
 /// of 10¹⁰ with ten digits in a thousand.
-fn believed_as_doubles(sample: &[f64], digits: u32) -> bool {
-    let largest = sample.iter().fold(0.0f64, |largest, value| largest.max(value.abs()));
-    let whole = sample.iter().filter(|value| value.abs() > RESIDUE * largest);
-    let fractions: BTreeSet<u32> = whole.map(|value| fraction(*value)).collect();
+fn believed_as_doubles(sample: &[Sampled], digits: u32) -> bool {
+    let values = || sample.iter().map(|sampled| sampled.value);
+    let largest = values().fold(0.0f64, |largest, value| largest.max(value.abs()));
+    let whole = values().filter(|value| value.abs() > RESIDUE * largest);
+    let fractions: BTreeSet<u32> = whole.map(fraction).collect();
     let n_long = fractions.iter().filter(|fraction| uses_all_bits(**fraction)).count();
     let least = if digits <= MAX_DECIMAL_DIGITS { MIN_DISTINCT } else { 1 };
     // What cancels in the sums of a regular mesh leaves numbers of few bits, too.
-    digits > SINGLE_DIGITS && n_long >= least.max(fractions.len() / 4) && !sample.iter().all(|value| is_short(*value))
+    digits > SINGLE_DIGITS && n_long >= least.max(fractions.len() / 4) && !values().all(is_short)
 }
 
 /// The distance of a number to the next one of as many digits.
@@ -120,10 +121,10 @@ fn gap(single: f32) -> f64 {
 
 /// The chances of the different numbers that tell something to be forms of single precision numbers without having been such, where forms
 /// are no closer to each other than a step.
-fn chances(sample: &[f64], least_step: f64) -> Vec<f64> {
+fn chances(sample: &[Sampled], least_step: f64) -> Vec<f64> {
     let mut chances: BTreeMap<u32, f64> = BTreeMap::new();
-    for value in sample.iter().map(|value| value.abs()) {
-        let (single, decimal) = (value as f32, Decimal::of(value));
+    for (value, decimal) in sample.iter().map(|sampled| (sampled.value.abs(), sampled.decimal)) {
+        let single = value as f32;
         let tells = decimal.n_digits > SINGLE_DIGITS && uses_all_bits(fraction(value)) && !is_short(value);
         if tells && single.is_normal() {
             let of_fraction = chances.entry(fraction(value)).or_insert(1.0);

@@ -68,7 +68,7 @@ fn held(results: &Results<'_>) -> Option<HeldReport> {
     (held.count() > 0).then(|| HeldReport { n_dofs: held.count(), selections: held.selections.clone() })
 }
 
-/// Those of one body; of a component that the job holds, those that it has without what holds it.
+/// The mass properties of one body; of a component that the job holds, those that it has while it is free.
 fn mass_properties(results: &Results<'_>) -> MassProperties {
     let evidence = &results.evidence;
     if evidence.partition.held.count() > 0 {

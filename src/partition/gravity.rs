@@ -21,7 +21,7 @@ pub struct Gravity {
     pub mass: f64,
 }
 
-/// Those of a model; none without a dof map, which tells directions.
+/// The loads of gravity on a model; none without a dof map, which tells directions.
 pub(super) fn gravity(model: &Model, transformation: &Transformation) -> Option<Gravity> {
     let dofs = model.dofs.as_ref()?;
     let unit = Mat::from_fn(dofs.len(), 3, |row, axis| f64::from(u8::from(dofs[row].direction as usize == axis)));

@@ -85,7 +85,7 @@ impl Partition {
     /// The partition of a model of which some dofs are at rest: what [`Self::new`] makes of one without their rows.
     ///
     /// # Errors
-    /// Those of [`Self::new`]; an interface that moves a held dof.
+    /// What [`Self::new`] refuses; an interface that moves a held dof.
     ///
     /// # Panics
     /// As [`Self::new`].

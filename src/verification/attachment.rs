@@ -1,14 +1,15 @@
 //! Rubin's residual attachment modes [I; Ψ_R] are what the interface's forces and the inertia they set free make of the component,
 //! without rigid-body motion: M-22.
 
-use faer::{Mat, MatRef};
+use faer::MatRef;
 
 use super::check::{Check, Limits};
 use super::evidence::Evidence;
 use super::residual::{Residuals, Rows, Worst};
-use super::solves::{Statics, statics};
+use super::solves::{Statics, column_is, statics};
 use crate::dense::{self, NOISE_FACTOR};
 use crate::error::Result;
+use crate::reduction::panel_of;
 use crate::rubin::Rubin;
 use crate::sparse::{panels, product};
 
@@ -30,8 +31,7 @@ fn orthogonality(evidence: &Evidence<'_>, rubin: &Rubin) -> Check {
     let (mut worst, mut lost) = ((0.0, 0), 1.0f64);
     for columns in panels(n_b) {
         let reduced = rubin.columns.as_ref().subcols(columns.start, columns.len());
-        let [whole, statics] =
-            [reduced.to_owned(), only(reduced, 0..n_b)].map(|reduced| evidence.basis.expanded(reduced.as_ref()));
+        let (whole, statics) = (evidence.basis.expanded(reduced), panel_of(evidence.basis, columns.clone()));
         let left = dense::gram(evidence.rigid.mass_orthonormal.as_ref(), whole.as_ref());
         let relief = &whole - &statics;
         let [whole, statics, relief] = [&whole, &statics, &relief].map(|motions| lengths(evidence, motions.as_ref()));
@@ -74,13 +74,8 @@ fn equilibrium(evidence: &Evidence<'_>, rubin: &Rubin) -> Result<Check> {
         terms += dense::absolute(loads.as_ref());
         residual.as_mut().subrows_mut(partition.n_internal, partition.n_interface()).fill(0.0);
         let force = dense::product(forces.as_ref(), dense::product(lift, mixture).as_ref());
-        for (j, column) in columns.enumerate() {
-            let [x, residual, terms, force] = [&panel, &residual, &terms, &force].map(|a| dense::column(a.as_ref(), j));
-            let (error, at) = rows.componentwise(0.0, x, residual, terms);
-            worst.take(error, column, at);
-            let (error, at) = rows.componentwise(0.0, x, force, terms);
-            explained.take(error, column, at);
-        }
+        worst.take_columns(&rows, columns.clone(), [panel.as_ref(), residual.as_ref(), terms.as_ref()]);
+        explained.take_columns(&rows, columns, [panel.as_ref(), force.as_ref(), terms.as_ref()]);
     }
     let limits = Limits { engineering: 1e-12, arithmetic: 0.0, data: explained.value }.capped(0.0, 1e-2);
     Ok(Check {
@@ -90,13 +85,8 @@ fn equilibrium(evidence: &Evidence<'_>, rubin: &Rubin) -> Result<Check> {
         value: worst.value,
         limits,
         fail_above: limits.value().max(FAIL),
-        worst: worst.name(evidence, "attachment mode"),
+        worst: worst.name(evidence, column_is(rubin.n_interface(), "attachment mode")),
     })
-}
-
-/// The rows of a range, zeros in all others.
-fn only(a: MatRef<'_, f64>, rows: std::ops::Range<usize>) -> Mat<f64> {
-    Mat::from_fn(a.nrows(), a.ncols(), |i, j| if rows.contains(&i) { a[(i, j)] } else { 0.0 })
 }
 
 /// √(xᵀMx) of each column.

@@ -6,6 +6,8 @@
 //! ```
 //! Arioli, Demmel and Duff (1989) tell the two kinds of rows apart by the size of their terms.
 
+use std::ops::Range;
+
 use faer::{Mat, MatRef};
 
 use super::evidence::Evidence;
@@ -96,6 +98,20 @@ impl Worst {
     pub(super) fn take(&mut self, value: f64, column: usize, row: usize) {
         if dense::worse(value, self.value) {
             *self = Self { value, at: Some((column, row)) };
+        }
+    }
+
+    /// The errors of some columns: motions, their residuals and the terms of these, n × k each.
+    pub(super) fn take_columns(
+        &mut self,
+        rows: &Rows<'_>,
+        columns: Range<usize>,
+        [motions, residuals, terms]: [MatRef<'_, f64>; 3],
+    ) {
+        for (j, column) in columns.enumerate() {
+            let [x, residual, terms] = [motions, residuals, terms].map(|a| dense::column(a, j));
+            let (error, at) = rows.componentwise(0.0, x, residual, terms);
+            self.take(error, column, at);
         }
     }
 

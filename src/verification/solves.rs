@@ -30,27 +30,16 @@ pub(super) fn static_solves(evidence: &Evidence<'_>) -> Result<Check> {
     let rows = Rows::of(partition.pencil());
     let n_b = partition.n_interface();
     let Statics { combinations, forces, lift } = statics(evidence, &rows)?;
-    let column_is = if n_b <= MAX_SINGLE_COLUMNS { "constraint mode" } else { "random combination" };
     let (mut worst, mut explained) = (Worst::none(), Worst::none());
     for columns in panels(combinations.ncols()) {
         let panel = constraint_panel(evidence, combinations.as_ref().get(.., columns.clone()));
         let Residuals { mut residual, terms, .. } = rows.residuals(panel.as_ref(), &vec![0.0; columns.len()]);
         // The rows of the interface carry its reactions.
         residual.as_mut().subrows_mut(partition.n_internal, n_b).fill(0.0);
-        for (j, column) in columns.clone().enumerate() {
-            let x = dense::column(panel.as_ref(), j);
-            let (error, at) =
-                rows.componentwise(0.0, x, dense::column(residual.as_ref(), j), dense::column(terms.as_ref(), j));
-            worst.take(error, column, at);
-        }
+        worst.take_columns(&rows, columns.clone(), [panel.as_ref(), residual.as_ref(), terms.as_ref()]);
         let moved = dense::product(lift, combinations.as_ref().get(.., columns.clone()));
         let force = dense::product(forces.as_ref(), moved.as_ref());
-        for (j, column) in columns.enumerate() {
-            let x = dense::column(panel.as_ref(), j);
-            let (error, at) =
-                rows.componentwise(0.0, x, dense::column(force.as_ref(), j), dense::column(terms.as_ref(), j));
-            explained.take(error, column, at);
-        }
+        explained.take_columns(&rows, columns, [panel.as_ref(), force.as_ref(), terms.as_ref()]);
     }
     let limits = Limits { engineering: 1e-12, arithmetic: 0.0, data: explained.value }.capped(0.0, 1e-2);
     Ok(Check {
@@ -60,7 +49,7 @@ pub(super) fn static_solves(evidence: &Evidence<'_>) -> Result<Check> {
         value: worst.value,
         limits,
         fail_above: limits.value().max(FAIL),
-        worst: worst.name(evidence, column_is),
+        worst: worst.name(evidence, column_is(n_b, "constraint mode")),
     })
 }
 
@@ -72,6 +61,11 @@ pub(super) struct Statics<'a> {
     pub(super) forces: Mat<f64>,
     /// U_B⁺, n_r × n_B.
     pub(super) lift: MatRef<'a, f64>,
+}
+
+/// What a column of the combinations is called: `single` where each dof is looked at.
+pub(super) fn column_is(n_b: usize, single: &'static str) -> &'static str {
+    if n_b <= MAX_SINGLE_COLUMNS { single } else { "random combination" }
 }
 
 /// The motions of the interface whose static solutions are looked at.

@@ -17,7 +17,7 @@ use faer::{Mat, MatRef};
 use super::columns::Named;
 use super::projection::Projected;
 use super::scaled::Scaled;
-use crate::audit::named_modes::{WithInverse, terms_of_unmixing, unmixing};
+use crate::audit::named_modes::{WithInverse, terms_of_unmixing};
 use crate::dense::{self, NOISE_FACTOR};
 
 /// Weight of recovered rows relative to those of the mass: in single precision they have seven digits, which may decide on what
@@ -49,7 +49,7 @@ pub(super) struct Combination {
 pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedom<'_>) -> Option<Combination> {
     let (p, n_named, n_eta) = (projected.n_probes(), projected.named.len(), freedom.kept.len());
     let seen = seen(file, projected, freedom.mixing);
-    let inverse = freedom.mixing.map(unmixing);
+    let inverse = freedom.mixing.map(dense::inverse);
     let mixing = freedom.mixing.zip(inverse.as_ref().map(Mat::as_ref));
     let noise = noise(projected, freedom.kept, (seen[1].as_ref(), mixing));
     let (mut turned, mut open) = (Mat::zeros(n_named, n_eta), Mat::zeros(n_named, n_eta));
