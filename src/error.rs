@@ -2046,12 +2046,10 @@ pub enum Error {
     },
     /// A flag of `supel modes` names a component, an interface or a dof that is not there.
     #[entry("E-ASSEMBLY-NAME", Usage, "name one of those that the message lists, as COMPONENT.INTERFACE")]
-    #[error("{flag} {text} – {what} – expected one of {}{}", listed(known), Offered(suggestion))]
+    #[error("{typed} – {what} – expected one of {}{}", listed(known), Offered(suggestion))]
     AssemblyName {
-        /// The flag.
-        flag: &'static str,
-        /// What was typed.
-        text: String,
+        /// The flag and what was typed after it.
+        typed: String,
         /// What is not there.
         what: String,
         /// What is.
@@ -2196,6 +2194,18 @@ pub enum Error {
         /// Stiffness or mass.
         matrix: &'static str,
         /// The eigenvalue, relative to the largest.
+        value: f64,
+    },
+    /// The rigid-body modes of a component strain it.
+    #[entry("E-ASSEMBLY-RIGID", InputData, "check the file with `supel verify`")]
+    #[error(
+        "the rigid-body modes of {name} strain it – found an energy of {value:.1e} of that of the first mode – expected none \
+        beyond rounding – check the file with supel verify"
+    )]
+    AssemblyRigid {
+        /// The component.
+        name: String,
+        /// The largest energy relative to that of the first mode, both at unit modal mass.
         value: f64,
     },
     /// The matrices of an assembly do not fit into the memory.

@@ -10,6 +10,9 @@ use crate::error::{Error, Result};
 /// Size of a negative eigenvalue of the mass with unit diagonal that is taken for zero: rotations without inertia leave some.
 const SINGULAR_MASS: f64 = 1e-10;
 
+/// Energy of a rigid-body motion relative to that of the first mode that no rounding leaves: Û is not that of the matrices then.
+const LARGEST_RIGID_ENERGY: f64 = 0.1;
+
 /// A superelement with its name and its matrices.
 #[derive(Clone, Debug)]
 pub struct Component {
@@ -33,8 +36,11 @@ impl Component {
     /// A component of an assembly; `name` is what selections call it.
     ///
     /// # Errors
-    /// [`Error::AssemblyIndefinite`] where the mass has a negative eigenvalue; [`Error::DenseEigen`].
+    /// [`Error::AssemblyIndefinite`] where the mass has a negative eigenvalue, [`Error::AssemblyRigid`] where the rigid-body modes strain it;
+    /// [`Error::DenseEigen`].
     pub fn new(name: String, superelement: Superelement) -> Result<Self> {
+        // Small matrices are decomposed by one thread, so that the order of sums never depends on how many there are.
+        faer::set_global_parallelism(faer::Par::Seq);
         let tensors = superelement.tensors();
         let (stiffness, mass) = (unpacked(&tensors.stiffness), unpacked(&tensors.mass));
         let rigid = unpacked(&tensors.rigid_body_modes);
@@ -43,6 +49,10 @@ impl Component {
             return Err(Error::AssemblyIndefinite { what: format!("component {name}"), matrix: "mass", value: least });
         }
         let rounding = rounding_of(stiffness.as_ref(), mass.as_ref(), rigid.as_ref())?;
+        let unit = energy_unit(&superelement);
+        if rounding > LARGEST_RIGID_ENERGY * unit {
+            return Err(Error::AssemblyRigid { name, value: rounding / unit });
+        }
         let omitted = omitted(&superelement, stiffness.as_ref(), mass.as_ref(), rigid.as_ref())?;
         Ok(Self { name, superelement, omitted, stiffness, mass, rigid, rounding })
     }
@@ -101,4 +111,14 @@ fn rounding_of(stiffness: MatRef<'_, f64>, mass: MatRef<'_, f64>, rigid: MatRef<
     let motions = orthonormal(rigid, mass)?;
     let energies = dense::dots(motions.as_ref(), dense::product(stiffness, motions.as_ref()).as_ref());
     Ok(energies.into_iter().fold(0.0, |most, energy| most.max(energy.abs())))
+}
+
+/// What energies are compared with: the eigenvalue of the first mode that the file states, or of the stiffest coordinate where it states
+/// none.
+fn energy_unit(superelement: &Superelement) -> f64 {
+    let tensors = superelement.tensors();
+    let stated = tensors.frequencies.iter().map(|omega| omega * omega).find(|lambda| *lambda > 0.0);
+    let ratio = |i: usize| (tensors.stiffness[(i, i)] / tensors.mass[(i, i)]).abs();
+    let ratios = (0..tensors.mass.rows()).map(ratio).filter(|ratio| ratio.is_finite());
+    stated.unwrap_or_else(|| ratios.fold(0.0, f64::max))
 }

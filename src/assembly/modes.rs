@@ -102,7 +102,7 @@ impl Assembly {
             Wanted::UpTo(hz) => n_rigid + spectrum.lambda.partition_point(|lambda| hertz(*lambda) <= hz),
         };
         let band_hz = omitted.iter().flatten().map(|omitted| omitted.hz).reduce(f64::min);
-        let rigid = (1..=n_rigid).map(|number| AssemblyMode::rigid(number, lower.is_some()));
+        let rigid = (1..=n_rigid).map(|number| AssemblyMode::rigid(number, lower.as_ref().map(|_| 0.0)));
         let elastic = (0..spectrum.lambda.len()).map(|j| {
             let found = Found { assembled: &assembled, spectrum: &spectrum, j };
             self.mode(&found, lower.as_deref(), band_hz, n_rigid)
@@ -173,13 +173,13 @@ impl Assembly {
 }
 
 impl AssemblyMode {
-    fn rigid(number: usize, is_bounded: bool) -> Self {
+    fn rigid(number: usize, at_least_hz: Option<f64>) -> Self {
         Self {
             number,
             kind: Kind::RigidBody,
             frequency_hz: 0.0,
             rounding_hz: 0.0,
-            at_least_hz: is_bounded.then_some(0.0),
+            at_least_hz,
             is_beyond_band: false,
             energy_shares: None,
             limited_by: None,

@@ -96,7 +96,7 @@ impl Selector<'_> {
 
     fn unknown(&self, text: &str, what: String, known: Vec<String>, name: &str) -> Error {
         let suggestion = nearest(name, &known.iter().map(String::as_str).collect::<Vec<_>>());
-        Error::AssemblyName { flag: self.flag, text: text.to_owned(), what, known, suggestion }
+        Error::AssemblyName { typed: format!("{} {text}", self.flag), what, known, suggestion }
     }
 }
 

@@ -13,8 +13,6 @@ use crate::regular_file;
 use crate::report::ModesReport;
 
 pub(super) fn run(command: &ModesCommand, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
-    // Small matrices are decomposed by one thread, so that the order of sums never depends on how many there are.
-    faer::set_global_parallelism(faer::Par::Seq);
     let mut read = Vec::new();
     let mut digests = Vec::new();
     for (name, path) in &command.components {

@@ -195,10 +195,23 @@ impl ModesReport<'_> {
             None => format!("{above} No component leaves anything out, so that each is exact as well."),
             Some(band) => format!(
                 "{above} None is below the lower bound, by the modes that the components leave out; these begin at {} Hz, and \
-                frequencies above that are marked.",
-                number::quantity(band, 7)
+                frequencies above that are marked.{}",
+                number::quantity(band, 7),
+                self.least_certain()
             ),
         }
+    }
+
+    /// The mode inside the band whose bounds are farthest apart, and the component that could change that.
+    fn least_certain(&self) -> String {
+        let width = |mode: &AssemblyMode| mode.at_least_hz.map_or(0.0, |hz| 1.0 - hz / mode.frequency_hz);
+        let inside = self.modes.modes.iter().filter(|mode| mode.kind == Kind::Elastic && !mode.is_beyond_band);
+        let widest = inside.max_by(|a, b| width(a).total_cmp(&width(b)));
+        let Some((mode, component)) = widest.and_then(|mode| Some((mode, mode.limited_by?))) else {
+            return String::new();
+        };
+        let name = &self.assembly.components[component].name;
+        format!(" Inside the band mode {} is the least certain, by what {name} leaves out.", mode.number)
     }
 }
 

@@ -66,6 +66,8 @@ fn text_fits_the_page_and_says_what_the_figures_are() {
     ] {
         assert!(text.contains(words), "{words:?} is not in\n{text}");
     }
+    let in_one_line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(in_one_line.contains("is the least certain, by what "), "{text}");
     let guyan = modes(&halves("--method guyan"), &[]);
     assert!(guyan.contains("There are no lower bounds, as left, b do not say what they leave out."), "{guyan}");
     assert!(guyan.lines().all(|line| line.chars().count() <= 100), "{guyan}");

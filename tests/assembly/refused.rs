@@ -228,6 +228,20 @@ fn what_has_no_modes_is_refused() {
     assert_says(&error, &["largest at beam.all.ry"]);
 }
 
+/// Motions that are not those of the matrices: they would be given as rigid.
+#[test]
+fn rigid_body_modes_that_strain_the_component_are_refused() {
+    for component in [left(), reduced("left", &beams(&line()[..7]), "--interface ends=1,7 --method guyan")] {
+        let error = altered(&component, |tensors, _| {
+            let motions = tensors.rigid_body_modes.clone();
+            let torn = |i: usize, j: usize| if i < 6 { -motions[(i, j)] } else { motions[(i, j)] };
+            tensors.rigid_body_modes = Matrix::from_fn(motions.rows(), motions.cols(), torn);
+        });
+        let error = error.expect_err("one end goes against the other");
+        assert!(matches!(error, Error::AssemblyRigid { .. }), "{error}");
+    }
+}
+
 #[test]
 fn assemblies_that_do_not_fit_into_the_memory_are_refused() {
     let available = |bytes| Resources { memory_bytes: Some(bytes) };
