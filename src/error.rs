@@ -17,7 +17,9 @@ use serde::Serialize;
 use supel_runtime::FileError;
 
 use code::catalogued;
-use words::{At, BY_ROWS, FEW_DIGITS, STATE_DIGITS, STATE_EXACT, Suggested, forecast, groups, listed, not_text, place};
+use words::{
+    At, BY_ROWS, FEW_DIGITS, Offered, STATE_DIGITS, STATE_EXACT, Suggested, forecast, groups, listed, not_text, place,
+};
 
 use crate::number::{bytes, count, counted, quantity, typed};
 
@@ -2034,6 +2036,192 @@ pub enum Error {
         status: i32,
         /// Pairs that had converged.
         converged: usize,
+    },
+    /// Two components of an assembly have one name.
+    #[entry("E-COMPONENT-NAME", Usage, "give one a name of its own: `NAME=FILE`")]
+    #[error("two components are called `{name}` – expected each name once – write one of them as NAME=FILE")]
+    ComponentTwice {
+        /// The name.
+        name: String,
+    },
+    /// A flag of `supel modes` names a component, an interface or a dof that is not there.
+    #[entry("E-ASSEMBLY-NAME", Usage, "name one of those that the message lists, as COMPONENT.INTERFACE")]
+    #[error("{typed} – {what} – expected one of {}{}", listed(known), Offered(suggestion))]
+    AssemblyName {
+        /// The flag and what was typed after it.
+        typed: String,
+        /// What is not there.
+        what: String,
+        /// What is.
+        known: Vec<String>,
+        /// The known name that looks most like it.
+        suggestion: Option<String>,
+    },
+    /// Components that are joined have different labels of units.
+    #[entry(
+        "E-JOIN-UNITS",
+        ModelPhysics,
+        "reduce both in one system of units, or give both jobs the same `model.units`"
+    )]
+    #[error(
+        "{a} and {b} cannot be joined – found units {} and {} – expected one system – reduce both in the same units, or \
+        correct model.units of the jobs",
+        units[0], units[1]
+    )]
+    JoinUnits {
+        /// The first component.
+        a: String,
+        /// The second.
+        b: String,
+        /// Their labels.
+        units: [String; 2],
+    },
+    /// Nodes that are joined are not at one place.
+    #[entry(
+        "E-JOIN-POSITION",
+        ModelPhysics,
+        "join the right nodes, or reduce both components in one frame and one unit of length"
+    )]
+    #[error(
+        "{a} and {b} cannot be joined – found a distance of {} between the nodes – expected at most {} – join the right \
+        nodes, or reduce both components in one frame and one unit of length",
+        quantity(*distance, 4), quantity(*tolerance, 2)
+    )]
+    JoinPosition {
+        /// The first node.
+        a: String,
+        /// The second.
+        b: String,
+        /// How far they are from each other.
+        distance: f64,
+        /// How far they may be: a millionth of the smaller component.
+        tolerance: f64,
+    },
+    /// A node of an interface has no partner at its place in the interface that it is joined with.
+    #[entry(
+        "E-JOIN-NODES",
+        ModelPhysics,
+        "join interfaces whose nodes coincide; between different meshes give each a rigid interface"
+    )]
+    #[error(
+        "{a} and {b} cannot be joined – found no partner for {node} – expected a node of each at every place – reduce with \
+        nodes that coincide, or give each a rigid interface"
+    )]
+    JoinNodes {
+        /// The first interface and how many nodes it has.
+        a: String,
+        /// The second.
+        b: String,
+        /// The node without a partner.
+        node: String,
+    },
+    /// Nodes that are joined have different axes.
+    #[entry("E-JOIN-FRAME", ModelPhysics, "reduce both components in one frame")]
+    #[error(
+        "{a} and {b} cannot be joined – found their axes turned by {} degrees against each other – expected the same \
+        axes – reduce both components in one frame",
+        quantity(*degrees, 4)
+    )]
+    JoinFrame {
+        /// The first node.
+        a: String,
+        /// The second.
+        b: String,
+        /// The angle.
+        degrees: f64,
+    },
+    /// Nodes that are joined have no direction in common.
+    #[entry("E-JOIN-DOFS", ModelPhysics, "join nodes of the same kind: nodes with nodes, rows with rows")]
+    #[error(
+        "{a} and {b} cannot be joined – found dofs `{}` and `{}` – expected a direction that both have – join nodes with \
+        nodes and rows with rows",
+        dofs[0], dofs[1]
+    )]
+    JoinDofs {
+        /// The first node.
+        a: String,
+        /// The second.
+        b: String,
+        /// Their directions; none for rows.
+        dofs: [String; 2],
+    },
+    /// Two nodes are joined that are one already.
+    #[entry("E-JOIN-TWICE", Usage, "name each pair once")]
+    #[error("{a} and {b} are joined already – found one node of the assembly – expected two – name each pair once")]
+    JoinedTwice {
+        /// The first.
+        a: String,
+        /// The second.
+        b: String,
+    },
+    /// A mass is put on a node that has no dof to carry it.
+    #[entry("E-POINT-MASS", ModelPhysics, "put it on a node with these dofs, as those of rigid interfaces have")]
+    #[error(
+        "{place} cannot carry the mass – found dofs `{dofs}` – expected {lacking} among them – put the mass on a node \
+        with six dofs, as rigid interfaces have"
+    )]
+    PointMassDofs {
+        /// The node.
+        place: String,
+        /// The direction that is not there.
+        lacking: String,
+        /// Those that are.
+        dofs: String,
+    },
+    /// Every coordinate of an assembly is held.
+    #[entry("E-ASSEMBLY-HELD", ModelPhysics, "hold less")]
+    #[error("nothing of the assembly moves – found every coordinate held – expected one that is free – hold less")]
+    AssemblyHeld,
+    /// A motion of an assembly has neither stiffness nor mass.
+    #[entry("E-ASSEMBLY-SINGULAR", ModelPhysics, "hold it, or give it stiffness or mass")]
+    #[error(
+        "a motion of the assembly has neither stiffness nor mass – largest at {at} – expected one of them – hold it, or \
+        give it stiffness or mass"
+    )]
+    AssemblySingular {
+        /// The coordinate.
+        at: String,
+    },
+    /// A component has negative mass, or an assembly negative stiffness.
+    #[entry("E-ASSEMBLY-INDEFINITE", InputData, "check the files with `supel verify`")]
+    #[error(
+        "{what} has a negative {matrix} – found {value:.1e} of its largest – expected zero or more – check the files with supel \
+        verify"
+    )]
+    AssemblyIndefinite {
+        /// The component, or the assembly.
+        what: String,
+        /// Stiffness or mass.
+        matrix: &'static str,
+        /// The eigenvalue, relative to the largest.
+        value: f64,
+    },
+    /// The rigid-body modes of a component strain it.
+    #[entry("E-ASSEMBLY-RIGID", InputData, "check the file with `supel verify`")]
+    #[error(
+        "the rigid-body modes of {name} strain it – found an energy of {value:.1e} of that of the first mode – expected none \
+        beyond rounding – check the file with supel verify"
+    )]
+    AssemblyRigid {
+        /// The component.
+        name: String,
+        /// The largest energy relative to that of the first mode, both at unit modal mass.
+        value: f64,
+    },
+    /// The matrices of an assembly do not fit into the memory.
+    #[entry("E-MEM-MODES", Resources, "free memory, or reduce the components with fewer interface dofs and modes")]
+    #[error(
+        "the modes of {} need {} – {} of memory is available – free memory, or reduce the components with fewer interface \
+        dofs and modes",
+        counted(*n, "coordinate", "coordinates"), bytes(*needed), bytes(*available)
+    )]
+    MemoryAssembly {
+        /// Coordinates of all components.
+        n: usize,
+        /// Bytes needed.
+        needed: u64,
+        /// Bytes available.
+        available: u64,
     },
     /// A file is not a superelement, or cannot be made one.
     #[entry("E-SUPERELEMENT", InputData, "the message says what is wrong with it; write it again with `supel reduce`")]

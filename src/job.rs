@@ -31,6 +31,7 @@ pub use recovery::RecoveryJob;
 pub use scene::{DampingJob, SceneJob, Support};
 pub use schema::{Role, schema};
 pub use selection::Selection;
+pub(crate) use shape::nearest;
 pub use types::{
     Certify, Duplicates, Expectation, Job, ModeSelection, ModelJob, Precision, ReductionJob, RunJob, WriteJob,
 };

@@ -78,7 +78,7 @@
 //! number · dofs · error · heap · foreign_exit · regular_file · linked · random · dense · sparse
 //! factor · eigen
 //! job · input · model · partition · rigid · coordinates · constraint · modes · basis · reduction · rubin
-//! memory_forecast · verification · audit
+//! memory_forecast · verification · audit · assembly
 //! report · output · outcome · cli
 //! ```
 //!
@@ -95,6 +95,7 @@
 //! 6. Verification never changes a result. It measures, names the equation and compares with a limit.
 //! 7. The same input gives the same bytes, whatever the number of threads (held by `tests/end_to_end/same_bytes.rs`).
 
+pub mod assembly;
 pub mod audit;
 pub mod basis;
 pub mod cli;

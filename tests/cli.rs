@@ -381,6 +381,7 @@ fn help_is_an_answer() {
     };
     insta::assert_snapshot!("help_reduce", help_of("reduce"));
     insta::assert_snapshot!("help_verify", help_of("verify"));
+    insta::assert_snapshot!("help_modes", help_of("modes"));
 }
 
 #[test]

@@ -35,6 +35,7 @@ use notes::Compared;
 
 pub use model::Reference;
 pub use notes::Unvouched;
+pub(crate) use pencil::eigenpairs;
 pub use record::rewritten;
 pub use reproduction::reproduced;
 pub use version::{is_of_this_version, kept_job};

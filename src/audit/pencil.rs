@@ -6,16 +6,16 @@ use crate::dense;
 use crate::error::Result;
 
 /// Eigenpairs of a dense pencil: as many values as M has rank.
-pub(super) struct Eigenpairs {
+pub(crate) struct Eigenpairs {
     /// λ ascending; empty where K + αM is not definite.
-    pub(super) values: Vec<f64>,
+    pub(crate) values: Vec<f64>,
     /// M-orthonormal, r × number of values.
-    pub(super) vectors: Mat<f64>,
+    pub(crate) vectors: Mat<f64>,
 }
 
 /// Eigenpairs of K x = λ M x by the definite matrix K + αM: of M x = θ (K + αM) x, λ = 1/θ − α. With α near the first
 /// elastic eigenvalue rounding is relative to the low eigenvalues.
-pub(super) fn eigenpairs(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Result<Eigenpairs> {
+pub(crate) fn eigenpairs(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Result<Eigenpairs> {
     let n = k.nrows();
     let shifted = Mat::from_fn(n, n, |i, j| k[(i, j)] + alpha * m[(i, j)]);
     let d: Vec<f64> = (0..n).map(|i| dense::power_of_two_root(shifted[(i, i)])).collect();

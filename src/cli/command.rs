@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::flags::{
     CommandLine, InspectFlags, ModelFlags, OutputFlags, ReduceFlags, ReductionFlags, Typed, VerifyFlags,
 };
+use super::modes_command::ModesCommand;
 use super::process;
 use crate::dofs::Direction;
 use crate::error::{Error, Result};
@@ -19,6 +20,7 @@ pub(super) enum Command {
     Reduce(Box<ReduceCommand>),
     Verify(Box<VerifyCommand>),
     Inspect(InspectCommand),
+    Modes(ModesCommand),
     /// What a child process does for its parent, see [`super::rehearsal`].
     RehearseReading,
 }
@@ -127,6 +129,7 @@ impl Command {
                 };
                 Ok(Self::Inspect(InspectCommand { file, answer }))
             }
+            Typed::Modes(flags) => ModesCommand::build(flags).map(Self::Modes),
             Typed::RehearseReading => Ok(Self::RehearseReading),
         }
     }

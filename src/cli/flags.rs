@@ -26,6 +26,9 @@ pub(super) enum Typed {
     Verify(VerifyFlags),
     /// Show what is in a superelement file
     Inspect(InspectFlags),
+    /// Find the modes of superelements that are joined, held and loaded at their interfaces
+    #[command(after_help = EXIT_CODES)]
+    Modes(ModesFlags),
     /// Read a model described on stdin and discard it
     #[command(hide = true, name = super::rehearsal::SUBCOMMAND)]
     RehearseReading,
@@ -164,6 +167,34 @@ pub(super) struct InspectFlags {
     /// Print the job that made the file, as JSON that `supel reduce` accepts in any folder: its paths are absolute
     #[arg(long)]
     pub(super) job: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("how many modes").args(["count", "up_to_hz"]))]
+pub(super) struct ModesFlags {
+    /// Superelement files; a component has the name of its file without .supel, or NAME
+    #[arg(required = true, value_name = "[NAME=]FILE")]
+    pub(super) files: Vec<String>,
+    /// Join interfaces node by node: a.hub=b.pin, or a.hub.17=b.pin.4 for two of several nodes, a.rows:0,1=b.rows:8,9
+    /// without nodes (repeatable)
+    #[arg(long, value_name = "A=B")]
+    pub(super) join: Vec<String>,
+    /// Hold an interface: b.foot, or b.foot.ux for one direction (repeatable)
+    #[arg(long, value_name = "PLACE")]
+    pub(super) fix: Vec<String>,
+    /// Add a mass, shared by the nodes of an interface: a.tip=2.5, with moments of inertia a.tip=2.5,0.1,0.1,0.2
+    /// (repeatable)
+    #[arg(long, value_name = "PLACE=MASS")]
+    pub(super) mass: Vec<String>,
+    /// Show this many modes [default: 20]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) count: Option<u32>,
+    /// Show the modes up to this frequency
+    #[arg(long, value_name = "F", allow_negative_numbers = true)]
+    pub(super) up_to_hz: Option<f64>,
+    /// Print the modes as JSON
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 #[derive(Debug, Args)]

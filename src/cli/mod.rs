@@ -16,6 +16,8 @@ mod exit_code;
 mod flags;
 mod inspect;
 mod memory;
+mod modes;
+mod modes_command;
 mod outputs;
 mod overwriting;
 mod pipeline;
@@ -90,6 +92,7 @@ fn execute(flags: flags::CommandLine, pipeline: Pipeline, terminal: &mut Termina
         Command::Reduce(command) => reduce::run(&command, pipeline, terminal),
         Command::Verify(command) => verify::run(&command, pipeline, terminal),
         Command::Inspect(command) => inspect::run(&command, terminal),
+        Command::Modes(command) => modes::run(&command, terminal),
         Command::RehearseReading => rehearsal::read_from_stdin(),
     }
 }

@@ -41,6 +41,15 @@ impl fmt::Display for Suggested<'_> {
     }
 }
 
+/// A name that looks like the one that is not known.
+pub(super) struct Offered<'a>(pub(super) &'a Option<String>);
+
+impl fmt::Display for Offered<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.as_ref().map_or(Ok(()), |name| write!(f, " – did you mean `{name}`?"))
+    }
+}
+
 /// What was held while a matrix was factored; a component need not have an interface.
 pub(crate) fn held_words(boundary: &str) -> &'static str {
     if boundary == "held" { "the interface held" } else { "no interface held" }

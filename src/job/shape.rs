@@ -222,7 +222,8 @@ fn join(place: &str, key: &str) -> String {
     if place.is_empty() { key.to_owned() } else { format!("{place}.{key}") }
 }
 
-fn nearest(key: &str, known: &[&str]) -> Option<String> {
+/// The known name that looks most like another, where one does.
+pub(crate) fn nearest(key: &str, known: &[&str]) -> Option<String> {
     let key = key.to_lowercase();
     known
         .iter()

@@ -3,6 +3,7 @@
 //! The body depends on the job and its files alone: it is byte for byte the same for any number of threads, on any day
 //! and in any folder. Times, memory, threads and paths are facts of the run and are kept apart from it.
 
+mod assembly;
 mod conclusion;
 mod html;
 mod inspection;
@@ -33,6 +34,7 @@ use crate::rigid::RigidSource;
 use crate::verification::check::{Check, Verdict};
 use crate::verification::preservation::Preservation;
 
+pub use assembly::ModesReport;
 pub use html::{escaped, html};
 pub use inspection::inspection;
 pub use junit::{JunitWarnings, junit};

@@ -1,0 +1,124 @@
+//! A superelement of an assembly, under the name it has there.
+
+use faer::{Mat, MatRef};
+use supel_runtime::{Coordinate, Superelement};
+
+use super::omitted::{Omitted, omitted, orthonormal};
+use crate::dense::{self, unpacked};
+use crate::error::{Error, Result};
+
+/// Size of a negative eigenvalue of the mass with unit diagonal that is taken for zero: rotations without inertia leave some.
+const SINGULAR_MASS: f64 = 1e-10;
+
+/// Energy of a rigid-body motion relative to that of the first mode that no rounding leaves: Û is not that of the matrices then.
+const LARGEST_RIGID_ENERGY: f64 = 0.1;
+
+/// A superelement with its name and its matrices.
+#[derive(Clone, Debug)]
+pub struct Component {
+    /// Its name in the assembly.
+    pub name: String,
+    /// What was read.
+    pub superelement: Superelement,
+    /// What the reduction left out of its motions.
+    pub omitted: Omitted,
+    /// K̂, r × r.
+    pub(super) stiffness: Mat<f64>,
+    /// M̂, r × r.
+    pub(super) mass: Mat<f64>,
+    /// Û, r × n_r.
+    pub(super) rigid: Mat<f64>,
+    /// The eigenvalue that rounding of K̂ can make, as rigid-body motion shows it.
+    pub(super) rounding: f64,
+}
+
+impl Component {
+    /// A component of an assembly; `name` is what selections call it.
+    ///
+    /// # Errors
+    /// [`Error::AssemblyIndefinite`] where the mass has a negative eigenvalue, [`Error::AssemblyRigid`] where the rigid-body modes strain it;
+    /// [`Error::DenseEigen`].
+    pub fn new(name: String, superelement: Superelement) -> Result<Self> {
+        // Small matrices are decomposed by one thread, so that the order of sums never depends on how many there are.
+        faer::set_global_parallelism(faer::Par::Seq);
+        let tensors = superelement.tensors();
+        let (stiffness, mass) = (unpacked(&tensors.stiffness), unpacked(&tensors.mass));
+        let rigid = unpacked(&tensors.rigid_body_modes);
+        let least = least_eigenvalue(mass.as_ref())?;
+        if least < -SINGULAR_MASS {
+            return Err(Error::AssemblyIndefinite { what: format!("component {name}"), matrix: "mass", value: least });
+        }
+        let rounding = rounding_of(stiffness.as_ref(), mass.as_ref(), rigid.as_ref())?;
+        let unit = energy_unit(&superelement);
+        if rounding > LARGEST_RIGID_ENERGY * unit {
+            return Err(Error::AssemblyRigid { name, value: rounding / unit });
+        }
+        let omitted = omitted(&superelement, stiffness.as_ref(), mass.as_ref(), rigid.as_ref())?;
+        Ok(Self { name, superelement, omitted, stiffness, mass, rigid, rounding })
+    }
+
+    /// r.
+    pub fn n_coordinates(&self) -> usize {
+        self.stiffness.nrows()
+    }
+
+    /// What a coordinate is called in messages.
+    pub(super) fn name_of(&self, coordinate: usize) -> String {
+        let metadata = self.superelement.metadata();
+        let of_component = match &metadata.coordinates[coordinate] {
+            Coordinate::Interface { node, direction } => {
+                format!("{}.{direction}", metadata.interface_nodes[*node].name)
+            }
+            Coordinate::InterfaceRow { row } => format!("rows:{row}"),
+            Coordinate::RigidBodyMode { index } => format!("rigid-body mode {}", index + 1),
+            Coordinate::InertiaRelief { index } => format!("inertia relief {}", index + 1),
+            Coordinate::ElasticMode { mode, .. } | Coordinate::FixedInterfaceMode { mode, .. } => {
+                format!("mode {}", mode + 1)
+            }
+        };
+        format!("{}.{of_component}", self.name)
+    }
+
+    /// How large the component is, as far as its file tells: the largest of the distances between interface nodes, from them to the
+    /// centre of mass, and of the radius of gyration.
+    pub(super) fn size(&self) -> f64 {
+        let positions = &self.superelement.tensors().interface_positions;
+        let properties = self.superelement.metadata().model.mass_properties.as_ref();
+        let centre = properties.map(|properties| properties.center_of_mass);
+        let gyration = properties.filter(|properties| properties.mass > 0.0).map_or(0.0, |properties| {
+            let trace: f64 = (0..3).map(|axis| properties.inertia[axis][axis]).sum();
+            (0.5 * trace.max(0.0) / properties.mass).sqrt()
+        });
+        // The farthest from any of the points is at least half of the largest distance between two: enough for a size.
+        let from_first = |point: &[f64; 3]| positions.first().map_or(0.0, |first| distance(first, point));
+        positions.iter().chain(&centre).map(from_first).fold(gyration, f64::max)
+    }
+}
+
+pub(super) fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// The least eigenvalue of a matrix brought to unit diagonal.
+fn least_eigenvalue(a: MatRef<'_, f64>) -> Result<f64> {
+    let scale: Vec<f64> = (0..a.nrows()).map(|i| dense::power_of_two_root(a[(i, i)])).collect();
+    let scaled = Mat::from_fn(a.nrows(), a.nrows(), |i, j| a[(i, j)] * scale[i] * scale[j]);
+    Ok(dense::symmetric_eigen(scaled.as_ref())?.0.first().copied().unwrap_or(0.0))
+}
+
+/// The largest eigenvalue that rounding made of a rigid-body motion, whose energy should be nothing.
+fn rounding_of(stiffness: MatRef<'_, f64>, mass: MatRef<'_, f64>, rigid: MatRef<'_, f64>) -> Result<f64> {
+    let motions = orthonormal(rigid, mass)?;
+    let energies = dense::dots(motions.as_ref(), dense::product(stiffness, motions.as_ref()).as_ref());
+    Ok(energies.into_iter().fold(0.0, |most, energy| most.max(energy.abs())))
+}
+
+/// What energies are compared with: the eigenvalue of the first mode that the file states, or of the stiffest coordinate where it states
+/// none.
+fn energy_unit(superelement: &Superelement) -> f64 {
+    let tensors = superelement.tensors();
+    let stated = tensors.frequencies.iter().map(|omega| omega * omega).find(|lambda| *lambda > 0.0);
+    let ratio = |i: usize| (tensors.stiffness[(i, i)] / tensors.mass[(i, i)]).abs();
+    let ratios = (0..tensors.mass.rows()).map(ratio).filter(|ratio| ratio.is_finite());
+    stated.unwrap_or_else(|| ratios.fold(0.0, f64::max))
+}

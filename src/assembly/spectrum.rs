@@ -1,0 +1,104 @@
+//! The elastic eigenpairs of a small pencil whose rigid-body motions are known and whose mass may be singular.
+//!
+//! ```text
+//! K, M    n × n       symmetric
+//! R       n × n_r     RᵀMR = 1, rigid-body motions
+//! (K + β MR(MR)ᵀ) y = λ (M − MR(MR)ᵀ) y         R has no mass there, and its eigenvalues are infinite
+//! x = y − R (MR)ᵀy,  λ = xᵀKx / xᵀMx             Rayleigh quotient
+//! ```
+//! Eigenvalues are found as θ = 1/(λ + α), which is zero for motions without mass; nothing is divided by the mass.
+
+use faer::{Mat, MatRef};
+
+use crate::audit::eigenpairs;
+use crate::dense;
+use crate::error::Result;
+use crate::verification::force;
+
+/// β over α: far enough from the elastic eigenvalues for what rounding leaves of the mass of R to stay below that of the others.
+const RIGID_STIFFNESS: f64 = 1e6;
+/// α is taken anew until it is this near to the first elastic eigenvalue, to which rounding is then relative.
+const NEAR: f64 = 16.0;
+/// How often α is taken anew; each time it comes nearer by as many powers of ten as a double has digits.
+const MAX_SHIFTS: usize = 4;
+
+/// A pencil, its rigid-body motions and the rounding of its entries.
+#[derive(Clone, Debug)]
+pub(super) struct Pencil {
+    pub(super) stiffness: Mat<f64>,
+    pub(super) mass: Mat<f64>,
+    /// R, n × n_r.
+    pub(super) rigid: Mat<f64>,
+    /// How far each entry of K may be off.
+    pub(super) rounding: Mat<f64>,
+}
+
+/// Elastic eigenpairs, ascending.
+#[derive(Clone, Debug)]
+pub(super) struct Spectrum {
+    pub(super) lambda: Vec<f64>,
+    /// How far rounding of the entries can move each eigenvalue.
+    pub(super) rounding: Vec<f64>,
+    /// At unit modal mass, n × number of eigenvalues.
+    pub(super) shapes: Mat<f64>,
+}
+
+impl Pencil {
+    /// Its elastic eigenpairs with finite eigenvalues; none where a motion has neither stiffness nor mass.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::DenseEigen`].
+    pub(super) fn spectrum(&self) -> Result<Option<Spectrum>> {
+        let (n, n_r) = (self.stiffness.nrows(), self.rigid.ncols());
+        let momenta = dense::product(self.mass.as_ref(), self.rigid.as_ref());
+        let lifted = dense::product(momenta.as_ref(), momenta.transpose());
+        let mass = Mat::from_fn(n, n, |i, j| self.mass[(i, j)] - 0.5 * (lifted[(i, j)] + lifted[(j, i)]));
+        let mut alpha = force::lowest_ratio(self.stiffness.as_ref(), mass.as_ref()).unwrap_or(1.0);
+        let mut best = None;
+        for _ in 0..MAX_SHIFTS {
+            let beta = RIGID_STIFFNESS * alpha;
+            let stiffness =
+                Mat::from_fn(n, n, |i, j| self.stiffness[(i, j)] + 0.5 * beta * (lifted[(i, j)] + lifted[(j, i)]));
+            let pairs = eigenpairs(stiffness.as_ref(), mass.as_ref(), alpha)?;
+            if pairs.values.is_empty() && n > n_r && mass.norm_max() > 0.0 {
+                break;
+            }
+            let spectrum = self.quotients(pairs.vectors, &momenta);
+            let first = (0..spectrum.lambda.len()).find(|j| spectrum.lambda[*j] > spectrum.rounding[*j]);
+            let first = first.map(|j| spectrum.lambda[j]);
+            best = Some(spectrum);
+            match first {
+                Some(first) if !(alpha / NEAR..=alpha * NEAR).contains(&first) => alpha = first,
+                _ => break,
+            }
+        }
+        Ok(best)
+    }
+
+    /// Columns freed of rigid-body motion, at unit modal mass, with their Rayleigh quotients.
+    fn quotients(&self, mut x: Mat<f64>, momenta: &Mat<f64>) -> Spectrum {
+        let along = dense::gram(momenta.as_ref(), x.as_ref());
+        dense::add_product(x.as_mut(), -1.0, self.rigid.as_ref(), along.as_ref());
+        let quadratic =
+            |a: &Mat<f64>, x: &Mat<f64>| dense::dots(x.as_ref(), dense::product(a.as_ref(), x.as_ref()).as_ref());
+        let (energies, masses) = (quadratic(&self.stiffness, &x), quadratic(&self.mass, &x));
+        let noise = quadratic(&self.rounding, &dense::absolute(x.as_ref()));
+        let mut order: Vec<usize> = (0..x.ncols()).filter(|j| masses[*j] > 0.0).collect();
+        order.sort_by(|a, b| (energies[*a] / masses[*a]).total_cmp(&(energies[*b] / masses[*b])));
+        Spectrum {
+            lambda: order.iter().map(|j| energies[*j] / masses[*j]).collect(),
+            rounding: order.iter().map(|j| noise[*j] / masses[*j]).collect(),
+            shapes: Mat::from_fn(x.nrows(), order.len(), |i, j| x[(i, order[j])] / masses[order[j]].sqrt()),
+        }
+    }
+}
+
+/// The column of least (K + M) energy, each brought to unit diagonal: where a motion without stiffness and mass is largest.
+pub(super) fn emptiest(k: MatRef<'_, f64>, m: MatRef<'_, f64>) -> Result<usize> {
+    let unit = |a: MatRef<'_, f64>| a.norm_max().max(f64::MIN_POSITIVE);
+    let sum = Mat::from_fn(k.nrows(), k.nrows(), |i, j| k[(i, j)] / unit(k) + m[(i, j)] / unit(m));
+    let scale: Vec<f64> = (0..k.nrows()).map(|i| dense::power_of_two_root(sum[(i, i)])).collect();
+    let scaled = Mat::from_fn(k.nrows(), k.nrows(), |i, j| sum[(i, j)] * scale[i] * scale[j]);
+    let (_, vectors) = dense::symmetric_eigen(scaled.as_ref())?;
+    Ok((0..k.nrows()).max_by(|a, b| vectors[(*a, 0)].abs().total_cmp(&vectors[(*b, 0)].abs())).unwrap_or(0))
+}

@@ -1,0 +1,96 @@
+//! The lower bounds, where they are nearly reached and where a file does not give any.
+
+use supel::assembly::{Assembly, Component, Kind, Omitted};
+use supel_models::{Assembler, Model, spectrum};
+use supel_testing::place::Place;
+
+use crate::{all_modes, assert_enclosed, beams, line, n_rigid, reduced};
+
+/// Masses on springs: to the ground, and between each other.
+fn springs(masses: &[f64], grounded: &[(u32, f64)], between: &[(u32, u32, f64)]) -> Model {
+    let (mut stiffness, mut mass) = (Assembler::default(), Assembler::default());
+    (0..).zip(masses).for_each(|(row, value)| mass.add(row, row, *value));
+    grounded.iter().for_each(|(row, value)| stiffness.add(*row, *row, *value));
+    for &(i, j, value) in between {
+        for (row, column, sign) in [(i, i, 1.0), (j, j, 1.0), (i, j, -1.0), (j, i, -1.0)] {
+            stiffness.add(row, column, sign * value);
+        }
+    }
+    Model { n: masses.len(), ..Model::node_major(Vec::new(), &[], stiffness, mass) }
+}
+
+/// A pin that carries two oscillators of which the slower one is kept: the bound is that of the other one at the frequency of the
+/// kept one, and moving the omitted one there brings the whole model to its bound.
+#[test]
+fn bound_is_reached_by_an_omitted_mode_at_the_end_of_the_band() {
+    let ground = springs(&[1e-9, 2.0], &[(1, 1.0)], &[(0, 1, 3.0)]);
+    // λ of the omitted oscillator over that of the kept one, which is one.
+    let mut gaps = Vec::new();
+    for ratio in [1.1, 1.01, 1.001] {
+        let arms = springs(&[1e-9, 1.0, 2.0], &[], &[(0, 1, 1.0), (0, 2, 2.0 * ratio)]);
+        let mut assembly = Assembly::new(vec![
+            reduced("arms", &arms, "--interface pin=rows:0 --method craig-bampton --modes 1"),
+            reduced("ground", &ground, "--interface ends=rows:0,1 --method guyan"),
+        ])
+        .expect("two names");
+        assembly.join("arms.rows:0", "ground.rows:0").expect("rows");
+        let modes = all_modes(&assembly);
+        let whole = springs(&[2e-9, 1.0, 2.0, 2.0], &[(3, 1.0)], &[(0, 1, 1.0), (0, 2, 2.0 * ratio), (0, 3, 3.0)]);
+        let whole = spectrum(&whole);
+        assert_enclosed(&modes, &whole);
+        let lower = modes.modes[0].at_least_hz.expect("a bound");
+        gaps.push(whole[0].sqrt() / std::f64::consts::TAU / lower - 1.0);
+    }
+    // What is between the bound and the whole model goes with the distance of the omitted mode from the band.
+    assert!(gaps[0] > 5.0 * gaps[1] && gaps[1] > 5.0 * gaps[2] && gaps[2] < 1e-3, "{gaps:?}");
+}
+
+#[test]
+fn frequencies_beyond_the_band_are_marked_and_bounded_by_its_end() {
+    let beam = reduced("beam", &beams(&line()), "--interface end=1 --method herting --modes 4");
+    let Omitted::Above { hz, .. } = beam.omitted else { panic!("a band: {:?}", beam.omitted) };
+    let mut assembly = Assembly::new(vec![beam]).expect("one name");
+    let free = all_modes(&assembly);
+    assert_eq!((n_rigid(&free), free.band_hz), (6, Some(hz)));
+    // The modes that were kept are exact, and the bounds meet there; the rest cannot be bounded by more than the end of the band.
+    for mode in &free.modes[6..10] {
+        let at_least = mode.at_least_hz.expect("a bound");
+        assert!(mode.frequency_hz / at_least - 1.0 < 1e-6, "{mode:?}");
+    }
+    for mode in &free.modes[10..] {
+        assert!(mode.is_beyond_band && mode.at_least_hz.expect("a bound") <= hz, "{mode:?}");
+    }
+    assembly.fix("end").expect("the only component needs no name");
+    assert!(all_modes(&assembly).modes.iter().all(|mode| mode.kind == Kind::Elastic));
+}
+
+/// Why a file gives no bound, for a beam reduced by some flags.
+fn unbounded(flags: &str) -> String {
+    let component = reduced("beam", &beams(&line()), &format!("--interface end=1 {flags}"));
+    let Omitted::Unknown { why } = component.omitted.clone() else { panic!("{:?}", component.omitted) };
+    let modes = all_modes(&Assembly::new(vec![component]).expect("one name"));
+    assert!(modes.band_hz.is_none() && modes.modes.iter().all(|mode| mode.at_least_hz.is_none()));
+    why
+}
+
+#[test]
+fn no_bound_is_given_where_the_file_does_not_say_what_is_left_out() {
+    assert!(unbounded("--method guyan").contains("Guyan keeps no modes"));
+    assert!(unbounded("--method herting --modes 4 --certify none").contains("were not counted"));
+    assert!(unbounded("--method herting --modes 0").contains("keeps no mode above zero"));
+}
+
+#[test]
+fn frequencies_that_the_matrices_do_not_have_give_no_bound() {
+    let place = Place::with(&beams(&line()));
+    place.reduce(&place.model_flags(), "--interface end=1 --method herting --modes 4");
+    let superelement = place.superelement("x.supel");
+    let (mut tensors, metadata) = (superelement.tensors().clone(), superelement.metadata().clone());
+    let n = tensors.stiffness.rows();
+    let stiffness = tensors.stiffness.clone();
+    tensors.stiffness = supel_runtime::Matrix::from_fn(n, n, |i, j| 1.001 * stiffness[(i, j)]);
+    let altered = supel_runtime::Superelement::new(tensors, metadata).expect("one superelement");
+    let component = Component::new("beam".to_owned(), altered).expect("a component");
+    let Omitted::Unknown { why } = component.omitted else { panic!("{:?}", component.omitted) };
+    assert!(why.contains("do not have the frequencies"), "{why}");
+}

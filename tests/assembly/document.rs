@@ -1,0 +1,76 @@
+//! What `supel modes` prints.
+
+use serde_json::Value;
+use supel::cli::ExitCode;
+use supel_testing::place::{Place, supel};
+
+use crate::{beams, line};
+
+fn violations(document: &Value) -> Vec<String> {
+    let schema: Value = serde_json::from_str(include_str!("../../schemas/modes.schema.json")).expect("schema is JSON");
+    let validator = jsonschema::validator_for(&schema).expect("schema is a schema");
+    validator.iter_errors(document).map(|error| format!("{}: {error}", error.instance_path())).collect()
+}
+
+/// The two halves of the line as left.supel and right.supel.
+fn halves(method: &str) -> Place {
+    let all = Place::new();
+    for (name, nodes) in [("left.supel", 0..7), ("right.supel", 6..13)] {
+        let place = Place::with(&beams(&line()[nodes]));
+        let flags = format!("--interface a=1 --interface z=7 {method}");
+        place.reduce(&place.model_flags(), &flags).expect(ExitCode::Done);
+        all.write(name, &place.bytes("x.supel"));
+    }
+    all
+}
+
+fn modes(place: &Place, more: &[&str]) -> String {
+    let (left, right) = (place.text("left.supel"), format!("b={}", place.text("right.supel")));
+    supel(&[&["modes", &left, &right, "--join", "left.z=b.a"], more].concat()).expect(ExitCode::Done).out
+}
+
+#[test]
+fn json_follows_its_schema() {
+    let place = halves("--method craig-bampton --modes 6");
+    let more = ["--fix", "b.z", "--mass", "left.a=2.5,0.1,0.1,0.2", "--count", "5", "--json"];
+    let document: Value = serde_json::from_str(&modes(&place, &more)).expect("JSON");
+    assert_eq!(violations(&document), Vec::<String>::new());
+    assert_eq!(document["modes"].as_array().expect("a list").len(), 5);
+    assert_eq!(document["components"][1]["name"], "b");
+    assert_eq!(document["masses"][0]["inertia"][2], 0.2);
+    let free: Value = serde_json::from_str(&modes(&place, &["--json"])).expect("JSON");
+    assert_eq!(violations(&free), Vec::<String>::new());
+    assert_eq!((&free["n_rigid"], &free["modes"][0]["kind"]), (&6.into(), &"rigid_body".into()));
+    let guyan: Value = serde_json::from_str(&modes(&halves("--method guyan"), &["--json"])).expect("JSON");
+    assert_eq!(violations(&guyan), Vec::<String>::new());
+    assert!(guyan["components"][0]["omits_unknown"].is_string() && guyan["modes"][7]["at_least_hz"].is_null());
+    for (key, value) in [("surplus", Value::from(1)), ("modes", Value::Null)] {
+        let mut wrong = document.clone();
+        wrong[key] = value;
+        assert_ne!(violations(&wrong), Vec::<String>::new());
+    }
+}
+
+#[test]
+fn text_fits_the_page_and_says_what_the_figures_are() {
+    let place = halves("--method craig-bampton --modes 6");
+    let text = modes(&place, &["--fix", "b.z", "--mass", "left.a=2.5", "--count", "30"]);
+    assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+    for words in [
+        "left · Craig-Bampton · 18 coordinates",
+        "left.z = b.a · 1 pair of nodes · 6 dofs",
+        "b.z · 6 dofs",
+        "left.a · 2.5",
+        "! beyond the band",
+        "Each frequency is an upper bound",
+    ] {
+        assert!(text.contains(words), "{words:?} is not in\n{text}");
+    }
+    let in_one_line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(in_one_line.contains("is the least certain, by what "), "{text}");
+    let guyan = modes(&halves("--method guyan"), &[]);
+    assert!(guyan.contains("There are no lower bounds, as left, b do not say what they leave out."), "{guyan}");
+    assert!(guyan.lines().all(|line| line.chars().count() <= 100), "{guyan}");
+    let apart = supel(&["modes", &place.text("left.supel"), &place.text("right.supel")]).expect(ExitCode::Done);
+    assert!(apart.out.contains("left is joined to nothing"), "{}", apart.out);
+}
