@@ -271,6 +271,11 @@ pub fn symmetrise(a: &mut Mat<f64>) -> f64 {
     if largest > 0.0 { difference / largest } else { 0.0 }
 }
 
+/// |B|ᵀs: what combinations of columns of sizes s add up to at most.
+pub(crate) fn summed_sizes(sizes: &[f64], b: MatRef<'_, f64>) -> Vec<f64> {
+    (0..b.ncols()).map(|k| sizes.iter().enumerate().map(|(j, size)| size * b[(j, k)].abs()).sum()).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

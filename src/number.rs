@@ -49,7 +49,8 @@ pub(crate) fn scientific(value: f64, digits: usize) -> String {
     if value.is_nan() {
         return "NaN".to_owned();
     }
-    if value.is_infinite() {
+    // JSON has no infinity: the largest number stands for it.
+    if value.abs() >= f64::MAX {
         return if value > 0.0 { "∞".to_owned() } else { "-∞".to_owned() };
     }
     if value == 0.0 {

@@ -36,6 +36,7 @@ use crate::input::InputFacts;
 use crate::job::{Boundary, Job};
 use crate::partition::Partition;
 use crate::rigid::{self, RigidBodyModes, RigidSource};
+use crate::verification;
 use crate::verification::check::{Check, Limits};
 
 use alignment::{Combination, Freedom, combination};
@@ -123,6 +124,7 @@ impl<'a> Reference<'a> {
             return Ok(audit.sorted());
         }
         checks.extend(self.motions.checks(&file));
+        checks.extend(self.expectations(superelement));
         self.matrices(superelement, &file, &mut audit)?;
         Ok(audit.sorted())
     }
@@ -151,6 +153,17 @@ impl<'a> Reference<'a> {
             ),
         }
         Ok(audit)
+    }
+
+    /// What the job expects of a component whose file has no mass properties to compare with it.
+    fn expectations(&self, superelement: &Superelement) -> Vec<Check> {
+        let has_properties = superelement.metadata().model.mass_properties.is_some();
+        let Some(expect) = self.job.model.expect.as_ref().filter(|_| !has_properties) else { return Vec::new() };
+        let lacks = verification::not_comparable(expect, self.partition, false);
+        verification::expected_by_weight(expect, self.partition)
+            .into_iter()
+            .chain(verification::comparable(&lacks))
+            .collect()
     }
 
     /// Everything that has the coordinates of the file.

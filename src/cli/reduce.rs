@@ -60,7 +60,7 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     };
     complaints.splice(0..0, explanation(command, code));
     if command.answer == Answer::Nothing {
-        complaints.splice(0..0, unmet(&report.body.checks, command.strictness));
+        complaints.splice(0..0, unmet(&report.body.checks, &report.body.warnings, command.strictness));
     }
     outputs.commit()?;
     answer.iter().for_each(|answer| terminal.answer(answer));

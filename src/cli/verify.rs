@@ -63,7 +63,7 @@ pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Te
         Answer::Text => terminal.answer(&report.to_text(&superelement, terminal.paint)),
         Answer::Json => terminal.answer(&report.to_json(&superelement)?),
         Answer::Nothing => {
-            unmet(&report.audit.checks, command.strictness).iter().for_each(|line| terminal.complain(line));
+            unmet(&report.audit.checks, &[], command.strictness).iter().for_each(|line| terminal.complain(line));
         }
     }
     Ok(match (report.audit.verdict(), command.strictness) {

@@ -41,7 +41,7 @@ pub fn constraint_modes(partition: &Partition, factor: &Cholesky<'_>, rigid: &Ri
         let unit = unit_motions(partition, rigid).unwrap_or_else(|_| rigid.orthonormal.clone());
         let (u_i, u_b) = unit.as_ref().split_at_row(n_i);
         let defect = defect(modes.as_ref(), u_i, u_b);
-        carried = Carried { motions: u_b.to_owned(), lift: left_inverse(partition, u_b) };
+        carried = Carried { motions: u_b.to_owned(), lift: left_inverse(partition, modes.as_ref(), u_b) };
         dense::add_product(modes.as_mut(), 1.0, defect.as_ref(), carried.lift.as_ref());
     }
     let (stiffness, cancellation) = condensed_stiffness(partition, modes.as_ref());

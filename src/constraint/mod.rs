@@ -19,4 +19,5 @@ pub use constraint_modes::{ConstraintModes, constraint_modes};
 pub use free_at_zero::{FreeAtZero, RefinedAtZero};
 pub use interior::interior_factor;
 pub use mechanism::{Loose, LooseMotions, with_mechanisms};
+pub(crate) use rigid_correction::left_inverse;
 pub use rigid_correction::{Carried, RigidError, rigid_error};

@@ -6,6 +6,7 @@ use faer::{Mat, MatMut, MatRef};
 use crate::dense::{self, NOISE_FACTOR};
 use crate::partition::Partition;
 use crate::rigid::scales;
+use crate::sparse::diagonal;
 
 /// The correction of Ψ_S as the interface sees it.
 ///
@@ -83,12 +84,25 @@ pub fn rigid_error(partition: &Partition, modes: MatRef<'_, f64>, u: MatRef<'_, 
     worst
 }
 
-/// A matrix U_B⁺ with U_B⁺ U_B = I, n_r × n_B: least squares with rows weighted by stiffness, so that translations and
-/// rotations count alike whatever their units.
-pub(super) fn left_inverse(partition: &Partition, u_b: MatRef<'_, f64>) -> Mat<f64> {
+/// Least weight of an interface dof in [`left_inverse`], relative to the root of its stiffness: dofs that move nothing inside count
+/// where no other ones carry a motion.
+const LEAST_WEIGHT: f64 = 1e-6;
+
+/// A matrix U_B⁺ with U_B⁺ U_B = I, n_r × n_B: least squares with rows weighted by what the solves of their columns lack.
+///
+/// Backward errors of a solve are ε|K_II||ψ|, so that the root of ψᵀ diag(K_II) ψ measures them, whatever the units. A column that moves
+/// little inside is nearly right and takes little of the correction: on a long part that two neighbouring nodes hold, the one that no
+/// internal dof touches would otherwise take the error of the other one, times the length of the part over their distance.
+pub(crate) fn left_inverse(partition: &Partition, modes: MatRef<'_, f64>, u_b: MatRef<'_, f64>) -> Mat<f64> {
     let (n_i, n_b) = (partition.n_internal, u_b.nrows());
-    let diagonal = |i: usize| partition.stiffness.get(n_i + i, n_i + i).copied().unwrap_or(0.0);
-    let weight: Vec<f64> = (0..n_b).map(|i| if diagonal(i) > 0.0 { diagonal(i).sqrt() } else { 1.0 }).collect();
+    let stiffness = diagonal(&partition.stiffness);
+    let (inner, outer) = stiffness.split_at(n_i);
+    let weight = |j: usize| {
+        let inside: f64 = dense::column(modes, j).iter().zip(inner).map(|(psi, k)| psi * psi * k).sum();
+        let weight = (inside + LEAST_WEIGHT * LEAST_WEIGHT * outer[j]).sqrt();
+        if weight > 0.0 { weight } else { 1.0 }
+    };
+    let weight: Vec<f64> = (0..n_b).map(weight).collect();
     let weighted = Mat::from_fn(n_b, u_b.ncols(), |i, j| weight[i] * u_b[(i, j)]);
     let weights = Mat::from_fn(n_b, n_b, |i, j| if i == j { weight[i] } else { 0.0 });
     weighted.qr().solve_lstsq(&weights)

@@ -6,7 +6,7 @@ use supel_runtime::Matrix;
 use super::results::Results;
 use crate::error::Warning;
 use crate::report::{EffectiveMass, Grounding, MassProperties, MassRoute, RigidBodyEvidence};
-use crate::verification::{Evidence, Restraint};
+use crate::verification::{self, Evidence, Restraint};
 
 /// What verification found of it.
 pub(super) fn evidence(results: &Results<'_>) -> RigidBodyEvidence {
@@ -90,14 +90,7 @@ pub(super) fn grounded(results: &Results<'_>) -> Option<Warning> {
 pub(super) fn expectation_unchecked(results: &Results<'_>) -> Option<Warning> {
     let expect = results.job.model.expect.as_ref()?;
     let Evidence { partition, rigid, .. } = results.evidence;
-    let weight = partition.model.weight.as_ref();
-    let has_mass = rigid.is_classical || weight.is_some();
-    let has_centre = rigid.is_classical || weight.is_some_and(|weight| weight.motions.is_some());
-    let lacks = [
-        (expect.mass.is_some() && !has_mass, "mass, which needs a dof map or nodes"),
-        (expect.cg.is_some() && !has_centre, "centre of mass, which needs a dof map and nodes"),
-    ];
-    let lacks: Vec<&str> = lacks.into_iter().filter(|(lacks, _)| *lacks).map(|(_, what)| what).collect();
+    let lacks = verification::not_comparable(expect, partition, rigid.is_classical);
     (!lacks.is_empty()).then(|| Warning {
         code: "W-EXPECT-UNCHECKED",
         message: format!("not compared with what the job expects: {}", lacks.join("; ")),

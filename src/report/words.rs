@@ -141,11 +141,35 @@ fn from_centroid(faces: &FacesReport, size: f64) -> String {
 pub fn unmet_check(check: &Check) -> String {
     let [limit, ..] = self::limit(check);
     let at = check.worst.as_ref().map(|worst| format!(" – {worst}")).unwrap_or_default();
-    let found = number::scientific(check.value, 2);
-    let expected = if check.verdict() == Verdict::Fail {
+    // What may not be at all is counted.
+    let is_count = check.limits.value() == 0.0 && check.value >= 1.0 && check.value.fract() == 0.0;
+    let found = if is_count { number::count(check.value as u64) } else { number::scientific(check.value, 2) };
+    let expected = if check.verdict() == Verdict::Fail && check.fails_above() > check.limits.value() {
         format!("{limit}, failing above {}", number::scientific(check.fails_above(), 1))
     } else {
         limit
     };
     format!("{} {}{at} – found {found} – expected at most {expected}", check.id, check.name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verification::check::Limits;
+
+    #[test]
+    fn what_may_not_be_at_all_is_counted() {
+        let check = |value, fail_above| Check {
+            id: "M-06",
+            name: "modes are all there are",
+            equation: "",
+            value,
+            limits: Limits::default(),
+            fail_above,
+            worst: None,
+        };
+        assert_eq!(unmet_check(&check(2.0, 0.0)), "M-06 modes are all there are – found 2 – expected at most 0");
+        let shares = "M-06 modes are all there are – found 5.0e-01 – expected at most 0, failing above 1e-03";
+        assert_eq!(unmet_check(&check(0.5, 1e-3)), shares);
+    }
 }

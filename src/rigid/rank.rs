@@ -11,7 +11,7 @@ use crate::eigen::{Factored, ModeRequest, Wanted, elastic_modes};
 use crate::error::{Error, Result};
 use crate::factor::Cholesky;
 use crate::job::Eigensolver;
-use crate::model::Site;
+use crate::model::{Finding, Site};
 use crate::partition::Partition;
 use crate::random::SEED;
 
@@ -80,11 +80,15 @@ fn rank_within(partition: &Partition, rigid: &RigidBodyModes, tolerance: f64) ->
     let u_b = Mat::from_fn(n_b.max(n_r), n_r, |i, j| if i < n_b { unit[(n_i + i, j)] * scale[n_i + i] } else { 0.0 });
     let (singular, v) = dense::right_singular(u_b.as_ref())?;
     let largest = singular.first().copied().unwrap_or(0.0);
-    let rank = singular.iter().filter(|value| **value > tolerance * largest).count();
-    if largest == 0.0 || rank < n_r {
+    // Supports may leave no other motion to compare with: then one that moves the interface is as large there as anywhere.
+    let anywhere = 1.0 / (partition.n_dofs() as f64).sqrt();
+    let rank = singular.iter().filter(|value| **value > tolerance * largest.max(anywhere)).count();
+    if n_r > rank {
         let free = unit.as_ref() * v.as_ref().subcols(n_r - 1, 1);
-        let mut motion =
-            partition.sites().map_or_else(String::new, |sites| describe(&sites, dense::column(free.as_ref(), 0)));
+        let mut motion = match partition.sites() {
+            Some(sites) => describe(&sites, dense::column(free.as_ref(), 0)),
+            None => free_particles(partition),
+        };
         if tolerance > RANK_TOLERANCE {
             let ratio = singular[n_r - 1] / largest;
             motion += &format!(
@@ -125,6 +129,13 @@ pub(crate) fn unit_motions(partition: &Partition, rigid: &RigidBodyModes) -> Res
         unit = dense::product(unit.as_ref(), turn.as_ref());
     }
     Ok(unit)
+}
+
+/// Rows that nothing ties to others, in words: of motions without coordinates nothing else can be said.
+fn free_particles(partition: &Partition) -> String {
+    let mut findings = partition.model.findings.iter();
+    let particles = findings.find(|finding| matches!(finding, Finding::FreeParticles { .. }));
+    particles.map_or_else(String::new, |particles| format!("; {particles}"))
 }
 
 fn size_of(sites: &[Site]) -> f64 {

@@ -6,7 +6,9 @@ use super::check::{Check, Limits};
 use super::evidence::{Evidence, NAMES, rigid_name};
 use super::rigid_body::mass_difference;
 use crate::dense::{self, NOISE_FACTOR};
+use crate::job::Expectation;
 use crate::number::quantity;
+use crate::partition::Partition;
 
 /// M-16: ÛᵀM̂Û against UᵀMU.
 pub(super) fn preserved(evidence: &Evidence<'_>) -> Check {
@@ -83,9 +85,40 @@ pub(crate) fn of_a_body(m_f: MatRef<'_, f64>, precision: f64) -> Check {
 /// A free body is compared by its rigid-body motions. The mass of any other model is that of the translations of its map, and
 /// its centre that of its coordinates; supports take the rows of held dofs out of M, so that a held model may lack a part.
 pub(super) fn expected(evidence: &Evidence<'_>) -> Option<Check> {
-    let expect = evidence.expect?;
-    let known = Known::of(evidence)?;
-    let unit = evidence.partition.scaling.mass_unit();
+    compared(evidence.expect?, Known::of(evidence)?, evidence.partition.scaling.mass_unit())
+}
+
+/// M-16 against what the job expects, by the translations of the map and the coordinates alone.
+pub(crate) fn expected_by_weight(expect: &Expectation, partition: &Partition) -> Option<Check> {
+    compared(expect, Known::by_weight(partition)?, partition.scaling.mass_unit())
+}
+
+/// What of an expectation nothing can be compared with, in words.
+pub(crate) fn not_comparable(expect: &Expectation, partition: &Partition, is_classical: bool) -> Vec<&'static str> {
+    let weight = partition.model.weight.as_ref();
+    let has_mass = is_classical || weight.is_some();
+    let has_centre = is_classical || weight.is_some_and(|weight| weight.motions.is_some());
+    let lacks = [
+        (expect.mass.is_some() && !has_mass, "mass, which needs a dof map or nodes"),
+        (expect.cg.is_some() && !has_centre, "centre of mass, which needs a dof map and nodes"),
+    ];
+    lacks.into_iter().filter(|(lacks, _)| *lacks).map(|(_, what)| what).collect()
+}
+
+/// M-16: there is something to compare with what the job expects.
+pub(crate) fn comparable(lacks: &[&str]) -> Option<Check> {
+    (!lacks.is_empty()).then(|| Check {
+        id: "M-16",
+        name: "what is expected can be compared",
+        equation: "number of expectations that nothing in the model can be compared with",
+        value: lacks.len() as f64,
+        limits: Limits::default(),
+        fail_above: Check::NEVER,
+        worst: Some(lacks.join("; ")),
+    })
+}
+
+fn compared(expect: &Expectation, known: Known, unit: f64) -> Option<Check> {
     let mass = known.mass * unit;
     let mass_error = expect.mass.map(|expected| (mass / expected - 1.0).abs());
     let shift = expect.cg.zip(known.place).map(|(expected, Place { centre, gyration })| {
@@ -118,8 +151,8 @@ fn found_mass(mass: f64, expected: Option<f64>) -> String {
     let Some(expected) = expected else { return found };
     let ratio = (expected / mass).max(mass / expected);
     let decades = ratio.log10();
-    // A slip of units is a power of ten but for the mass that either number leaves out.
-    let is_slip = decades > 0.5 && (decades - decades.round()).abs() < 0.02;
+    // A slip of units is a power of ten but for the mass that either number leaves out, up to a fifth.
+    let is_slip = decades > 0.5 && (decades - decades.round()).abs() < 0.08;
     let question = if is_slip { ", a unit slip?" } else { "" };
     let ratio = if ratio > 1.01 { format!(": ratio {}{question}", quantity(ratio, 3)) } else { String::new() };
     format!("{found}, expected {}{ratio}", quantity(expected, 6))
@@ -152,6 +185,11 @@ impl Known {
             let mass = (m_f[(0, 0)] + m_f[(1, 1)] + m_f[(2, 2)]) / 3.0;
             return Some(Self { mass, place: Some(Place::of(m_f, mass)), is_free: true });
         }
+        Self::by_weight(partition)
+    }
+
+    /// Mass of the translations of the map, and the centre where there are coordinates.
+    fn by_weight(partition: &Partition) -> Option<Self> {
         let weight = partition.model.weight.as_ref()?;
         // A support may take out the rows of one direction and not of another.
         let mass = weight.translations.into_iter().fold(0.0, f64::max);

@@ -6,7 +6,8 @@ use supel_models::Model;
 use crate::faults::{FAULTS, FAULTS_OF_DIRECTIONS, UNSEEN, against_rotation, block, clamped, ends};
 use crate::place::{Ended, Place};
 
-const METHODS: [&str; 2] = ["herting", "craig-bampton"];
+/// Methods with their modes.
+const METHODS: [&str; 4] = ["herting --modes 5", "craig-bampton --modes 5", "rubin --modes 5", "guyan"];
 
 /// How the two ends of the block are coupled.
 const COUPLINGS: [&str; 3] = ["direct", "rigid", "both"];
@@ -27,7 +28,7 @@ fn interfaces(model: &Model, coupling: &str) -> String {
 /// Reduces a model whose interfaces are those of another.
 fn reduced(model: &Model, of: &Model, coupling: &str, method: &str) -> (Place, Ended) {
     let place = Place::with(model);
-    let rest = format!("{} --method {method} --modes 5 --threads 1 --strict", interfaces(of, coupling));
+    let rest = format!("{} --method {method} --threads 1 --strict", interfaces(of, coupling));
     let ended = place.reduce(&place.model_flags(), &rest);
     (place, ended)
 }
@@ -48,66 +49,72 @@ pub(crate) fn said(place: &Place, ended: &Ended) -> String {
     codes.join(", ")
 }
 
-/// Every fault with every coupling and method, as (fault, coupling, method, what was said).
-fn outcomes(sound: &Model, faults: &[crate::faults::Fault]) -> Vec<(&'static str, String, String)> {
-    let mut outcomes = Vec::new();
-    for (name, fault) in faults {
-        let model = fault(sound);
-        for coupling in COUPLINGS {
-            for method in METHODS {
-                let (place, ended) = reduced(&model, sound, coupling, method);
-                outcomes.push((*name, format!("{coupling}, {method}"), said(&place, &ended)));
-            }
-        }
-    }
-    outcomes
+/// What was said of a fault with a coupling and a method.
+struct Outcome {
+    fault: &'static str,
+    coupling: &'static str,
+    method: &'static str,
+    said: String,
+}
+
+/// Every fault with every coupling and method, one after the other.
+fn outcomes<'a>(sound: &'a Model, faults: &'a [crate::faults::Fault]) -> impl Iterator<Item = Outcome> + 'a {
+    faults.iter().flat_map(move |(fault, make)| {
+        let model = make(sound);
+        let ways = COUPLINGS.into_iter().flat_map(|coupling| METHODS.map(|method| (coupling, method)));
+        ways.map(move |(coupling, method)| {
+            let (place, ended) = reduced(&model, sound, coupling, method);
+            Outcome { fault, coupling, method, said: said(&place, &ended) }
+        })
+    })
 }
 
 #[track_caller]
-fn assert_all(outcomes: &[(&str, String, String)], expected: impl Fn(&str) -> bool) {
-    let wrong: Vec<_> = outcomes.iter().filter(|outcome| !expected(&outcome.2)).collect();
-    assert!(wrong.is_empty(), "{wrong:#?}");
+fn assert_all(outcomes: impl Iterator<Item = Outcome>, expected: impl Fn(&str) -> bool) {
+    for Outcome { fault, coupling, method, said } in outcomes {
+        assert!(expected(&said), "{fault}, {coupling}, {method}: {said}");
+    }
 }
 
 #[test]
 fn sound_models_are_verified() {
     for sound in [block(), clamped()] {
-        assert_all(&outcomes(&sound, &[("none", Clone::clone)]), |said| said == "verified");
+        assert_all(outcomes(&sound, &[("none", Clone::clone)]), |said| said == "verified");
     }
 }
 
 #[test]
 fn wrong_maps_and_coordinates_of_a_free_component() {
-    assert_all(&outcomes(&block(), FAULTS), |said| said == "E-COORD");
-    assert_all(&outcomes(&block(), FAULTS_OF_DIRECTIONS), |said| said == "E-COORD");
+    assert_all(outcomes(&block(), FAULTS), |said| said == "E-COORD");
+    assert_all(outcomes(&block(), FAULTS_OF_DIRECTIONS), |said| said == "E-COORD");
 }
 
 /// Where supports hold every motion, K has no zero modes to count; rows that no support touches show the fault.
 #[test]
 fn wrong_maps_and_coordinates_of_a_clamped_component() {
-    assert_all(&outcomes(&clamped(), FAULTS), |said| said == "E-COORD");
+    assert_all(outcomes(&clamped(), FAULTS), |said| said == "E-COORD");
 }
 
 /// Frames at a few nodes of a clamped component look like one more support to K. The mass tells, unless it is lumped: the same
 /// in every frame. A map that mixes directions makes forces at so many rows that no witness is left.
 #[test]
 fn directions_of_a_clamped_component() {
-    for (fault, how, said) in outcomes(&clamped(), FAULTS_OF_DIRECTIONS) {
+    for Outcome { fault, coupling, method, said } in outcomes(&clamped(), FAULTS_OF_DIRECTIONS) {
         let is_told = said.contains("W-MASS-DIRECTION");
         let leaves_no_witness = ["rows ordered direction by direction", "local frames at every fifth node"];
         let is_untested = !leaves_no_witness.contains(&fault) || said.contains("W-COORD-UNTESTED");
-        assert!(is_told && is_untested, "{fault}, {how}: {said}");
+        assert!(is_told && is_untested, "{fault}, {coupling}, {method}: {said}");
     }
     let mut lumped = clamped();
     lumped.mass.retain(|(row, col, _)| row == col);
     let at_one_node = &FAULTS_OF_DIRECTIONS[3..];
     assert_eq!(at_one_node[0].0, "a local frame at one node");
-    assert_all(&outcomes(&lumped, at_one_node), |said| said == "verified");
+    assert_all(outcomes(&lumped, at_one_node), |said| said == "verified");
 }
 
 #[test]
 fn what_nobody_can_see_is_verified_and_documented() {
-    assert_all(&outcomes(&block(), UNSEEN), |said| said == "verified");
+    assert_all(outcomes(&block(), UNSEEN), |said| said == "verified");
     let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/what-the-report-proves.md"));
     let page = page.expect("the page");
     for (fault, _) in UNSEEN {
@@ -118,7 +125,7 @@ fn what_nobody_can_see_is_verified_and_documented() {
 #[test]
 fn rotations_held_without_a_support() {
     let fault: crate::faults::Fault = ("springs against rotation", |model| against_rotation(model, &[0, 1, 2], 1e-3));
-    assert_all(&outcomes(&block(), &[fault]), |said| said == "E-ROTATIONS-HELD");
+    assert_all(outcomes(&block(), &[fault]), |said| said == "E-ROTATIONS-HELD");
 }
 
 /// Natural frequencies and their error bars.
@@ -134,7 +141,7 @@ fn modes(place: &Place) -> Vec<(f64, f64)> {
 fn rounded_coordinates_change_no_frequency() {
     let sound = supel_models::brick([6, 3, 2], [8.0 / 7.0, 4.0 / 7.0, 2.0 / 7.0], &supel_models::Material::STEEL_SI);
     for coupling in COUPLINGS {
-        for method in METHODS {
+        for method in METHODS[..2].iter().copied() {
             let (exact, ended) = reduced(&sound, &sound, coupling, method);
             assert_eq!(said(&exact, &ended), "verified", "{coupling}, {method}");
             for digits in [12, 8, 5] {

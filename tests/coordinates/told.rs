@@ -130,5 +130,16 @@ fn expectations_without_coordinates_are_compared_in_part() {
     assert_eq!(ended.code, ExitCode::Done, "{}{}", ended.out, ended.err);
     assert_eq!(expected(&place).expect("a check").0, "pass");
     assert_eq!(warnings(&place), ["W-EXPECT-UNCHECKED"]);
-    assert_eq!(supel(&["reduce", &place.text("job.toml"), "--strict"]).code, ExitCode::CheckFailed);
+    let verified = supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]);
+    assert_eq!(verified.code, ExitCode::Done, "{}{}", verified.out, verified.err);
+    for words in
+        ["mass and centre are those expected", "what is expected can be compared", "centre of mass, which needs"]
+    {
+        assert!(verified.out.contains(words), "{words:?} is not in {}", verified.out);
+    }
+    let strict = supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml"), "--strict"]);
+    assert_eq!(strict.code, ExitCode::CheckFailed, "{}", strict.out);
+    let quiet = supel(&["reduce", &place.text("job.toml"), "--strict", "--quiet"]);
+    assert_eq!(quiet.code, ExitCode::CheckFailed);
+    assert!(quiet.err.contains("supel: W-EXPECT-UNCHECKED: not compared"), "{}", quiet.err);
 }

@@ -152,6 +152,8 @@ fn an_expected_mass_names_the_ratio() {
     for (expected, parts) in [
         (mass * 1000.0, vec!["M-16", "mass 559.705, expected 559705: ratio 1000, a unit slip?"]),
         (mass / 1000.0, vec!["mass 559.705, expected 0.559705: ratio 1000, a unit slip?"]),
+        // A tenth of the mass is missing as well.
+        (mass * 1092.0, vec!["mass 559.705, expected 611198: ratio 1092, a unit slip?"]),
         (mass * 1.3, vec!["mass 559.705, expected 727.617: ratio 1.3 –"]),
     ] {
         let job = format!(
@@ -169,6 +171,18 @@ fn an_expected_mass_names_the_ratio() {
         assert_eq!(ended.err.lines().count(), 2, "{}", ended.err);
         assert!(ended.out.is_empty());
     }
+}
+
+/// A row that nothing ties to others is named where no coordinates give its motion words.
+#[test]
+fn row_without_stiffness_is_named() {
+    let place = Place::new();
+    let banner = "%%MatrixMarket matrix coordinate real symmetric\n";
+    place.write("K.mtx", format!("{banner}3 3 3\n1 1 1.0\n2 1 -1.0\n2 2 1.0\n").as_bytes());
+    place.write("M.mtx", format!("{banner}3 3 3\n1 1 1.0\n2 2 1.0\n3 3 1.0\n").as_bytes());
+    let ended = place.reduce(&place.matrix_flags(), "--interface a=rows:0 --method herting --modes 1");
+    let words = ["E-INTERFACE-RANK", "only 1 of the 2", "1 row has mass and no stiffness, the first is row 3"];
+    assert_says(&ended, ExitCode::ModelPhysics, &words);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Supports that a component cannot have.
 
 use supel::cli::ExitCode;
+use supel_models::{Inertia, Material, Section, frame};
 use supel_testing::place::{Place, steel_brick, supel};
 
 use crate::{Case, elbow};
@@ -32,6 +33,32 @@ fn held_dof_of_an_interface() {
     let interface = r#"{ name = "tip", nodes = [5, 15, 45], dofs = ["ux", "uz"] }"#;
     let case = Case { name: "slide", model: steel_brick(), interface, fixed: wall, has_nodes: true };
     case.made("herting", 3);
+}
+
+/// E-INTERFACE-RANK where supports leave one motion and the interface lies on its axis: all that moves it is rounding, and there is no
+/// other motion to compare that with.
+#[test]
+fn interface_on_the_axis_that_supports_leave() {
+    let nodes = [0.0, 1.0, 2.0].map(|t| [0.7 * t, 0.31 * t, 0.23 * t]);
+    let nodes = [nodes[0], nodes[1], nodes[2], [1.5, 1.2, 0.1], [0.9, 1.4, 0.6]];
+    let model = frame(
+        &nodes,
+        &[[0, 1], [1, 2], [2, 3], [3, 4]],
+        &Section::round(0.05),
+        &Material::STEEL_SI,
+        Inertia::Consistent,
+    );
+    let fixed = r#"{ nodes = [1], dofs = ["ux", "uy", "uz"] }, { nodes = [3], dofs = ["uy", "uz"] }"#;
+    for interface in
+        [r#"{ name = "a", nodes = [2], dofs = ["ux"] }"#, r#"{ name = "a", nodes = [2], dofs = ["ux", "uz"] }"#]
+    {
+        let case = Case { name: "axis", model: model.clone(), interface, fixed, has_nodes: true };
+        for method in ["herting", "craig-bampton"] {
+            let (_, ended) = case.run(method, 3);
+            let words = ["E-INTERFACE-RANK", "only 0 of the 1 rigid-body motion", "rotation about the axis"];
+            assert_says(&(ended.code, ended.err), ExitCode::ModelPhysics, &words);
+        }
+    }
 }
 
 #[test]

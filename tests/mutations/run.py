@@ -77,6 +77,8 @@ def outcome(mutation):
     if passed:
         return "NOT NOTICED", False
     failed = re.search(r"test result: FAILED", text)
+    if failed is None and "error: test failed" in text:
+        return "the test ended without a result", False
     if failed is None:
         message = next((line for line in text.splitlines() if line.startswith("error")), "no test ran")
         return f"does not compile: {message}", False

@@ -8,17 +8,17 @@
 //! ```
 //! A stored column is a combination of named ones, so that K̂ and M̂ are those of W but for that combination.
 
-use faer::linalg::solvers::SolveLstsq;
 use faer::{Mat, MatRef};
 
 use super::asked::AskedModes;
 use super::interior::{Answers, Interior, column_products};
+use crate::constraint::left_inverse;
 use crate::dense;
 use crate::job::Boundary;
 use crate::partition::Partition;
 use crate::random::SplitMix64;
 use crate::rigid::{RigidBodyModes, RigidSource};
-use crate::sparse::{Leading, product};
+use crate::sparse::product;
 
 /// Motions of the interface that are solved at most: more dofs than these are mixed at random.
 const MAX_PROBES: usize = 256;
@@ -98,8 +98,10 @@ impl Columns {
         };
         columns.shapes.as_mut().subrows_mut(n_i, partition.n_interface()).subcols_mut(0, p).copy_from(&columns.probes);
         let Some(interior) = interior else { return columns };
-        let follower = Follower::new(partition, interior, motions.carried);
+        let mut follower = Follower { partition, interior, carried: None };
         let statics = follower.follow(columns.probes.as_ref());
+        follower.carried = Carried::of(&follower, motions.carried, statics.x.as_ref());
+        let statics = follower.carrying(statics, columns.probes.as_ref());
         columns.residual = columns.take(0, statics);
         columns.relieve(&follower, motions.relieved);
         columns.add_turns(&follower, motions);
@@ -220,36 +222,62 @@ struct Motion {
 struct Follower<'a> {
     partition: &'a Partition,
     interior: &'a Interior<'a>,
-    /// U_I − Ψ_S U_B and U_B⁺, where rigid-body motion is carried.
-    defect: Option<(Mat<f64>, Mat<f64>)>,
+    /// Where rigid-body motion is carried.
+    carried: Option<Carried>,
 }
 
-impl<'a> Follower<'a> {
-    /// U_I − Ψ_S U_B is K_II⁻¹(KU)_I: where the digits of K do not let U pass, it is what the correction of (24) adds, and otherwise
-    /// rounding.
-    fn new(partition: &'a Partition, interior: &'a Interior<'a>, carried: &RigidBodyModes) -> Self {
-        let (n_i, n_b) = (partition.n_internal, partition.n_interface());
-        let is_carried = carried.count() > 0 && n_b > 0;
-        let defect = is_carried.then(|| {
-            let motion = carried.orthonormal.as_ref();
-            let forces = product(&partition.stiffness, motion);
-            let defect = interior.solve(forces.as_ref().subrows(0, n_i)).x;
-            (defect, left_inverse(partition, motion.subrows(n_i, n_b)))
-        });
-        Self { partition, interior, defect }
-    }
+/// The correction (24) that makes constraint modes carry rigid-body motion.
+struct Carried {
+    /// U_I − Ψ_S U_B, n_I × n_r.
+    defect: Mat<f64>,
+    /// U_B⁺, n_r × n_B.
+    lift: Mat<f64>,
+    /// Energy and inertia, as lengths, of what the reduction's own correction of each motion may be off by. It goes into all columns that
+    /// U_B⁺ takes a motion from.
+    errors: [Vec<f64>; 2],
+}
 
+impl Carried {
+    /// U_I − Ψ_S U_B is K_II⁻¹(KU)_I: where the digits of K do not let U pass, it is what the correction of (24) adds, and otherwise
+    /// rounding. `statics` are Ψ_S P.
+    fn of(follower: &Follower<'_>, motions: &RigidBodyModes, statics: MatRef<'_, f64>) -> Option<Self> {
+        let Follower { partition, interior, .. } = *follower;
+        let (n_i, n_b) = (partition.n_internal, partition.n_interface());
+        if motions.count() == 0 || n_b == 0 {
+            return None;
+        }
+        let u = motions.orthonormal.as_ref();
+        let u_b = u.subrows(n_i, n_b);
+        let defect = interior.solve(product(&partition.stiffness, u).as_ref().subrows(0, n_i)).x;
+        // What a solve by a factor lacks of Ψ_S U_B.
+        let mut errors = lengths(partition, &interior.lacking_of_direct(forces_of(partition, u_b).as_ref()));
+        let lift = if statics.ncols() == n_b {
+            left_inverse(partition, statics, u_b)
+        } else {
+            // Mixtures do not tell how far each dof moves the interior: another U_B⁺ puts the correction into other columns.
+            let all = lengths(partition, &defect);
+            errors.iter_mut().flatten().zip(all.into_iter().flatten()).for_each(|(error, all)| *error += all);
+            left_inverse(partition, Mat::zeros(n_i, n_b).as_ref(), u_b)
+        };
+        Some(Self { defect, lift, errors })
+    }
+}
+
+impl Follower<'_> {
     /// Ψ_S X_B = −K_II⁻¹K_IB X_B + (U_I − K_II⁻¹K_IB U_B) U_B⁺ X_B.
     fn follow(&self, x_b: MatRef<'_, f64>) -> Motion {
-        let n_i = self.partition.n_internal;
-        let mut border = Mat::zeros(self.partition.n_dofs(), x_b.ncols());
-        border.as_mut().subrows_mut(n_i, x_b.nrows()).copy_from(x_b);
-        let mut forces = product(&self.partition.stiffness, border.as_ref());
-        forces *= faer::Scale(-1.0);
-        let mut motion = self.answer(forces.as_ref().subrows(0, n_i));
-        if let Some((defect, inverse)) = &self.defect {
-            let shares = dense::product(inverse.as_ref(), x_b);
+        self.carrying(self.answer(forces_of(self.partition, x_b).as_ref()), x_b)
+    }
+
+    /// Answers −K_II⁻¹K_IB X_B with the correction, where there is one.
+    fn carrying(&self, mut motion: Motion, x_b: MatRef<'_, f64>) -> Motion {
+        if let Some(Carried { defect, lift, errors: [energy, inertia] }) = &self.carried {
+            let shares = dense::product(lift.as_ref(), x_b);
             dense::add_product(motion.x.as_mut(), 1.0, defect.as_ref(), shares.as_ref());
+            for (errors, own) in [(&mut motion.energy_errors, energy), (&mut motion.inertia_errors, inertia)] {
+                let carried = dense::summed_sizes(own, shares.as_ref());
+                errors.iter_mut().zip(carried).for_each(|(error, carried)| *error += carried);
+            }
         }
         motion
     }
@@ -257,25 +285,27 @@ impl<'a> Follower<'a> {
     /// K_II⁻¹ F.
     fn answer(&self, loads: MatRef<'_, f64>) -> Motion {
         let Answers { x, errors, direct, residual } = self.interior.solve(loads);
-        let pencil = self.partition.internal();
-        let lengths = |matrix: Leading<'_>, errors: &Mat<f64>| -> Vec<f64> {
-            let squares = column_products(product(matrix, errors.as_ref()).as_ref(), errors.as_ref());
-            squares.into_iter().map(|square| square.max(0.0).sqrt()).collect()
-        };
-        let both = |matrix: Leading<'_>| {
-            let (own, direct) = (lengths(matrix, &errors), lengths(matrix, &direct));
-            own.iter().zip(direct).map(|(own, direct)| own + direct).collect()
-        };
-        Motion { energy_errors: both(pencil.stiffness), inertia_errors: both(pencil.mass), x, residual }
+        let [own, direct] = [&errors, &direct].map(|errors| lengths(self.partition, errors));
+        let both = |of: usize| own[of].iter().zip(&direct[of]).map(|(own, direct)| own + direct).collect();
+        Motion { energy_errors: both(0), inertia_errors: both(1), x, residual }
     }
 }
 
-/// A matrix U_B⁺ with U_B⁺ U_B = I, n_r × n_B: least squares with rows weighted by stiffness, as (24) is corrected.
-fn left_inverse(partition: &Partition, u_b: MatRef<'_, f64>) -> Mat<f64> {
-    let (n_i, n_b) = (partition.n_internal, u_b.nrows());
-    let stiffness = |i: usize| partition.stiffness.get(n_i + i, n_i + i).copied().unwrap_or(0.0);
-    let weight: Vec<f64> = (0..n_b).map(|i| if stiffness(i) > 0.0 { stiffness(i).sqrt() } else { 1.0 }).collect();
-    let weighted = Mat::from_fn(n_b, u_b.ncols(), |i, j| weight[i] * u_b[(i, j)]);
-    let weights = Mat::from_fn(n_b, n_b, |i, j| if i == j { weight[i] } else { 0.0 });
-    weighted.qr().solve_lstsq(&weights)
+/// −K_IB X_B.
+fn forces_of(partition: &Partition, x_b: MatRef<'_, f64>) -> Mat<f64> {
+    let n_i = partition.n_internal;
+    let mut border = Mat::zeros(partition.n_dofs(), x_b.ncols());
+    border.as_mut().subrows_mut(n_i, x_b.nrows()).copy_from(x_b);
+    let mut forces = product(&partition.stiffness, border.as_ref());
+    forces *= faer::Scale(-1.0);
+    forces.as_ref().subrows(0, n_i).to_owned()
+}
+
+/// √(eᵀK_II e) and √(eᵀM_II e) of motions of the interior.
+fn lengths(partition: &Partition, errors: &Mat<f64>) -> [Vec<f64>; 2] {
+    let pencil = partition.internal();
+    [pencil.stiffness, pencil.mass].map(|matrix| {
+        let squares = column_products(product(matrix, errors.as_ref()).as_ref(), errors.as_ref());
+        squares.into_iter().map(|square| square.max(0.0).sqrt()).collect()
+    })
 }

@@ -1,8 +1,8 @@
 //! Projected forms on combinations of their columns.
 
 use super::alignment::Combination;
-use super::projection::{Form, Rows, summed};
-use crate::dense;
+use super::projection::{Form, Rows};
+use crate::dense::{self, summed_sizes};
 
 impl Form {
     /// BᵀAB: the form on combinations of its columns.
@@ -11,7 +11,7 @@ impl Form {
         let mut matrix = dense::product(b.transpose(), dense::product(self.matrix.as_ref(), b).as_ref());
         dense::symmetrise(&mut matrix);
         let norms: Vec<f64> = (0..self.matrix.nrows()).map(|j| self.matrix[(j, j)].max(0.0).sqrt()).collect();
-        Self { matrix, errors: with_rounding(&self.errors, &norms, combination), terms: summed(&self.terms, b) }
+        Self { matrix, errors: with_rounding(&self.errors, &norms, combination), terms: summed_sizes(&self.terms, b) }
     }
 }
 
@@ -20,13 +20,13 @@ impl Rows {
     pub(super) fn combined(&self, combination: &Combination) -> Self {
         let b = combination.columns.as_ref();
         let errors = with_rounding(&self.errors, &self.sizes, combination);
-        Self { rows: dense::product(self.rows.as_ref(), b), errors, sizes: summed(&self.sizes, b) }
+        Self { rows: dense::product(self.rows.as_ref(), b), errors, sizes: summed_sizes(&self.sizes, b) }
     }
 }
 
 /// Errors of combinations: those of the columns, and of the combination itself on columns of these sizes.
 fn with_rounding(errors: &[f64], sizes: &[f64], combination: &Combination) -> Vec<f64> {
     let (errors, rounding) =
-        (summed(errors, combination.columns.as_ref()), summed(sizes, combination.amplified.as_ref()));
+        (summed_sizes(errors, combination.columns.as_ref()), summed_sizes(sizes, combination.amplified.as_ref()));
     errors.iter().zip(rounding).map(|(error, rounding)| error + f64::EPSILON * rounding).collect()
 }

@@ -81,7 +81,7 @@ impl<'a> Interior<'a> {
     }
 
     /// A⁻¹ (f − A y) of y = A⁻¹ f, A = K_II − σM_II.
-    fn lacking_of_direct(&self, loads: MatRef<'_, f64>) -> Mat<f64> {
+    pub(super) fn lacking_of_direct(&self, loads: MatRef<'_, f64>) -> Mat<f64> {
         let y = self.precondition(&loads.to_owned());
         let mut left = product(self.pencil.stiffness, y.as_ref());
         let momenta = product(self.pencil.mass, y.as_ref());

@@ -167,8 +167,3 @@ fn recovered(partition: &Partition, shapes: MatRef<'_, f64>, (mass, n_probes): (
     }
     Rows { rows, errors, sizes }
 }
-
-/// |B|ᵀ of sizes of columns: what they add up to at most.
-pub(super) fn summed(sizes: &[f64], b: MatRef<'_, f64>) -> Vec<f64> {
-    (0..b.ncols()).map(|k| sizes.iter().enumerate().map(|(j, size)| size * b[(j, k)].abs()).sum()).collect()
-}
