@@ -185,8 +185,11 @@ fn override_job(
     reduction: &ReductionFlags,
     output: OutputFlags,
 ) -> Result<(Job, Vec<String>)> {
-    let mut remarks = override_interfaces(&mut job.interfaces, interfaces(&model)?)?;
-    remarks.extend(override_fixed(&mut job.fixed, fixed(&model)?)?);
+    let (typed, held) = (interfaces(&model)?, fixed(&model)?);
+    let twice = |name| Error::InterfaceTwice { name };
+    let mut remarks = put_by_name(&mut job.interfaces, typed, "interface", |job| Some(&job.name), twice)?;
+    let twice = |name| Error::FixedTwice { name };
+    remarks.extend(put_by_name(&mut job.fixed, held, "fixed", |job| job.name.as_deref(), twice)?);
     replace(&mut job.model.stiffness, model.stiffness);
     replace(&mut job.model.mass, model.mass);
     job.model.dofs = model.dofs.or(job.model.dofs);
@@ -208,55 +211,37 @@ fn override_job(
     Ok((job, remarks))
 }
 
-/// Puts the interfaces of the flags in the places of those of their names, or after all others, and says which.
+/// Puts what flags name in the places of those of their names, or after all others, and says which; `what` is what they are called.
 ///
 /// # Errors
-/// [`Error::InterfaceTwice`] where two flags have one name: the later one would replace the earlier one unseen.
-fn override_interfaces(interfaces: &mut Vec<InterfaceJob>, typed: Vec<InterfaceJob>) -> Result<Vec<String>> {
-    let names: Vec<&str> = typed.iter().map(|interface| interface.name.as_str()).collect();
-    if let Some(at) = (1..names.len()).find(|at| names[..*at].contains(&names[*at])) {
-        return Err(Error::InterfaceTwice { name: names[at].to_owned() });
-    }
-    let n_own = interfaces.len();
-    let mut put = |new: InterfaceJob| {
-        let name = new.name.clone();
-        match interfaces[..n_own].iter_mut().find(|own| own.name == name) {
+/// `twice` of a name that two flags have: the later one would replace the earlier one unseen.
+fn put_by_name<T>(
+    of_job: &mut Vec<T>,
+    typed: Vec<T>,
+    what: &str,
+    name_of: fn(&T) -> Option<&str>,
+    twice: fn(String) -> Error,
+) -> Result<Vec<String>> {
+    let n_own = of_job.len();
+    let mut remarks = Vec::new();
+    for new in typed {
+        let name = name_of(&new).unwrap_or_default().to_owned();
+        if remarks.iter().any(|(earlier, _)| *earlier == name) {
+            return Err(twice(name));
+        }
+        let remark = match of_job[..n_own].iter_mut().find(|own| name_of(own) == name_of(&new)) {
             Some(own) => {
                 *own = new;
-                format!("supel: the flag replaces interface {name:?} of the job")
+                format!("supel: the flag replaces {what} {name:?} of the job")
             }
             None => {
-                interfaces.push(new);
-                format!("supel: the flag adds interface {name:?} to the {n_own} of the job")
+                of_job.push(new);
+                format!("supel: the flag adds {what} {name:?} to the {n_own} of the job")
             }
-        }
-    };
-    Ok(typed.into_iter().map(&mut put).collect())
-}
-
-/// Puts the held dofs of the flags in the places of those of their names, or after all others, and says which.
-///
-/// # Errors
-/// [`Error::FixedTwice`] where two flags have one name.
-fn override_fixed(fixed: &mut Vec<FixedJob>, typed: Vec<FixedJob>) -> Result<Vec<String>> {
-    if let Some(at) = (1..typed.len()).find(|at| typed[..*at].iter().any(|other| other.name == typed[*at].name)) {
-        return Err(Error::FixedTwice { name: typed[at].name.clone().unwrap_or_default() });
+        };
+        remarks.push((name, remark));
     }
-    let n_own = fixed.len();
-    let mut put = |new: FixedJob| {
-        let name = new.name.clone().unwrap_or_default();
-        match fixed[..n_own].iter_mut().find(|own| own.name == new.name) {
-            Some(own) => {
-                *own = new;
-                format!("supel: the flag replaces fixed {name:?} of the job")
-            }
-            None => {
-                fixed.push(new);
-                format!("supel: the flag adds fixed {name:?} to the {n_own} of the job")
-            }
-        }
-    };
-    Ok(typed.into_iter().map(&mut put).collect())
+    Ok(remarks.into_iter().map(|(_, remark)| remark).collect())
 }
 
 fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlags) -> Result<Job> {
