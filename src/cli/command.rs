@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use super::flags::{
-    CommandLine, InspectFlags, ModelFlags, OutputFlags, ReduceFlags, ReductionFlags, Typed, VerifyFlags,
+    CommandLine, ExportFlags, InspectFlags, ModelFlags, OutputFlags, ReduceFlags, ReductionFlags, Typed, VerifyFlags,
 };
 use super::process;
 use crate::dofs::Direction;
 use crate::error::{Error, Result};
+use crate::export::Format;
 use crate::job::{
     Coupling, Duplicates, FixedJob, InterfaceJob, Job, ModeSelection, ModelJob, NodeSelection, Origin, ReductionJob,
     RunJob, WriteJob,
@@ -19,6 +20,7 @@ pub(super) enum Command {
     Reduce(Box<ReduceCommand>),
     Verify(Box<VerifyCommand>),
     Inspect(InspectCommand),
+    Export(ExportCommand),
     /// What a child process does for its parent, see [`super::rehearsal`].
     RehearseReading,
 }
@@ -64,6 +66,17 @@ pub(super) enum Rerun {
 pub(super) struct InspectCommand {
     pub(super) file: PathBuf,
     pub(super) answer: InspectAnswer,
+}
+
+/// Write a superelement in another format.
+#[derive(Debug)]
+pub(super) struct ExportCommand {
+    pub(super) file: PathBuf,
+    pub(super) format: &'static dyn Format,
+    /// The start of the names of the files, or their folder.
+    pub(super) output: PathBuf,
+    pub(super) answer: Answer,
+    pub(super) unverified: Unverified,
 }
 
 /// How many threads work.
@@ -127,7 +140,21 @@ impl Command {
                 };
                 Ok(Self::Inspect(InspectCommand { file, answer }))
             }
+            Typed::Export(flags) => Ok(Self::Export(ExportCommand::of(flags))),
             Typed::RehearseReading => Ok(Self::RehearseReading),
+        }
+    }
+}
+
+impl ExportCommand {
+    fn of(flags: ExportFlags) -> Self {
+        let ExportFlags { file, to, output, json, allow_unverified } = flags;
+        Self {
+            output: output.unwrap_or_else(|| file.with_extension("")),
+            file,
+            format: to,
+            answer: if json { Answer::Json } else { Answer::Text },
+            unverified: if allow_unverified { Unverified::Written } else { Unverified::Refused },
         }
     }
 }

@@ -13,6 +13,7 @@ mod accompanying;
 mod answer;
 mod command;
 mod exit_code;
+mod export;
 mod flags;
 mod inspect;
 mod memory;
@@ -25,6 +26,7 @@ mod reduce;
 mod refusal;
 mod rehearsal;
 mod signals;
+mod superelement_file;
 mod unmet;
 mod verify;
 
@@ -90,6 +92,7 @@ fn execute(flags: flags::CommandLine, pipeline: Pipeline, terminal: &mut Termina
         Command::Reduce(command) => reduce::run(&command, pipeline, terminal),
         Command::Verify(command) => verify::run(&command, pipeline, terminal),
         Command::Inspect(command) => inspect::run(&command, terminal),
+        Command::Export(command) => export::run(&command, terminal),
         Command::RehearseReading => rehearsal::read_from_stdin(),
     }
 }
