@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 use supel::cli::ExitCode;
+use supel_models::{Material, brick};
 use supel_runtime::{Coordinate, Superelement};
 use supel_testing::place::{Place, frequencies_hz, supel};
 
@@ -81,6 +82,24 @@ fn mass_properties_survive() {
             assert!(distance <= 10.0 * bound, "{method}: {distance:e}");
         }
     }
+}
+
+/// The stiffness of a slender part is condensed to one that is softer by orders, and keeps the rounding of the larger numbers: the
+/// digits that the job states are those that rigid-body motion leaves. Taken for exact it is indefinite, or its motions are not free.
+#[test]
+fn a_slender_superelement_states_its_digits() {
+    let place = Place::with(&brick([24, 1, 1], [3.0, 0.05, 0.04], &Material::STEEL_SI));
+    let flags =
+        "--rigid-interface left=1,26,51,76 --rigid-interface right=25,50,75,100 --method craig-bampton --modes 4";
+    place.reduce(&place.model_flags(), flags).expect(ExitCode::Done);
+    let (second, _) = again(&place);
+    assert_same_spectrum(&place.superelement("x.supel"), &second);
+    let job = String::from_utf8(place.bytes("x.job.toml")).expect("text");
+    let without: Vec<&str> = job.lines().filter(|line| !line.starts_with("stiffness_digits")).collect();
+    assert_eq!(without.len() + 1, job.lines().count(), "{job}");
+    place.write("x.job.toml", without.join("\n").as_bytes());
+    let exact = supel(&["reduce", &place.text("x.job.toml")]);
+    assert_ne!(exact.code, ExitCode::Done, "{}", exact.out);
 }
 
 /// Methods whose file is in coordinates of another one, and inertia relief that was asked for.
