@@ -1241,6 +1241,16 @@ pub enum Error {
         /// Its path.
         input: PathBuf,
     },
+    /// A format of exports cannot hold the label of a node.
+    #[entry("E-EXPORT-LABEL", Usage, "recover other nodes, or export to matrix-market")]
+    #[error(
+        "node {node} is recovered – expected a label of at most 2^53, which this format can hold – recover other nodes, or export to \
+         matrix-market"
+    )]
+    ExportLabel {
+        /// Its label.
+        node: i64,
+    },
     /// Two outputs would be written over each other.
     #[entry("E-OUTPUT-TWICE", Usage, "give one of them another name")]
     #[error(

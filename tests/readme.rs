@@ -98,7 +98,7 @@ fn every_command_of_the_readme_runs() {
         }
         n_run += usize::from(mark.ends_with(" run") || mark.ends_with(" peers"));
     }
-    assert_eq!(n_run, 10, "blocks that are run");
+    assert_eq!(n_run, 11, "blocks that are run");
     let again = Job::read(&folder.path().join("again.json")).expect("the job kept in the file is a job");
     assert_eq!(again.write.superelement.file_name(), Some("small.supel".as_ref()));
     let named = [
@@ -107,6 +107,8 @@ fn every_command_of_the_readme_runs() {
         "bracket-cb.supel",
         "bracket.html",
         "checks.xml",
+        "small.op4",
+        "again.again.supel",
     ];
     for name in named {
         assert!(folder.path().join(name).exists(), "{name} was not written");
@@ -157,6 +159,7 @@ fn files_that_the_readme_names_exist() {
         "schemas/superelement.schema.json",
         "docs/what-the-report-proves.md",
         "docs/images/report.png",
+        "docs/export.md",
         "docs/job.md",
         "docs/errors.md",
         "docs/what-verify-sees.md",
@@ -169,6 +172,7 @@ fn files_that_the_readme_names_exist() {
         "runtime/capi/example.c",
         "CONTRIBUTING.md",
         "validation/README.md",
+        "schemas/export.schema.json",
         "schemas/verification.schema.json",
         "LICENSE-MIT",
         "LICENSE-APACHE",

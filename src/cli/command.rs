@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use super::flags::{
-    CommandLine, InspectFlags, ModelFlags, OutputFlags, ReduceFlags, ReductionFlags, Typed, VerifyFlags,
+    CommandLine, ExportFlags, InspectFlags, ModelFlags, OutputFlags, ReduceFlags, ReductionFlags, Typed, VerifyFlags,
 };
 use super::modes_command::ModesCommand;
 use super::process;
 use crate::dofs::Direction;
 use crate::error::{Error, Result};
+use crate::export::Format;
 use crate::job::{
     Coupling, Duplicates, FixedJob, InterfaceJob, Job, ModeSelection, ModelJob, NodeSelection, Origin, ReductionJob,
     RunJob, WriteJob,
@@ -21,6 +22,7 @@ pub(super) enum Command {
     Verify(Box<VerifyCommand>),
     Inspect(InspectCommand),
     Modes(ModesCommand),
+    Export(ExportCommand),
     /// What a child process does for its parent, see [`super::rehearsal`].
     RehearseReading,
 }
@@ -66,6 +68,17 @@ pub(super) enum Rerun {
 pub(super) struct InspectCommand {
     pub(super) file: PathBuf,
     pub(super) answer: InspectAnswer,
+}
+
+/// Write a superelement in another format.
+#[derive(Debug)]
+pub(super) struct ExportCommand {
+    pub(super) file: PathBuf,
+    pub(super) format: &'static dyn Format,
+    /// The start of the names of the files, or their folder.
+    pub(super) output: PathBuf,
+    pub(super) answer: Answer,
+    pub(super) unverified: Unverified,
 }
 
 /// How many threads work.
@@ -130,7 +143,21 @@ impl Command {
                 Ok(Self::Inspect(InspectCommand { file, answer }))
             }
             Typed::Modes(flags) => ModesCommand::build(flags).map(Self::Modes),
+            Typed::Export(flags) => Ok(Self::Export(ExportCommand::of(flags))),
             Typed::RehearseReading => Ok(Self::RehearseReading),
+        }
+    }
+}
+
+impl ExportCommand {
+    fn of(flags: ExportFlags) -> Self {
+        let ExportFlags { file, to, output, json, allow_unverified } = flags;
+        Self {
+            output: output.unwrap_or_else(|| file.with_extension("")),
+            file,
+            format: to,
+            answer: if json { Answer::Json } else { Answer::Text },
+            unverified: if allow_unverified { Unverified::Written } else { Unverified::Refused },
         }
     }
 }
@@ -188,8 +215,11 @@ fn override_job(
     reduction: &ReductionFlags,
     output: OutputFlags,
 ) -> Result<(Job, Vec<String>)> {
-    let mut remarks = override_interfaces(&mut job.interfaces, interfaces(&model)?)?;
-    remarks.extend(override_fixed(&mut job.fixed, fixed(&model)?)?);
+    let (typed, held) = (interfaces(&model)?, fixed(&model)?);
+    let twice = |name| Error::InterfaceTwice { name };
+    let mut remarks = put_by_name(&mut job.interfaces, typed, "interface", |job| Some(&job.name), twice)?;
+    let twice = |name| Error::FixedTwice { name };
+    remarks.extend(put_by_name(&mut job.fixed, held, "fixed", |job| job.name.as_deref(), twice)?);
     replace(&mut job.model.stiffness, model.stiffness);
     replace(&mut job.model.mass, model.mass);
     job.model.dofs = model.dofs.or(job.model.dofs);
@@ -211,44 +241,37 @@ fn override_job(
     Ok((job, remarks))
 }
 
-/// Puts what flags name in the places of those of the same names in the job, or after all others, and says which; `what` it is called.
+/// Puts what flags name in the places of those of their names, or after all others, and says which; `what` is what they are called.
 ///
 /// # Errors
-/// That of `twice`, where two flags have one name: the later one would replace the earlier one unseen.
-fn override_by_name<T>(
-    own: &mut Vec<T>,
+/// `twice` of a name that two flags have: the later one would replace the earlier one unseen.
+fn put_by_name<T>(
+    of_job: &mut Vec<T>,
     typed: Vec<T>,
-    (what, name_of): (&str, impl Fn(&T) -> String),
-    twice: impl Fn(String) -> Error,
+    what: &str,
+    name_of: fn(&T) -> Option<&str>,
+    twice: fn(String) -> Error,
 ) -> Result<Vec<String>> {
-    let names: Vec<String> = typed.iter().map(&name_of).collect();
-    if let Some(at) = (1..names.len()).find(|at| names[..*at].contains(&names[*at])) {
-        return Err(twice(names[at].clone()));
+    let n_own = of_job.len();
+    let mut remarks = Vec::new();
+    for new in typed {
+        let name = name_of(&new).unwrap_or_default().to_owned();
+        if remarks.iter().any(|(earlier, _)| *earlier == name) {
+            return Err(twice(name));
+        }
+        let remark = match of_job[..n_own].iter_mut().find(|own| name_of(own) == name_of(&new)) {
+            Some(own) => {
+                *own = new;
+                format!("supel: the flag replaces {what} {name:?} of the job")
+            }
+            None => {
+                of_job.push(new);
+                format!("supel: the flag adds {what} {name:?} to the {n_own} of the job")
+            }
+        };
+        remarks.push((name, remark));
     }
-    let n_own = own.len();
-    let mut put = |(new, name): (T, String)| match own[..n_own].iter_mut().find(|own| name_of(own) == name) {
-        Some(own) => {
-            *own = new;
-            format!("supel: the flag replaces {what} {name:?} of the job")
-        }
-        None => {
-            own.push(new);
-            format!("supel: the flag adds {what} {name:?} to the {n_own} of the job")
-        }
-    };
-    Ok(typed.into_iter().zip(names).map(&mut put).collect())
-}
-
-/// [`override_by_name`] of interfaces.
-fn override_interfaces(own: &mut Vec<InterfaceJob>, typed: Vec<InterfaceJob>) -> Result<Vec<String>> {
-    let name_of = |interface: &InterfaceJob| interface.name.clone();
-    override_by_name(own, typed, ("interface", name_of), |name| Error::InterfaceTwice { name })
-}
-
-/// [`override_by_name`] of held dofs; flags give them names, and a job need not.
-fn override_fixed(own: &mut Vec<FixedJob>, typed: Vec<FixedJob>) -> Result<Vec<String>> {
-    let name_of = |fixed: &FixedJob| fixed.name.clone().unwrap_or_default();
-    override_by_name(own, typed, ("fixed", name_of), |name| Error::FixedTwice { name })
+    Ok(remarks.into_iter().map(|(_, remark)| remark).collect())
 }
 
 fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlags) -> Result<Job> {

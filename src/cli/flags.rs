@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValuesParser, Resettable, TypedValueParser};
 use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 
+use crate::export::{FORMATS, Format};
 use crate::job::{Certify, Eigensolver, Method, Precision};
 use crate::sparse::Triangle;
 
@@ -29,6 +30,9 @@ pub(super) enum Typed {
     /// Find the modes of superelements that are joined, held and loaded at their interfaces
     #[command(after_help = EXIT_CODES)]
     Modes(ModesFlags),
+    /// Write a superelement in a format of other programs, or as a model that can be reduced again
+    #[command(after_help = EXIT_CODES)]
+    Export(ExportFlags),
     /// Read a model described on stdin and discard it
     #[command(hide = true, name = super::rehearsal::SUBCOMMAND)]
     RehearseReading,
@@ -200,6 +204,26 @@ pub(super) struct ModesFlags {
 #[derive(Debug, Args)]
 // One field for each switch that can be typed.
 #[expect(clippy::struct_excessive_bools)]
+pub(super) struct ExportFlags {
+    /// Superelement file
+    pub(super) file: PathBuf,
+    /// Format
+    #[arg(long, value_name = "FORMAT", value_parser = formats())]
+    pub(super) to: &'static dyn Format,
+    /// Start of the names of the files, or a folder that is there [default: the superelement without its ending]
+    #[arg(short, long, value_name = "PATH")]
+    pub(super) output: Option<PathBuf>,
+    /// Print what was written as JSON
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Export even a superelement that failed a check; the exit code stays 1
+    #[arg(long)]
+    pub(super) allow_unverified: bool,
+}
+
+#[derive(Debug, Args)]
+// One field for each switch that can be typed.
+#[expect(clippy::struct_excessive_bools)]
 pub(super) struct VerifyFlags {
     /// Superelement file
     pub(super) file: PathBuf,
@@ -227,4 +251,10 @@ pub(super) struct VerifyFlags {
 fn values<T: ValueEnum + Clone + Send + Sync + 'static>() -> impl TypedValueParser<Value = T> {
     let names = T::value_variants().iter().filter_map(ValueEnum::to_possible_value);
     PossibleValuesParser::new(names.map(|name| name.help(Resettable::Reset))).try_map(|name| T::from_str(&name, false))
+}
+
+/// The formats of exports by name.
+fn formats() -> impl TypedValueParser<Value = &'static dyn Format> {
+    let named = |name: String| FORMATS.into_iter().find(|format| format.name() == name).ok_or("not a format");
+    PossibleValuesParser::new(FORMATS.map(Format::name)).try_map(named)
 }

@@ -4,23 +4,20 @@ use std::path::Path;
 
 use faer::Mat;
 use serde_json::{Value, json};
-use supel_runtime::{Coordinate, FORMAT_VERSION, Superelement, file_bytes};
+use supel_runtime::{Coordinate, FORMAT_VERSION, Superelement};
 
 use super::answer::Terminal;
 use super::command::{InspectAnswer, InspectCommand};
 use super::exit_code::ExitCode;
+use super::superelement_file;
 use super::verify::job_of_file;
 use crate::error::{Error, Result, json_value};
-use crate::regular_file;
 use crate::report::{inspection, value_text};
 use crate::rubin::{Herting, Rubin};
 
 pub(super) fn run(command: &InspectCommand, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
-    let failed = |error| Error::of_superelement(&command.file, error);
-    regular_file::open(&command.file).map(drop)?;
-    let bytes = file_bytes(&command.file).map_err(failed)?;
+    let (superelement, bytes) = superelement_file::read(&command.file)?;
     let file_bytes = bytes.len();
-    let superelement = Superelement::from_bytes(&bytes).map_err(failed)?;
     drop(bytes);
     let text = match command.answer {
         InspectAnswer::Text => inspection(&superelement, file_bytes as u64, terminal.paint),

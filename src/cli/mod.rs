@@ -13,6 +13,7 @@ mod accompanying;
 mod answer;
 mod command;
 mod exit_code;
+mod export;
 mod flags;
 mod inspect;
 mod memory;
@@ -27,6 +28,7 @@ mod reduce;
 mod refusal;
 mod rehearsal;
 mod signals;
+mod superelement_file;
 mod unmet;
 mod verify;
 
@@ -93,6 +95,7 @@ fn execute(flags: flags::CommandLine, pipeline: Pipeline, terminal: &mut Termina
         Command::Verify(command) => verify::run(&command, pipeline, terminal),
         Command::Inspect(command) => inspect::run(&command, terminal),
         Command::Modes(command) => modes::run(&command, terminal),
+        Command::Export(command) => export::run(&command, terminal),
         Command::RehearseReading => rehearsal::read_from_stdin(),
     }
 }

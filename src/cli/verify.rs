@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use supel_runtime::{Superelement, file_bytes};
+use supel_runtime::Superelement;
 
 use super::answer::{Program, Terminal};
 use super::command::{Answer, Rerun, Strictness, VerifyCommand};
@@ -11,21 +11,17 @@ use super::pipeline::Pipeline;
 use super::progress::StageLine;
 use super::rehearsal::{self, Rehearsed};
 use super::unmet::unmet;
-use super::{accompanying, memory, process};
+use super::{accompanying, memory, process, superelement_file};
 use crate::audit::{self, Audit};
 use crate::error::{Error, Result};
 use crate::input::Cells;
 use crate::job::{Holder, Job};
 use crate::memory_forecast::Resources;
-use crate::regular_file;
 use crate::report::{Against, Reproduction, VerificationReport};
 use crate::verification::check::Verdict;
 
 pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
-    let failed = |error| Error::of_superelement(&command.file, error);
-    regular_file::open(&command.file).map(drop)?;
-    let bytes = file_bytes(&command.file).map_err(failed)?;
-    let superelement = Superelement::from_bytes(&bytes).map_err(failed)?;
+    let (superelement, bytes) = superelement_file::read(&command.file)?;
     let rerun = match command.rerun {
         Rerun::No => None,
         Rerun::Compared => Some(job_to_run(command, &superelement)?),
@@ -46,7 +42,7 @@ pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Te
     let verify = || (pipeline.verify)(&superelement, command.job.as_ref(), resources, &mut stage_line);
     let mut audit = threads.install(verify).map_err(|error| rehearsed.judge(error))?;
     audit.checks.push(audit::rewritten(&superelement, &bytes));
-    let digest = superelement.to_bytes().map_err(failed)?.digest;
+    let digest = superelement.to_bytes().map_err(|error| Error::of_superelement(&command.file, error))?.digest;
     audit.checks.extend(accompanying::check(&command.file, &superelement, &digest));
     if let Some(job) = &rerun {
         let again = threads.install(|| (pipeline.reduce)(job, resources, &mut stage_line))?.superelement;

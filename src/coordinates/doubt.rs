@@ -131,7 +131,8 @@ impl Place {
             let force = columns.iter().map(|j| motions.forces[(row, *j)].abs()).fold(0.0, f64::max);
             let terms = motions.scale_of(row);
             let displacement = if terms > 0.0 { force / terms } else { 0.0 };
-            let label = motions.model.dofs.as_ref().map_or(row as i64, |dofs| dofs[row].node);
+            let dof = motions.model.dofs.as_ref().and_then(|dofs| dofs[row]);
+            let label = dof.map_or(row as i64, |dof| dof.node);
             let node = of_node.entry(label).or_insert((displacement, row));
             if displacement > node.0 {
                 *node = (displacement, row);

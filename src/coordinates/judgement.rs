@@ -135,8 +135,8 @@ impl Case<'_> {
     /// Of a held body nothing mends the coordinates that tie nodes to a rigid patch; those of other nodes the result does not depend on.
     fn refuse_patches_out_of_place(&self, doubt: &Doubt, rotations: &[usize]) -> Result<()> {
         let motions = self.motions;
-        let is_tied =
-            |row: &usize| motions.model.dofs.as_ref().is_some_and(|dofs| self.tied.contains(&dofs[*row].node));
+        let dof = |row: usize| motions.model.dofs.as_ref().and_then(|dofs| dofs[row]);
+        let is_tied = |row: &usize| dof(*row).is_some_and(|dof| self.tied.contains(&dof.node));
         let tied: Vec<usize> = doubt.costly[0].witnesses.iter().copied().filter(is_tied).collect();
         let Place { at: dof, largest: energy, .. } = Place::of(motions, &tied, rotations);
         if energy <= FIVE_DIGITS {

@@ -8,7 +8,7 @@
 use super::doubt::Doubt;
 use super::motions::Motions;
 use super::nodes::Nodes;
-use crate::model::Finding;
+use crate::model::{Finding, Site};
 use crate::sparse::product_and_terms;
 
 /// Difference of momenta, relative to their terms, above which it is none of rounding by a producer.
@@ -30,7 +30,7 @@ pub(super) fn by_direction(motions: &Motions<'_>, nodes: &Nodes, doubts: &[Doubt
     // The momenta of a node: row by row its three directions, column by column the three translations.
     let (mut rows_of, mut turns) = (vec![[usize::MAX; 3]; nodes.count()], vec![false; nodes.count()]);
     for row in held.iter().flat_map(|doubt| &motions.bodies[doubt.body].rows) {
-        let direction = motions.sites[*row].direction;
+        let Some(Site { direction, .. }) = motions.sites[*row] else { continue };
         match direction.is_rotation() {
             true => turns[nodes.of(*row)] = true,
             false => rows_of[nodes.of(*row)][direction.axis()] = *row,
@@ -49,7 +49,10 @@ pub(super) fn by_direction(motions: &Motions<'_>, nodes: &Nodes, doubts: &[Doubt
         |node: usize, rows: &[usize; 3]| !turns[node] && !nodes.is_near_lack(node) && !rows.contains(&usize::MAX);
     let whole = rows_of.iter().enumerate().filter(|(node, rows)| is_whole(*node, rows));
     let turned: Vec<usize> = whole.filter(|(_, rows)| is_turned(rows)).map(|(_, rows)| rows[0]).collect();
-    let label = |row: &usize| motions.model.dofs.as_ref().map_or_else(String::new, |dofs| dofs[*row].node.to_string());
+    let label = |row: &usize| {
+        let dof = motions.model.dofs.as_ref().and_then(|dofs| dofs[*row]);
+        dof.map_or_else(String::new, |dof| dof.node.to_string())
+    };
     (!turned.is_empty()).then(|| Finding::MassByDirection {
         n_nodes: turned.len(),
         at: turned.iter().take(SHOWN_NODES).map(label).collect::<Vec<_>>().join(", "),

@@ -9,7 +9,8 @@ use crate::sparse::{product, product_and_terms};
 /// Motions of all bodies of a model, in the same six columns: no two bodies share a row.
 pub(super) struct Motions<'a> {
     pub(super) model: &'a Model,
-    pub(super) sites: &'a [Site],
+    pub(super) sites: &'a [Option<Site>],
+    /// Those that have a node.
     pub(super) bodies: Vec<Body>,
     /// C, n × 6.
     pub(super) centred: Mat<f64>,
@@ -32,24 +33,30 @@ pub(super) struct Body {
 }
 
 impl Body {
-    fn of(sites: &[Site], rows: Vec<usize>) -> Self {
+    fn of(sites: &[Option<Site>], rows: Vec<usize>) -> Self {
         let frame = Frame::of(sites, &rows);
-        let far = rows.iter().flat_map(|row| sites[*row].position).fold(0.0f64, |max, x| max.max(x.abs()));
+        let far = rows
+            .iter()
+            .filter_map(|row| sites[*row])
+            .flat_map(|site| site.position)
+            .fold(0.0f64, |max, x| max.max(x.abs()));
         Self { frame, lever_rounding: f64::EPSILON * far / frame.size, rows }
     }
 }
 
 impl<'a> Motions<'a> {
-    pub(super) fn of(model: &'a Model, sites: &'a [Site]) -> Self {
+    pub(super) fn of(model: &'a Model, sites: &'a [Option<Site>]) -> Self {
         let mut rows = vec![Vec::new(); model.bodies.n_bodies];
         for (row, body) in model.bodies.of_row.iter().enumerate() {
             rows[*body as usize].push(row);
         }
+        rows.retain(|rows| rows.iter().any(|row| sites[*row].is_some()));
         let bodies: Vec<Body> = rows.into_iter().map(|rows| Body::of(sites, rows)).collect();
         let mut centred = Mat::zeros(sites.len(), 6);
         for Body { rows, frame, .. } in &bodies {
             for row in rows {
-                let motion = sites[*row].rigid_motion_about(frame.centre);
+                let Some(site) = sites[*row] else { continue };
+                let motion = site.rigid_motion_about(frame.centre);
                 for (j, value) in motion.into_iter().enumerate() {
                     centred[(*row, j)] = if j < 3 { value } else { value / frame.size };
                 }

@@ -5,7 +5,7 @@
 //! neighbours in K make forces under that rotation even if the coordinates are right.
 
 use super::motions::Motions;
-use crate::model::node_of_row;
+use crate::model::{Site, node_of_row};
 
 /// A force is worth a look when it exceeds this many times the noise of the data, or that of a translation: what a producer
 /// rounds while it assembles K shows in both.
@@ -89,15 +89,16 @@ impl Nodes {
 fn lacking(motions: &Motions<'_>, of_row: &[u32], n_nodes: usize) -> Vec<u8> {
     let mut has = vec![[false; 6]; n_nodes];
     for (row, node) in of_row.iter().enumerate() {
-        has[*node as usize][motions.sites[row].direction as usize] = true;
+        motions.sites[row].iter().for_each(|site| has[*node as usize][site.direction as usize] = true);
     }
+    let n_places = has.iter().filter(|has| has.contains(&true)).count();
     let n_with = |direction: usize| has.iter().filter(|has| has[direction]).count();
-    let usual: [bool; 6] = std::array::from_fn(|direction| 2 * n_with(direction) > n_nodes);
+    let usual: [bool; 6] = std::array::from_fn(|direction| 2 * n_with(direction) > n_places);
     let mut lacks = vec![0u8; n_nodes];
     for body in &motions.bodies {
         for row in &body.rows {
             let (has, node) = (has[of_row[*row] as usize], of_row[*row] as usize);
-            let position = motions.sites[*row].position;
+            let Some(Site { position, .. }) = motions.sites[*row] else { continue };
             let lever = |axis: usize| (position[axis] - body.frame.centre[axis]).abs() > NO_LEVER * body.frame.size;
             for axis in 0..3 {
                 // A rotation about an axis moves each of the two directions across it by the lever along the other.

@@ -3,7 +3,7 @@
 use faer::Mat;
 
 use super::doubt::Doubt;
-use super::motions::Motions;
+use super::motions::{Body, Motions};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::factor::count_below;
@@ -19,16 +19,14 @@ const NOT_RIGID: f64 = 1e-6;
 /// Squares of lengths relative to the largest below which a zero mode does not move the rows that are looked at.
 const AT_REST: f64 = 1e-12;
 
-/// Rows without stiffness in bodies that have some: each moves by itself and costs nothing.
+/// Rows without stiffness in bodies that have some, and scalar dofs without stiffness: each moves by itself and costs nothing.
 pub(super) fn n_loose_rows(motions: &Motions<'_>) -> usize {
-    let is_empty = |row: &usize| motions.scale_of(*row) == 0.0;
-    let of_body = |rows: &[usize]| rows.iter().filter(|row| is_empty(row)).count();
-    motions
-        .bodies
-        .iter()
-        .map(|body| of_body(&body.rows))
-        .zip(&motions.bodies)
-        .fold(0, |sum, (n_empty, body)| if n_empty < body.rows.len() { sum + n_empty } else { sum })
+    let is_empty = |row: &usize| motions.sites[*row].is_some() && motions.scale_of(*row) == 0.0;
+    let of_body =
+        |body: &Body| Some(body.rows.iter().filter(|row| is_empty(row)).count()).filter(|n| *n < body.rows.len());
+    let stiffness = crate::sparse::diagonal(&motions.model.stiffness);
+    let scalars = motions.sites.iter().zip(stiffness).filter(|(site, stiffness)| site.is_none() && *stiffness == 0.0);
+    motions.bodies.iter().filter_map(of_body).sum::<usize>() + scalars.count()
 }
 
 /// K and M whole, in order of elimination.
@@ -91,7 +89,8 @@ impl Zeros {
         for (number, body) in motions.bodies.iter().enumerate() {
             let rows = doubts.iter().find(|doubt| doubt.body == number).map_or(&body.rows, |doubt| &doubt.untouched);
             // Rotations in the scale of displacements.
-            let weight = |row: usize| if motions.sites[row].direction.is_rotation() { body.frame.size } else { 1.0 };
+            let turns = |row: usize| motions.sites[row].is_some_and(|site| site.direction.is_rotation());
+            let weight = |row: usize| if turns(row) { body.frame.size } else { 1.0 };
             let of = |a: &Mat<f64>| Mat::from_fn(rows.len(), a.ncols(), |i, j| weight(rows[i]) * a[(rows[i], j)]);
             let (c, z) = (of(&motions.centred), of(&self.shapes));
             let basis = dense::product(c.as_ref(), moving_directions(c.as_ref())?.as_ref()).qr().compute_thin_Q();

@@ -17,5 +17,6 @@ impl std::fmt::Display for Dof {
     }
 }
 
-/// The degree of freedom of every row, in row order.
-pub type DofMap = Vec<Dof>;
+/// The degree of freedom of every row, in row order; none for a scalar dof, an amplitude that belongs to no node and that rigid-body
+/// motion leaves at rest.
+pub type DofMap = Vec<Option<Dof>>;

@@ -42,7 +42,7 @@ pub struct RowNames<'a> {
     /// Which rows of the files they are.
     pub rows: &'a FileRows,
     /// Node and direction of each row.
-    pub dofs: Option<&'a [Dof]>,
+    pub dofs: Option<&'a [Option<Dof>]>,
 }
 
 impl RowNames<'_> {
@@ -53,7 +53,7 @@ impl RowNames<'_> {
 
     /// ` (node 40 rx)`, or nothing where unknown.
     pub fn bracketed(self, row: usize) -> String {
-        self.dofs.map_or_else(String::new, |dofs| format!(" ({})", dofs[row]))
+        self.dof(row).map_or_else(String::new, |dof| format!(" ({dof})"))
     }
 
     /// `row 238 (node 40 rx)`.
@@ -61,9 +61,18 @@ impl RowNames<'_> {
         format!("row {}{}", self.number(row), self.bracketed(row))
     }
 
-    /// `node 40 rx`, or `row 238` where no map tells it.
+    /// `node 40 rx`, or `row 238` where no map tells it or no node has it.
     pub fn short(self, row: usize) -> String {
-        self.dofs.map_or_else(|| format!("row {}", self.number(row)), |dofs| dofs[row].to_string())
+        self.dof(row).map_or_else(|| format!("row {}", self.number(row)), |dof| dof.to_string())
+    }
+
+    /// Whether a map says that no node has the row.
+    pub fn is_scalar(self, row: usize) -> bool {
+        self.dofs.is_some_and(|dofs| dofs[row].is_none())
+    }
+
+    fn dof(self, row: usize) -> Option<Dof> {
+        self.dofs.and_then(|dofs| dofs[row])
     }
 }
 
@@ -78,9 +87,11 @@ mod tests {
         assert_eq!([0, 1, 2].map(|row| rows.of(row)), [0, 2, 5]);
         assert_eq!([0, 1, 2, 5, 6].map(|row| rows.find(row)), [Some(0), None, Some(1), Some(2), None]);
         assert_eq!((FileRows::default().of(7), FileRows::default().find(7)), (7, Some(7)));
-        let dofs = [Direction::Ux, Direction::Uy, Direction::Rx].map(|direction| Dof { node: 40, direction });
+        let dofs = [Direction::Ux, Direction::Uy, Direction::Rx].map(|direction| Some(Dof { node: 40, direction }));
         let names = RowNames { rows: &rows, dofs: Some(&dofs) };
         assert_eq!((names.full(2), names.short(2)), ("row 6 (node 40 rx)".to_owned(), "node 40 rx".to_owned()));
         assert_eq!(RowNames { dofs: None, ..names }.short(2), "row 6");
+        let scalar = RowNames { dofs: Some(&[None; 3]), ..names };
+        assert_eq!((scalar.full(2), scalar.is_scalar(2), names.is_scalar(2)), ("row 6".to_owned(), true, false));
     }
 }

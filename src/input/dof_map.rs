@@ -1,5 +1,5 @@
 //! What each row of the matrices stands for: `node.direction` line by line as CalculiX writes it, a table with a node
-//! and a direction column, or the usual order where counts leave no doubt.
+//! and a direction column, or the usual order where counts leave no doubt. A table may have scalar dofs, which no node has.
 
 use std::collections::HashMap;
 use std::io::{BufRead, BufReader, Read};
@@ -53,14 +53,15 @@ pub(super) fn default_order(nodes: &Nodes, nodes_path: &Path, n: usize) -> Resul
     if directions.is_empty() {
         return Err(Error::DofOrderUnknown { nodes: nodes_path.to_owned(), n_nodes, n });
     }
-    let at_node = |&node: &i64| directions.iter().map(move |&direction| Dof { node, direction });
+    let at_node = |&node: &i64| directions.iter().map(move |&direction| Some(Dof { node, direction }));
     Ok(nodes.labels.iter().flat_map(at_node).collect())
 }
 
 /// Checks that every node of a dof map has a position; returns how many nodes no row uses.
-pub(super) fn check_nodes(dofs: &[Dof], path: &Path, nodes: &Nodes, nodes_path: &Path) -> Result<usize> {
+pub(super) fn check_nodes(dofs: &[Option<Dof>], path: &Path, nodes: &Nodes, nodes_path: &Path) -> Result<usize> {
     // A mesh may have any number of nodes, the map has no more than the matrices have rows.
-    let mut is_there: HashMap<i64, bool> = dofs.iter().map(|dof| (dof.node, false)).collect();
+    let at_nodes = || dofs.iter().enumerate().filter_map(|(row, dof)| Some((row, (*dof)?.node)));
+    let mut is_there: HashMap<i64, bool> = at_nodes().map(|(_, node)| (node, false)).collect();
     let mut n_unused = 0;
     for label in &nodes.labels {
         match is_there.get_mut(label) {
@@ -68,12 +69,12 @@ pub(super) fn check_nodes(dofs: &[Dof], path: &Path, nodes: &Nodes, nodes_path: 
             None => n_unused += 1,
         }
     }
-    let rows = dofs.iter().enumerate().filter(|(_, dof)| !is_there[&dof.node]).map(|(row, _)| row);
-    let missing = ListedRows::of(rows);
-    match missing.first() {
-        Some(row) => {
-            let (path, nodes, missing) = (path.to_owned(), nodes_path.to_owned(), missing.to_string());
-            Err(Error::DofNodeMissing { path, row: row + 1, node: dofs[row].node, nodes, missing })
+    let missing = || at_nodes().filter(|(_, node)| !is_there[node]);
+    match missing().next() {
+        Some((row, node)) => {
+            let missing = ListedRows::of(missing().map(|(row, _)| row)).to_string();
+            let (path, nodes) = (path.to_owned(), nodes_path.to_owned());
+            Err(Error::DofNodeMissing { path, row: row + 1, node, nodes, missing })
         }
         None => Ok(n_unused),
     }
@@ -110,7 +111,7 @@ impl ReadDofs {
     fn take(&mut self, dof: Dof, n: usize) {
         self.n_rows += 1;
         if self.dofs.len() < n {
-            self.dofs.push(dof);
+            self.dofs.push(Some(dof));
         }
     }
 }
@@ -133,7 +134,7 @@ fn read_table(path: &Path, first: FirstLine, n: usize) -> Result<ReadDofs> {
     let direction_column = table.require("dof", EXPECTED, is_direction_column)?;
     let row_column = table.find(|name| matches!(name, "row" | "index" | "equation"));
     let header = table.name(direction_column);
-    let mut rows: Vec<(i64, Typed)> = Vec::new();
+    let mut rows: Vec<(Option<i64>, Typed)> = Vec::new();
     let (mut n_rows, mut first_number, mut has_zero) = (0, None, false);
     // The first direction that there is not, counted from zero and from one; which count it is, is known after all rows.
     let mut unknown: [Option<(u64, i64, String)>; 2] = [None, None];
@@ -142,11 +143,12 @@ fn read_table(path: &Path, first: FirstLine, n: usize) -> Result<ReadDofs> {
             check_row_number(path, &row, column, n_rows as u64, &mut first_number)?;
         }
         n_rows += 1;
-        let (node, text) = (row.integer(node_column)?, row.text(direction_column).to_lowercase());
+        let text = row.text(direction_column).to_lowercase();
         let typed = Typed::of(&text);
+        let node = node_of(&row, node_column, typed)?;
         has_zero |= typed == Typed::Number(0);
         for (unknown, base) in unknown.iter_mut().zip([DirectionBase::Zero, DirectionBase::One]) {
-            if unknown.is_none() && typed.direction(base).is_none() {
+            if let (None, Some(node), None) = (&unknown, node, typed.direction(base)) {
                 *unknown = Some((row.line, node, text.clone()));
             }
         }
@@ -167,8 +169,17 @@ fn read_table(path: &Path, first: FirstLine, n: usize) -> Result<ReadDofs> {
     if let Some((line, node, text)) = unknown {
         return Err(direction_error(path, line, node, &text, expected));
     }
-    let dofs = rows.iter().filter_map(|(node, typed)| Some(Dof { node: *node, direction: typed.direction(base)? }));
+    let dofs = rows.iter().map(|(node, typed)| Some(Dof { node: (*node)?, direction: typed.direction(base)? }));
     Ok(ReadDofs { dofs: dofs.collect(), n_rows, base })
+}
+
+/// The node of a row, which a scalar dof must not have.
+fn node_of(row: &Row<'_>, column: usize, typed: Typed) -> Result<Option<i64>> {
+    match typed {
+        Typed::Scalar if row.text(column).is_empty() => Ok(None),
+        Typed::Scalar => Err(row.field_error(column, "nothing, as a scalar dof belongs to no node")),
+        _ => row.integer(column).map(Some),
+    }
 }
 
 /// A direction as it is typed.
@@ -176,6 +187,8 @@ fn read_table(path: &Path, first: FirstLine, n: usize) -> Result<ReadDofs> {
 enum Typed {
     Number(u8),
     Name(Direction),
+    /// No direction of a node.
+    Scalar,
     /// Neither a small number nor a name.
     Other,
 }
@@ -184,6 +197,7 @@ impl Typed {
     fn of(text: &str) -> Self {
         match text.parse() {
             Ok(number) => Self::Number(number),
+            Err(_) if text == "scalar" => Self::Scalar,
             Err(_) => named(text).map_or(Self::Other, Self::Name),
         }
     }
@@ -192,7 +206,7 @@ impl Typed {
         match self {
             Self::Number(number) => numbered(number, base),
             Self::Name(direction) => Some(direction),
-            Self::Other => None,
+            Self::Scalar | Self::Other => None,
         }
     }
 }
@@ -236,13 +250,14 @@ fn direction_error(path: &Path, line: u64, node: i64, found: &str, expected: &'s
     Error::DofDirection { path: path.to_owned(), line, node, found: excerpt(found.as_bytes()), expected }
 }
 
-fn check_repeated(path: &Path, dofs: &[Dof]) -> Result<()> {
+fn check_repeated(path: &Path, dofs: &[Option<Dof>]) -> Result<()> {
     let mut first_rows: HashMap<Dof, usize> = HashMap::with_capacity(dofs.len());
-    let repeating = |(row, dof): (usize, &Dof)| (*first_rows.entry(*dof).or_insert(row) != row).then_some(row);
+    let repeating =
+        |(row, dof): (usize, &Option<Dof>)| (*first_rows.entry((*dof)?).or_insert(row) != row).then_some(row);
     let repeated = ListedRows::of(dofs.iter().enumerate().filter_map(repeating));
-    let Some(row) = repeated.first() else { return Ok(()) };
-    let Dof { node, direction } = dofs[row];
-    let (path, first_row, repeated) = (path.to_owned(), first_rows[&dofs[row]] + 1, repeated.to_string());
+    let Some((row, dof)) = repeated.first().and_then(|row| Some((row, dofs[row]?))) else { return Ok(()) };
+    let Dof { node, direction } = dof;
+    let (path, first_row, repeated) = (path.to_owned(), first_rows[&dof] + 1, repeated.to_string());
     Err(Error::DofRepeated { path, row: row + 1, first_row, node, direction, repeated })
 }
 

@@ -16,7 +16,7 @@ pub(super) fn drop_empty(
     let count = is_kept.iter().filter(|kept| !**kept).count();
     // A pencil without any row is left as it is, to be refused by name.
     let first = is_kept.iter().position(|kept| !kept).filter(|_| count < n)?;
-    let dof = dofs.as_ref().map(|dofs| dofs[first]);
+    let dof = dofs.as_ref().and_then(|dofs| dofs[first]);
     for matrix in [stiffness, mass] {
         matrix.matrix = without(&matrix.matrix, &is_kept);
     }

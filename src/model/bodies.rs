@@ -55,16 +55,22 @@ fn joined(stiffness: &SparseMatrix, node_of_row: &[u32], is_kept: impl Fn(usize)
     parent
 }
 
-/// A dense number for the node of each row, in order of first appearance; every row its own node where no map is known.
-pub fn node_of_row(n_rows: usize, dofs: Option<&[Dof]>) -> Vec<u32> {
+/// A dense number for the node of each row, in order of first appearance; every row its own node where no map is known, and every
+/// scalar dof.
+pub fn node_of_row(n_rows: usize, dofs: Option<&[Option<Dof>]>) -> Vec<u32> {
     let Some(dofs) = dofs else {
         return (0..n_rows as u32).collect();
     };
     let mut number = HashMap::with_capacity(n_rows / 3 + 1);
+    let mut n_nodes = 0;
+    let mut next = || {
+        n_nodes += 1;
+        n_nodes - 1
+    };
     dofs.iter()
-        .map(|dof| {
-            let next = number.len() as u32;
-            *number.entry(dof.node).or_insert(next)
+        .map(|dof| match dof {
+            Some(dof) => *number.entry(dof.node).or_insert_with(&mut next),
+            None => next(),
         })
         .collect()
 }

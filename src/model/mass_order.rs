@@ -60,7 +60,7 @@ struct Apart {
 pub(super) fn compared(
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,
-    dofs: Option<&[Dof]>,
+    dofs: Option<&[Option<Dof>]>,
     names: RowNames<'_>,
 ) -> Result<Option<Finding>> {
     let of_row = node_of_row(mass.rows(), dofs);
@@ -81,14 +81,16 @@ pub(super) fn compared(
 }
 
 /// Whether K couples rotations with other nodes and M none.
-fn is_added(matrices: [&SparseMatrix; 2], dofs: &[Dof]) -> bool {
+fn is_added(matrices: [&SparseMatrix; 2], dofs: &[Option<Dof>]) -> bool {
+    let node = |row: usize| dofs[row].map(|dof| dof.node);
+    let turns = |row: &usize| dofs[*row].is_some_and(|dof| dof.direction.is_rotation());
     let couples_rotations = |matrix: &SparseMatrix| {
         let couples = |row: usize| {
             let entries = matrix.outer_view(row);
             let mut entries = entries.iter().flat_map(|row| row.iter());
-            entries.any(|(col, value)| *value != 0.0 && dofs[col].node != dofs[row].node)
+            entries.any(|(col, value)| *value != 0.0 && node(col) != node(row))
         };
-        (0..dofs.len()).filter(|row| dofs[*row].direction.is_rotation()).any(couples)
+        (0..dofs.len()).filter(turns).any(couples)
     };
     let [stiffness, mass] = matrices;
     couples_rotations(stiffness) && !couples_rotations(mass)

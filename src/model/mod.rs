@@ -133,19 +133,25 @@ impl Model {
         self.stiffness.rows()
     }
 
-    /// Number of connected parts of the rows that a condition keeps.
+    /// Number of connected parts of the rows that a condition keeps; a scalar dof by itself is none.
     pub fn n_bodies_among(&self, is_kept: impl Fn(usize) -> bool) -> usize {
-        Bodies::count_among(&self.stiffness, &node_of_row(self.n_dofs(), self.dofs.as_deref()), is_kept)
+        let is_counted = |row: usize| is_kept(row) && !self.names().is_scalar(row);
+        Bodies::count_among(&self.stiffness, &node_of_row(self.n_dofs(), self.dofs.as_deref()), is_counted)
+    }
+
+    /// Whether some rows belong to no node.
+    pub fn has_scalars(&self) -> bool {
+        self.dofs.iter().flatten().any(Option::is_none)
     }
 
     /// Records the facts of the model.
     pub fn facts(&self) -> ModelFacts {
-        let n_nodes = |dofs: &DofMap| dofs.iter().map(|dof| dof.node).collect::<HashSet<_>>().len();
+        let n_nodes = |dofs: &DofMap| dofs.iter().flatten().map(|dof| dof.node).collect::<HashSet<_>>().len();
         ModelFacts {
             n_dofs: self.n_dofs(),
             n_held: 0,
             n_nodes: self.dofs.as_ref().map(n_nodes),
-            n_bodies: self.bodies.n_bodies,
+            n_bodies: if self.has_scalars() { self.n_bodies_among(|_| true) } else { self.bodies.n_bodies },
             weight: None,
             rows: self.rows.clone(),
             findings: self.findings.clone(),
@@ -201,7 +207,7 @@ fn symmetrised(name: &'static str, input: MatrixInput, names: RowNames<'_>) -> R
 
 /// K and M exchanged: a unit translation makes no force at most rows of a stiffness, held or free, and inertia at every
 /// row of a mass (catalogue I-02).
-fn check_not_swapped(stiffness: &SparseMatrix, mass: &SparseMatrix, dofs: Option<&[Dof]>) -> Result<()> {
+fn check_not_swapped(stiffness: &SparseMatrix, mass: &SparseMatrix, dofs: Option<&[Option<Dof>]>) -> Result<()> {
     // Rows near a support or with rotations do not cancel in K; rows of M never do, since translations carry mass.
     const MIN_CANCELLING_IN_MASS: f64 = 0.5;
     const MAX_CANCELLING_IN_STIFFNESS: f64 = 0.05;
@@ -213,17 +219,19 @@ fn check_not_swapped(stiffness: &SparseMatrix, mass: &SparseMatrix, dofs: Option
 }
 
 /// The share of translation rows whose entries, those of the same direction, add up to nothing.
-fn cancelling_rows(matrix: &SparseMatrix, dofs: Option<&[Dof]>) -> f64 {
+fn cancelling_rows(matrix: &SparseMatrix, dofs: Option<&[Option<Dof>]>) -> f64 {
     // Text of six digits leaves 10⁻⁶ of a sum that should vanish; a row of M leaves all of it.
     const NOTHING: f64 = 1e-4;
-    let counts = |row: usize, col: usize| dofs.is_none_or(|dofs| dofs[row].direction == dofs[col].direction);
+    let direction = |row: usize| dofs.map(|dofs| dofs[row].map(|dof| dof.direction));
+    let is_translation =
+        |row: usize| direction(row).is_none_or(|direction| direction.is_some_and(|direction| !direction.is_rotation()));
     let (mut cancelling, mut total) = (0usize, 0usize);
     for (row, view) in matrix.outer_iterator().enumerate() {
-        if dofs.is_some_and(|dofs| dofs[row].direction.is_rotation()) {
+        if !is_translation(row) {
             continue;
         }
         let (mut sum, mut magnitude) = (0.0f64, 0.0f64);
-        for (_, value) in view.iter().filter(|(col, _)| counts(row, *col)) {
+        for (_, value) in view.iter().filter(|(col, _)| direction(row) == direction(*col)) {
             sum += value;
             magnitude += value.abs();
         }
@@ -290,15 +298,17 @@ fn check_diagonals(
 
 /// Rows whose stiffness no structure has.
 fn penalties(k_diag: &[f64], names: RowNames<'_>) -> Option<Finding> {
-    let mut sizes: Vec<f64> = k_diag.iter().copied().filter(|value| *value > 0.0).collect();
+    // The stiffness of an amplitude has the unit of its shape.
+    let rows = || (0..k_diag.len()).filter(|row| !names.is_scalar(*row));
+    let mut sizes: Vec<f64> = rows().map(|row| k_diag[row]).filter(|value| *value > 0.0).collect();
     if sizes.is_empty() {
         return None;
     }
     let middle = sizes.len() / 2;
     let median = *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
     let stiff = |row: &usize| k_diag[*row] > PENALTY * median;
-    let n_rows = (0..k_diag.len()).filter(stiff).count();
-    let stiffest = (0..k_diag.len()).filter(stiff).max_by(|a, b| k_diag[*a].total_cmp(&k_diag[*b]))?;
+    let n_rows = rows().filter(stiff).count();
+    let stiffest = rows().filter(stiff).max_by(|a, b| k_diag[*a].total_cmp(&k_diag[*b]))?;
     Some(Finding::Penalties { n_rows, first: names.full(stiffest), ratio: k_diag[stiffest] / median })
 }
 

@@ -60,36 +60,37 @@ pub struct Frame {
 const ONE_PLACE: f64 = 1e-12;
 
 impl Frame {
-    /// Of the dofs that are listed.
-    pub fn of(sites: &[Site], dofs: &[usize]) -> Self {
-        let count = dofs.len().max(1) as f64;
+    /// Of the dofs that are listed; those without a place do not count.
+    pub fn of(sites: &[Option<Site>], dofs: &[usize]) -> Self {
+        let positions = || dofs.iter().filter_map(|dof| sites[*dof]).map(|site| site.position);
+        let count = positions().count().max(1) as f64;
         let mut centre = [0.0; 3];
-        for dof in dofs {
-            for (sum, value) in centre.iter_mut().zip(sites[*dof].position) {
+        for position in positions() {
+            for (sum, value) in centre.iter_mut().zip(position) {
                 *sum += value / count;
             }
         }
-        let distance = |dof: &usize| {
-            let position = sites[*dof].position;
-            (0..3).map(|axis| (position[axis] - centre[axis]).powi(2)).sum::<f64>().sqrt()
-        };
-        let size = dofs.iter().map(distance).fold(0.0, f64::max);
+        let distance =
+            |position: [f64; 3]| (0..3).map(|axis| (position[axis] - centre[axis]).powi(2)).sum::<f64>().sqrt();
+        let size = positions().map(distance).fold(0.0, f64::max);
         // The mean of one place is that place but for rounding.
-        let far = sites.iter().flat_map(|site| site.position).fold(0.0f64, |max, x| max.max(x.abs()));
+        let far = sites.iter().flatten().flat_map(|site| site.position).fold(0.0f64, |max, x| max.max(x.abs()));
         Self { centre, size: if size > ONE_PLACE * far { size } else { 1.0 } }
     }
 }
 
 impl Model {
-    /// Position and direction of every row, or nothing where the dof map or the position of a node is not known.
-    pub fn sites(&self) -> Option<Vec<Site>> {
+    /// Position and direction of every row, none for a scalar dof; nothing where the dof map or the position of a node is not known, or
+    /// no row belongs to a node.
+    pub fn sites(&self) -> Option<Vec<Option<Site>>> {
         let (dofs, nodes) = self.dofs.as_ref().zip(self.nodes.as_ref())?;
-        let wanted: HashSet<i64> = dofs.iter().map(|dof| dof.node).collect();
+        let wanted: HashSet<i64> = dofs.iter().flatten().map(|dof| dof.node).collect();
         let places = nodes.labels.iter().copied().zip(nodes.coordinates.iter().copied());
         let positions: HashMap<i64, [f64; 3]> = places.filter(|(label, _)| wanted.contains(label)).collect();
-        let site =
-            |dof: &Dof| positions.get(&dof.node).map(|position| Site { position: *position, direction: dof.direction });
-        dofs.iter().map(site).collect()
+        let site = |dof: &Dof| Some(Site { position: *positions.get(&dof.node)?, direction: dof.direction });
+        let of_row = |dof: &Option<Dof>| dof.as_ref().map_or(Some(None), |dof| site(dof).map(Some));
+        let sites: Vec<Option<Site>> = dofs.iter().map(of_row).collect::<Option<_>>()?;
+        sites.iter().any(Option::is_some).then_some(sites)
     }
 }
 

@@ -22,13 +22,13 @@ impl Model {
         let sites = self.sites();
         let mut motions = Mat::zeros(self.n_dofs(), if sites.is_some() { 6 } else { 3 });
         for (row, dof) in dofs.iter().enumerate() {
-            match &sites {
-                Some(sites) => {
-                    let motion = sites[row].rigid_motion();
+            match (sites.as_ref().and_then(|sites| sites[row]), dof) {
+                (Some(site), _) => {
+                    let motion = site.rigid_motion();
                     motion.into_iter().enumerate().for_each(|(j, value)| motions[(row, j)] = value);
                 }
-                None if !dof.direction.is_rotation() => motions[(row, dof.direction.axis())] = 1.0,
-                None => {}
+                (None, Some(dof)) if !dof.direction.is_rotation() => motions[(row, dof.direction.axis())] = 1.0,
+                (None, _) => {}
             }
         }
         let mut masses = dense::gram(motions.as_ref(), product(&self.mass, motions.as_ref()).as_ref());

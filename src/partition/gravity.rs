@@ -24,7 +24,8 @@ pub struct Gravity {
 /// The loads of gravity on a model; none without a dof map, which tells directions.
 pub(super) fn gravity(model: &Model, transformation: &Transformation) -> Option<Gravity> {
     let dofs = model.dofs.as_ref()?;
-    let unit = Mat::from_fn(dofs.len(), 3, |row, axis| f64::from(u8::from(dofs[row].direction as usize == axis)));
+    let moves = |row: usize, axis: usize| dofs[row].is_some_and(|dof| dof.direction as usize == axis);
+    let unit = Mat::from_fn(dofs.len(), 3, |row, axis| f64::from(u8::from(moves(row, axis))));
     let momenta = product(&model.mass, unit.as_ref());
     let mut loads = Mat::zeros(transformation.dofs.len(), 3);
     for axis in 0..3 {

@@ -94,7 +94,7 @@ pub fn held(model: &Model, fixed: &[FixedJob]) -> Result<Held> {
     }
     refuse_all(model, &held)?;
     if let Some(sites) = model.sites() {
-        held.sites = held.rows.keys().map(|row| sites[*row]).collect();
+        held.sites = held.rows.keys().filter_map(|row| sites[*row]).collect();
     }
     Ok(held)
 }

@@ -84,7 +84,9 @@ fn from_rows(model: &Model, catalogue: &NodeCatalogue, job: &InterfaceJob, rows:
         let mut labels: Vec<i64> = Vec::new();
         let mut directions: HashMap<i64, Vec<Direction>> = HashMap::new();
         for row in &rows {
-            let Dof { node, direction } = dofs[*row];
+            let Some(Dof { node, direction }) = dofs[*row] else {
+                return Err(refused(model, &selector, model.rows.of(*row), "is a scalar dof, which no node has"));
+            };
             directions.entry(node).or_insert_with(|| {
                 labels.push(node);
                 Vec::new()
@@ -112,11 +114,16 @@ fn from_rows(model: &Model, catalogue: &NodeCatalogue, job: &InterfaceJob, rows:
 /// The row of the model that a row of the files, both from zero, has become.
 pub(super) fn row_of_model(model: &Model, selector: &Selector, row: usize) -> Result<usize> {
     let n = model.n_dofs() + model.rows.n_dropped();
-    let wrong = |found| Error::InterfaceRow { selector: selector.clone(), row, found, n };
     if row >= n {
-        return Err(wrong("does not exist"));
+        return Err(refused(model, selector, row, "does not exist"));
     }
-    model.rows.find(row).ok_or_else(|| wrong("has neither stiffness nor mass and was dropped as asked"))
+    let dropped = "has neither stiffness nor mass and was dropped as asked";
+    model.rows.find(row).ok_or_else(|| refused(model, selector, row, dropped))
+}
+
+/// The error of a row of the files that cannot be taken.
+fn refused(model: &Model, selector: &Selector, row: usize, found: &'static str) -> Error {
+    Error::InterfaceRow { selector: selector.clone(), row, found, n: model.n_dofs() + model.rows.n_dropped() }
 }
 
 fn refuse_shared_rows(model: &Model, resolved: &[Resolved]) -> Result<()> {
@@ -126,7 +133,7 @@ fn refuse_shared_rows(model: &Model, resolved: &[Resolved]) -> Result<()> {
         for row in rows {
             if let Some(first) = owner.insert(*row, &node.name) {
                 let in_files = || format!("row {} (from zero)", model.rows.of(*row));
-                let dof = model.dofs.as_ref().map_or_else(in_files, |dofs| dofs[*row].to_string());
+                let dof = model.dofs.as_ref().and_then(|dofs| dofs[*row]).map_or_else(in_files, |dof| dof.to_string());
                 return Err(Error::DofTwice { dof, first: first.to_owned(), second: node.name.clone() });
             }
         }

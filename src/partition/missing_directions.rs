@@ -16,14 +16,14 @@ pub(super) fn constrained_nodes(model: &Model, interfaces: &Interfaces) -> Vec<F
         return Vec::new();
     };
     let mut of_node: BTreeMap<i64, BTreeSet<Direction>> = BTreeMap::new();
-    for dof in dofs {
+    for dof in dofs.iter().flatten() {
         of_node.entry(dof.node).or_default().insert(dof.direction);
     }
     let usual = [&Direction::ALL[..3], &Direction::ALL[3..]].map(|kind| usual_directions(&of_node, kind));
     let mut findings = Vec::new();
     for Resolved { node, rows } in &interfaces.0 {
         let (Rows::Own(rows) | Rows::Patch(rows)) = rows;
-        let labels: BTreeSet<i64> = rows.iter().map(|row| dofs[*row].node).collect();
+        let labels: BTreeSet<i64> = rows.iter().filter_map(|row| dofs[*row]).map(|dof| dof.node).collect();
         for label in labels {
             let has = &of_node[&label];
             let lacking = usual.iter().filter(|usual| usual.iter().any(|direction| has.contains(direction)));

@@ -17,7 +17,8 @@ pub(super) struct NodeCatalogue {
 impl NodeCatalogue {
     pub(super) fn new(model: &Model) -> Self {
         let mut rows: HashMap<i64, BTreeMap<Direction, usize>> = HashMap::new();
-        for (row, Dof { node, direction }) in model.dofs.iter().flatten().enumerate() {
+        for (row, dof) in model.dofs.iter().flatten().enumerate() {
+            let Some(Dof { node, direction }) = dof else { continue };
             rows.entry(*node).or_default().insert(*direction, row);
         }
         // A mesh may have any number of nodes; those without rows are refused before their place is looked up.

@@ -21,7 +21,8 @@ pub(super) fn far_origins(model: &Model, interfaces: &Interfaces) -> Result<Vec<
     let mut findings = Vec::new();
     for Resolved { node, rows } in &interfaces.0 {
         let (Rows::Patch(rows), Some(origin)) = (rows, node.position) else { continue };
-        let mean = |axis: usize| rows.iter().map(|row| sites[*row].position[axis]).sum::<f64>() / rows.len() as f64;
+        let places = || rows.iter().filter_map(|row| sites[*row]);
+        let mean = |axis: usize| places().map(|site| site.position[axis]).sum::<f64>() / rows.len() as f64;
         let middle = [0, 1, 2].map(mean);
         let ratio = dense::norm(&[0, 1, 2].map(|axis| origin[axis] - middle[axis])) / size;
         let interface = node.name.clone();
@@ -37,11 +38,13 @@ pub(super) fn far_origins(model: &Model, interfaces: &Interfaces) -> Result<Vec<
 }
 
 /// The diagonal of the box around the nodes.
-fn size_of(sites: &[Site]) -> f64 {
+fn size_of(sites: &[Option<Site>]) -> f64 {
     let span = |axis: usize| {
         let ends = (f64::INFINITY, f64::NEG_INFINITY);
-        let (low, high) =
-            sites.iter().fold(ends, |(low, high), site| (low.min(site.position[axis]), high.max(site.position[axis])));
+        let (low, high) = sites
+            .iter()
+            .flatten()
+            .fold(ends, |(low, high), site| (low.min(site.position[axis]), high.max(site.position[axis])));
         high - low
     };
     if sites.is_empty() { 0.0 } else { dense::norm(&[0, 1, 2].map(span)) }

@@ -148,23 +148,21 @@ impl Partition {
         self.dofs.len() - self.n_internal
     }
 
-    /// Position and direction of every dof, or nothing where coordinates are unknown.
-    pub fn sites(&self) -> Option<Vec<Site>> {
-        self.dofs.iter().map(|dof| dof.site).collect()
+    /// Position and direction of every dof, none for a scalar one; nothing where coordinates are unknown.
+    pub fn sites(&self) -> Option<Vec<Option<Site>>> {
+        let sites: Vec<Option<Site>> = self.dofs.iter().map(|dof| dof.site).collect();
+        sites.iter().any(Option::is_some).then_some(sites)
     }
 
     /// The six unit motions of dofs about a point, as rows of n' × 6 with zeros elsewhere: by the coordinates or, where those
-    /// are rounded, as K knows them.
-    ///
-    /// # Panics
-    /// Where a dof has no site.
+    /// are rounded, as K knows them. A scalar dof stays at rest.
     pub fn rigid_motions(&self, dofs: &[usize], centre: [f64; 3]) -> Mat<f64> {
         let mut motions = Mat::zeros(self.n_dofs(), 6);
         for dof in dofs {
             let ReducedDof { origin, site, .. } = self.dofs[*dof];
             let motion = match (origin, self.fit.rounded()) {
                 (DofOrigin::Row(row), Some(rounded)) => rounded.motion(row, centre),
-                _ => site.expect("a dof with coordinates").rigid_motion_about(centre),
+                _ => site.map_or([0.0; 6], |site| site.rigid_motion_about(centre)),
             };
             motion.into_iter().enumerate().for_each(|(j, value)| motions[(*dof, j)] = value);
         }

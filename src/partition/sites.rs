@@ -5,11 +5,11 @@ use crate::model::{Model, RoundedCoordinates, Site, node_of_row};
 
 /// Positions of the rows of the model.
 pub(super) struct Sites<'a> {
-    pub(super) of_row: Option<Vec<Site>>,
+    pub(super) of_row: Option<Vec<Option<Site>>>,
     /// How they move as K knows it, where their coordinates are rounded.
     rounded: Option<&'a RoundedCoordinates>,
     pub(super) node_of_row: Vec<u32>,
-    pub(super) dofs: Option<&'a [Dof]>,
+    pub(super) dofs: Option<&'a [Option<Dof>]>,
     pub(super) n_nodes: u32,
 }
 
@@ -26,7 +26,7 @@ impl<'a> Sites<'a> {
         match (&self.of_row, self.rounded) {
             (None, _) => [0.0; 6],
             (Some(_), Some(rounded)) => rounded.motion(row, position),
-            (Some(sites), None) => sites[row].rigid_motion_about(position),
+            (Some(sites), None) => sites[row].map_or([0.0; 6], |site| site.rigid_motion_about(position)),
         }
     }
 }

@@ -20,7 +20,7 @@ pub struct ReducedDof {
     pub origin: DofOrigin,
     /// True for an interface dof.
     pub is_interface: bool,
-    /// Position and direction, where known.
+    /// Position and direction, where known; none for a scalar dof.
     pub site: Option<Site>,
     /// Number of the node it belongs to, shared by the dofs of one node.
     pub node: u32,
@@ -138,9 +138,9 @@ impl Builder<'_> {
         self.dofs.push(ReducedDof {
             origin: DofOrigin::Row(row),
             is_interface: part == Part::Interface,
-            site: self.sites.of_row.as_ref().map(|sites| sites[row]),
+            site: self.sites.of_row.as_ref().and_then(|sites| sites[row]),
             node: self.sites.node_of_row[row],
-            dof: self.sites.dofs.map(|dofs| dofs[row]),
+            dof: self.sites.dofs.and_then(|dofs| dofs[row]),
         });
     }
 

@@ -22,13 +22,16 @@ pub(crate) const NO_MASS: f64 = 1e-24;
 const MASS_OF_ROUNDING: f64 = NOISE_FACTOR * f64::EPSILON;
 
 /// The zero-energy rigid motions of every body.
-pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Site]) -> Result<RigidBodyModes> {
+pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Option<Site>]) -> Result<RigidBodyModes> {
     let node_of_dof: Vec<u32> = partition.dofs.iter().map(|dof| dof.node).collect();
     let bodies = Bodies::of(&partition.stiffness, &dense_numbers(&node_of_dof));
     let mut found = Vec::new();
     for body in 0..bodies.n_bodies as u32 {
         let dofs: Vec<usize> = (0..sites.len()).filter(|dof| bodies.of_row[*dof] == body).collect();
-        found.push(of_body(partition, sites, &dofs)?);
+        // A scalar dof by itself is no body.
+        if dofs.iter().any(|dof| sites[*dof].is_some()) {
+            found.push(of_body(partition, sites, &dofs)?);
+        }
     }
     refuse_floating_bodies(partition, &found)?;
     let is_classical = matches!(found.as_slice(), [body] if body.is_classical);
@@ -125,7 +128,7 @@ impl Body {
     }
 }
 
-fn of_body(partition: &Partition, sites: &[Site], dofs: &[usize]) -> Result<Body> {
+fn of_body(partition: &Partition, sites: &[Option<Site>], dofs: &[usize]) -> Result<Body> {
     let frame = Frame::of(sites, dofs);
     // Unit motions about the body's own centre, rotations scaled to its size: columns of like length.
     let mut centred = partition.rigid_motions(dofs, frame.centre);

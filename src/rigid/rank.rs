@@ -138,10 +138,10 @@ fn free_particles(partition: &Partition) -> String {
     particles.map_or_else(String::new, |particles| format!("; {particles}"))
 }
 
-fn size_of(sites: &[Site]) -> f64 {
+fn size_of(sites: &[Option<Site>]) -> f64 {
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
-    for site in sites {
+    for site in sites.iter().flatten() {
         for axis in 0..3 {
             low[axis] = low[axis].min(site.position[axis]);
             high[axis] = high[axis].max(site.position[axis]);
@@ -152,7 +152,7 @@ fn size_of(sites: &[Site]) -> f64 {
 }
 
 /// Puts a rigid motion into words: the axis it turns about, or the direction it moves in.
-fn describe(sites: &[Site], motion: &[f64]) -> String {
+fn describe(sites: &[Option<Site>], motion: &[f64]) -> String {
     let Some([t, r]) = fit(sites, motion) else {
         return String::new();
     };
@@ -175,15 +175,16 @@ fn describe(sites: &[Site], motion: &[f64]) -> String {
 }
 
 /// Translation and rotation about the origin that make up a rigid motion, by least squares.
-fn fit(sites: &[Site], motion: &[f64]) -> Option<[[f64; 3]; 2]> {
+fn fit(sites: &[Option<Site>], motion: &[f64]) -> Option<[[f64; 3]; 2]> {
     // Only the part that moves takes part: a motion of one body of several is zero elsewhere, but for rounding.
     let least = 1e-9 * motion.iter().fold(0.0f64, |max, value| max.max(value.abs()));
-    let moving: Vec<usize> = (0..sites.len()).filter(|dof| motion[*dof].abs() > least).collect();
+    let moving = sites.iter().zip(motion).filter(|(_, motion)| motion.abs() > least);
+    let moving: Vec<(Site, f64)> = moving.filter_map(|(site, motion)| Some(((*site)?, *motion))).collect();
     if moving.len() < 6 {
         return None;
     }
-    let a = Mat::from_fn(moving.len(), 6, |i, j| sites[moving[i]].rigid_motion()[j]);
-    let b = Mat::from_fn(moving.len(), 1, |i, _| motion[moving[i]]);
+    let a = Mat::from_fn(moving.len(), 6, |i, j| moving[i].0.rigid_motion()[j]);
+    let b = Mat::from_fn(moving.len(), 1, |i, _| moving[i].1);
     // A rotation about an axis through all moving dofs moves none of them: the least squares solution of least norm is the
     // one that leaves it out.
     let svd = a.thin_svd().ok()?;

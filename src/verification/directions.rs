@@ -46,7 +46,7 @@ impl Directions {
         Self { names, masses: vec![1.0; n], are_held: vec![false; n], motions }
     }
 
-    fn unit_motions(partition: &Partition, sites: &[Site]) -> Self {
+    fn unit_motions(partition: &Partition, sites: &[Option<Site>]) -> Self {
         let centre = middle_of_mass(partition, sites);
         let every: Vec<usize> = (0..sites.len()).collect();
         let motions = partition.rigid_motions(&every, centre);
@@ -83,9 +83,10 @@ impl Directions {
 
 /// The mean position of the translations, weighted with the diagonal of M: near the centre of mass, which is close
 /// enough for rotations that are examined one by one.
-fn middle_of_mass(partition: &Partition, sites: &[Site]) -> [f64; 3] {
+fn middle_of_mass(partition: &Partition, sites: &[Option<Site>]) -> [f64; 3] {
     let (mut sum, mut total) = ([0.0; 3], 0.0);
-    for (row, site) in sites.iter().enumerate().filter(|(_, site)| site.direction <= Direction::Uz) {
+    let at_node = sites.iter().enumerate().filter_map(|(row, site)| Some((row, (*site)?)));
+    for (row, site) in at_node.filter(|(_, site)| site.direction <= Direction::Uz) {
         let weight = partition.mass.get(row, row).copied().unwrap_or(0.0);
         (0..3).for_each(|axis| sum[axis] += weight * site.position[axis]);
         total += weight;

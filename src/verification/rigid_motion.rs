@@ -75,7 +75,7 @@ pub(super) fn residual(evidence: &Evidence<'_>, grounding: &[Grounding]) -> Chec
 fn remoteness(evidence: &Evidence<'_>) -> f64 {
     let Some(sites) = evidence.partition.sites() else { return 1.0 };
     let (mut farthest, mut low, mut high) = (0.0f64, [f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for site in &sites {
+    for site in sites.iter().flatten() {
         for (axis, x) in site.position.into_iter().enumerate() {
             farthest = farthest.max(x.abs());
             (low[axis], high[axis]) = (low[axis].min(x), high[axis].max(x));

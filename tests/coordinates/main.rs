@@ -25,7 +25,7 @@ enum Ties {
 
 /// A model whose coordinates were compared with its stiffness.
 fn compared(model: Model, ties: Ties) -> Result<Model> {
-    let labels = || model.dofs.iter().flatten().map(|dof| dof.node);
+    let labels = || model.dofs.iter().flatten().flatten().map(|dof| dof.node);
     let tied: HashSet<i64> = match ties {
         Ties::All => labels().collect(),
         Ties::None => HashSet::new(),

@@ -1,6 +1,6 @@
 //! Dof maps and node tables.
 
-use supel::dofs::{Direction, Dof};
+use supel::dofs::{Direction, Dof, DofMap};
 use supel::error::{Error, Result};
 use supel::input::{Input, InputNote, read};
 
@@ -16,12 +16,12 @@ fn read_tables(n: usize, dofs: Option<&[u8]>, nodes: Option<&[u8]>) -> Result<In
     read(&model)
 }
 
-fn dofs_of(n: usize, text: &str) -> Result<Vec<Dof>> {
+fn dofs_of(n: usize, text: &str) -> Result<DofMap> {
     read_tables(n, Some(text.as_bytes()), None).map(|input| input.dofs.expect("a dof map"))
 }
 
-fn dof(node: i64, direction: Direction) -> Dof {
-    Dof { node, direction }
+fn dof(node: i64, direction: Direction) -> Option<Dof> {
+    Some(Dof { node, direction })
 }
 
 fn dof_error(n: usize, text: &str) -> Error {
@@ -39,6 +39,22 @@ fn a_dof_map_line_by_line() {
     assert_eq!(dofs_of(2, "\u{feff}5.1\r\n\r\n 7.6").expect("a map"), expected);
     let input = read_tables(2, Some(&gzip(b"5.1\n7.6\n")), None).expect("a map");
     assert_eq!(input.dofs, Some(expected));
+}
+
+/// A row that no node has says so, and names none.
+#[test]
+fn scalar_dofs_of_a_table() {
+    let map = dofs_of(3, "node,dof\n101,uz\n,scalar\n,Scalar\n").expect("a map");
+    assert_eq!(map, [dof(101, Direction::Uz), None, None]);
+    let from_zero = dofs_of(3, "node,dof\n101,0\n,scalar\n101,2\n").expect("a map");
+    assert_eq!(from_zero, [dof(101, Direction::Ux), None, dof(101, Direction::Uz)]);
+    let error = dof_error(2, "node,dof\n101,uz\n102,scalar\n").to_string();
+    assert!(error.contains(":3: ") && error.contains("a scalar dof belongs to no node"), "{error}");
+    assert!(matches!(dof_error(2, "node,dof\n101,uz\n,ux\n"), Error::TableField { line: 3, .. }));
+    // A scalar dof is no node that a table of nodes could lack, and no two of them repeat each other.
+    let nodes = Some(b"node,x,y,z\n101,0,0,0\n".as_slice());
+    let input = read_tables(3, Some(b"node,dof\n101,uz\n,scalar\n,scalar\n"), nodes).expect("a map");
+    assert!(input.notes.iter().all(|note| !matches!(note, InputNote::UnusedNodes { .. })), "{:?}", input.notes);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use super::super::evidence::Evidence;
 use crate::dense;
+use crate::model::Site;
 use crate::partition::Partition;
 use crate::sparse::product;
 use faer::Mat;
@@ -54,8 +55,11 @@ impl Inertia {
             let momentum = product(&partition.mass, together.as_ref());
             return Self { mass: momentum.col(0).iter().sum(), moment: 0.0 };
         };
-        let centre = [0, 1, 2].map(|axis| sites.iter().map(|site| site.position[axis]).sum::<f64>() / n as f64);
-        let motions: Vec<[f64; 6]> = sites.iter().map(|site| site.rigid_motion_about(centre)).collect();
+        let places = || sites.iter().flatten();
+        let n_places = places().count() as f64;
+        let centre = [0, 1, 2].map(|axis| places().map(|site| site.position[axis]).sum::<f64>() / n_places);
+        let motion = |site: &Option<Site>| site.map_or([0.0; 6], |site| site.rigid_motion_about(centre));
+        let motions: Vec<[f64; 6]> = sites.iter().map(motion).collect();
         let u = Mat::from_fn(n, 6, |i, j| motions[i][j]);
         let m_f = dense::gram(u.as_ref(), product(&partition.mass, u.as_ref()).as_ref());
         let mass = (0..3).map(|axis| m_f[(axis, axis)]).fold(0.0, f64::max);
@@ -81,7 +85,7 @@ pub(super) fn rotation_length(partition: &Partition) -> f64 {
         (squares.sum::<f64>() / n).sqrt()
     };
     let nodes: Vec<[f64; 3]> = partition.interface.iter().filter_map(|node| node.position).collect();
-    let all = || partition.sites().map(|sites| sites.iter().map(|site| site.position).collect::<Vec<_>>());
+    let all = || partition.sites().map(|sites| sites.iter().flatten().map(|site| site.position).collect::<Vec<_>>());
     let of_nodes = if nodes.len() > 1 { spread(&nodes) } else { 0.0 };
     let length = if of_nodes > 0.0 { of_nodes } else { all().map_or(0.0, |all| spread(&all)) };
     if length > 0.0 { length } else { 1.0 }

@@ -10,7 +10,7 @@ use supel::basis::{Basis, DynamicColumns, retained_columns};
 use supel::constraint::FreeAtZero;
 use supel::constraint::{ConstraintModes, constraint_modes};
 use supel::coordinates;
-use supel::dofs::{Direction, Dof, Nodes};
+use supel::dofs::{Direction, Dof, DofMap, Nodes};
 use supel::eigen::{Factored, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes};
 use supel::error::Error;
 use supel::factor::Cholesky;
@@ -31,9 +31,11 @@ pub use twin::{EPS, Twin, absolute, against_bound, column_difference, dense, dif
 
 /// A generated model as the readers would hand it over.
 pub fn input(model: &models::Model) -> Input {
-    let dofs =
-        model.dofs.iter().map(|&(node, direction)| Dof { node, direction: Direction::ALL[usize::from(direction)] });
-    let dofs: Vec<Dof> = dofs.collect();
+    let dofs = model
+        .dofs
+        .iter()
+        .map(|&(node, direction)| Some(Dof { node, direction: Direction::ALL[usize::from(direction)] }));
+    let dofs: DofMap = dofs.collect();
     let index = |label: &i64| model.labels.iter().position(|other| other == label).expect("a node of the model");
     let groups = model.groups.iter().map(|(name, members)| (name.clone(), members.iter().map(index).collect()));
     let nodes = Nodes { labels: model.labels.clone(), coordinates: model.nodes.clone(), groups: groups.collect() };

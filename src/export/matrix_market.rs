@@ -1,0 +1,144 @@
+//! Matrix Market: K̂ and M̂ with the dof map and the nodes, as `supel reduce` reads a model.
+//!
+//! Modal amplitudes are scalar dofs: rows of the dof map without a node, which no rigid-body motion moves, because Ψ carries
+//! rigid-body motion by the interface alone (24). A superelement whose interface has no positions is one of bare rows and
+//! leaves without map and nodes. Numbers have seventeen digits, from which every double comes back to the bit.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+
+use supel_runtime::{Coordinate, InterfaceNode, Matrix, Superelement, Tensors};
+
+use super::format::{ExportedFile, Format};
+use super::model_job::job;
+use super::names::Names;
+use crate::error::Result;
+use crate::report::printable;
+
+/// Matrix Market files, tables and a job.
+#[derive(Debug)]
+pub(super) struct MatrixMarket;
+
+impl Format for MatrixMarket {
+    fn name(&self) -> &'static str {
+        "matrix-market"
+    }
+
+    fn files(&self, superelement: &Superelement, names: &Names) -> Result<Vec<ExportedFile>> {
+        let file = ExportedFile::text;
+        let nodes = &superelement.metadata().interface_nodes;
+        let labels = labels(nodes);
+        let rows = rows(superelement, &labels);
+        let Tensors { stiffness, mass, damping, gravity, load_vectors, recovery, .. } = superelement.tensors();
+        let mut files = vec![
+            file("stiffness.mtx", "stiffness", symmetric(stiffness, &rows)),
+            file("mass.mtx", "mass", symmetric(mass, &rows)),
+        ];
+        let arrays = [
+            ("damping.mtx", "damping", damping.as_ref()),
+            ("gravity.mtx", "loads of a unit gravity field along x, y, z", gravity.as_ref()),
+            ("loads.mtx", "load vectors", load_vectors.as_ref()),
+            ("recovery.mtx", "recovery", recovery.as_ref().map(|recovery| recovery.rows())),
+        ];
+        let arrays = arrays.into_iter().filter_map(|(ending, content, matrix)| Some((ending, content, matrix?)));
+        files.extend(arrays.map(|(ending, content, matrix)| file(ending, content, array(matrix))));
+        files.extend(recovery.as_ref().map(|recovery| {
+            let dofs = recovery.dofs().iter().map(|dof| (Some(dof.node), dof.direction.to_string()));
+            file("recovery-dofs.csv", "node and direction of each row of the recovery", dof_map(dofs))
+        }));
+        if !nodes.is_empty() {
+            files.push(file("dofs.csv", "node and direction of each row", dofs(superelement, &labels)));
+            files.push(file("nodes.csv", "nodes", node_table(nodes, &labels)));
+        }
+        if superelement.n_interface() > 0 {
+            files.push(file("job.toml", "a job that reduces it again", job(superelement, &labels, names)?));
+        }
+        Ok(files)
+    }
+}
+
+/// What each row is, for people.
+fn rows(superelement: &Superelement, labels: &[i64]) -> Vec<String> {
+    let of_coordinate = |coordinate: &Coordinate| match *coordinate {
+        Coordinate::Interface { node, direction } => format!("node {} {direction}", labels[node]),
+        Coordinate::InterfaceRow { row } => format!("row {row} (from zero) of the model"),
+        Coordinate::RigidBodyMode { index } => format!("rigid-body mode {}", index + 1),
+        Coordinate::InertiaRelief { index } => format!("inertia-relief mode {}", index + 1),
+        Coordinate::ElasticMode { mode, frequency_hz, .. } => format!("elastic mode {}, {frequency_hz} Hz", mode + 1),
+        Coordinate::FixedInterfaceMode { mode, frequency_hz, .. } => {
+            format!("fixed-interface mode {}, {frequency_hz} Hz", mode + 1)
+        }
+    };
+    superelement.metadata().coordinates.iter().map(of_coordinate).collect()
+}
+
+/// A number from which the double comes back.
+fn number(value: f64) -> String {
+    format!("{value:.16e}")
+}
+
+/// A matrix that is symmetric to the bit: its lower triangle, column by column, without zeros.
+fn symmetric(matrix: &Matrix, rows: &[String]) -> String {
+    let n = matrix.rows();
+    let entries = || (0..n).flat_map(|j| (j..n).map(move |i| (i, j))).filter(|at| matrix[*at] != 0.0);
+    let mut text = String::from("%%MatrixMarket matrix coordinate real symmetric\n");
+    for (row, what) in rows.iter().enumerate() {
+        let _ = writeln!(text, "% row {}: {what}", row + 1);
+    }
+    let _ = writeln!(text, "{n} {n} {}", entries().count());
+    for (i, j) in entries() {
+        let _ = writeln!(text, "{} {} {}", i + 1, j + 1, number(matrix[(i, j)]));
+    }
+    text
+}
+
+/// A matrix with all entries, column by column.
+fn array(matrix: &Matrix) -> String {
+    let (m, n) = (matrix.rows(), matrix.cols());
+    let mut text = format!("%%MatrixMarket matrix array real general\n{m} {n}\n");
+    for at in (0..n).flat_map(|j| (0..m).map(move |i| (i, j))) {
+        let _ = writeln!(text, "{}", number(matrix[at]));
+    }
+    text
+}
+
+/// A label for each interface node: its own in the model or, where the reduction added it, the next number that is nobody's.
+fn labels(nodes: &[InterfaceNode]) -> Vec<i64> {
+    let taken: BTreeSet<i64> = nodes.iter().filter_map(|node| node.label).collect();
+    let mut free = (1..).filter(|label| !taken.contains(label));
+    nodes.iter().map(|node| node.label.or_else(|| free.next()).unwrap_or_default()).collect()
+}
+
+fn dofs(superelement: &Superelement, labels: &[i64]) -> String {
+    dof_map(superelement.metadata().coordinates.iter().map(|coordinate| match coordinate {
+        Coordinate::Interface { node, direction } => (Some(labels[*node]), direction.to_string()),
+        _ => (None, SCALAR.to_owned()),
+    }))
+}
+
+/// What the dof map says in place of a direction of a row that no node has.
+const SCALAR: &str = "scalar";
+
+fn dof_map(rows: impl Iterator<Item = (Option<i64>, String)>) -> String {
+    let mut text = String::from("node,dof\n");
+    for (node, dof) in rows {
+        let _ = writeln!(text, "{},{dof}", node.map_or_else(String::new, |node| node.to_string()));
+    }
+    text
+}
+
+/// Nodes with their interfaces; dofs of one node may belong to several.
+fn node_table(nodes: &[InterfaceNode], labels: &[i64]) -> String {
+    let mut of_label: BTreeMap<i64, (usize, Vec<&str>)> = BTreeMap::new();
+    for (index, node) in nodes.iter().enumerate() {
+        of_label.entry(labels[index]).or_insert((index, Vec::new())).1.push(&node.name);
+    }
+    let mut text = String::from("node,x,y,z,interface\n");
+    for (index, label) in labels.iter().enumerate() {
+        let Some((_, names)) = of_label.get(label).filter(|(first, _)| *first == index) else { continue };
+        let [x, y, z] = nodes[index].position.map(number);
+        let names = printable(&names.join(" + ")).replace('"', "\"\"");
+        let _ = writeln!(text, "{label},{x},{y},{z},\"{names}\"");
+    }
+    text
+}

@@ -1,0 +1,18 @@
+//! Exports: a superelement in the formats that other programs read.
+//!
+//! To add a format: its file, and its line in [`FORMATS`]. Numbers leave in the units of the model. No format verifies
+//! anything; what the file records of its verification is for the caller to say.
+
+mod format;
+mod matrix_market;
+mod model_job;
+mod names;
+mod op4;
+mod op4_binary;
+mod op4_content;
+
+pub use format::{ExportedFile, Format};
+pub use names::Names;
+
+/// Every format, in the order in which help and documentation list them.
+pub const FORMATS: [&dyn Format; 3] = [&matrix_market::MatrixMarket, &op4::Op4, &op4_binary::Op4Binary];

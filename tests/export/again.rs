@@ -1,0 +1,185 @@
+//! An exported superelement is a model that is reduced again, to itself.
+
+use serde_json::Value;
+use supel::cli::ExitCode;
+use supel_models::{Material, brick};
+use supel_runtime::{Coordinate, Superelement};
+use supel_testing::place::{Place, frequencies_hz, supel};
+
+use super::{HELD, HINGED, export, reduced};
+
+const METHODS: [&str; 2] = ["craig-bampton", "herting"];
+
+/// Reduces x.supel again by the job that was exported with it.
+fn again(place: &Place) -> (Superelement, Value) {
+    export(place, "matrix-market", &[]).expect(ExitCode::Done);
+    let ended = supel(&["reduce", &place.text("x.job.toml")]);
+    let job = String::from_utf8(place.bytes("x.job.toml")).expect("text");
+    assert_eq!(ended.code, ExitCode::Done, "{}{}\n{job}", ended.out, ended.err);
+    (place.superelement("x.again.supel"), place.report("x.again.report.json"))
+}
+
+fn bars_hz(superelement: &Superelement) -> Vec<f64> {
+    let bar = |coordinate: &Coordinate| match coordinate {
+        Coordinate::ElasticMode { error_bar_hz, .. } | Coordinate::FixedInterfaceMode { error_bar_hz, .. } => {
+            Some(error_bar_hz.expect("a bar"))
+        }
+        _ => None,
+    };
+    superelement.metadata().coordinates.iter().filter_map(bar).collect()
+}
+
+/// Retained eigenpairs are those of the reduced pencil (34), so that reducing it again finds them: as far off as the bars of both
+/// runs say, of which each holds for its own matrices.
+#[track_caller]
+fn assert_same_spectrum(first: &Superelement, second: &Superelement) {
+    let (found, expected) = (frequencies_hz(second), frequencies_hz(first));
+    let (bars, again) = (bars_hz(first), bars_hz(second));
+    assert_eq!((found.len(), bars.len(), again.len()), (expected.len(), expected.len(), expected.len()));
+    for k in 0..found.len() {
+        let (difference, bar) = ((found[k] - expected[k]).abs(), bars[k] + again[k]);
+        assert!(difference <= bar, "mode {k}: {} and {} Hz differ by {difference:e}, {bar:e}", found[k], expected[k]);
+        // Bars that say nothing would let anything pass.
+        assert!(bar < 1e-6 * expected[k], "mode {k} of {} Hz: {bar:e}", expected[k]);
+    }
+}
+
+#[test]
+fn a_superelement_is_reduced_to_itself() {
+    let supports = [("", 6), (HELD, 0), (HINGED, 1)];
+    for (method, (fixed, n_rigid)) in METHODS.into_iter().flat_map(|method| supports.map(|support| (method, support))) {
+        let place = reduced(method, fixed);
+        let first = place.superelement("x.supel");
+        let (second, report) = again(&place);
+        assert_same_spectrum(&first, &second);
+        let names = |s: &Superelement| {
+            let nodes = s.metadata().interface_nodes.iter();
+            nodes.map(|node| (node.name.clone(), node.dofs.clone(), node.position)).collect::<Vec<_>>()
+        };
+        assert_eq!(names(&second), names(&first), "{method} {fixed}");
+        assert_eq!(second.n_coordinates(), first.n_coordinates(), "{method} {fixed}");
+        assert_eq!((first.n_rigid(), second.n_rigid()), (n_rigid, n_rigid), "{method} {fixed}");
+        // One body, whatever its modal amplitudes are coupled with.
+        assert_eq!(report["body"]["model"]["n_bodies"], 1);
+        assert_eq!(report["body"]["model"]["n_nodes"], 4);
+    }
+}
+
+/// Rigid-body motion leaves modal amplitudes at rest: mass, centre and inertia are those of the component.
+#[test]
+fn mass_properties_survive() {
+    for method in ["craig-bampton", "herting", "guyan"] {
+        let place = reduced(method, "");
+        let properties = |s: &Superelement| s.metadata().model.mass_properties.expect("of a free component");
+        let first = properties(&place.superelement("x.supel"));
+        let (second, _) = again(&place);
+        let second = properties(&second);
+        // Sums of n entries of M, and of the condensed one, round by n ε relative to their terms, with a margin of ten.
+        let bound = 10.0 * 135.0 * f64::EPSILON;
+        assert!((second.mass / first.mass - 1.0).abs() <= bound, "{method}: {} and {}", second.mass, first.mass);
+        for axis in 0..3 {
+            let distance = (second.center_of_mass[axis] - first.center_of_mass[axis]).abs();
+            assert!(distance <= 10.0 * bound, "{method}: {distance:e}");
+        }
+    }
+}
+
+/// The stiffness of a slender part is condensed to one that is softer by orders, and keeps the rounding of the larger numbers: the
+/// digits that the job states are those that rigid-body motion leaves. Taken for exact it is indefinite, or its motions are not free.
+#[test]
+fn a_slender_superelement_states_its_digits() {
+    let place = Place::with(&brick([24, 1, 1], [3.0, 0.05, 0.04], &Material::STEEL_SI));
+    let flags =
+        "--rigid-interface left=1,26,51,76 --rigid-interface right=25,50,75,100 --method craig-bampton --modes 4";
+    place.reduce(&place.model_flags(), flags).expect(ExitCode::Done);
+    let (second, _) = again(&place);
+    assert_same_spectrum(&place.superelement("x.supel"), &second);
+    let job = String::from_utf8(place.bytes("x.job.toml")).expect("text");
+    let without: Vec<&str> = job.lines().filter(|line| !line.starts_with("stiffness_digits")).collect();
+    assert_eq!(without.len() + 1, job.lines().count(), "{job}");
+    place.write("x.job.toml", without.join("\n").as_bytes());
+    let exact = supel(&["reduce", &place.text("x.job.toml")]);
+    assert_ne!(exact.code, ExitCode::Done, "{}", exact.out);
+}
+
+/// Methods whose file is in coordinates of another one, and inertia relief that was asked for.
+#[test]
+fn other_methods_are_reduced_again() {
+    let place = reduced("rubin", "");
+    let (second, _) = again(&place);
+    assert_same_spectrum(&place.superelement("x.supel"), &second);
+    let place = Place::with_brick();
+    let flags = "--interface foot=1,11,31,41 --method craig-bampton --modes 4 --inertia-relief";
+    place.reduce(&place.model_flags(), flags).expect(ExitCode::Done);
+    let (second, _) = again(&place);
+    let is_relief = |c: &&Coordinate| matches!(c, Coordinate::InertiaRelief { .. });
+    assert_eq!(second.metadata().coordinates.iter().filter(is_relief).count(), 6);
+    assert_same_spectrum(&place.superelement("x.supel"), &second);
+}
+
+/// Without nodes the motions without energy come from the matrices. Without an interface there is nothing to reduce to.
+#[test]
+fn interfaces_of_rows_are_reduced_again() {
+    let reduced = |interface: &str| {
+        let place = Place::with_brick();
+        let flags = format!("{interface} --method herting --modes 4");
+        place.reduce(&place.matrix_flags(), &flags).expect(ExitCode::Done);
+        place
+    };
+    let place = reduced("--interface ends=rows:0,1,2,30,31,32,120,121,122,132,133,134");
+    let (second, _) = again(&place);
+    assert_same_spectrum(&place.superelement("x.supel"), &second);
+    let modal = reduced("");
+    export(&modal, "matrix-market", &[]).expect(ExitCode::Done);
+    assert!(modal.path("x.mass.mtx").exists() && !modal.path("x.job.toml").exists());
+}
+
+/// Modes may be kept: that reduces the model further.
+#[test]
+fn fewer_modes_are_the_first_ones() {
+    let place = reduced("herting", "");
+    export(&place, "matrix-market", &[]).expect(ExitCode::Done);
+    supel(&["reduce", &place.text("x.job.toml"), "--modes", "2"]).expect(ExitCode::Done);
+    let (found, expected) = (place.superelement("x.again.supel"), place.superelement("x.supel"));
+    assert_eq!(found.n_coordinates(), expected.n_coordinates() - 3);
+    let bars = bars_hz(&expected);
+    for (k, frequency) in frequencies_hz(&found).into_iter().enumerate() {
+        assert!((frequency - frequencies_hz(&expected)[k]).abs() <= bars[k] + bars_hz(&found)[k]);
+    }
+}
+
+/// Amplitudes are in the units of their shapes, in which a stiffness may have any size.
+#[test]
+fn a_stiff_amplitude_is_no_penalty() {
+    let place = Place::new();
+    let banner = "%%MatrixMarket matrix coordinate real symmetric\n";
+    place.write("K.mtx", format!("{banner}3 3 4\n1 1 1\n2 1 -1\n2 2 1\n3 3 1e15\n").as_bytes());
+    place.write("M.mtx", format!("{banner}3 3 3\n1 1 1\n2 2 1\n3 3 1\n").as_bytes());
+    place.write("nodes.csv", b"node,x,y,z\n1,0,0,0\n2,1,0,0\n");
+    let warnings = |last: &str| {
+        place.write("dofs.txt", format!("node,dof\n1,ux\n2,ux\n{last}\n").as_bytes());
+        place.reduce(&place.model_flags(), "--interface ends=1,2 --method craig-bampton --modes 1");
+        place.report("x.report.json")["body"]["warnings"].to_string()
+    };
+    assert!(warnings("2,uy").contains("W-PENALTY"), "{}", warnings("2,uy"));
+    assert!(!warnings(",scalar").contains("W-PENALTY"), "{}", warnings(",scalar"));
+}
+
+/// A row that no node has is no interface, but it may be held.
+#[test]
+fn scalar_dofs_as_selections_of_rows() {
+    let place = reduced("craig-bampton", "");
+    export(&place, "matrix-market", &[]).expect(ExitCode::Done);
+    let job = place.text("x.job.toml");
+    let ended = supel(&["reduce", &job, "--interface", "amplitude=rows:15"]).expect(ExitCode::InputData);
+    assert!(ended.err.contains("error[E-INTERFACE-ROW]"), "{}", ended.err);
+    assert!(ended.err.contains("row 15 is a scalar dof, which no node has"), "{}", ended.err);
+    supel(&["reduce", &job, "--fix", "first=rows:15", "--modes", "4"]).expect(ExitCode::Done);
+    let (found, expected) = (place.superelement("x.again.supel"), place.superelement("x.supel"));
+    // Fixed-interface modes are uncoupled: without the first amplitude the others are what they were.
+    let bars = bars_hz(&expected);
+    for (k, frequency) in frequencies_hz(&found).into_iter().enumerate() {
+        let difference = (frequency - frequencies_hz(&expected)[k + 1]).abs();
+        assert!(difference <= bars[k + 1] + bars_hz(&found)[k], "{difference:e}");
+    }
+}
