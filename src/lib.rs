@@ -137,7 +137,7 @@ use model::Model;
 use modes::{Component, ModeSource, Retained, Search};
 use outcome::Outcome;
 use output::Results;
-use partition::Partition;
+use partition::{Loads, Partition};
 use random::SEED;
 use reduction::Reduction;
 use report::Observer;
@@ -231,7 +231,8 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     observer.stage("read");
     let allowance = Allowance::of(resources.allowed(job));
     let read = input::read_within(&job.model, &allowance)?;
-    let mut facts = InputFacts::of(&read);
+    let columns = input::load_columns(&job.loads, &read)?;
+    let mut facts = InputFacts::of(&read).with_loads(&job.loads, &columns);
 
     observer.stage("check");
     let model = Model::new(read)?;
@@ -242,12 +243,14 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
 
     observer.stage("partition");
     let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;
+    let loads = partition::loads(&model, &job.loads, &columns)?;
     let patches = partition::patches(&model, &job.interfaces);
     let is_weighed = job.model.expect.is_some() || !job.fixed.is_empty();
     let weight = if is_weighed { model.weight() } else { None };
     let held = partition::held(&model, &job.fixed)?;
     let mut partition = Partition::with_held(model, &job.interfaces, held)?;
     partition.recovered = recovered;
+    partition.loads = Loads::carried(loads, &partition.transformation)?;
     partition.model.weight = weight;
     facts.faces = input::patch_faces(&job.model, &patches, &allowance)?;
     Ok((facts, partition))

@@ -293,4 +293,12 @@ pub const CATALOGUE: &[Entry] = &[
         "The written file was read back: its digest is right and it holds what was computed, to the last bit.",
         "The disk or the file system changed the file: write it elsewhere.",
     ),
+    line(
+        "M-27",
+        Proof::Measured,
+        Recorded::Sometimes,
+        "Static answer to each load that the job names, its interface held, in both models. A residual vector makes it exact; without \
+         one it depends on how many modes are kept.",
+        "Leave `residual = true` of the load, or keep more modes. Against the job: the load of another model, or in other units.",
+    ),
 ];

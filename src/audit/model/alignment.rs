@@ -20,8 +20,8 @@ use super::scaled::Scaled;
 use crate::audit::named_modes::{WithInverse, terms_of_unmixing, unmixing};
 use crate::dense::{self, NOISE_FACTOR};
 
-/// Weight of recovered rows relative to those of the mass: in single precision they have seven digits, which may decide on what
-/// nothing else sees and on nothing more.
+/// Weight of recovered rows and loads relative to the rows of the mass: in single precision the former have seven digits, which may decide
+/// on what nothing else sees and on nothing more.
 const RECOVERED: f64 = 1e-3;
 
 /// The parts of the basis that may turn.
@@ -138,6 +138,10 @@ fn seen(file: &Scaled, projected: &Projected, mixing: Option<MatRef<'_, f64>>) -
     }
     if let (Some(weight), Some(known), Some(stored)) = (projected.gravity_weight, &projected.gravity, &file.gravity) {
         add(weight, [of_mine(&known.rows), of_file(stored)]);
+    }
+    for (known, stored) in projected.loads.iter().zip(&file.loads) {
+        let modal = of_mine(&known.rows);
+        add(RECOVERED / modal.norm_max().max(f64::MIN_POSITIVE), [modal, of_file(stored)]);
     }
     if let (Some(known), Some(stored)) = (&projected.recovery, &file.recovery)
         && known.rows.nrows() == stored.nrows()

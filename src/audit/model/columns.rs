@@ -50,6 +50,8 @@ pub(super) struct Columns {
     pub(super) inertia_errors: Vec<f64>,
     /// The largest error of a static answer relative to itself.
     pub(super) residual: f64,
+    /// √(f_Iᵀ K_II⁻¹ f_I) of each load of the job: what it makes of an error of unit energy. None without an interior to answer it.
+    pub(super) load_norms: Option<Vec<f64>>,
 }
 
 /// The motions of the component as a rigid body.
@@ -93,6 +95,7 @@ impl Columns {
             energy_errors: vec![0.0; p + named.len()],
             inertia_errors: vec![0.0; p + named.len()],
             residual: 0.0,
+            load_norms: None,
             probes,
             named,
         };
@@ -103,6 +106,7 @@ impl Columns {
         columns.residual = columns.take(0, statics);
         columns.relieve(&follower, motions.relieved);
         columns.add_turns(&follower, motions);
+        columns.answer_loads(&follower);
         match asked.boundary {
             Boundary::FreeInterface => columns.accelerate(&follower, (n_relief, asked)),
             Boundary::FixedInterface => {
@@ -127,6 +131,7 @@ impl Columns {
             energy_errors: (0..n_r + n_modes).map(|j| rounding(j) * omega(j)).collect(),
             inertia_errors: (0..n_r + n_modes).map(rounding).collect(),
             residual: 0.0,
+            load_norms: None,
         }
     }
 
@@ -140,6 +145,14 @@ impl Columns {
         let momenta = product(&follower.partition.mass, relieved);
         let relief = follower.answer(momenta.as_ref().subrows(0, follower.partition.n_internal));
         self.take(self.n_probes(), relief);
+    }
+
+    /// What the interior answers to the loads of the job.
+    fn answer_loads(&mut self, follower: &Follower<'_>) {
+        let loads = follower.partition.loads.vectors.as_ref().subrows(0, follower.partition.n_internal);
+        let answers = follower.answer(loads);
+        let energies = column_products(loads, answers.x.as_ref());
+        self.load_norms = Some(energies.into_iter().map(|energy| energy.max(0.0).sqrt()).collect());
     }
 
     /// N of mode acceleration, after the columns of inertia relief.

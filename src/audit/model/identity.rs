@@ -23,8 +23,8 @@ pub(super) fn digests(superelement: &Superelement, facts: &InputFacts) -> Check 
     let recorded = &superelement.metadata().inputs;
     let known = facts.digests();
     let differs = |role: &str, digest: &str| recorded.get(role).is_none_or(|recorded| recorded != digest);
-    let others = known.iter().filter(|(role, digest)| differs(role, digest)).map(|(role, _)| *role);
-    let unknown = recorded.keys().map(String::as_str).filter(|role| !known.contains_key(role));
+    let others = known.iter().filter(|(role, digest)| differs(role, digest)).map(|(role, _)| role.as_str());
+    let unknown = recorded.keys().map(String::as_str).filter(|role| !known.contains_key(*role));
     let others: Vec<&str> = others.chain(unknown).collect();
     Check {
         id: "M-26",
@@ -237,7 +237,8 @@ pub(super) fn statements(
     expect(metadata.model.mass_properties.is_some() == is_of_a_body, "mass properties");
     expect(tensors.gravity.is_some() == (motions.is_classical() || partition.gravity.is_some()), "gravity");
     expect(tensors.damping.is_none(), "damping");
-    expect(tensors.load_vectors.is_none(), "load vectors");
+    let names = partition.loads.facts.iter().map(|load| &load.name);
+    expect(metadata.load_names.iter().eq(names), "loads");
     expect(metadata.flags.is_empty(), "flags");
     expect(metadata.validity.assumptions == job.assumptions(), "assumptions about the simulation");
     expect(metadata.validity.unloaded.is_empty(), "unloaded directions");
