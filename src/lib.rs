@@ -179,7 +179,9 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let retained = Retained { modes: found, boundary: search.problem.boundary };
 
     observer.stage("basis");
-    let columns = basis::retained_columns(component, &job.reduction, &retained);
+    let answers = basis::static_answers(component);
+    let modes = basis::retained_columns(component, &job.reduction, &retained);
+    let columns = modes.with_residual_vectors(&partition.loads, answers.as_ref());
     let basis = Basis::new(&constraint, columns, partition.internal().mass).with_coordinates()?;
 
     observer.stage("projection");
@@ -199,6 +201,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         retained: &retained,
         basis: &basis,
         reduction: &reduction,
+        answers: answers.as_ref(),
         rubin: rubin.as_ref(),
         certificate: certificate.as_ref(),
         enclosures: enclosures.as_ref(),

@@ -235,6 +235,14 @@ fn of_method(content: &Content<'_>, method: Method) -> Vec<&'static str> {
         Coordinate::RigidBodyMode { index } => Some(*index),
         _ => None,
     });
+    let residual = numbers(|coordinate| match coordinate {
+        Coordinate::ResidualVector { load } => Some(*load),
+        _ => None,
+    });
+    let asks = |job: &Job| -> Vec<usize> {
+        (0..job.loads.len()).filter(|load| job.loads[*load].residual && !is_modal).collect()
+    };
+    expect(content.job.as_ref().is_none_or(|job| residual == asks(job)), "residual vectors");
     let all = |is_there: bool| if is_there { (0..n_r).collect() } else { Vec::new() };
     // Where it is no part of the method, a job may still ask for it.
     let is_relieved = match &content.job {

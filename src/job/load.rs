@@ -41,6 +41,14 @@ pub struct LoadJob {
     /// Axis whose centrifugal load per ω² it is, ω in rad per unit of time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rotation: Option<RotationJob>,
+    /// Whether a residual vector joins the basis, the static answer of the interior, by which that of the superelement is exact.
+    #[serde(default = "with_residual_vector")]
+    pub residual: bool,
+}
+
+/// Whoever names a load wants its answer: a residual vector costs one solve and one coordinate.
+fn with_residual_vector() -> bool {
+    true
 }
 
 /// An axis of rotation.

@@ -99,11 +99,12 @@ fn mixing(results: &Results<'_>) -> Option<Mat<f64>> {
     let scaling = evidence.partition.scaling;
     let mixing = evidence.basis.mixing_of_kept();
     // A named shape is mass-normalised in the user's units like the stored ones; an inertia-relief mode K_II⁻¹(MU)_I
-    // carries the unit of M over that of K.
+    // carries the unit of M over that of K, a residual vector that of its load over that of K.
     let named_unit = |coordinate: DynamicCoordinate| match coordinate {
         DynamicCoordinate::RigidBody(_) => 1.0,
         DynamicCoordinate::InertiaRelief(_) => 1.0 / scaling.eigenvalue_unit(),
         DynamicCoordinate::FreeFree(_) | DynamicCoordinate::FixedInterface(_) => scaling.shape_unit(),
+        DynamicCoordinate::ResidualVector(load) => evidence.partition.loads.facts[load].unit / scaling.stiffness_unit(),
     };
     let unit: Vec<f64> = evidence.basis.coordinates.iter().map(|c| scaling.shape_unit() / named_unit(*c)).collect();
     Some(Mat::from_fn(mixing.nrows(), mixing.ncols(), |i, j| mixing[(i, j)] * unit[i]))
@@ -192,6 +193,7 @@ fn dynamic_coordinate(results: &Results<'_>, tensors: &Tensors, coordinate: Dyna
     match coordinate {
         DynamicCoordinate::RigidBody(index) => Coordinate::RigidBodyMode { index },
         DynamicCoordinate::InertiaRelief(index) => Coordinate::InertiaRelief { index },
+        DynamicCoordinate::ResidualVector(load) => Coordinate::ResidualVector { load },
         DynamicCoordinate::FreeFree(mode) => {
             Coordinate::ElasticMode { mode, frequency_hz: frequency(mode), error_bar_hz: bar(mode) }
         }

@@ -39,6 +39,8 @@ pub struct LoadFacts {
     pub source: String,
     /// The force in the user's units that an entry of one stands for, a power of two.
     pub unit: f64,
+    /// Whether the job asks for its residual vector.
+    pub has_residual_vector: bool,
     /// Its total force along x, y and z in the user's units, held rows included; none without a dof map.
     pub resultant: Option<[f64; 3]>,
 }
@@ -129,7 +131,8 @@ fn in_own_unit(
         sum.map(|value| value * unit)
     };
     let resultant = model.dofs.as_deref().map(total);
-    Ok(RowLoad { facts: LoadFacts { name: job.name.clone(), source, unit, resultant }, values })
+    let facts = LoadFacts { name: job.name.clone(), source, unit, has_residual_vector: job.residual, resultant };
+    Ok(RowLoad { facts, values })
 }
 
 /// An equal share of a force at each of some nodes, and how many these are.

@@ -28,7 +28,7 @@ fn jobs() -> Vec<Value> {
             "fixed": [{ "name": "foot", "nodes": recovered, "dofs": ["uy", "ry"] }],
             "load": [
                 { "name": "thrust", "nodes": recovered, "force": [0.25, 1.25, 2.25] },
-                { "name": "pressure", "file": "f.mtx", "column": 3 },
+                { "name": "pressure", "file": "f.mtx", "column": 3, "residual": false },
                 { "name": "spin", "rotation": { "axis": [0.25, 1.25, 2.25], "through": [0.5, 1.5, 2.5] } },
             ],
             "reduction": { "method": "herting", "modes": modes, "inertia_relief": true, "eigensolver": "arpack" },

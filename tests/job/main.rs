@@ -551,6 +551,8 @@ fn loads() -> Vec<Value> {
         load(json!({ "name": "a", "rotation": { "axis": [0, 0, 1] }, "column": 1 })),
         load(json!({ "name": "a", "rotation": { "through": [1, 2, 3] } })),
         load(json!({ "name": "a", "rotation": { "axis": [0, 1] } })),
+        load(json!({ "name": "a", "file": "f.mtx", "residual": false })),
+        load(json!({ "name": "a", "file": "f.mtx", "residual": "no" })),
         load(json!({ "name": "a" })),
         load(json!({ "file": "f.mtx" })),
     ]

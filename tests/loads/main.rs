@@ -1,6 +1,8 @@
 //! Loads that the job names: what the superelement has of them.
 
 mod refused;
+mod statics;
+mod told;
 mod vectors;
 
 use supel::cli::ExitCode;

@@ -61,9 +61,11 @@ pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedo
     for columns in groups(&projected.named, freedom.groups) {
         let slots: Vec<usize> = (0..n_eta).filter(|slot| columns.contains(&freedom.kept[*slot])).collect();
         match projected.named[columns[0]] {
-            Named::Relief(_) => {
+            named @ (Named::Relief(_) | Named::Residual(_)) => {
                 let n = columns.len();
-                let all = freedom.relief.clone().unwrap_or_else(|| Mat::identity(n, n));
+                // The load of a residual vector leaves nothing of it free.
+                let relief = freedom.relief.clone().filter(|_| matches!(named, Named::Relief(_)));
+                let all = relief.unwrap_or_else(|| Mat::identity(n, n));
                 let numbers: Vec<usize> = slots.iter().map(|slot| freedom.kept[*slot] - columns[0]).collect();
                 place(&mut turned, (&columns, &slots), dense::columns(all.as_ref(), &numbers).as_ref());
             }
@@ -116,7 +118,8 @@ fn groups(named: &[Named], of_modes: &[Range<usize>]) -> Vec<Vec<usize>> {
     let relief = places(&|named| matches!(named, Named::Relief(_)));
     let modes =
         of_modes.iter().map(|group| places(&|named| matches!(named, Named::Mode(mode) if group.contains(mode))));
-    [rigid, relief].into_iter().chain(modes).filter(|group| !group.is_empty()).collect()
+    let residual = places(&|named| matches!(named, Named::Residual(_)));
+    [rigid, relief].into_iter().chain(modes).chain([residual]).filter(|group| !group.is_empty()).collect()
 }
 
 /// What interface, gravity, rigid-body motion and recovered rows see of the columns made again, and of the named ones of the file;

@@ -130,6 +130,7 @@ fn named(coordinate: &Coordinate, boundary: Boundary) -> Option<Named> {
     match (coordinate, boundary) {
         (Coordinate::RigidBodyMode { index }, _) => Some(Named::Rigid(*index)),
         (Coordinate::InertiaRelief { index }, _) => Some(Named::Relief(*index)),
+        (Coordinate::ResidualVector { load }, _) => Some(Named::Residual(*load)),
         (Coordinate::ElasticMode { mode, .. }, Boundary::FreeInterface)
         | (Coordinate::FixedInterfaceMode { mode, .. }, Boundary::FixedInterface) => Some(Named::Mode(*mode)),
         _ => None,
@@ -140,15 +141,11 @@ fn named(coordinate: &Coordinate, boundary: Boundary) -> Option<Named> {
 pub(super) fn modal_coordinates(superelement: &Superelement, projected: &Projected, boundary: Boundary) -> Check {
     let metadata = superelement.metadata();
     let n_modes = superelement.tensors().frequencies.len();
-    let expected: Vec<Named> = projected
-        .named
-        .iter()
-        .copied()
-        .filter(|named| !matches!(named, Named::Mode(mode) if *mode >= n_modes))
-        .chain(
-            (projected.named.iter().filter(|named| matches!(named, Named::Mode(_))).count()..n_modes).map(Named::Mode),
-        )
-        .collect();
+    let is_mode = |named: &&Named| matches!(named, Named::Mode(_));
+    let is_residual = |named: &&Named| matches!(named, Named::Residual(_));
+    let motions = projected.named.iter().filter(|named| !is_mode(named) && !is_residual(named)).copied();
+    let residual = projected.named.iter().filter(is_residual).copied();
+    let expected: Vec<Named> = motions.chain((0..n_modes).map(Named::Mode)).chain(residual).collect();
     let kept = metadata.coordinates[superelement.n_interface()..].iter();
     let kept: Vec<Option<Named>> = kept.map(|coordinate| named(coordinate, boundary)).collect();
     let dropped: Vec<Option<Named>> = metadata.dropped.iter().map(|dropped| named(&dropped.column, boundary)).collect();
