@@ -135,6 +135,7 @@ fn loads(results: &Results<'_>) -> Vec<LoadReport> {
         LoadReport {
             name: facts.name.clone(),
             source: facts.source.clone(),
+            digest: results.input.loads.get(&facts.name).cloned(),
             resultant: facts.resultant,
             residual_vector,
             lacking: results.findings.load_lacking.as_ref().map(|lacking| lacking[load]),

@@ -9,6 +9,8 @@ pub struct LoadReport {
     pub name: String,
     /// What it is made from, in words.
     pub source: String,
+    /// BLAKE3 digest of its file; none where it is from no file.
+    pub digest: Option<String>,
     /// Its total force along x, y and z in the units of the model; none without a dof map.
     pub resultant: Option<[f64; 3]>,
     /// What became of its residual vector.

@@ -49,6 +49,8 @@ pub enum Recorded {
     WithInterface,
     /// Where the job asks for the count of modes or for their enclosure.
     WithCount,
+    /// Where a load has a residual vector, kept or left out.
+    WithResidualVector,
     /// Where there is something to measure it on.
     Sometimes,
 }
@@ -296,7 +298,7 @@ pub const CATALOGUE: &[Entry] = &[
     line(
         "M-27",
         Proof::Measured,
-        Recorded::Sometimes,
+        Recorded::WithResidualVector,
         "Static answer to each load that the job names, its interface held, in both models. A residual vector makes it exact; without \
          one it depends on how many modes are kept.",
         "Leave `residual = true` of the load, or keep more modes. Against the job: the load of another model, or in other units.",

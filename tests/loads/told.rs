@@ -30,6 +30,8 @@ fn report_page_and_file_name_the_loads() {
     assert_eq!(loads[0]["residual_vector"], "kept");
     assert_eq!(loads[0]["resultant"], serde_json::json!([2.0, 0.0, -3.0]));
     assert_eq!(loads[1]["residual_vector"], "not-asked");
+    let digests: Vec<bool> = [0, 1].map(|at| loads[at]["digest"].is_string()).to_vec();
+    assert_eq!(digests, [false, true], "that of the file");
     assert!(loads[0]["lacking"].as_f64().expect("a share") <= 1e-9, "{loads}");
     assert!(loads[1]["lacking"].as_f64().expect("a share") >= 1e-3, "{loads}");
     let schema: Value = serde_json::from_str(include_str!("../../schemas/report.schema.json")).expect("a schema");
@@ -81,4 +83,28 @@ fn the_file_alone_ties_residual_vectors_to_their_loads() {
     tensors.load_vectors = Some(supel_runtime::Matrix::from_fn(own.rows(), own.cols(), altered));
     let altered = supel_runtime::Superelement::new(tensors, file.metadata().clone()).expect("the parts fit");
     assert!(audited(&altered).0 > supel::verification::check::Verdict::Pass, "{:?}", audited(&altered));
+}
+
+/// Rubin's coordinates have no residual vectors: his matrices are those of the file without the loads, and the map leads into this one.
+#[test]
+fn rubins_matrices_leave_residual_vectors_out() {
+    let rubin = |loads: &'static str| -> (Value, usize) {
+        let (place, file) = case(loads).made("rubin", 4);
+        let shown = supel(&["inspect", "--rubin", &place.text("x.supel")]).expect(ExitCode::Done).out;
+        (serde_json::from_str(&shown).expect("JSON"), file.n_coordinates())
+    };
+    let ((with, r), (without, r_without)) = (rubin(LOADS), rubin(""));
+    assert_eq!((r, &with["sizes"]), (r_without + 1, &without["sizes"]));
+    assert_eq!(with["to_file"].as_array().expect("rows").len(), r);
+    let numbers = |value: &Value| -> Vec<f64> {
+        let rows = value.as_array().expect("rows").iter();
+        rows.flat_map(|row| row.as_array().expect("a row")).map(|entry| entry.as_f64().expect("a number")).collect()
+    };
+    for matrix in ["stiffness", "mass"] {
+        let (found, expected) = (numbers(&with[matrix]), numbers(&without[matrix]));
+        let size = expected.iter().fold(0.0f64, |size, value| size.max(value.abs()));
+        // The part of a mode in the interface is found by least squares from numbers of sixteen digits, a condition of some 10⁶.
+        let worst = found.iter().zip(&expected).fold(0.0f64, |worst, (a, b)| worst.max((a - b).abs()));
+        assert!(worst <= 1e-9 * size, "{matrix}: {worst:e} of {size:e}");
+    }
 }
