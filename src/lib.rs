@@ -180,9 +180,8 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
 
     observer.stage("basis");
     let answers = basis::static_answers(component);
-    let modes = basis::retained_columns(component, &job.reduction, &retained);
-    let columns = modes.with_residual_vectors(&partition.loads, answers.as_ref());
-    let basis = Basis::new(&constraint, columns, partition.internal().mass).with_coordinates()?;
+    let named = basis::retained_columns(component, &job.reduction, &retained).with_answers(component, answers.as_ref());
+    let basis = Basis::new(&constraint, named, partition.internal().mass).with_coordinates()?;
 
     observer.stage("projection");
     let reduction = Reduction::new(&partition, &basis, &rigid);

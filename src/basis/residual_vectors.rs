@@ -14,7 +14,6 @@ use super::dynamic::{DynamicColumns, DynamicCoordinate};
 use crate::dense;
 use crate::factor::SolveOperator;
 use crate::modes::Component;
-use crate::partition::Loads;
 
 /// y of every load of the job, n_I × n_l; none for a free component without interface, which nothing holds while it answers.
 pub fn static_answers(component: Component<'_>) -> Option<Mat<f64>> {
@@ -30,9 +29,10 @@ pub fn static_answers(component: Component<'_>) -> Option<Mat<f64>> {
 }
 
 impl DynamicColumns {
-    /// These columns, then the residual vectors of the loads that ask for one; none where nothing answers them.
+    /// These columns, then the residual vectors of the loads that ask for one, of the static answers to all; none where nothing answers.
     #[must_use]
-    pub fn with_residual_vectors(self, loads: &Loads, answers: Option<&Mat<f64>>) -> Self {
+    pub fn with_answers(self, component: Component<'_>, answers: Option<&Mat<f64>>) -> Self {
+        let loads = &component.partition.loads;
         let asked: Vec<usize> = (0..loads.count()).filter(|load| loads.facts[*load].has_residual_vector).collect();
         let Some(answers) = answers.filter(|_| !asked.is_empty()) else { return self };
         self.followed_by(Self {

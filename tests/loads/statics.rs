@@ -137,7 +137,7 @@ fn a_free_component_answers_a_load_in_balance() {
             .iter()
             .fold(vec![0.0; model.n], |sum, load| sum.iter().zip(load).map(|(a, b)| a + b).collect());
         let place = case.place();
-        place.write("squeeze.mtx", crate::array(&[squeeze.clone()]).as_bytes());
+        place.write("squeeze.mtx", crate::array(std::slice::from_ref(&squeeze)).as_bytes());
         place.write("job.toml", case.job(method, 4).as_bytes());
         supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
         let file = place.superelement("x.supel");
