@@ -18,7 +18,8 @@ use supel_runtime::FileError;
 
 use code::catalogued;
 use words::{
-    At, BY_ROWS, FEW_DIGITS, Offered, STATE_DIGITS, STATE_EXACT, Suggested, forecast, groups, listed, not_text, place,
+    At, BY_ROWS, FEW_DIGITS, Offered, STATE_DIGITS, STATE_EXACT, Suggested, column_words, forecast, groups, listed,
+    not_text, place, quoted,
 };
 
 use crate::number::{bytes, count, counted, quantity, typed};
@@ -1157,6 +1158,26 @@ pub enum Error {
         /// The name.
         name: String,
     },
+    /// Two loads have one name.
+    #[entry("E-LOAD-NAME", Usage, "give each its own")]
+    #[error("load `{name}` is defined twice – names must be unique – give each its own")]
+    LoadTwice {
+        /// The name.
+        name: String,
+    },
+    /// The keys of a load are those of no load, or of several.
+    #[entry("E-LOAD-KEYS", Usage, "give `nodes` with `force`, or `file`, or `rotation`")]
+    #[error(
+        "load `{load}` has {} – expected `nodes` with `force`, or `file` (with `column`, where it has several), or \
+        `rotation` – leave the others out",
+        quoted(found)
+    )]
+    LoadKeys {
+        /// Name of the load.
+        load: String,
+        /// The keys that are there.
+        found: Vec<&'static str>,
+    },
     /// Two interfaces list the same node or row.
     #[entry("E-INTERFACE-OVERLAP", Usage, "leave it in one of them")]
     #[error("interfaces `{first}` and `{second}` both list {what} – it can belong to one of them")]
@@ -1378,6 +1399,75 @@ pub enum Error {
         place: String,
         /// The relative energy, negative.
         energy: f64,
+    },
+    /// A file of loads is no Matrix Market file of loads.
+    #[entry(
+        "E-LOAD-FORMAT",
+        InputData,
+        "write `%%MatrixMarket matrix array real general`, then `rows columns`, then the values"
+    )]
+    #[error("{}:{line}: not a load – found `{found}` – expected {expected}", path.display())]
+    LoadFormat {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// The line.
+        found: String,
+        /// What belongs there.
+        expected: &'static str,
+    },
+    /// A file of loads has another number of rows than the matrices.
+    #[entry("E-LOAD-ROWS", InputData, "export it from the model of the matrices, in the order of their rows")]
+    #[error(
+        "{}: load `{load}` has {} – expected {n}, one for each row of the matrices – export it from the model of the \
+        matrices, in the order of their rows",
+        path.display(), counted(*found, "row", "rows")
+    )]
+    LoadRows {
+        /// The file.
+        path: PathBuf,
+        /// Name of the load.
+        load: String,
+        /// Its rows.
+        found: u64,
+        /// Rows of the matrices as they are in their files.
+        n: usize,
+    },
+    /// A file of loads does not have the column that is asked for, or has several where none is.
+    #[entry("E-LOAD-COLUMN", InputData, "give `column`, which counts from zero")]
+    #[error(
+        "{}: load `{load}` asks for {} of a file of {} – expected one of them – give `column`, which counts from zero",
+        path.display(), column_words(*asked), counted(*n_columns, "column", "columns")
+    )]
+    LoadColumn {
+        /// The file.
+        path: PathBuf,
+        /// Name of the load.
+        load: String,
+        /// The column asked for, from zero.
+        asked: Option<usize>,
+        /// Columns of the file.
+        n_columns: u64,
+    },
+    /// The centrifugal load of a rotation needs to know where the rows are.
+    #[entry("E-LOAD-COORDINATES", InputData, "give `model.dofs` and `model.nodes`, or write the load to a file")]
+    #[error(
+        "load `{load}` is that of a rotation – the model has no dof map or no nodes, so that distances from its axis \
+        are unknown – give model.dofs and model.nodes, or write the load to a file"
+    )]
+    LoadNeedsCoordinates {
+        /// Name of the load.
+        load: String,
+    },
+    /// A load is zero, or held dofs take all of it.
+    #[entry("E-LOAD-NOTHING", InputData, "load dofs that move, or leave the load out")]
+    #[error("load `{load}` moves nothing – found {found} – expected a force on a dof that moves – leave it out")]
+    LoadNothing {
+        /// Name of the load.
+        load: String,
+        /// What was found, in words.
+        found: &'static str,
     },
     /// K, M or the frequencies leave the range of double precision.
     #[entry("E-RANGE", InputData, "write the matrices in other units")]

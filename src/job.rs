@@ -6,6 +6,7 @@
 mod document;
 mod fixed;
 mod interface;
+mod load;
 mod location;
 mod method;
 mod node_selection;
@@ -24,6 +25,7 @@ pub use crate::eigen::Eigensolver;
 pub use document::Notation;
 pub use fixed::FixedJob;
 pub use interface::{Coupling, InterfaceJob, Origin};
+pub use load::{LoadJob, LoadPattern, RotationJob};
 pub use location::Holder;
 pub use method::{Boundary, Method};
 pub use node_selection::{NodeSelection, Region};

@@ -139,7 +139,7 @@ use model::Model;
 use modes::{Component, ModeSource, Retained, Search};
 use outcome::Outcome;
 use output::Results;
-use partition::Partition;
+use partition::{Loads, Partition};
 use random::SEED;
 use reduction::Reduction;
 use report::Observer;
@@ -181,8 +181,9 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let retained = Retained { modes: found, boundary: search.problem.boundary };
 
     observer.stage("basis");
-    let columns = basis::retained_columns(component, &job.reduction, &retained);
-    let basis = Basis::new(&constraint, columns, partition.internal().mass).with_coordinates()?;
+    let answers = basis::static_answers(component);
+    let named = basis::retained_columns(component, &job.reduction, &retained).with_answers(component, answers.as_ref());
+    let basis = Basis::new(&constraint, named, partition.internal().mass).with_coordinates()?;
 
     observer.stage("projection");
     let reduction = Reduction::new(&partition, &basis, &rigid);
@@ -201,6 +202,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         retained: &retained,
         basis: &basis,
         reduction: &reduction,
+        answers: answers.as_ref(),
         rubin: rubin.as_ref(),
         certificate: certificate.as_ref(),
         enclosures: enclosures.as_ref(),
@@ -233,7 +235,8 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     observer.stage("read");
     let allowance = Allowance::of(resources.allowed(job));
     let read = input::read_within(&job.model, &allowance)?;
-    let mut facts = InputFacts::of(&read);
+    let columns = input::load_columns(&job.loads, &read)?;
+    let mut facts = InputFacts::of(&read).with_loads(&job.loads, &columns);
 
     observer.stage("check");
     let model = Model::new(read)?;
@@ -244,12 +247,14 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
 
     observer.stage("partition");
     let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;
+    let loads = partition::loads(&model, &job.loads, &columns)?;
     let patches = partition::patches(&model, &job.interfaces);
     let is_weighed = job.model.expect.is_some() || !job.fixed.is_empty();
     let weight = if is_weighed { model.weight() } else { None };
     let held = partition::held(&model, &job.fixed)?;
     let mut partition = Partition::with_held(model, &job.interfaces, held)?;
     partition.recovered = recovered;
+    partition.loads = Loads::carried(loads, &partition.transformation)?;
     partition.model.weight = weight;
     facts.faces = input::patch_faces(&job.model, &patches, &allowance)?;
     Ok((facts, partition))

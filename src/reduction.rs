@@ -33,6 +33,8 @@ pub struct Reduction {
     pub rigid_body_mass: Mat<f64>,
     /// ΨᵀM of the three unit translations, r × 3, where the directions are known and the component is free or held by the job.
     pub gravity: Option<Mat<f64>>,
+    /// ΨᵀF of the loads of the job, r × n_l, each column in its unit.
+    pub loads: Mat<f64>,
     /// What projecting measured.
     pub measured: Projection,
 }
@@ -88,6 +90,7 @@ impl Reduction {
             rigid_body_modes,
             rigid_body_mass: rigid.rigid_body_mass(&partition.mass),
             gravity,
+            loads: transpose_apply(basis, partition.loads.vectors.as_ref()),
             measured,
         }
     }

@@ -75,7 +75,10 @@ impl Herting {
             coordinates.iter().position(|c| matches!(c, Coordinate::InertiaRelief { index: own } if *own == index))
         };
         let relief: Vec<usize> = (0..motions.ncols()).map(slot_of).collect::<Option<_>>()?;
-        let is_free = |c: &Coordinate| matches!(c, Coordinate::InertiaRelief { .. } | Coordinate::ElasticMode { .. });
+        let is_free = |c: &Coordinate| {
+            use Coordinate::{ElasticMode, InertiaRelief, ResidualVector};
+            matches!(c, InertiaRelief { .. } | ElasticMode { .. } | ResidualVector { .. })
+        };
         if n_b == 0 || !coordinates.iter().all(is_free) {
             return None;
         }
@@ -202,7 +205,7 @@ impl Rubin {
     }
 
     /// The inverse of (51), (n_B + k + n_r) × r: [u_B; η; u_F] of a motion q. None where columns were left out of the basis: several
-    /// coordinates of Rubin's describe one motion then.
+    /// coordinates of Rubin's describe one motion then; and none where there are residual vectors, which Rubin's do not describe.
     pub fn from_herting(&self) -> Option<Mat<f64>> {
         let to = self.to_herting();
         let r = to.nrows();

@@ -229,6 +229,20 @@ enum SupelStatus supel_component_open_bytes(const uint8_t *bytes,
 // `component` is null or comes from `supel_component_open`.
 const char *supel_interface_name(const struct SupelComponent *component, size_t node);
 
+// Number of loads that the file carries; zero for null.
+//
+// # Safety
+//
+// `component` is null or comes from `supel_component_open`.
+size_t supel_n_load_vectors(const struct SupelComponent *component);
+
+// Name of a load of the file, from 0; null for null and for a load that is not there.
+//
+// # Safety
+//
+// `component` is null or comes from `supel_component_open`.
+const char *supel_load_vector_name(const struct SupelComponent *component, size_t load);
+
 // Label of an interface node in the model; null for null, for a node that is not there and for one that the reduction added.
 //
 // # Safety
@@ -416,6 +430,31 @@ enum SupelStatus supel_gravity_potential(const struct SupelComponent *component,
                                          const double *gravity,
                                          const struct SupelWorkspace *workspace,
                                          double *potential);
+
+// Adds the forces of load number `load` of the file, from 0, with an amplitude, in the state last evaluated in the workspace. The
+// load turns with the floating frame.
+//
+// # Safety
+//
+// `component` and `workspace` as of `supel_evaluate`; `forces` points to as many values as the component has coordinates. Each
+// may be null.
+enum SupelStatus supel_add_load_vector(const struct SupelComponent *component,
+                                       size_t load,
+                                       double amplitude,
+                                       struct SupelWorkspace *workspace,
+                                       double *forces);
+
+// Adds the stiffness of load number `load` of the file, minus the derivative of its forces by the place, to `stiffness`, a matrix,
+// in the state last evaluated in the workspace.
+//
+// # Safety
+//
+// As of `supel_add_load_vector`, `stiffness` being a matrix.
+enum SupelStatus supel_add_load_vector_stiffness(const struct SupelComponent *component,
+                                                 size_t load,
+                                                 double amplitude,
+                                                 struct SupelWorkspace *workspace,
+                                                 double *stiffness);
 
 // Turns velocities, accelerations or increments at the nodes, (R^T dx/dt; omega) of each, into those of the component, in
 // place.

@@ -54,6 +54,8 @@ mod gravity;
 mod gyroscopic;
 mod identity;
 mod inertial;
+mod load_map;
+mod load_vectors;
 mod loads;
 mod measures;
 mod modal_component;

@@ -353,6 +353,18 @@ pub enum FileError {
         /// Length of `frequencies`.
         n_modes: usize,
     },
+    /// A coordinate is the residual vector of a load that is not there, or that has another one.
+    #[error(
+        "coordinate {coordinate} (from 0) is the residual vector of load {load}, which another coordinate is too or which is not among {n_loads} loads"
+    )]
+    CoordinateLoad {
+        /// Number of the coordinate.
+        coordinate: usize,
+        /// Number of the load.
+        load: usize,
+        /// How many loads the file has.
+        n_loads: usize,
+    },
     /// Metadata and tensor give a mode different frequencies.
     #[error(
         "coordinate {coordinate} (from 0) has {frequency_hz} Hz in the metadata, `frequencies` holds {omega} rad/s"

@@ -162,6 +162,11 @@ pub enum Coordinate {
         /// Number of the rigid-body mode whose inertia loads it answers, from 0.
         index: usize,
     },
+    /// Amplitude of a residual vector, the static answer to a load.
+    ResidualVector {
+        /// Number of the load among `load_names`, from 0.
+        load: usize,
+    },
     /// Amplitude of a free-free normal mode.
     ElasticMode {
         /// Number of the mode.

@@ -25,6 +25,7 @@ pub(crate) fn check(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
     check_coordinates(metadata)?;
     check_validity(metadata)?;
     check_modes(tensors, metadata)?;
+    check_residual_vectors(metadata)?;
     for (name, digest) in &metadata.inputs {
         if !is_digest(digest) {
             return Err(FileError::InputDigest { name: name.clone() });
@@ -241,6 +242,19 @@ fn check_modes(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
         if (frequency_hz * core::f64::consts::TAU - omega).abs() > CONVERSION_TOLERANCE * omega {
             return Err(FileError::CoordinateFrequency { coordinate, frequency_hz, omega });
         }
+    }
+    Ok(())
+}
+
+/// A residual vector is that of a load of the file, which has one at most.
+fn check_residual_vectors(metadata: &Metadata) -> Result<()> {
+    let mut has_one = vec![false; metadata.load_names.len()];
+    for (coordinate, description) in metadata.coordinates.iter().enumerate() {
+        let Coordinate::ResidualVector { load } = *description else { continue };
+        let Some(has_one @ false) = has_one.get_mut(load) else {
+            return Err(FileError::CoordinateLoad { coordinate, load, n_loads: metadata.load_names.len() });
+        };
+        *has_one = true;
     }
     Ok(())
 }

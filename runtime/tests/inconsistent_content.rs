@@ -190,6 +190,16 @@ fn mode_without_frequency_or_named_twice() {
 }
 
 #[test]
+fn residual_vector_without_load_or_named_twice() {
+    let error = refusal(|_, metadata| metadata.coordinates[8] = Coordinate::ResidualVector { load: 1 });
+    assert_refused!(error, FileError::CoordinateLoad { coordinate: 8, load: 1, n_loads: 1 });
+    let error = refusal(|_, metadata| {
+        (7..9).for_each(|slot| metadata.coordinates[slot] = Coordinate::ResidualVector { load: 0 });
+    });
+    assert_refused!(error, FileError::CoordinateLoad { coordinate: 8, load: 0, n_loads: 1 });
+}
+
+#[test]
 fn frequency_in_two_versions() {
     let error = refusal(|tensors, _| tensors.frequencies[1] *= 1.0 + 1e-14);
     assert_refused!(error, FileError::CoordinateFrequency { coordinate: 7, .. });

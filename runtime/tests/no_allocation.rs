@@ -50,12 +50,14 @@ static ALLOCATOR: Counting = Counting;
 
 #[test]
 fn evaluations_allocate_nothing() {
-    let (mut tensors, metadata, _) = beam::reduced_parts(&beam::arc_nodes(), &beam::SOFT, &[0, 8], 5);
+    let (mut tensors, mut metadata, _) = beam::reduced_parts(&beam::arc_nodes(), &beam::SOFT, &[0, 8], 5);
     // Unsymmetric, which takes the longer way.
     tensors.damping = Some(Matrix::from_fn(17, 17, |i, j| tensors.mass[(i, j)] + if i < j { 0.1 } else { 0.0 }));
     let rows = Matrix::from_fn(3, 17, |i, j| if i == j { 1.0 } else { 0.0 });
     let dofs = Direction::ALL[..3].iter().map(|&direction| RecoveredDof { node: 7, direction }).collect();
     tensors.recovery = Some(Recovery::new(rows, dofs, Precision::Double).expect("three rows, three dofs"));
+    tensors.load_vectors = Some(Matrix::from_fn(17, 1, |i, _| i as f64));
+    metadata.load_names = vec!["thrust".to_owned()];
     let superelement = Superelement::new(tensors, metadata).expect("the parts fit");
     let mut random = SplitMix64::new(2);
     let (amplitudes, velocities) = (random.vector(5, 0.1), random.vector(17, 1.0));
@@ -78,6 +80,9 @@ fn evaluations_allocate_nothing() {
             assert_eq!(outcome.is_ok(), component.gravity_forces(&g, &mut workspace).is_ok());
             assert_eq!(outcome.is_ok(), component.gravity_potential(&g, &workspace).is_ok());
             let added = component.add_gravity_stiffness(&g, &mut workspace, &mut stiffness);
+            assert_eq!(outcome.is_ok(), added.is_ok());
+            assert_eq!(outcome.is_ok(), component.load_vector_forces(0, 2.0, &mut workspace).is_ok());
+            let added = component.add_load_vector_stiffness(0, 2.0, &mut workspace, &mut stiffness);
             assert_eq!(outcome.is_ok(), added.is_ok());
             component.velocities_to_origin(&mut forces).expect("all coordinates");
             component.velocities_to_nodes(&mut forces).expect("all coordinates");

@@ -36,7 +36,6 @@ fn made_by_none(content: &Content<'_>) -> Vec<String> {
     let found = [
         (content.job.is_none(), "it is no job of the version that wrote it"),
         (tensors.damping.is_some(), "damping"),
-        (tensors.load_vectors.is_some(), "load vectors"),
         (!metadata.flags.is_empty(), "flags"),
         (metadata.validity.assumptions != assumptions, "assumptions about the simulation"),
         (!metadata.validity.unloaded.is_empty(), "unloaded directions"),
@@ -67,6 +66,7 @@ fn by_job(content: &Content<'_>, job: &Job) -> Vec<&'static str> {
     );
     expect(!found.is_empty() || !is_by_rows || rows(content) == rows_asked(job), "other interface rows");
     expect(metadata.validity.band_hz == band(content.superelement, job), "another band");
+    expect(metadata.load_names.iter().eq(job.loads.iter().map(|load| &load.name)), "other loads");
     let precision = job.write.recovery.as_ref().map(|recovery| recovery.precision);
     let recovery = tensors.recovery.as_ref();
     expect(recovery.map(supel_runtime::Recovery::precision) == precision, "another recovery");
@@ -235,6 +235,14 @@ fn of_method(content: &Content<'_>, method: Method) -> Vec<&'static str> {
         Coordinate::RigidBodyMode { index } => Some(*index),
         _ => None,
     });
+    let residual = numbers(|coordinate| match coordinate {
+        Coordinate::ResidualVector { load } => Some(*load),
+        _ => None,
+    });
+    let asks = |job: &Job| -> Vec<usize> {
+        (0..job.loads.len()).filter(|load| job.loads[*load].residual && !is_modal).collect()
+    };
+    expect(content.job.as_ref().is_none_or(|job| residual == asks(job)), "residual vectors");
     let all = |is_there: bool| if is_there { (0..n_r).collect() } else { Vec::new() };
     // Where it is no part of the method, a job may still ask for it.
     let is_relieved = match &content.job {

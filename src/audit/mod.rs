@@ -21,6 +21,7 @@ mod pencil;
 mod record;
 mod recovery;
 mod reproduction;
+mod residual_vectors;
 mod rigid_motion;
 mod spectrum;
 mod version;
@@ -111,6 +112,7 @@ fn checked(content: &Content<'_>) -> Result<Audit> {
     audit.checks.extend(mass::expected(content));
     audit.checks.extend(mass::gravity(content));
     audit.checks.extend(inertia_relief::identity(content));
+    audit.checks.extend(residual_vectors::identity(content));
     audit.checks.push(spectrum::condition(content)?);
     audit.checks.push(spectrum::symmetry(content));
     audit.checks.push(spectrum::definiteness(content, &spectrum));

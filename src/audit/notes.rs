@@ -37,7 +37,7 @@ const fn unvouched(field: &'static str, reason: &'static str) -> Unvouched {
 const NOT_AT_HAND: &str = "names things of a model that is not at hand";
 
 /// Fields that the file alone cannot confirm.
-const ALONE: [Unvouched; 24] = [
+const ALONE: [Unvouched; 25] = [
     unvouched("generator", "a file has no other sign of who made it"),
     unvouched("units", "the job kept in it is the only other place, and may be changed too"),
     unvouched("interface_nodes[].name", "the job kept in it is the only other place, and may be changed too"),
@@ -70,6 +70,7 @@ const ALONE: [Unvouched; 24] = [
     unvouched("stiffness", "a change that keeps rigid-body motion and frequencies agrees with the rest"),
     unvouched("mass", "a change that keeps rigid-body inertia, gravity and frequencies agrees with the rest"),
     unvouched("gravity", "of a component whose rigid-body modes are not six unit motions nothing else has it"),
+    unvouched("load_vectors", "names and order are those of the job kept in it; the loads themselves are not at hand"),
     unvouched("mixing", "the length of a named column is in no other place"),
     unvouched("rigid_body_mass", "of a held component there is none"),
     unvouched(
@@ -107,6 +108,7 @@ pub(super) fn fields(superelement: &Superelement, compared: Compared) -> Vec<Unv
         "mixing" => tensors.mixing.is_some(),
         "model.mass_properties" => is_algebraic && metadata.model.mass_properties.is_some(),
         "gravity" => is_algebraic && tensors.gravity.is_some(),
+        "load_vectors" => tensors.load_vectors.is_some(),
         "rigid_body_mass" => superelement.n_rigid() == 0,
         "recovery" | "recovery_dofs" => tensors.recovery.is_some(),
         _ => true,

@@ -84,6 +84,12 @@ fn least(content: &Content<'_>, entry: &Entry) -> usize {
         Recorded::Always(count) => count,
         Recorded::WithInterface => usize::from(content.n_b > 0),
         Recorded::WithCount => usize::from(matches!(certify, Some(Certify::Count | Certify::Full))),
+        Recorded::WithResidualVector => {
+            let metadata = content.superelement.metadata();
+            let left_out = metadata.dropped.iter().map(|dropped| &dropped.column);
+            let mut named = metadata.coordinates.iter().chain(left_out);
+            usize::from(named.any(|coordinate| matches!(coordinate, Coordinate::ResidualVector { .. })))
+        }
         Recorded::Sometimes => 0,
     }
 }

@@ -54,6 +54,13 @@ impl Basis {
         self.dynamic_modes.ncols()
     }
 
+    /// Residual vectors among the named columns, kept or not; they come last.
+    fn n_residual_vectors(&self) -> usize {
+        let left_out = self.dropped.iter().map(|column| &column.coordinate);
+        let named = self.coordinates.iter().chain(left_out);
+        named.filter(|coordinate| matches!(coordinate, DynamicCoordinate::ResidualVector(_))).count()
+    }
+
     /// n_B + n_η.
     pub fn n_reduced(&self) -> usize {
         self.constraint_modes.ncols() + self.n_dynamic()
@@ -88,7 +95,7 @@ impl Basis {
     pub fn reduced_modes(&self, modes: &Modes, n_internal: usize) -> Mat<f64> {
         let n_b = self.constraint_modes.ncols();
         let has_interface = modes.shapes.nrows() > n_internal;
-        let first = self.mixing.ncols() - modes.count();
+        let first = self.mixing.ncols() - self.n_residual_vectors() - modes.count();
         Mat::from_fn(self.n_reduced(), modes.count(), |i, j| {
             if i >= n_b {
                 self.mixing[(i - n_b, first + j)]

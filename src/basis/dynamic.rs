@@ -26,6 +26,8 @@ pub enum DynamicCoordinate {
     FreeFree(usize),
     /// Fixed-interface normal mode k.
     FixedInterface(usize),
+    /// Residual vector of load k of the job.
+    ResidualVector(usize),
 }
 
 /// A column that was left out.

@@ -303,6 +303,7 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
         },
         interfaces,
         fixed,
+        loads: Vec::new(),
         reduction: ReductionJob {
             method,
             modes,

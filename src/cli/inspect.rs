@@ -57,18 +57,16 @@ fn rubin(superelement: &Superelement, path: &Path) -> Result<Value> {
 fn document(superelement: &Superelement) -> Result<Value> {
     let metadata = json_value("the metadata of a superelement", superelement.metadata())?;
     let tensors = superelement.tensors();
-    let n_inertia_relief = superelement
-        .metadata()
-        .coordinates
-        .iter()
-        .filter(|coordinate| matches!(coordinate, Coordinate::InertiaRelief { .. }))
-        .count();
+    let count = |is_counted: fn(&Coordinate) -> bool| {
+        superelement.metadata().coordinates.iter().filter(|coordinate| is_counted(coordinate)).count()
+    };
     Ok(json!({
         "format_version": FORMAT_VERSION,
         "sizes": {
             "n_reduced": superelement.n_coordinates(),
             "n_interface": superelement.n_interface(),
-            "n_inertia_relief": n_inertia_relief,
+            "n_inertia_relief": count(|coordinate| matches!(coordinate, Coordinate::InertiaRelief { .. })),
+            "n_residual_vectors": count(|coordinate| matches!(coordinate, Coordinate::ResidualVector { .. })),
             "n_modal": superelement.n_modal(),
             "n_rigid": superelement.n_rigid(),
         },

@@ -51,7 +51,8 @@ fn refuse(inputs: &[Named], outputs: &[Named]) -> Result<()> {
 /// The files that a job reads; `document` is the job document, where there is one.
 pub(super) fn inputs(job: &Job, document: Option<&Path>) -> Vec<Named> {
     let document = document.map(|path| ("the job document", path.to_owned()));
-    input::files(&job.model).into_iter().chain(document).collect()
+    let loads = job.loads.iter().filter_map(|load| Some(("a load", load.file.clone()?)));
+    input::files(&job.model).into_iter().chain(loads).chain(document).collect()
 }
 
 /// The outputs of a job in the order in which they get their names: the superelement, which the others tell about, last.

@@ -9,6 +9,8 @@ pub enum Selector {
     Interface(String),
     /// Held dofs by their name, or by their place in the job where they have none.
     Fixed(String),
+    /// A load by its name.
+    Load(String),
     /// The nodes whose displacements are recovered.
     Recovery,
 }
@@ -17,7 +19,7 @@ impl Selector {
     /// The name, or the key where there is none.
     pub fn name(&self) -> &str {
         match self {
-            Self::Interface(name) | Self::Fixed(name) => name,
+            Self::Interface(name) | Self::Fixed(name) | Self::Load(name) => name,
             Self::Recovery => "write.recovery",
         }
     }
@@ -28,6 +30,7 @@ impl fmt::Display for Selector {
         match self {
             Self::Interface(name) => write!(f, "interface {name:?}"),
             Self::Fixed(name) => write!(f, "fixed {name:?}"),
+            Self::Load(name) => write!(f, "load {name:?}"),
             Self::Recovery => f.write_str(self.name()),
         }
     }

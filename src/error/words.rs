@@ -78,6 +78,17 @@ pub(super) fn listed(names: &[String]) -> String {
     }
 }
 
+/// Keys in quotation marks.
+pub(super) fn quoted(keys: &[&str]) -> String {
+    let keys: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
+    if keys.is_empty() { "nothing but a name".to_owned() } else { keys.join(" and ") }
+}
+
+/// A column of a file, from zero.
+pub(super) fn column_words(column: Option<usize>) -> String {
+    column.map_or_else(|| "the only column".to_owned(), |column| format!("column {column}"))
+}
+
 /// The parts of a forecast, the largest first, and what makes that one smaller.
 pub(super) fn forecast(available: u64, [factors, matrices, vectors]: [u64; 3], in_single: Option<u64>) -> String {
     let mut parts = [

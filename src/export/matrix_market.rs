@@ -59,17 +59,19 @@ impl Format for MatrixMarket {
 
 /// What each row is, for people.
 fn rows(superelement: &Superelement, labels: &[i64]) -> Vec<String> {
+    let metadata = superelement.metadata();
     let of_coordinate = |coordinate: &Coordinate| match *coordinate {
         Coordinate::Interface { node, direction } => format!("node {} {direction}", labels[node]),
         Coordinate::InterfaceRow { row } => format!("row {row} (from zero) of the model"),
         Coordinate::RigidBodyMode { index } => format!("rigid-body mode {}", index + 1),
         Coordinate::InertiaRelief { index } => format!("inertia-relief mode {}", index + 1),
+        Coordinate::ResidualVector { load } => format!("residual vector of load {}", metadata.load_names[load]),
         Coordinate::ElasticMode { mode, frequency_hz, .. } => format!("elastic mode {}, {frequency_hz} Hz", mode + 1),
         Coordinate::FixedInterfaceMode { mode, frequency_hz, .. } => {
             format!("fixed-interface mode {}, {frequency_hz} Hz", mode + 1)
         }
     };
-    superelement.metadata().coordinates.iter().map(of_coordinate).collect()
+    metadata.coordinates.iter().map(of_coordinate).collect()
 }
 
 /// A number from which the double comes back.

@@ -38,6 +38,7 @@ pub(super) fn job(superelement: &Superelement, labels: &[i64], names: &Names) ->
     }
     digits(superelement)?.into_iter().for_each(|digits| put("stiffness_digits", digits.into()));
     text += &interfaces(superelement, labels);
+    text += &loads(superelement, names);
     text += &reduction(superelement);
     let _ = write!(text, "\n[write]\nsuperelement = {}\n", Value::from(names.name("again.supel")));
     Ok(text)
@@ -94,6 +95,22 @@ fn interfaces(superelement: &Superelement, labels: &[i64]) -> String {
         let dofs = is_shared.then(|| directions(&nodes[first]));
         put(&nodes[first].name, Value::from(of_interface.to_vec()).to_string(), dofs);
         first += n;
+    }
+    text
+}
+
+/// One table for each load; a residual vector where the superelement has one.
+fn loads(superelement: &Superelement, names: &Names) -> String {
+    let metadata = superelement.metadata();
+    let dropped = metadata.dropped.iter().map(|dropped| &dropped.column);
+    let columns: Vec<&Coordinate> = metadata.coordinates.iter().chain(dropped).collect();
+    let mut text = String::new();
+    for (column, name) in metadata.load_names.iter().enumerate() {
+        let is_its_own =
+            |coordinate: &&Coordinate| matches!(coordinate, Coordinate::ResidualVector { load } if *load == column);
+        let residual = columns.iter().any(is_its_own);
+        let (name, file) = (Value::from(name.clone()), Value::from(names.name("loads.mtx")));
+        let _ = write!(text, "\n[[load]]\nname = {name}\nfile = {file}\ncolumn = {column}\nresidual = {residual}\n");
     }
     text
 }

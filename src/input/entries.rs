@@ -182,6 +182,11 @@ impl<'a> Cursor<'a> {
     }
 }
 
+/// A number, also one whose exponent is marked by D.
+pub(super) fn number(field: &[u8]) -> Option<f64> {
+    fast_float2::parse(field).ok().or_else(|| fortran_number(field))
+}
+
 /// A number whose exponent is marked by D, as Fortran writes double precision.
 fn fortran_number(field: &[u8]) -> Option<f64> {
     const LONGEST: usize = 64;

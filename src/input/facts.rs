@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::{Digits, Input, InputNote, MatrixInput, PatchFaces};
+use super::{Digits, Input, InputNote, LoadColumn, MatrixInput, PatchFaces};
 use crate::error::Warning;
+use crate::job::LoadJob;
 
 /// What is remembered of the input after its matrices have gone into the model.
 #[derive(Clone, Debug)]
@@ -12,6 +13,8 @@ pub struct InputFacts {
     pub matrices: [MatrixFacts; 2],
     /// Digests of the other files by their role: `dofs`, `nodes`, and `nodes_data` for what those refer to.
     pub files: BTreeMap<&'static str, String>,
+    /// Digests of the files of loads by the name of the load.
+    pub loads: BTreeMap<String, String>,
     /// Remarks of the readers that are not warnings.
     pub notes: Vec<String>,
     /// Faces of the patches whose origin is the mean of their nodes, as far as the mesh tells.
@@ -42,17 +45,28 @@ impl InputFacts {
         Self {
             matrices: [facts(&input.stiffness), facts(&input.mass)],
             files: input.digests.clone(),
+            loads: BTreeMap::new(),
             faces: Vec::new(),
             notes: input.notes.iter().filter(|note| note.warning_code().is_none()).map(ToString::to_string).collect(),
             warnings: input.notes.iter().filter_map(warning).collect(),
         }
     }
 
+    /// These facts with the digests of the files of loads.
+    #[must_use]
+    pub fn with_loads(mut self, jobs: &[LoadJob], columns: &[Option<LoadColumn>]) -> Self {
+        let digests = jobs.iter().zip(columns).filter_map(|(job, column)| Some((job, column.as_ref()?)));
+        self.loads = digests.map(|(job, column)| (job.name.clone(), column.digest.clone())).collect();
+        self
+    }
+
     /// BLAKE3 of every file by its role, as the superelement keeps them.
-    pub fn digests(&self) -> BTreeMap<&'static str, &str> {
+    pub fn digests(&self) -> BTreeMap<String, &str> {
         let [stiffness, mass] = &self.matrices;
         let matrices = [("stiffness", stiffness.digest.as_str()), ("mass", mass.digest.as_str())];
-        matrices.into_iter().chain(self.files.iter().map(|(role, digest)| (*role, digest.as_str()))).collect()
+        let files = self.files.iter().map(|(role, digest)| (*role, digest.as_str()));
+        let loads = self.loads.iter().map(|(name, digest)| (format!("load {name}"), digest.as_str()));
+        matrices.into_iter().chain(files).map(|(role, digest)| (role.to_owned(), digest)).chain(loads).collect()
     }
 }
 

@@ -19,6 +19,7 @@ mod gathering;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
 mod hdf5_format;
+mod load_file;
 mod matrix_market;
 mod model_files;
 mod node_table;
@@ -34,7 +35,8 @@ mod written;
 pub use allowance::Allowance;
 pub use digits::{Digits, DigitsBy, digits_of};
 pub use facts::{InputFacts, MatrixFacts};
-pub use model_files::{Input, files, hdf5_file, read, read_hdf5_parts, read_within, start_hdf5};
+pub use load_file::{LoadColumn, WantedColumn, load_column};
+pub use model_files::{Input, files, hdf5_file, load_columns, read, read_hdf5_parts, read_within, start_hdf5};
 pub use note::InputNote;
 pub use patch::{Faces, Patch, PatchFaces, Patches};
 pub use patch_faces::{Cells, has_mean_origin, patch_faces};

@@ -7,11 +7,12 @@ use super::allowance::Allowance;
 use super::blocks::LastLine;
 use super::format::{DirectionBase, MatrixSource, OrderSource, ReadMatrix};
 use super::hdf5_format::split_group;
+use super::load_file::{LoadColumn, WantedColumn, load_column};
 use super::patch::Patches;
 use super::{Cells, InputNote, MatrixInput, MatrixRole, dof_map, empty_rows, formats};
 use crate::dofs::{DofMap, FileRows, Nodes};
 use crate::error::{Error, Result};
-use crate::job::{Duplicates, ModelJob};
+use crate::job::{Duplicates, LoadJob, LoadPattern, ModelJob};
 use crate::regular_file::{digest, unchanged};
 use crate::sparse::SparseMatrix;
 use crate::sparse::Triangle;
@@ -87,6 +88,21 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
         notes.push(note);
     }
     Ok(Input { stiffness, mass, dofs, nodes, rows, digests, notes })
+}
+
+/// The columns of the files of loads, one for each load that has a file.
+///
+/// # Errors
+/// Those of [`load_column`](super::load_column); [`Error::LoadKeys`].
+pub fn load_columns(loads: &[LoadJob], input: &Input) -> Result<Vec<Option<LoadColumn>>> {
+    let n_rows = input.stiffness.matrix.rows() + input.rows.n_dropped();
+    let of_load = |load: &LoadJob| match load.pattern()? {
+        LoadPattern::File(path, column) => {
+            load_column(WantedColumn { path, load: &load.name, column, n_rows }).map(Some)
+        }
+        LoadPattern::Force(..) | LoadPattern::Rotation(_) => Ok(None),
+    };
+    loads.iter().map(of_load).collect()
 }
 
 /// Starts the HDF5 library. A failure after that is the fault of a file.

@@ -45,7 +45,8 @@ impl Job {
     fn has_inputs_in(&self, folder: &Path) -> bool {
         let model = &self.model;
         let files = [Some(&model.stiffness), Some(&model.mass), model.dofs.as_ref(), model.nodes.as_ref()];
-        files.into_iter().flatten().all(|path| is_there(&folder.join(path)))
+        let of_loads = self.loads.iter().map(|load| load.file.as_ref());
+        files.into_iter().chain(of_loads).flatten().all(|path| is_there(&folder.join(path)))
     }
 }
 

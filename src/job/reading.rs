@@ -83,7 +83,8 @@ impl Job {
             ("write.html", write.html.as_mut()),
             ("write.junit", write.junit.as_mut()),
         ];
-        paths.into_iter().filter_map(|(key, path)| Some((key, path?)))
+        let of_loads = self.loads.iter_mut().map(|load| ("load.file", load.file.as_mut()));
+        paths.into_iter().chain(of_loads).filter_map(|(key, path)| Some((key, path?)))
     }
 }
 

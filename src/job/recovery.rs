@@ -34,7 +34,7 @@ pub(super) fn validate(recovery: &RecoveryJob) -> Result<()> {
 }
 
 /// Nodes, not rows.
-fn nodes_by_name(generator: &mut SchemaGenerator) -> Schema {
+pub(super) fn nodes_by_name(generator: &mut SchemaGenerator) -> Schema {
     let mut nodes = NodeSelection::json_schema(generator);
     let has_rows = |choice: &Value| choice.pointer("/properties/rows").is_some();
     if let Some(choices) = nodes.get_mut("anyOf").and_then(Value::as_array_mut) {

@@ -30,14 +30,19 @@ pub enum Role {
 }
 
 impl Role {
-    /// The role of a key, by `run.certify` for instance. Keys inside lists decide what is made.
+    /// The role of a key, by `run.certify` or `load[0].file` for instance.
     pub fn of(schema: &Value, key: &str) -> Self {
         let mut tables = alternatives(schema, schema);
         let mut word = None;
         for step in key.split('.') {
-            let values: Vec<&Value> = tables.iter().filter_map(|table| table.get("properties")?.get(step)).collect();
+            let (name, n_lists) = (step.split('[').next().unwrap_or(step), step.matches('[').count());
+            let values: Vec<&Value> = tables.iter().filter_map(|table| table.get("properties")?.get(name)).collect();
             word = values.iter().find_map(|value| value.get("x-role")?.as_str());
             tables = values.into_iter().flat_map(|value| alternatives(schema, value)).collect();
+            for _ in 0..n_lists {
+                let items = tables.iter().filter_map(|list| list.get("items"));
+                tables = items.flat_map(|item| alternatives(schema, item)).collect();
+            }
         }
         match word {
             Some("place") => Self::Place,

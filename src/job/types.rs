@@ -13,6 +13,7 @@ use std::path::PathBuf;
 
 use super::fixed::FixedJob;
 use super::interface::InterfaceJob;
+use super::load::LoadJob;
 use super::method::Method;
 use super::ranges::{LARGEST, MAX_DIGITS, SMALLEST};
 use super::recovery::RecoveryJob;
@@ -32,6 +33,9 @@ pub struct Job {
     /// Degrees of freedom that are held at rest.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub fixed: Vec<FixedJob>,
+    /// Loads that the superelement carries by name.
+    #[serde(default, rename = "load", skip_serializing_if = "Vec::is_empty")]
+    pub loads: Vec<LoadJob>,
     /// Method and modes.
     pub reduction: ReductionJob,
     /// What the simulation will ask of the component.

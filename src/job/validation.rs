@@ -16,6 +16,7 @@ pub(super) fn validate(job: &Job) -> Result<()> {
     interfaces(&job.interfaces)?;
     reduction(&job.reduction)?;
     super::fixed::validate(&job.fixed)?;
+    super::load::validate(&job.loads)?;
     if let Some(scene) = &job.scene {
         super::scene::validate(scene, &job.interfaces)?;
     }

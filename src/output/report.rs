@@ -11,13 +11,14 @@ use crate::job::{Boundary, Certify, InterfaceJob, ModeSelection, Origin};
 use crate::model::RoundedCoordinates;
 use crate::modes::CountedInterval;
 use crate::number::counted;
-use crate::partition::InterfaceNode;
+use crate::partition::{InterfaceNode, LoadFacts};
 use crate::report::{
     Completeness, DroppedCoordinate, FacesReport, Generator, HeldReport, InterfacePosition, InterfaceReport,
-    MassProperties, MatrixReport, ModeKind, ModeRow, ModelReport, PositionOrigin, ReductionReport, ReportBody,
-    RigidBodyModes, TrustInterval,
+    LoadReport, MassProperties, MatrixReport, ModeKind, ModeRow, ModelReport, PositionOrigin, ReductionReport,
+    ReportBody, ResidualVector, RigidBodyModes, TrustInterval,
 };
 use crate::rigid::ILL_CONDITIONED;
+use crate::verification::Evidence;
 
 pub(super) fn body(results: &Results<'_>) -> ReportBody {
     ReportBody {
@@ -88,14 +89,17 @@ fn reduction(results: &Results<'_>) -> ReductionReport {
     let n_inertia_relief = basis.coordinates.iter().filter(is_relief).count();
     let is_rigid = |c: &&DynamicCoordinate| matches!(c, DynamicCoordinate::RigidBody(_));
     let n_rigid_body = basis.coordinates.iter().filter(is_rigid).count();
+    let is_residual = |c: &&DynamicCoordinate| matches!(c, DynamicCoordinate::ResidualVector(_));
+    let n_residual_vectors = basis.coordinates.iter().filter(is_residual).count();
     ReductionReport {
         method: results.job.reduction.method,
         eigensolver: results.job.reduction.eigensolver,
         interfaces: interfaces(results),
         n_interface: evidence.partition.n_interface(),
         n_inertia_relief,
-        n_modes: basis.n_dynamic() - n_inertia_relief - n_rigid_body,
+        n_modes: basis.n_dynamic() - n_inertia_relief - n_rigid_body - n_residual_vectors,
         n_reduced: basis.n_reduced(),
+        loads: loads(results),
         dropped: basis
             .dropped
             .iter()
@@ -106,12 +110,38 @@ fn reduction(results: &Results<'_>) -> ReductionReport {
                     DynamicCoordinate::FreeFree(mode) | DynamicCoordinate::FixedInterface(mode) => {
                         format!("mode {}", mode + 1)
                     }
+                    DynamicCoordinate::ResidualVector(load) => {
+                        format!("residual vector of {}", evidence.partition.loads.facts[load].name)
+                    }
                 },
                 reason: format!("depends on the columns before it ({:.1e} of its length is left)", column.remaining),
             })
             .collect(),
         modes: modes(results),
     }
+}
+
+/// One row for each load of the job, in its order.
+fn loads(results: &Results<'_>) -> Vec<LoadReport> {
+    let Evidence { partition, basis, answers, .. } = results.evidence;
+    let report = |(load, facts): (usize, &LoadFacts)| {
+        let is_kept = basis.coordinates.contains(&DynamicCoordinate::ResidualVector(load));
+        let residual_vector = match (facts.has_residual_vector, is_kept) {
+            (false, _) => ResidualVector::NotAsked,
+            (true, true) => ResidualVector::Kept,
+            (true, false) if answers.is_none() => ResidualVector::NoAnswer,
+            (true, false) => ResidualVector::LeftOut,
+        };
+        LoadReport {
+            name: facts.name.clone(),
+            source: facts.source.clone(),
+            digest: results.input.loads.get(&facts.name).cloned(),
+            resultant: facts.resultant,
+            residual_vector,
+            lacking: results.findings.load_lacking.as_ref().map(|lacking| lacking[load]),
+        }
+    };
+    partition.loads.facts.iter().enumerate().map(report).collect()
 }
 
 /// One row for each interface of the job, in its order.

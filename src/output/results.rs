@@ -52,7 +52,7 @@ impl Results<'_> {
 
     /// What was done, counted.
     pub(super) fn work(&self) -> WorkCounters {
-        let Evidence { partition, rigid, retained, certificate, enclosures, .. } = self.evidence;
+        let Evidence { partition, rigid, retained, answers, certificate, enclosures, .. } = self.evidence;
         let work = &retained.modes.work;
         WorkCounters {
             n_factorisations: 1
@@ -60,7 +60,10 @@ impl Results<'_> {
                 + work.factorisations
                 + certificate.map_or(0, |certificate| certificate.n_factorisations)
                 + enclosures.map_or(0, |enclosures| enclosures.n_factorisations),
-            n_solves: work.solves + partition.n_interface() + rigid.count(),
+            n_solves: work.solves
+                + partition.n_interface()
+                + rigid.count()
+                + answers.map_or(0, |answers| answers.ncols()),
             n_restarts: work.restarts,
             factor_flops: self.analysis.flops,
             factor_nonzeros: self.analysis.nnz_factor as u64,

@@ -26,7 +26,8 @@ pub(super) fn superelement(results: &Results<'_>, verdict: Verdict) -> Result<Su
 fn refuse_out_of_range(tensors: &Tensors) -> Result<()> {
     let mixing = tensors.mixing.iter().map(|mixing| ("the inertia-relief modes in the units of the matrices", mixing));
     let matrices = [("the reduced stiffness", &tensors.stiffness), ("the reduced mass", &tensors.mass)];
-    for (what, matrix) in matrices.into_iter().chain(mixing) {
+    let loads = tensors.load_vectors.iter().map(|loads| ("a load in the units of its coordinates", loads));
+    for (what, matrix) in matrices.into_iter().chain(mixing).chain(loads) {
         if matrix.as_slice().contains(&f64::INFINITY) || matrix.as_slice().contains(&f64::NEG_INFINITY) {
             return Err(Error::UnitRange { what, exponent: f64::MAX_EXP });
         }
@@ -61,8 +62,19 @@ fn tensors(results: &Results<'_>) -> Tensors {
         frequencies: frequencies(results),
         mixing: mixing(results).as_ref().map(|mixing| matrix(mixing.as_ref())),
         gravity: reduction.gravity.as_ref().map(|gravity| matrix(rows(gravity, scaling.mass_unit()).as_ref())),
+        load_vectors: load_vectors(results),
         ..Tensors::default()
     }
+}
+
+/// ΨᵀF in the user's units; none where the job has no loads.
+fn load_vectors(results: &Results<'_>) -> Option<Matrix> {
+    let (reduction, partition) = (results.evidence.reduction, results.evidence.partition);
+    let (n_b, shape) = (partition.n_interface(), partition.scaling.shape_unit());
+    let coordinate = |i: usize| if i < n_b { 1.0 } else { shape };
+    let entry = |i: usize, load: usize| reduction.loads[(i, load)] * partition.loads.facts[load].unit * coordinate(i);
+    let n_loads = partition.loads.count();
+    (n_loads > 0).then(|| Matrix::from_fn(reduction.n_reduced(), n_loads, entry))
 }
 
 fn matrix(a: MatRef<'_, f64>) -> Matrix {
@@ -87,11 +99,12 @@ fn mixing(results: &Results<'_>) -> Option<Mat<f64>> {
     let scaling = evidence.partition.scaling;
     let mixing = evidence.basis.mixing_of_kept();
     // A named shape is mass-normalised in the user's units like the stored ones; an inertia-relief mode K_II⁻¹(MU)_I
-    // carries the unit of M over that of K.
+    // carries the unit of M over that of K, a residual vector that of its load over that of K.
     let named_unit = |coordinate: DynamicCoordinate| match coordinate {
         DynamicCoordinate::RigidBody(_) => 1.0,
         DynamicCoordinate::InertiaRelief(_) => 1.0 / scaling.eigenvalue_unit(),
         DynamicCoordinate::FreeFree(_) | DynamicCoordinate::FixedInterface(_) => scaling.shape_unit(),
+        DynamicCoordinate::ResidualVector(load) => evidence.partition.loads.facts[load].unit / scaling.stiffness_unit(),
     };
     let unit: Vec<f64> = evidence.basis.coordinates.iter().map(|c| scaling.shape_unit() / named_unit(*c)).collect();
     Some(Mat::from_fn(mixing.nrows(), mixing.ncols(), |i, j| mixing[(i, j)] * unit[i]))
@@ -135,7 +148,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Resul
         interface_nodes,
         coordinates,
         dropped: dropped.collect(),
-        load_names: Vec::new(),
+        load_names: evidence.partition.loads.facts.iter().map(|load| load.name.clone()).collect(),
         validity: file::Validity {
             band_hz: band(results.job, tensors),
             assumptions: results.job.assumptions(),
@@ -150,7 +163,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Resul
             },
             mass_properties: classical,
         },
-        inputs: digests.into_iter().map(|(role, digest)| (role.to_owned(), digest.to_owned())).collect(),
+        inputs: digests.into_iter().map(|(role, digest)| (role, digest.to_owned())).collect(),
         job: job_document(results.job)?,
         verification: verification(&results.checks(), verdict),
     })
@@ -180,6 +193,7 @@ fn dynamic_coordinate(results: &Results<'_>, tensors: &Tensors, coordinate: Dyna
     match coordinate {
         DynamicCoordinate::RigidBody(index) => Coordinate::RigidBodyMode { index },
         DynamicCoordinate::InertiaRelief(index) => Coordinate::InertiaRelief { index },
+        DynamicCoordinate::ResidualVector(load) => Coordinate::ResidualVector { load },
         DynamicCoordinate::FreeFree(mode) => {
             Coordinate::ElasticMode { mode, frequency_hz: frequency(mode), error_bar_hz: bar(mode) }
         }
@@ -207,6 +221,7 @@ fn job_document(job: &Job) -> Result<serde_json::Value> {
     relative(&mut job.model.mass);
     job.model.dofs.as_mut().map(relative);
     job.model.nodes.as_mut().map(relative);
+    job.loads.iter_mut().filter_map(|load| load.file.as_mut()).for_each(relative);
     relative(&mut job.write.superelement);
     job.write.report.as_mut().map(relative);
     (job.write.html, job.write.junit) = (None, None);

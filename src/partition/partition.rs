@@ -17,6 +17,7 @@ use crate::sparse::{Leading, SparseMatrix};
 use super::gravity::Gravity;
 use super::held::Held;
 use super::interface_node::InterfaceNode;
+use super::load::Loads;
 use super::roundings::{PatchEntries, Roundings};
 use super::transformation::{DofOrigin, ReducedDof, Transformation};
 use super::transformation_row::TransformationRow;
@@ -44,6 +45,8 @@ pub struct Partition {
     pub held: Held,
     /// Loads of gravity, where dofs are held and directions are known.
     pub gravity: Option<Gravity>,
+    /// Loads that the superelement carries by name; none unless the caller adds them.
+    pub loads: Loads,
     /// Rows of the model whose displacements the superelement recovers; none unless the caller adds them.
     pub recovered: Vec<(usize, Dof)>,
     /// Powers of two taken out of K and M.
@@ -128,6 +131,7 @@ impl Partition {
             transformation,
             held,
             gravity,
+            loads: Loads::none(n_internal + n_interface),
             recovered: Vec::new(),
             scaling: model.scaling,
             precision: model.precision,

@@ -48,6 +48,11 @@ fn head(page: &mut Page, superelement: &Superelement, file_bytes: u64) {
     if !present.is_empty() {
         page.entry("also holds", &present.join(", "));
     }
+    for (at, name) in metadata.load_names.iter().enumerate() {
+        let is_its = |coordinate: &Coordinate| *coordinate == Coordinate::ResidualVector { load: at };
+        let has_residual_vector = metadata.coordinates.iter().any(is_its);
+        page.entry("load", &format!("{name}{}", if has_residual_vector { ", with its residual vector" } else { "" }));
+    }
     for assumption in &metadata.validity.assumptions {
         page.entry("assumes", assumption);
     }
@@ -108,7 +113,7 @@ fn modes(page: &mut Page, superelement: &Superelement) {
     let frequencies = &superelement.tensors().frequencies;
     page.entry("frequencies", &frequencies.len().to_string());
     for dropped in &metadata.dropped {
-        page.entry("left out", &format!("{}: {}", column(&dropped.column), dropped.reason));
+        page.entry("left out", &format!("{}: {}", column(&dropped.column, &metadata.load_names), dropped.reason));
     }
     let rows: Vec<Mode> = frequencies
         .iter()
@@ -122,12 +127,15 @@ fn modes(page: &mut Page, superelement: &Superelement) {
     mode_table(page, &rows);
 }
 
-fn column(column: &Coordinate) -> String {
+fn column(column: &Coordinate, load_names: &[String]) -> String {
     match column {
         Coordinate::Interface { node, .. } => format!("interface node {node}"),
         Coordinate::InterfaceRow { row } => format!("row {row}"),
         Coordinate::RigidBodyMode { index } => format!("rigid-body mode {}", index + 1),
         Coordinate::InertiaRelief { index } => format!("inertia relief {}", index + 1),
+        Coordinate::ResidualVector { load } => {
+            format!("residual vector of {}", load_names.get(*load).map_or("no load", String::as_str))
+        }
         Coordinate::ElasticMode { mode, .. } | Coordinate::FixedInterfaceMode { mode, .. } => {
             format!("mode {}", mode + 1)
         }

@@ -9,6 +9,7 @@ mod html;
 mod inspection;
 mod json;
 mod junit;
+mod load;
 pub(crate) mod mode_table;
 pub(crate) mod page;
 mod printable;
@@ -38,6 +39,7 @@ pub use assembly::ModesReport;
 pub use html::{escaped, html};
 pub use inspection::inspection;
 pub use junit::{JunitWarnings, junit};
+pub use load::{LoadReport, ResidualVector};
 pub use page::Paint;
 use printable::json_text;
 pub(crate) use printable::{printable, value_text};
@@ -181,6 +183,9 @@ pub struct ReductionReport {
     pub n_modes: usize,
     /// Order of the reduced matrices.
     pub n_reduced: usize,
+    /// Loads that the superelement carries by name; absent where there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub loads: Vec<LoadReport>,
     /// Coordinates that were left out because others span them.
     pub dropped: Vec<DroppedCoordinate>,
     /// The elastic modes in ascending order.
@@ -188,10 +193,16 @@ pub struct ReductionReport {
 }
 
 impl ReductionReport {
-    /// Coordinates that are none of the interface, of inertia relief or of an elastic mode: rigid-body motions of a
+    /// Residual vectors kept.
+    pub fn n_residual_vectors(&self) -> usize {
+        self.loads.iter().filter(|load| load.residual_vector == ResidualVector::Kept).count()
+    }
+
+    /// Coordinates that are none of the interface, of inertia relief, of an elastic mode or of a load: rigid-body motions of a
     /// component without an interface to carry them.
     pub fn n_rigid_body(&self) -> usize {
-        self.n_reduced.saturating_sub(self.n_interface + self.n_inertia_relief + self.n_modes)
+        let others = self.n_interface + self.n_inertia_relief + self.n_modes + self.n_residual_vectors();
+        self.n_reduced.saturating_sub(others)
     }
 }
 

@@ -1,6 +1,9 @@
 //! The words and figures that the summary and the page have in common.
 
-use super::{FacesReport, InterfacePosition, InterfaceReport, ModeKind, ModelReport, PositionOrigin, ReductionReport};
+use super::{
+    FacesReport, InterfacePosition, InterfaceReport, LoadReport, ModeKind, ModelReport, PositionOrigin,
+    ReductionReport, ResidualVector,
+};
 use crate::job::Eigensolver;
 use crate::number::{self, counted};
 use crate::partition::HeldSelection;
@@ -51,7 +54,34 @@ pub(super) fn coordinates(reduction: &ReductionReport) -> Vec<String> {
         }
     }
     parts.push(counted(reduction.n_modes, "elastic mode", "elastic modes"));
+    let n_residual_vectors = reduction.n_residual_vectors();
+    if n_residual_vectors > 0 {
+        parts.push(counted(n_residual_vectors, "residual vector", "residual vectors"));
+    }
     parts
+}
+
+/// The loads by name: what each is, its total force, and how much of its static answer the reduced model lacks.
+pub(super) fn loads(reduction: &ReductionReport) -> Vec<String> {
+    let line = |load: &LoadReport| {
+        let mut parts = vec![load.source.clone()];
+        if let Some(resultant) = load.resultant {
+            let size = resultant.iter().fold(0.0f64, |size, value| size.max(value.abs()));
+            let clear = |value: f64| if value.abs() <= 1e-12 * size { 0.0 } else { value };
+            parts.push(format!("total ({})", resultant.map(|value| number::quantity(clear(value), 5)).join(", ")));
+        }
+        parts.push(match load.residual_vector {
+            ResidualVector::Kept => "residual vector".to_owned(),
+            ResidualVector::LeftOut => "residual vector left out".to_owned(),
+            ResidualVector::NotAsked => "no residual vector".to_owned(),
+            ResidualVector::NoAnswer => {
+                "no residual vector: a free component without interface has no static answer".to_owned()
+            }
+        });
+        parts.extend(load.lacking.map(|lacking| format!("static answer lacks {}", number::scientific(lacking, 1))));
+        format!("{}: {}", load.name, parts.join(", "))
+    };
+    reduction.loads.iter().map(line).collect()
 }
 
 /// What the job holds: how much of the model, then each selection.

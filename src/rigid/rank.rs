@@ -83,7 +83,7 @@ fn rank_within(partition: &Partition, rigid: &RigidBodyModes, tolerance: f64) ->
     // Supports may leave no other motion to compare with: then one that moves the interface is as large there as anywhere.
     let anywhere = 1.0 / (partition.n_dofs() as f64).sqrt();
     let rank = singular.iter().filter(|value| **value > tolerance * largest.max(anywhere)).count();
-    if n_r > rank {
+    if rank < n_r {
         let free = unit.as_ref() * v.as_ref().subcols(n_r - 1, 1);
         let mut motion = match partition.sites() {
             Some(sites) => describe(&sites, dense::column(free.as_ref(), 0)),

@@ -49,6 +49,8 @@ pub enum Recorded {
     WithInterface,
     /// Where the job asks for the count of modes or for their enclosure.
     WithCount,
+    /// Where a load has a residual vector, kept or left out.
+    WithResidualVector,
     /// Where there is something to measure it on.
     Sometimes,
 }
@@ -292,5 +294,13 @@ pub const CATALOGUE: &[Entry] = &[
         Recorded::Sometimes,
         "The written file was read back: its digest is right and it holds what was computed, to the last bit.",
         "The disk or the file system changed the file: write it elsewhere.",
+    ),
+    line(
+        "M-27",
+        Proof::Measured,
+        Recorded::WithResidualVector,
+        "Static answer to each load that the job names, its interface held, in both models. A residual vector makes it exact; without \
+         one it depends on how many modes are kept.",
+        "Leave `residual = true` of the load, or keep more modes. Against the job: the load of another model, or in other units.",
     ),
 ];

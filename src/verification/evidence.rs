@@ -1,5 +1,7 @@
 //! What the checks look at, and how they name and scale it.
 
+use faer::Mat;
+
 use crate::basis::{Basis, DynamicCoordinate};
 use crate::constraint::ConstraintModes;
 use crate::dense;
@@ -37,6 +39,8 @@ pub struct Evidence<'a> {
     pub basis: &'a Basis,
     /// The reduced matrices.
     pub reduction: &'a Reduction,
+    /// K_II⁻¹ f_I of each load of the job, n_I × n_l, where they were solved.
+    pub answers: Option<&'a Mat<f64>>,
     /// Rubin's form of the reduced matrices, where the method is his.
     pub rubin: Option<&'a Rubin>,
     /// The Sturm count, where one was asked for.
@@ -65,6 +69,9 @@ pub(super) fn coordinate_name(evidence: &Evidence<'_>, coordinate: usize) -> Str
         Some(Some(DynamicCoordinate::InertiaRelief(index))) => format!("inertia relief {}", index + 1),
         Some(Some(DynamicCoordinate::FreeFree(mode) | DynamicCoordinate::FixedInterface(mode))) => {
             format!("mode {}", mode + 1)
+        }
+        Some(Some(DynamicCoordinate::ResidualVector(load))) => {
+            format!("residual vector of {}", evidence.partition.loads.facts[load].name)
         }
     }
 }

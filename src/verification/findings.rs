@@ -6,7 +6,8 @@ use super::grounding::{self, Grounding};
 use super::loads::{self, EffectiveMasses};
 use super::rigid_body::{self, MassRoutes};
 use super::{
-    attachment, completeness, conditioning, eigenpairs, enclosed, mass, reduced, rigid_motion, solves, spectrum,
+    attachment, completeness, conditioning, eigenpairs, enclosed, mass, named_loads, reduced, rigid_motion, solves,
+    spectrum,
 };
 use crate::error::Result;
 
@@ -19,6 +20,8 @@ pub struct Findings {
     pub rigid_body: RigidBody,
     /// The first elastic eigenvalue, where one is known.
     pub first_elastic: Option<f64>,
+    /// What the basis lacks of the static answer to each load of the job, where that is known.
+    pub load_lacking: Option<Vec<f64>>,
 }
 
 /// The component as a rigid body.
@@ -85,5 +88,7 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     checks.extend(conditioning::conditioning(evidence, condition)?);
     checks.push(reduced::symmetry(evidence, &terms));
     checks.push(reduced::definiteness(evidence, &spectrum));
-    Ok(Findings { checks, rigid_body, first_elastic: spectrum.first_elastic() })
+    let load_lacking = named_loads::lacking(evidence);
+    checks.extend(named_loads::checks(evidence, load_lacking.as_deref(), condition));
+    Ok(Findings { checks, rigid_body, first_elastic: spectrum.first_elastic(), load_lacking })
 }

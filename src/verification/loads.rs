@@ -70,7 +70,7 @@ pub(super) fn accelerations(evidence: &Evidence<'_>, condition: f64) -> Option<C
 }
 
 /// √(aᵀb) of a column of displacements and one of forces.
-fn root_of_energy(a: MatRef<'_, f64>, b: MatRef<'_, f64>, j: usize) -> f64 {
+pub(super) fn root_of_energy(a: MatRef<'_, f64>, b: MatRef<'_, f64>, j: usize) -> f64 {
     let energy = dense::dot(dense::column(a, j), dense::column(b, j));
     // Below zero it is rounding; NaN stays NaN.
     if energy < 0.0 { 0.0 } else { energy.sqrt() }
@@ -85,7 +85,7 @@ fn beyond_rigid(evidence: &Evidence<'_>, along: MatRef<'_, f64>, loads: MatRef<'
 }
 
 /// Ψ_D K̂_ηη⁻¹ Ψ_Dᵀ F; none where K̂_ηη is not definite, which M-25 says.
-fn reduced_deflections(evidence: &Evidence<'_>, loads: MatRef<'_, f64>) -> Option<Mat<f64>> {
+pub(super) fn reduced_deflections(evidence: &Evidence<'_>, loads: MatRef<'_, f64>) -> Option<Mat<f64>> {
     let psi_d = evidence.basis.dynamic_modes.as_ref();
     let (n_b, n_eta) = (evidence.partition.n_interface(), psi_d.ncols());
     let stiffness = evidence.reduction.stiffness.as_ref().submatrix(n_b, n_b, n_eta, n_eta);

@@ -19,6 +19,7 @@ mod grounding;
 pub(crate) mod limits;
 mod loads;
 mod mass;
+mod named_loads;
 mod penalty;
 mod pencil;
 pub mod preservation;

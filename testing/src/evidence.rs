@@ -46,6 +46,7 @@ pub fn with_evidence<T>(
         retained: &retained,
         basis: &basis,
         reduction: &reduction,
+        answers: None,
         rubin: None,
         certificate: None,
         enclosures: None,

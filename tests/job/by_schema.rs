@@ -26,6 +26,11 @@ fn jobs() -> Vec<Value> {
             },
             "interface": interfaces,
             "fixed": [{ "name": "foot", "nodes": recovered, "dofs": ["uy", "ry"] }],
+            "load": [
+                { "name": "thrust", "nodes": recovered, "force": [0.25, 1.25, 2.25] },
+                { "name": "pressure", "file": "f.mtx", "column": 3, "residual": false },
+                { "name": "spin", "rotation": { "axis": [0.25, 1.25, 2.25], "through": [0.5, 1.5, 2.5] } },
+            ],
             "reduction": { "method": "herting", "modes": modes, "inertia_relief": true, "eigensolver": "arpack" },
             "scene": { "band_hz": [0.25, 500.5], "boundaries": ["free", "fix:hub", "mass:hub", "mass:hub=2.5"], "damping": { "ratio": 0.25 } },
             "run": { "certify": "full", "memory_gib": 4.5, "precision": "mixed" },
@@ -148,6 +153,7 @@ fn is_about_two_keys(error: &Error) -> bool {
             | Error::InterfaceOverlap { .. }
             | Error::InterfaceTwice { .. }
             | Error::FixedTwice { .. }
+            | Error::LoadTwice { .. }
     )
 }
 

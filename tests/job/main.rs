@@ -207,7 +207,7 @@ fn values_of_the_wrong_kind_are_located() {
     insta::assert_snapshot!(message(&with("/model/dofs", Value::Null)), @"job.json: `model.dofs` is null – expected a value, or the key left out");
     insta::assert_snapshot!(message(&with("/model/dofs", 3.into())), @"job.json: `model.dofs` is 3 – expected a text");
     insta::assert_snapshot!(message(&with("/model/drop_empty", 1.into())), @"job.json: `model.drop_empty` is 1 – expected true or false");
-    insta::assert_snapshot!(message(&json!([1, 2])), @"job.json: the job is a list – expected a table with keys of fixed, interface, model, reduction, run, scene, write");
+    insta::assert_snapshot!(message(&json!([1, 2])), @"job.json: the job is a list – expected a table with keys of fixed, interface, load, model, reduction, run, scene, write");
     let error = Job::parse("{\n \"model\": }", Path::new("job.json")).expect_err("not JSON");
     assert_eq!(error.to_string(), "job.json:2: this is no JSON: expected value");
 }
@@ -530,6 +530,34 @@ fn fixed() -> Vec<Value> {
     ]
 }
 
+/// The small job with a load, some of them allowed and some not.
+fn loads() -> Vec<Value> {
+    let load = |value: Value| with("/load", json!([value]));
+    vec![
+        load(json!({ "name": "a", "nodes": [4, 9], "force": [0, 0, 1] })),
+        load(json!({ "name": "a", "nodes": "group:A", "force": [1, 0.5, 0] })),
+        load(json!({ "name": "a", "nodes": { "rows": [0] }, "force": [0, 0, 1] })),
+        load(json!({ "name": "a", "nodes": [4, 4], "force": [0, 0, 1] })),
+        load(json!({ "name": "a", "nodes": [4] })),
+        load(json!({ "name": "a", "force": [0, 0, 1] })),
+        load(json!({ "name": "a", "file": "f.mtx" })),
+        load(json!({ "name": "a", "file": "f.mtx", "column": 0 })),
+        load(json!({ "name": "a", "file": "f.mtx", "column": -1 })),
+        load(json!({ "name": "a", "file": "f.mtx", "nodes": [4] })),
+        load(json!({ "name": "a", "file": "f.mtx", "nodes": [4], "force": [0, 0, 1] })),
+        load(json!({ "name": "a", "file": "f.mtx", "rotation": { "axis": [0, 0, 1] } })),
+        load(json!({ "name": "a", "rotation": { "axis": [0, 0, 1] } })),
+        load(json!({ "name": "a", "rotation": { "axis": [0, 0, 1], "through": [1, 2, 3] } })),
+        load(json!({ "name": "a", "rotation": { "axis": [0, 0, 1] }, "column": 1 })),
+        load(json!({ "name": "a", "rotation": { "through": [1, 2, 3] } })),
+        load(json!({ "name": "a", "rotation": { "axis": [0, 1] } })),
+        load(json!({ "name": "a", "file": "f.mtx", "residual": false })),
+        load(json!({ "name": "a", "file": "f.mtx", "residual": "no" })),
+        load(json!({ "name": "a" })),
+        load(json!({ "file": "f.mtx" })),
+    ]
+}
+
 /// The small job with nodes to be recovered, some of them allowed and some not.
 fn recoveries() -> Vec<Value> {
     vec![
@@ -614,12 +642,12 @@ fn every_key_is_described() {
 fn schema_and_program_agree() {
     let schema = schema();
     let mut n_accepted = 0;
-    for case in changed_jobs().into_iter().chain(recoveries()).chain(fixed()) {
+    for case in changed_jobs().into_iter().chain(recoveries()).chain(fixed()).chain(loads()) {
         let found = read(&case);
         assert_eq!(schema.is_valid(&case), found.is_ok(), "{case}: {:?}", found.err().map(|error| error.to_string()));
         n_accepted += usize::from(found.is_ok());
     }
-    assert!((10..32).contains(&n_accepted), "{n_accepted} of the cases are accepted");
+    assert!((10..40).contains(&n_accepted), "{n_accepted} of the cases are accepted");
 }
 
 #[test]

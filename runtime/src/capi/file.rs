@@ -39,6 +39,7 @@ pub struct SupelCheck {
 /// Names, axes, verdict and validity of a superelement.
 pub(super) struct Said {
     names: Vec<CString>,
+    loads: Vec<CString>,
     labels: Vec<Option<i64>>,
     frames: Vec<f64>,
     units: Option<CString>,
@@ -62,6 +63,7 @@ impl Said {
         };
         Self {
             names: metadata.interface_nodes.iter().map(|node| c_string(&node.name)).collect(),
+            loads: metadata.load_names.iter().map(|name| c_string(name)).collect(),
             labels: metadata.interface_nodes.iter().map(|node| node.label).collect(),
             frames: tensors.interface_frames.as_flattened().as_flattened().to_vec(),
             units: metadata.units.as_deref().map(c_string),
@@ -103,6 +105,28 @@ fn text(text: Option<&CString>) -> *const c_char {
 pub unsafe extern "C" fn supel_interface_name(component: *const SupelComponent, node: usize) -> *const c_char {
     // SAFETY: the same promise.
     text(unsafe { said(component) }.and_then(|said| said.names.get(node)))
+}
+
+/// Number of loads that the file carries; zero for null.
+///
+/// # Safety
+///
+/// `component` is null or comes from `supel_component_open`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn supel_n_load_vectors(component: *const SupelComponent) -> usize {
+    // SAFETY: the same promise.
+    unsafe { said(component) }.map_or(0, |said| said.loads.len())
+}
+
+/// Name of a load of the file, from 0; null for null and for a load that is not there.
+///
+/// # Safety
+///
+/// `component` is null or comes from `supel_component_open`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn supel_load_vector_name(component: *const SupelComponent, load: usize) -> *const c_char {
+    // SAFETY: the same promise.
+    text(unsafe { said(component) }.and_then(|said| said.loads.get(load)))
 }
 
 /// Label of an interface node in the model; null for null, for a node that is not there and for one that the reduction added.

@@ -1,4 +1,4 @@
-//! Dead loads and gravity through the C interface.
+//! Dead loads, gravity and the loads of the file through the C interface.
 
 use alloc::string::String;
 
@@ -160,4 +160,70 @@ unsafe fn checked_gravity<'a>(
     // SAFETY: three values by the promise of the caller.
     let gravity = unsafe { values(gravity, 3, "gravity")? };
     Ok((component, [gravity[0], gravity[1], gravity[2]]))
+}
+
+/// Adds the forces of load number `load` of the file, from 0, with an amplitude, in the state last evaluated in the workspace. The
+/// load turns with the floating frame.
+///
+/// # Safety
+///
+/// `component` and `workspace` as of `supel_evaluate`; `forces` points to as many values as the component has coordinates. Each
+/// may be null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn supel_add_load_vector(
+    component: *const SupelComponent,
+    load: usize,
+    amplitude: f64,
+    workspace: *mut SupelWorkspace,
+    forces: *mut f64,
+) -> SupelStatus {
+    guarded(|| {
+        // SAFETY: null, or what their names say and not used by others, by the promise of the caller.
+        let (component, workspace) = unsafe { evaluated(component, workspace)? };
+        // SAFETY: as many values as coordinates by the promise of the caller.
+        let forces = unsafe { values_mut(forces, component.n_coordinates(), "forces")? };
+        let added = component.load_vector_forces(load, amplitude, workspace);
+        let added = added.map_err(|error| failed(SupelStatus::State)(&error))?;
+        forces.iter_mut().zip(added).for_each(|(sum, force)| *sum += force);
+        Ok(())
+    })
+}
+
+/// Adds the stiffness of load number `load` of the file, minus the derivative of its forces by the place, to `stiffness`, a matrix,
+/// in the state last evaluated in the workspace.
+///
+/// # Safety
+///
+/// As of `supel_add_load_vector`, `stiffness` being a matrix.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn supel_add_load_vector_stiffness(
+    component: *const SupelComponent,
+    load: usize,
+    amplitude: f64,
+    workspace: *mut SupelWorkspace,
+    stiffness: *mut f64,
+) -> SupelStatus {
+    guarded(|| {
+        // SAFETY: null, or what their names say and not used by others, by the promise of the caller.
+        let (component, workspace) = unsafe { evaluated(component, workspace)? };
+        // SAFETY: a matrix by the promise of the caller.
+        let stiffness = unsafe { values_mut(stiffness, component.n_coordinates().pow(2), "stiffness")? };
+        let outcome = component.add_load_vector_stiffness(load, amplitude, workspace, stiffness);
+        outcome.map_err(|error| failed(SupelStatus::State)(&error))
+    })
+}
+
+/// # Safety
+///
+/// `component` and `workspace` as of `supel_evaluate`.
+unsafe fn evaluated<'a>(
+    component: *const SupelComponent,
+    workspace: *mut SupelWorkspace,
+) -> Result<(&'a ModalComponent, &'a mut Workspace), (SupelStatus, String)> {
+    // SAFETY: null, or what their names say and not used by others, by the promise of the caller.
+    let (component, workspace) = unsafe { (component.as_ref(), workspace.as_mut()) };
+    let component = &component.ok_or_else(|| null("component"))?.component;
+    let workspace = &mut workspace.ok_or_else(|| null("workspace"))?.workspace;
+    check_workspace(component, workspace)?;
+    Ok((component, workspace))
 }

@@ -16,6 +16,7 @@ use super::dense;
 use super::error::ComponentError;
 use super::frame_condition::{FloatingFrame, FrameRounding};
 use super::identity::Identity;
+use super::load_map::LoadVectors;
 use super::measures::Measures;
 use super::modal_component::{Matrices, ModalComponent};
 use super::recovery_map::RecoveryMap;
@@ -116,6 +117,7 @@ impl ModalComponent {
             weight: Weight::of(&gravity, &rigid, &rigid_mass),
             rigid_mass,
             recovery: tensors.recovery.as_ref().map(|recovery| RecoveryMap::new(recovery, &change)),
+            loads: load_vectors(superelement, &change),
             unloaded: superelement.metadata().validity.unloaded.clone(),
             rigid_motion_residual: residual,
             frame_rounding: FrameRounding::new(&frame, &positions),
@@ -297,6 +299,15 @@ fn congruence(k: &Matrix, change: &[f64]) -> Vec<f64> {
 /// AᵀĜ, a row of three for each coordinate.
 fn transposed_product(change: &[f64], gravity: &Matrix) -> Vec<Vector3> {
     transposed_times(change, gravity.as_slice(), 3).as_chunks::<3>().0.to_vec()
+}
+
+/// AᵀL, load by load.
+fn load_vectors(superelement: &Superelement, change: &[f64]) -> LoadVectors {
+    let names = superelement.metadata().load_names.clone();
+    let Some(loads) = &superelement.tensors().load_vectors else { return LoadVectors { names, values: Vec::new() } };
+    let (r, n_loads) = (loads.rows(), loads.cols());
+    let product = transposed_times(change, loads.as_slice(), n_loads);
+    LoadVectors { names, values: (0..n_loads * r).map(|index| product[index % r * n_loads + index / r]).collect() }
 }
 
 /// M U, a row of six for each coordinate.

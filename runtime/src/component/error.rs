@@ -175,6 +175,14 @@ pub enum EvaluationError {
         /// Direction, turned with the node.
         direction: Direction,
     },
+    /// A load that the file does not carry.
+    #[error("load {load} (from 0) of the file; it carries {n_loads}")]
+    UnknownLoad {
+        /// Number of the load.
+        load: usize,
+        /// Number of loads in the file.
+        n_loads: usize,
+    },
     /// A load on a node that is not there.
     #[error("load on interface node {node} (from 0); the component has {n_nodes}")]
     UnknownNode {

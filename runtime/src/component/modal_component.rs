@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use super::acts_on::ActsOn;
 use super::frame_condition::FrameRounding;
 use super::identity::Identity;
+use super::load_map::LoadVectors;
 use super::measures::Measures;
 use super::recovery_map::RecoveryMap;
 use super::weight::Weight;
@@ -39,6 +40,7 @@ pub struct ModalComponent {
     pub(super) weight: Option<Weight>,
     pub(super) damping_is_symmetric: bool,
     pub(super) damping_acts_on: ActsOn,
+    pub(super) loads: LoadVectors,
     pub(super) unloaded: Vec<InterfaceDof>,
     pub(super) recovery: Option<RecoveryMap>,
     pub(super) rigid_motion_residual: f64,

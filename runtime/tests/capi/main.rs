@@ -140,6 +140,8 @@ fn arc() -> Superelement {
     tensors.interface_frames[1] = turned;
     metadata.interface_nodes[0].name = "hub \0 à gauche".into();
     metadata.interface_nodes[0].label = Some(7);
+    tensors.load_vectors = Some(Matrix::from_fn(15, 1, |i, _| 1.0 + i as f64));
+    metadata.load_names = vec!["thrust".into()];
     metadata.units = Some("m-kg-s".into());
     metadata.validity.band_hz = Some([0.0, 250.0]);
     metadata.validity.assumptions = vec!["nobody pulls".into()];

@@ -82,6 +82,12 @@ int main(int argc, char **argv)
     EXPECT(supel_add_gravity(component, gravity, NULL, forces), SUPEL_STATUS_ARGUMENT, "workspace is null");
     EXPECT(supel_add_gravity_stiffness(component, nowhere, workspace, forces), SUPEL_STATUS_STATE, "entry 1 (from 0)");
     EXPECT(supel_add_gravity_stiffness(component, gravity, workspace, NULL), SUPEL_STATUS_ARGUMENT, "stiffness is null");
+    EXPECT(supel_add_load_vector(component, 1, 1.0, workspace, forces), SUPEL_STATUS_STATE, "it carries 1");
+    EXPECT(supel_add_load_vector(NULL, 0, 1.0, workspace, forces), SUPEL_STATUS_ARGUMENT, "component is null");
+    EXPECT(supel_add_load_vector(component, 0, 1.0, NULL, forces), SUPEL_STATUS_ARGUMENT, "workspace is null");
+    EXPECT(supel_add_load_vector(component, 0, 1.0, workspace, NULL), SUPEL_STATUS_ARGUMENT, "forces is null");
+    EXPECT(supel_add_load_vector_stiffness(component, 1, 1.0, workspace, forces), SUPEL_STATUS_STATE, "load 1 (from 0)");
+    EXPECT(supel_add_load_vector_stiffness(component, 0, 1.0, workspace, NULL), SUPEL_STATUS_ARGUMENT, "stiffness is null");
     EXPECT(supel_gravity_potential(component, nowhere, workspace, &potential), SUPEL_STATUS_STATE, "entry 1 (from 0)");
     EXPECT(supel_gravity_potential(component, gravity, workspace, NULL), SUPEL_STATUS_ARGUMENT, "potential is null");
     EXPECT(supel_gravity_potential(component, gravity, NULL, &potential), SUPEL_STATUS_ARGUMENT, "workspace is null");

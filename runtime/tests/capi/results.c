@@ -40,6 +40,8 @@ static void said(const SupelComponent *component, const SupelComponent *other)
     /* A zero byte inside a name would end it. */
     REQUIRE(strcmp(supel_interface_name(component, 0), "hub   \xc3\xa0 gauche") == 0);
     REQUIRE(strcmp(supel_interface_name(component, 1), "node 1") == 0);
+    REQUIRE(supel_n_load_vectors(component) == 1 && supel_n_load_vectors(other) == 0 && supel_n_load_vectors(NULL) == 0);
+    REQUIRE(strcmp(supel_load_vector_name(component, 0), "thrust") == 0 && supel_load_vector_name(component, 1) == NULL);
     REQUIRE(*supel_interface_label(component, 0) == 7 && supel_interface_label(component, 1) == NULL);
     const double *frames = supel_interface_frames(component);
     REQUIRE(frames[0] == 1.0 && frames[1] == 0.0 && frames[9] == 0.0 && frames[10] == -1.0 && frames[12] == 1.0);
@@ -75,6 +77,8 @@ static void derivatives(const SupelComponent *component, SupelWorkspace *workspa
     OK(supel_add_gravity_stiffness(component, gravity, workspace, matrix));
     OK(supel_gravity_potential(component, gravity, workspace, &potential));
     double power = 0.0, steps_work = -step * weight[8];
+    OK(supel_add_load_vector(component, 0, 2.0, workspace, weight));
+    OK(supel_add_load_vector_stiffness(component, 0, 2.0, workspace, matrix));
     for (size_t i = 0; i < n; ++i) {
         before[i] = supel_elastic_forces(workspace)[i] + supel_inertial_forces(workspace)[i]
             + supel_damping_forces(workspace)[i] - weight[i];
@@ -91,6 +95,7 @@ static void derivatives(const SupelComponent *component, SupelWorkspace *workspa
     motions[1].translation[2] = step;
     OK(supel_evaluate(component, &state, workspace));
     OK(supel_add_gravity(component, gravity, workspace, weight));
+    OK(supel_add_load_vector(component, 0, 2.0, workspace, weight));
     OK(supel_gravity_potential(component, gravity, workspace, &moved));
     /* A step of 1e-6 leaves its share of the second derivatives, and 1e-16 of forces of order 1e4 over it. */
     for (size_t i = 0; i < n; ++i) {

@@ -11,6 +11,7 @@ mod exact;
 mod forces;
 mod gravity;
 mod invariance;
+mod load_vectors;
 mod loads;
 mod recovery;
 mod situation;

@@ -20,8 +20,8 @@ use super::scaled::Scaled;
 use crate::audit::named_modes::{WithInverse, terms_of_unmixing};
 use crate::dense::{self, NOISE_FACTOR};
 
-/// Weight of recovered rows relative to those of the mass: in single precision they have seven digits, which may decide on what
-/// nothing else sees and on nothing more.
+/// Weight of recovered rows and loads relative to the rows of the mass: in single precision the former have seven digits, which may decide
+/// on what nothing else sees and on nothing more.
 const RECOVERED: f64 = 1e-3;
 
 /// The parts of the basis that may turn.
@@ -61,9 +61,11 @@ pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedo
     for columns in groups(&projected.named, freedom.groups) {
         let slots: Vec<usize> = (0..n_eta).filter(|slot| columns.contains(&freedom.kept[*slot])).collect();
         match projected.named[columns[0]] {
-            Named::Relief(_) => {
+            named @ (Named::Relief(_) | Named::Residual(_)) => {
                 let n = columns.len();
-                let all = freedom.relief.clone().unwrap_or_else(|| Mat::identity(n, n));
+                // The load of a residual vector leaves nothing of it free.
+                let relief = freedom.relief.clone().filter(|_| matches!(named, Named::Relief(_)));
+                let all = relief.unwrap_or_else(|| Mat::identity(n, n));
                 let numbers: Vec<usize> = slots.iter().map(|slot| freedom.kept[*slot] - columns[0]).collect();
                 place(&mut turned, (&columns, &slots), dense::columns(all.as_ref(), &numbers).as_ref());
             }
@@ -116,7 +118,8 @@ fn groups(named: &[Named], of_modes: &[Range<usize>]) -> Vec<Vec<usize>> {
     let relief = places(&|named| matches!(named, Named::Relief(_)));
     let modes =
         of_modes.iter().map(|group| places(&|named| matches!(named, Named::Mode(mode) if group.contains(mode))));
-    [rigid, relief].into_iter().chain(modes).filter(|group| !group.is_empty()).collect()
+    let residual = places(&|named| matches!(named, Named::Residual(_)));
+    [rigid, relief].into_iter().chain(modes).chain([residual]).filter(|group| !group.is_empty()).collect()
 }
 
 /// What interface, gravity, rigid-body motion and recovered rows see of the columns made again, and of the named ones of the file;
@@ -138,6 +141,10 @@ fn seen(file: &Scaled, projected: &Projected, mixing: Option<MatRef<'_, f64>>) -
     }
     if let (Some(weight), Some(known), Some(stored)) = (projected.gravity_weight, &projected.gravity, &file.gravity) {
         add(weight, [of_mine(&known.rows), of_file(stored)]);
+    }
+    for (known, stored) in projected.loads.iter().zip(&file.loads) {
+        let modal = of_mine(&known.rows);
+        add(RECOVERED / modal.norm_max().max(f64::MIN_POSITIVE), [modal, of_file(stored)]);
     }
     if let (Some(known), Some(stored)) = (&projected.recovery, &file.recovery)
         && known.rows.nrows() == stored.nrows()

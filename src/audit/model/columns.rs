@@ -3,7 +3,8 @@
 //! ```text
 //! P      n_B × p          motions of the interface: each dof, or random mixtures where there are too many
 //! Z      n' × p           [Ψ_S P; P], the interior in equilibrium, corrected so that it carries rigid-body motion (24)
-//! N      n_I × n_N        named columns: inertia relief K_II⁻¹(MU)_I (37), X_I − Ψ_S X_B (23), or the modes X_I (38)
+//! N      n_I × n_N        named columns: inertia relief K_II⁻¹(MU)_I (37), X_I − Ψ_S X_B (23), or the modes X_I (38), and residual
+//!                         vectors K_II⁻¹f_I
 //! W      n' × (p + n_N)   [Z N]
 //! ```
 //! A stored column is a combination of named ones, so that K̂ and M̂ are those of W but for that combination.
@@ -34,6 +35,8 @@ pub(super) enum Named {
     Relief(usize),
     /// An elastic mode.
     Mode(usize),
+    /// The residual vector of a load.
+    Residual(usize),
 }
 
 /// W with what is known of its errors.
@@ -50,6 +53,8 @@ pub(super) struct Columns {
     pub(super) inertia_errors: Vec<f64>,
     /// The largest error of a static answer relative to itself.
     pub(super) residual: f64,
+    /// √(f_Iᵀ K_II⁻¹ f_I) of each load of the job: what it makes of an error of unit energy. None without an interior to answer it.
+    pub(super) load_norms: Option<Vec<f64>>,
 }
 
 /// The motions of the component as a rigid body.
@@ -87,12 +92,15 @@ impl Columns {
         let (n_i, p, n_modes) = (partition.n_internal, probes.ncols(), asked.modes.count());
         let n_relief = motions.relieved.ncols();
         let relief = (0..n_relief).map(Named::Relief);
-        let named: Vec<Named> = relief.chain((0..n_modes).map(Named::Mode)).collect();
+        let loads = partition.loads.facts.iter().enumerate().filter(|(_, load)| load.has_residual_vector);
+        let residual = loads.map(|(load, _)| Named::Residual(load));
+        let named: Vec<Named> = relief.chain((0..n_modes).map(Named::Mode)).chain(residual).collect();
         let mut columns = Self {
             shapes: Mat::zeros(partition.n_dofs(), p + named.len()),
             energy_errors: vec![0.0; p + named.len()],
             inertia_errors: vec![0.0; p + named.len()],
             residual: 0.0,
+            load_norms: None,
             probes,
             named,
         };
@@ -105,6 +113,7 @@ impl Columns {
         columns.residual = columns.take(0, statics);
         columns.relieve(&follower, motions.relieved);
         columns.add_turns(&follower, motions);
+        columns.answer_loads(&follower);
         match asked.boundary {
             Boundary::FreeInterface => columns.accelerate(&follower, (n_relief, asked)),
             Boundary::FixedInterface => {
@@ -129,6 +138,7 @@ impl Columns {
             energy_errors: (0..n_r + n_modes).map(|j| rounding(j) * omega(j)).collect(),
             inertia_errors: (0..n_r + n_modes).map(rounding).collect(),
             residual: 0.0,
+            load_norms: None,
         }
     }
 
@@ -142,6 +152,22 @@ impl Columns {
         let momenta = product(&follower.partition.mass, relieved);
         let relief = follower.answer(momenta.as_ref().subrows(0, follower.partition.n_internal));
         self.take(self.n_probes(), relief);
+    }
+
+    /// What the interior answers to the loads of the job: N of residual vectors.
+    fn answer_loads(&mut self, follower: &Follower<'_>) {
+        let loads = follower.partition.loads.vectors.as_ref().subrows(0, follower.partition.n_internal);
+        let answers = follower.answer(loads);
+        let energies = column_products(loads, answers.x.as_ref());
+        self.load_norms = Some(energies.into_iter().map(|energy| energy.max(0.0).sqrt()).collect());
+        for slot in 0..self.named.len() {
+            let Named::Residual(load) = self.named[slot] else { continue };
+            let (column, n_i) = (self.n_probes() + slot, answers.x.nrows());
+            let mut shape = self.shapes.as_mut().subrows_mut(0, n_i).subcols_mut(column, 1);
+            shape.copy_from(answers.x.as_ref().subcols(load, 1));
+            self.energy_errors[column] = answers.energy_errors[load];
+            self.inertia_errors[column] = answers.inertia_errors[load];
+        }
     }
 
     /// N of mode acceleration, after the columns of inertia relief.

@@ -5,7 +5,7 @@ use supel_runtime::Superelement;
 
 use super::alignment::Combination;
 use super::entries::{Kind, compared, rows, statics};
-use super::projection::Projected;
+use super::projection::{Projected, Rows};
 use super::scaled::Scaled;
 use crate::audit::content::coordinate_name;
 use crate::error::Result;
@@ -46,6 +46,7 @@ impl Comparison<'_> {
             let found = self.mixed_rows(stored.as_ref());
             checks.push(rows(found.as_ref(), &expected.combined(b), f64::EPSILON, (words, &at)));
         }
+        checks.extend(self.loads());
         if let (Some(expected), Some(stored)) = (&projected.recovery, &file.recovery)
             && expected.rows.nrows() == stored.nrows()
         {
@@ -59,6 +60,20 @@ impl Comparison<'_> {
             checks.push(rows(found.as_ref(), &expected.combined(b), file.recovery_rounding, (words, &at)));
         }
         Ok(checks)
+    }
+
+    /// M-27: the loads of the job, of which the worst is told.
+    fn loads(&self) -> Option<Check> {
+        let words = ("M-27", "loads of the job are those of the full model", "max |Ψᵀf − f̂|_i, relative to |Ψ|ᵀ|f|");
+        let names = &self.superelement.metadata().load_names;
+        let of_load = |(load, (expected, stored)): (usize, (&Rows, &Mat<f64>))| {
+            let at = |_: usize, i: usize| format!("{} at {}", names[load], self.name_of(i));
+            let found = self.mixed_rows(stored.as_ref());
+            rows(found.as_ref(), &expected.combined(&self.b), f64::EPSILON, (words, &at))
+        };
+        let checks = self.projected.loads.iter().zip(&self.file.loads).enumerate().map(of_load);
+        let share = |check: &Check| check.value / check.limits.value();
+        checks.reduce(|worst, check| if crate::dense::worse(share(&check), share(&worst)) { check } else { worst })
     }
 
     /// How many modal coordinates are compared.

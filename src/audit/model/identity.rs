@@ -23,8 +23,8 @@ pub(super) fn digests(superelement: &Superelement, facts: &InputFacts) -> Check 
     let recorded = &superelement.metadata().inputs;
     let known = facts.digests();
     let differs = |role: &str, digest: &str| recorded.get(role).is_none_or(|recorded| recorded != digest);
-    let others = known.iter().filter(|(role, digest)| differs(role, digest)).map(|(role, _)| *role);
-    let unknown = recorded.keys().map(String::as_str).filter(|role| !known.contains_key(role));
+    let others = known.iter().filter(|(role, digest)| differs(role, digest)).map(|(role, _)| role.as_str());
+    let unknown = recorded.keys().map(String::as_str).filter(|role| !known.contains_key(*role));
     let others: Vec<&str> = others.chain(unknown).collect();
     Check {
         id: "M-26",
@@ -130,6 +130,7 @@ fn named(coordinate: &Coordinate, boundary: Boundary) -> Option<Named> {
     match (coordinate, boundary) {
         (Coordinate::RigidBodyMode { index }, _) => Some(Named::Rigid(*index)),
         (Coordinate::InertiaRelief { index }, _) => Some(Named::Relief(*index)),
+        (Coordinate::ResidualVector { load }, _) => Some(Named::Residual(*load)),
         (Coordinate::ElasticMode { mode, .. }, Boundary::FreeInterface)
         | (Coordinate::FixedInterfaceMode { mode, .. }, Boundary::FixedInterface) => Some(Named::Mode(*mode)),
         _ => None,
@@ -140,15 +141,11 @@ fn named(coordinate: &Coordinate, boundary: Boundary) -> Option<Named> {
 pub(super) fn modal_coordinates(superelement: &Superelement, projected: &Projected, boundary: Boundary) -> Check {
     let metadata = superelement.metadata();
     let n_modes = superelement.tensors().frequencies.len();
-    let expected: Vec<Named> = projected
-        .named
-        .iter()
-        .copied()
-        .filter(|named| !matches!(named, Named::Mode(mode) if *mode >= n_modes))
-        .chain(
-            (projected.named.iter().filter(|named| matches!(named, Named::Mode(_))).count()..n_modes).map(Named::Mode),
-        )
-        .collect();
+    let is_mode = |named: &&Named| matches!(named, Named::Mode(_));
+    let is_residual = |named: &&Named| matches!(named, Named::Residual(_));
+    let motions = projected.named.iter().filter(|named| !is_mode(named) && !is_residual(named)).copied();
+    let residual = projected.named.iter().filter(is_residual).copied();
+    let expected: Vec<Named> = motions.chain((0..n_modes).map(Named::Mode)).chain(residual).collect();
     let kept = metadata.coordinates[superelement.n_interface()..].iter();
     let kept: Vec<Option<Named>> = kept.map(|coordinate| named(coordinate, boundary)).collect();
     let dropped: Vec<Option<Named>> = metadata.dropped.iter().map(|dropped| named(&dropped.column, boundary)).collect();
@@ -237,7 +234,8 @@ pub(super) fn statements(
     expect(metadata.model.mass_properties.is_some() == is_of_a_body, "mass properties");
     expect(tensors.gravity.is_some() == (motions.is_classical() || partition.gravity.is_some()), "gravity");
     expect(tensors.damping.is_none(), "damping");
-    expect(tensors.load_vectors.is_none(), "load vectors");
+    let names = partition.loads.facts.iter().map(|load| &load.name);
+    expect(metadata.load_names.iter().eq(names), "loads");
     expect(metadata.flags.is_empty(), "flags");
     expect(metadata.validity.assumptions == job.assumptions(), "assumptions about the simulation");
     expect(metadata.validity.unloaded.is_empty(), "unloaded directions");

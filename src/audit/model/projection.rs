@@ -3,6 +3,7 @@
 //! ```text
 //! WᵀKW, WᵀMW   q × q      q = p + n_N
 //! WᵀMe         q × 3      e a unit translation
+//! FᵀTW         n_l × q    loads of the job
 //! TW           m × q      rows of the model that the file recovers
 //! ```
 //! Nothing larger outlives this stage.
@@ -50,6 +51,8 @@ pub(super) struct Projected {
     /// 1/√m by which the loads of gravity count among what tells columns apart, of a component that the job holds: of a free one they
     /// are M̂Û, which the interface sees.
     pub(super) gravity_weight: Option<f64>,
+    /// fᵀTW of each load of the job, 1 × q, in its unit.
+    pub(super) loads: Vec<Rows>,
     /// TW, where rows are recovered.
     pub(super) recovery: Option<Rows>,
     /// (WᵀMU)ᵀ, n_r × q, U the unit motions; of a component without interface that has them.
@@ -75,13 +78,30 @@ impl Projected {
         };
         let gravity = of_held.or_else(|| unit.map(loads_of));
         let gravity = gravity.map(|of| loads((of.0.as_ref(), of.1), shapes, (&mass, n_probes)));
+        let named_loads = (0..partition.loads.count()).map(|load| {
+            let norm = columns.load_norms.as_ref().map(|norms| norms[load]);
+            named_load(partition, (load, norm), shapes, [&stiffness, &mass])
+        });
+        let named_loads: Vec<Rows> = named_loads.collect();
         let recovery = (!partition.recovered.is_empty()).then(|| recovered(partition, shapes, (&mass, n_probes)));
         let is_modal = columns.probes.ncols() == 0;
         let motions =
             unit.filter(|_| is_modal).map(|unit| dense::gram(product(&partition.mass, unit).as_ref(), shapes));
         let dependence = Dependence::of(&partition.mass, shapes.subcols(n_probes, columns.named.len()));
         let Columns { probes, named, residual, .. } = columns;
-        Self { probes, named, stiffness, mass, gravity, gravity_weight, recovery, motions, residual, dependence }
+        Self {
+            probes,
+            named,
+            stiffness,
+            mass,
+            gravity,
+            gravity_weight,
+            loads: named_loads,
+            recovery,
+            motions,
+            residual,
+            dependence,
+        }
     }
 
     /// p.
@@ -101,7 +121,7 @@ impl Projected {
         let at = self.n_probes() + column;
         match self.named[column] {
             Named::Mode(_) => self.mass.matrix[(at, at)].max(0.0).sqrt(),
-            Named::Rigid(_) | Named::Relief(_) => 1.0,
+            Named::Rigid(_) | Named::Relief(_) | Named::Residual(_) => 1.0,
         }
     }
 
@@ -147,6 +167,32 @@ fn loads((loads, largest): (MatRef<'_, f64>, f64), shapes: MatRef<'_, f64>, (mas
         rows: dense::gram(loads, shapes),
         errors: columns.clone().map(|j| length * (error(j) + f64::EPSILON * mass.terms[j])).collect(),
         sizes: columns.map(|j| length * own(j)).collect(),
+    }
+}
+
+/// fᵀTW of one load f. An error e of a column has the energy eᵀKe, so that |fᵀe| ≤ √(f_Iᵀ K_II⁻¹ f_I) √(eᵀKe); a component of which
+/// no interior answers has its inertia instead, with the diagonal of M.
+fn named_load(
+    partition: &Partition,
+    (load, norm): (usize, Option<f64>),
+    shapes: MatRef<'_, f64>,
+    [stiffness, mass]: [&Form; 2],
+) -> Rows {
+    let vector = partition.loads.vectors.as_ref().subcols(load, 1);
+    let terms = dense::gram(dense::absolute(vector).as_ref(), dense::absolute(shapes).as_ref());
+    let by_inertia = || {
+        let diagonal = crate::sparse::diagonal(&partition.mass);
+        let share = |(f, m): (&f64, f64)| if m > 0.0 { f * f / m } else { 0.0 };
+        dense::column(vector, 0).iter().zip(diagonal).map(share).sum::<f64>().sqrt()
+    };
+    let (norm, errors) = match norm {
+        Some(norm) => (norm, &stiffness.errors),
+        None => (by_inertia(), &mass.errors),
+    };
+    Rows {
+        rows: dense::gram(vector, shapes),
+        errors: errors.iter().enumerate().map(|(j, error)| norm * error + f64::EPSILON * terms[(0, j)]).collect(),
+        sizes: (0..shapes.ncols()).map(|j| terms[(0, j)]).collect(),
     }
 }
 

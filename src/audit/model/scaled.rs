@@ -14,6 +14,8 @@ pub(super) struct Scaled {
     pub(super) m_f: Mat<f64>,
     /// 3 × r.
     pub(super) gravity: Option<Mat<f64>>,
+    /// fᵀΨ of each load, 1 × r, where there are as many as in the job.
+    pub(super) loads: Vec<Mat<f64>>,
     /// W, rows × r.
     pub(super) recovery: Option<Mat<f64>>,
     /// Relative rounding of the rows as they are kept.
@@ -37,10 +39,12 @@ impl Scaled {
         let gravity = tensors.gravity.as_ref();
         let recovery = tensors.recovery.as_ref();
         // A named shape is mass-normalised in the user's units; an inertia-relief mode K_II⁻¹(MU)_I carries the unit of M over
-        // that of K.
+        // that of K, a residual vector that of its load.
+        let load_unit = |load: usize| partition.loads.facts.get(load).map_or(1.0, |load| load.unit);
         let named = |coordinate: &Coordinate| match coordinate {
             Coordinate::RigidBodyMode { .. } => shape,
             Coordinate::InertiaRelief { .. } => shape * units.eigenvalue_unit(),
+            Coordinate::ResidualVector { load } => shape * units.stiffness_unit() / load_unit(*load),
             _ => 1.0,
         };
         let coordinates = &superelement.metadata().coordinates[n_b..];
@@ -54,6 +58,7 @@ impl Scaled {
             },
             m_f,
             gravity: gravity.map(|g| Mat::from_fn(g.cols(), g.rows(), |i, j| g[(j, i)] / (units.mass_unit() * of(j)))),
+            loads: loads_in_units(superelement, partition, &of),
             recovery: recovery.map(|w| {
                 let w = w.rows();
                 Mat::from_fn(w.rows(), w.cols(), |i, j| w[(i, j)] / of(j))
@@ -72,4 +77,21 @@ impl Scaled {
     pub(super) fn n_modal(&self) -> usize {
         self.k.nrows() - self.n_b
     }
+}
+
+/// The load vectors of a file in the units of the loads of a partition; none where there are not as many.
+fn loads_in_units(
+    superelement: &Superelement,
+    partition: &Partition,
+    of_coordinate: &dyn Fn(usize) -> f64,
+) -> Vec<Mat<f64>> {
+    let loads = &partition.loads.facts;
+    let Some(vectors) = superelement.tensors().load_vectors.as_ref().filter(|stored| stored.cols() == loads.len())
+    else {
+        return Vec::new();
+    };
+    let of_load = |(load, unit): (usize, f64)| {
+        Mat::from_fn(1, vectors.rows(), |_, j| vectors[(j, load)] / unit / of_coordinate(j))
+    };
+    loads.iter().map(|facts| facts.unit).enumerate().map(of_load).collect()
 }

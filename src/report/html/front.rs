@@ -57,6 +57,7 @@ pub(super) fn front(page: &mut Markup, body: &ReportBody) {
         ("Interfaces", interfaces(&body.reduction)),
         ("Reduced to", vec![coordinates(&body.reduction)]),
         ("Modes kept", vec![modes(&body.reduction)]),
+        ("Loads by name", words::loads(&body.reduction)),
         ("Completeness", vec![sentence(&body.completeness.statement())]),
         ("Compared with full model", compared(body)),
         ("Not compared", body.preservation.not_compared.clone()),

@@ -120,6 +120,7 @@ fn reduced(page: &mut Page, reduction: &ReductionReport) {
     }
     let parts = words::coordinates(reduction);
     page.entry("coordinates", &format!("{} = {}", number::count(reduction.n_reduced as u64), parts.join(" + ")));
+    words::loads(reduction).iter().for_each(|load| page.entry("load", load));
     let dropped: Vec<String> =
         reduction.dropped.iter().map(|dropped| format!("{}: {}", dropped.coordinate, dropped.reason)).collect();
     listing(page, "left out", &dropped);

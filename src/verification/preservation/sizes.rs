@@ -62,7 +62,7 @@ fn size_error(
 }
 
 fn is_mode(coordinate: &DynamicCoordinate) -> bool {
-    !matches!(coordinate, DynamicCoordinate::InertiaRelief(_))
+    !matches!(coordinate, DynamicCoordinate::InertiaRelief(_) | DynamicCoordinate::ResidualVector(_))
 }
 
 /// Dynamic columns up to and without the mode after the first `n_modes`.

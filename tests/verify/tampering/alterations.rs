@@ -53,6 +53,13 @@ fn coupled(matrix: &mut Matrix, (i, j): (usize, usize), share: f64) -> bool {
     by != 0.0
 }
 
+/// Multiplies the largest entry that the first load has in some rows.
+fn largest_of_load(tensors: &mut Tensors, rows: std::ops::Range<usize>) -> bool {
+    let Some(loads) = &mut tensors.load_vectors else { return false };
+    let largest = rows.max_by(|a, b| loads[(*a, 0)].abs().total_cmp(&loads[(*b, 0)].abs()));
+    largest.is_some_and(|row| entry(loads, (row, 0), SLIGHTLY))
+}
+
 /// Multiplies one entry of a matrix that is not symmetric.
 fn entry(matrix: &mut Matrix, at: (usize, usize), factor: f64) -> bool {
     let is_there = at.0 < matrix.rows() && at.1 < matrix.cols() && matrix[at] != 0.0;
@@ -478,6 +485,37 @@ pub(super) const ALTERATIONS: &[Alteration] = &[
             t.load_vectors = Some(Matrix::from_fn(t.stiffness.rows(), 1, |i, _| i as f64));
             m.load_names = vec!["wind".to_owned()];
             true
+        },
+    },
+    Alteration {
+        field: "load_vectors",
+        what: "the largest modal entry of the first × (1 + 1e-6)",
+        alter: |t, m| largest_of_load(t, n_interface(m)..m.coordinates.len()),
+    },
+    Alteration {
+        field: "load_vectors",
+        what: "the largest interface entry of the first × (1 + 1e-6)",
+        alter: |t, m| largest_of_load(t, 0..n_interface(m)),
+    },
+    Alteration {
+        field: "load_vectors",
+        what: "the first two exchanged",
+        alter: |t, _| {
+            let Some(loads) = t.load_vectors.take().filter(|loads| loads.cols() > 1) else { return false };
+            let column = |j: usize| if j < 2 { 1 - j } else { j };
+            t.load_vectors = Some(Matrix::from_fn(loads.rows(), loads.cols(), |i, j| loads[(i, column(j))]));
+            true
+        },
+    },
+    Alteration {
+        field: "load_names[]",
+        what: "the first two exchanged",
+        alter: |_, m| {
+            let has_two = m.load_names.len() > 1;
+            if has_two {
+                m.load_names.swap(0, 1);
+            }
+            has_two
         },
     },
     Alteration {

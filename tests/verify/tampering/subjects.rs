@@ -104,6 +104,17 @@ fn rows(name: &'static str, ends: Ends, method: &str) -> Subject {
     Subject::of(name, place, &text(FILES, interfaces, &reduction, ""))
 }
 
+/// A solid with loads: one answered by its residual vector, one by that of the first, one by the modes alone.
+fn loaded() -> Subject {
+    let place = Place::with(&steel_brick());
+    let interfaces = patch("foot", "[1, 11, 31, 41]", "direct")
+        + "[[load]]\nname = \"thrust\"\nnodes = [23]\nforce = [1.5, 2.5, 3.5]\n"
+        + "[[load]]\nname = \"again\"\nnodes = [23]\nforce = [3.0, 5.0, 7.0]\n"
+        + "[[load]]\nname = \"spin\"\nrotation = { axis = [1.5, 0.5, 2.5] }\nresidual = false\n";
+    let reduction = "method = \"herting\"\nmodes = { count = 5 }";
+    Subject::of("loads", place, &text(&(FILES.to_owned() + MESH), &interfaces, reduction, ""))
+}
+
 /// A solid without interface: its own modes.
 fn modal() -> Subject {
     let place = Place::with(&steel_brick());
@@ -131,6 +142,7 @@ pub(super) fn subjects() -> Vec<Subject> {
         square(),
         rows("rows, free", Ends::Free, "herting"),
         rows("rows, held", Ends::Fixed, "craig-bampton"),
+        loaded(),
         modal(),
         massless(),
     ];

@@ -12,7 +12,7 @@ use supel::input;
 use supel::input::InputFacts;
 use supel::job::Job;
 use supel::model::Model;
-use supel::partition::{Partition, recovered_rows};
+use supel::partition::{Loads, Partition, loads, recovered_rows};
 use supel::verification::check::Verdict;
 use supel_models::fnv1a;
 use supel_runtime::Superelement;
@@ -109,10 +109,13 @@ impl Known {
     fn of(subject: &Subject) -> Self {
         let job = subject.job();
         let read = input::read(&job.model).expect("files");
-        let facts = InputFacts::of(&read);
+        let columns = input::load_columns(&job.loads, &read).expect("files");
+        let facts = InputFacts::of(&read).with_loads(&job.loads, &columns);
         let model = Model::new(read).expect("a model");
         let recovered = recovered_rows(&model, job.write.recovery.as_ref()).expect("nodes");
+        let row_loads = loads(&model, &job.loads, &columns).expect("nodes");
         let mut partition = Partition::new(model, &job.interfaces).expect("interfaces");
+        partition.loads = Loads::carried(row_loads, &partition.transformation).expect("dofs that move");
         partition.recovered = recovered;
         Self { job, facts, partition }
     }

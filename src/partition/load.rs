@@ -1,0 +1,187 @@
+//! Loads that the job names.
+//!
+//! ```text
+//! f      n × 1      force on every row of the model, held ones among them
+//! Tᵀf    n' × 1     on the dofs that move: rows of a rigid patch load its interface node
+//! f_ω    n × 1      centrifugal load per ω²: M p, p = (I − aaᵀ)(x − c) at the translations of a node at x, a the axis through c
+//! ```
+//! The mass that couples dofs that move with held ones takes part in M p, as it does in gravity. Each f is kept with its largest entry
+//! in [1, 2): a load may be of any size.
+
+use faer::Mat;
+
+use super::interface::row_of_model;
+use super::node_catalogue::NodeCatalogue;
+use super::transformation::Transformation;
+use crate::dense;
+use crate::dofs::{Direction, Dof};
+use crate::error::{Error, Result};
+use crate::input::LoadColumn;
+use crate::job::{LoadJob, LoadPattern, NodeSelection, RotationJob};
+use crate::model::{Model, Site};
+use crate::sparse::product;
+
+/// Loads on the dofs of a partition.
+#[derive(Clone, Debug)]
+pub struct Loads {
+    /// What each load is.
+    pub facts: Vec<LoadFacts>,
+    /// TᵀF, n' × n_l, each column in its unit.
+    pub vectors: Mat<f64>,
+}
+
+/// What is remembered of a load.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadFacts {
+    /// Its name in the job.
+    pub name: String,
+    /// What it is made from, in words.
+    pub source: String,
+    /// The force in the user's units that an entry of one stands for, a power of two.
+    pub unit: f64,
+    /// Whether the job asks for its residual vector.
+    pub has_residual_vector: bool,
+    /// Its total force along x, y and z in the user's units, held rows included; none without a dof map.
+    pub resultant: Option<[f64; 3]>,
+}
+
+/// A load on all rows of a model.
+#[derive(Clone, Debug)]
+pub struct RowLoad {
+    facts: LoadFacts,
+    /// n values, the largest in [1, 2).
+    values: Vec<f64>,
+}
+
+impl Loads {
+    /// None.
+    pub fn none(n_dofs: usize) -> Self {
+        Self { facts: Vec::new(), vectors: Mat::zeros(n_dofs, 0) }
+    }
+
+    /// n_l.
+    pub fn count(&self) -> usize {
+        self.facts.len()
+    }
+
+    /// TᵀF.
+    ///
+    /// # Errors
+    /// [`Error::LoadNothing`] where held dofs take all of a load.
+    pub fn carried(loads: Vec<RowLoad>, transformation: &Transformation) -> Result<Self> {
+        let mut vectors = Mat::zeros(transformation.dofs.len(), loads.len());
+        for (at, load) in loads.iter().enumerate() {
+            let vector = dense::column_mut(vectors.as_mut(), at);
+            for (row, value) in transformation.rows.iter().zip(&load.values) {
+                row.entries().for_each(|(dof, factor)| vector[dof as usize] += factor * value);
+            }
+            if vector.iter().all(|value| *value == 0.0) {
+                return Err(Error::LoadNothing { load: load.facts.name.clone(), found: "all of it on held dofs" });
+            }
+        }
+        Ok(Self { facts: loads.into_iter().map(|load| load.facts).collect(), vectors })
+    }
+}
+
+/// The loads of a job on all rows of a model; `columns` are those of its files, one for each load that has one.
+///
+/// # Errors
+/// Nodes that do not exist or lack a direction of the force, a selection without nodes; a rotation without coordinates; a force on a row
+/// that was dropped; a load of nothing.
+pub fn loads(model: &Model, jobs: &[LoadJob], columns: &[Option<LoadColumn>]) -> Result<Vec<RowLoad>> {
+    if jobs.is_empty() {
+        return Ok(Vec::new());
+    }
+    let catalogue = NodeCatalogue::new(model);
+    let load = |(job, column): (&LoadJob, &Option<LoadColumn>)| {
+        let (values, unit, source) = match (job.pattern()?, column) {
+            (LoadPattern::Force(nodes, force), _) => {
+                let (values, n_nodes) = shared_out(model, &catalogue, job, (nodes, force))?;
+                (values, 1.0, format!("force on {}", crate::number::counted(n_nodes, "node", "nodes")))
+            }
+            (LoadPattern::File(..), Some(column)) => (of_file(model, job, column)?, 1.0, "file".to_owned()),
+            (LoadPattern::File(..), None) => (vec![0.0; model.n_dofs()], 1.0, "file".to_owned()),
+            (LoadPattern::Rotation(rotation), _) => {
+                (centrifugal(model, job, rotation)?, model.scaling.mass_unit(), "rotation, per ω²".to_owned())
+            }
+        };
+        in_own_unit(model, (job, source), (values, unit))
+    };
+    jobs.iter().zip(columns).map(load).collect()
+}
+
+/// A load with its largest entry in [1, 2).
+fn in_own_unit(
+    model: &Model,
+    (job, source): (&LoadJob, String),
+    (mut values, unit): (Vec<f64>, f64),
+) -> Result<RowLoad> {
+    let largest = values.iter().fold(0.0f64, |max, value| max.max(value.abs()));
+    if largest == 0.0 {
+        return Err(Error::LoadNothing { load: job.name.clone(), found: "zero everywhere" });
+    }
+    let own = largest.log2().floor().clamp(-1022.0, 1023.0).exp2();
+    values.iter_mut().for_each(|value| *value /= own);
+    let unit = unit * own;
+    let total = |dofs: &[Option<Dof>]| {
+        let mut sum = [0.0; 3];
+        let of_nodes = dofs.iter().zip(&values).filter_map(|(dof, value)| Some((dof.as_ref()?.direction, value)));
+        for (direction, value) in of_nodes.filter(|(direction, _)| !direction.is_rotation()) {
+            sum[direction.axis()] += value;
+        }
+        sum.map(|value| value * unit)
+    };
+    let resultant = model.dofs.as_deref().map(total);
+    let facts = LoadFacts { name: job.name.clone(), source, unit, has_residual_vector: job.residual, resultant };
+    Ok(RowLoad { facts, values })
+}
+
+/// An equal share of a force at each of some nodes, and how many these are.
+fn shared_out(
+    model: &Model,
+    catalogue: &NodeCatalogue,
+    job: &LoadJob,
+    (nodes, force): (&NodeSelection, &[f64; 3]),
+) -> Result<(Vec<f64>, usize)> {
+    let selection = job.selection(nodes);
+    let labels = catalogue.select(model, &selection)?;
+    let mut values = vec![0.0; model.n_dofs()];
+    for label in &labels {
+        let rows = catalogue.rows_of(&selection.selector, *label)?;
+        let loaded = Direction::ALL.into_iter().zip(force).filter(|(_, force)| **force != 0.0);
+        for (direction, force) in loaded {
+            let dof = Dof { node: *label, direction };
+            let missing = || Error::DofMissing { selector: selection.selector.clone(), dof };
+            values[*rows.get(&direction).ok_or_else(missing)?] += force / labels.len() as f64;
+        }
+    }
+    Ok((values, labels.len()))
+}
+
+/// The rows that are left of those of a file.
+fn of_file(model: &Model, job: &LoadJob, column: &LoadColumn) -> Result<Vec<f64>> {
+    let mut values = vec![0.0; model.n_dofs()];
+    let selector = crate::error::Selector::Load(job.name.clone());
+    for (row, value) in column.values.iter().enumerate().filter(|(_, value)| **value != 0.0) {
+        values[row_of_model(model, &selector, row)?] = *value;
+    }
+    Ok(values)
+}
+
+/// M p, in the scaled units of M.
+fn centrifugal(model: &Model, job: &LoadJob, rotation: &RotationJob) -> Result<Vec<f64>> {
+    let sites = model.sites().ok_or_else(|| Error::LoadNeedsCoordinates { load: job.name.clone() })?;
+    // Scaled first, so that the square of its length is a number.
+    let largest = rotation.axis.iter().fold(0.0f64, |max, value| max.max(value.abs()));
+    let scaled = rotation.axis.map(|value| value / largest);
+    let length = dense::norm(&scaled);
+    let axis = scaled.map(|value| value / length);
+    let displacement = Mat::from_fn(sites.len(), 1, |row, _| {
+        // What no node has is nowhere.
+        let Some(Site { position, direction }) = sites[row] else { return 0.0 };
+        let arm: [f64; 3] = std::array::from_fn(|i| position[i] - rotation.through[i]);
+        let along: f64 = arm.iter().zip(axis).map(|(arm, axis)| arm * axis).sum();
+        if direction.is_rotation() { 0.0 } else { arm[direction.axis()] - along * axis[direction.axis()] }
+    });
+    Ok(dense::column(product(&model.mass, displacement.as_ref()).as_ref(), 0).to_vec())
+}
