@@ -50,9 +50,8 @@ impl Format for MatrixMarket {
             files.push(file("dofs.csv", "node and direction of each row", dofs(superelement, &labels)));
             files.push(file("nodes.csv", "nodes", node_table(nodes, &labels)));
         }
-        if superelement.n_interface() > 0 {
-            files.push(file("job.toml", "a job that reduces it again", job(superelement, &labels, names)?));
-        }
+        let job = job(superelement, &labels, names)?;
+        files.extend(job.map(|job| file("job.toml", "a job that reduces it again", job)));
         Ok(files)
     }
 }
@@ -85,7 +84,7 @@ fn symmetric(matrix: &Matrix, rows: &[String]) -> String {
     let entries = || (0..n).flat_map(|j| (j..n).map(move |i| (i, j))).filter(|at| matrix[*at] != 0.0);
     let mut text = String::from("%%MatrixMarket matrix coordinate real symmetric\n");
     for (row, what) in rows.iter().enumerate() {
-        let _ = writeln!(text, "% row {}: {what}", row + 1);
+        let _ = writeln!(text, "% row {}: {}", row + 1, printable(what));
     }
     let _ = writeln!(text, "{n} {n} {}", entries().count());
     for (i, j) in entries() {

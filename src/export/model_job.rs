@@ -17,8 +17,16 @@ use super::names::Names;
 use crate::dense;
 use crate::error::Result;
 
-/// The job, TOML; `labels` are those of the interface nodes. Without an interface there is nothing to reduce a superelement to.
-pub(super) fn job(superelement: &Superelement, labels: &[i64], names: &Names) -> Result<String> {
+/// Digits of K̂ below which a second reduction cannot tell stiffness from rounding.
+const FEWEST_DIGITS: i64 = 4;
+
+/// The job, TOML; `labels` are those of the interface nodes. Without an interface there is nothing to reduce a superelement to, and an
+/// interface that just holds its component has no stiffness but rounding.
+pub(super) fn job(superelement: &Superelement, labels: &[i64], names: &Names) -> Result<Option<String>> {
+    let digits = digits(superelement)?;
+    if superelement.n_interface() == 0 || digits.is_some_and(|digits| digits < FEWEST_DIGITS) {
+        return Ok(None);
+    }
     let metadata = superelement.metadata();
     let mut text = String::from("[model]\n");
     let mut put = |key: &str, value: Value| {
@@ -36,12 +44,12 @@ pub(super) fn job(superelement: &Superelement, labels: &[i64], names: &Names) ->
     if !held.is_empty() {
         put("held_rotations", held.into());
     }
-    digits(superelement)?.into_iter().for_each(|digits| put("stiffness_digits", digits.into()));
+    digits.into_iter().for_each(|digits| put("stiffness_digits", digits.into()));
     text += &interfaces(superelement, labels);
     text += &loads(superelement, names);
     text += &reduction(superelement);
     let _ = write!(text, "\n[write]\nsuperelement = {}\n", Value::from(names.name("again.supel")));
-    Ok(text)
+    Ok(Some(text))
 }
 
 /// The digits that K̂ has by its rigid-body motion; nothing where it has none or all.
@@ -121,8 +129,16 @@ fn directions(node: &InterfaceNode) -> String {
 
 fn reduction(superelement: &Superelement) -> String {
     let metadata = superelement.metadata();
+    let dropped = metadata.dropped.iter().map(|dropped| &dropped.column);
     let coordinates = || metadata.coordinates.iter();
-    let n_modes = coordinates().filter(|coordinate| coordinate.mode().is_some()).count();
+    // Modes that were left out because others span them are found again, as far as there are coordinates for them.
+    let is_mode = |coordinate: &&Coordinate| coordinate.mode().is_some();
+    let n_named = coordinates().chain(dropped).filter(is_mode).count();
+    let n_still = match metadata.method {
+        Method::Herting | Method::Rubin | Method::Macneal => superelement.n_rigid(),
+        Method::CraigBampton | Method::ModeAcceleration | Method::Guyan => superelement.n_interface(),
+    };
+    let n_modes = n_named.min(superelement.n_coordinates().saturating_sub(n_still));
     let has_relief = coordinates().any(|coordinate| matches!(coordinate, Coordinate::InertiaRelief { .. }));
     let (method, is_relief_asked) = match metadata.method {
         Method::CraigBampton | Method::ModeAcceleration if n_modes > 0 => ("craig-bampton", has_relief),
@@ -132,7 +148,7 @@ fn reduction(superelement: &Superelement) -> String {
     };
     let mut text = format!("\n[reduction]\nmethod = \"{method}\"\n");
     if method != "guyan" {
-        let _ = writeln!(text, "modes = {{ count = {} }}", n_modes.max(1));
+        let _ = writeln!(text, "modes = {{ count = {} }}", n_modes);
     }
     if is_relief_asked {
         text += "inertia_relief = true\n";

@@ -148,6 +148,44 @@ fn fewer_modes_are_the_first_ones() {
     }
 }
 
+/// Loads and their residual vectors come back, whatever their names hold.
+#[test]
+fn loads_are_those_of_the_superelement() {
+    let load = r#"[[load]]
+name  = "push\nhard"
+nodes = [3]
+force = [0, 1, 0]
+"#;
+    let place = Place::with_brick();
+    let job = format!(
+        "[model]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\ndofs = \"dofs.txt\"\nnodes = \"nodes.csv\"\n\
+         [[interface]]\nname = \"foot\"\nnodes = [1, 11, 31]\n[[interface]]\nname = \"tip\"\nnodes = [5, 15]\n{load}\
+         [reduction]\nmethod = \"herting\"\nmodes = {{ count = 3 }}\n[write]\nsuperelement = \"x.supel\"\n"
+    );
+    place.write("job.toml", job.as_bytes());
+    supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+    export(&place, "matrix-market", &[]).expect(ExitCode::Done);
+    supel(&["reduce", &place.text("x.job.toml")]).expect(ExitCode::Done);
+    let (found, expected) = (place.superelement("x.again.supel"), place.superelement("x.supel"));
+    assert_eq!(found.metadata().load_names, ["push\nhard"]);
+    assert_eq!(found.n_coordinates(), expected.n_coordinates());
+    let is_residual = |coordinate: &Coordinate| matches!(coordinate, Coordinate::ResidualVector { load: 0 });
+    assert!(found.metadata().coordinates.iter().any(is_residual));
+}
+
+/// An interface that just holds its component has no stiffness but rounding, of which nothing can be made.
+#[test]
+fn an_interface_that_just_holds_leaves_no_job() {
+    let place = Place::with_brick();
+    for method in ["herting", "craig-bampton"] {
+        let rest = format!("--rigid-interface foot=1,11,31 --method {method} --modes 3");
+        place.reduce(&place.model_flags(), &rest).expect(ExitCode::Done);
+        export(&place, "matrix-market", &[]).expect(ExitCode::Done);
+        assert!(place.path("x.stiffness.mtx").exists());
+        assert!(!place.path("x.job.toml").exists(), "{method}");
+    }
+}
+
 /// Amplitudes are in the units of their shapes, in which a stiffness may have any size.
 #[test]
 fn a_stiff_amplitude_is_no_penalty() {
