@@ -159,7 +159,7 @@ impl<'a> Reference<'a> {
     fn expectations(&self, superelement: &Superelement) -> Vec<Check> {
         let has_properties = superelement.metadata().model.mass_properties.is_some();
         let Some(expect) = self.job.model.expect.as_ref().filter(|_| !has_properties) else { return Vec::new() };
-        let lacks = verification::not_comparable(expect, self.partition, false);
+        let lacks = verification::not_comparable(expect, self.partition);
         verification::expected_by_weight(expect, self.partition)
             .into_iter()
             .chain(verification::comparable(&lacks))

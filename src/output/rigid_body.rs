@@ -88,9 +88,10 @@ pub(super) fn grounded(results: &Results<'_>) -> Option<Warning> {
 
 /// What the job expects and nothing in the model could be compared with.
 pub(super) fn expectation_unchecked(results: &Results<'_>) -> Option<Warning> {
-    let expect = results.job.model.expect.as_ref()?;
     let Evidence { partition, rigid, .. } = results.evidence;
-    let lacks = verification::not_comparable(expect, partition, rigid.is_classical);
+    // The motions of a free body have its mass and its centre.
+    let expect = results.job.model.expect.as_ref().filter(|_| !rigid.is_classical)?;
+    let lacks = verification::not_comparable(expect, partition);
     (!lacks.is_empty()).then(|| Warning {
         code: "W-EXPECT-UNCHECKED",
         message: format!("not compared with what the job expects: {}", lacks.join("; ")),

@@ -93,11 +93,11 @@ pub(crate) fn expected_by_weight(expect: &Expectation, partition: &Partition) ->
     compared(expect, Known::by_weight(partition)?, partition.scaling.mass_unit())
 }
 
-/// What of an expectation nothing can be compared with, in words.
-pub(crate) fn not_comparable(expect: &Expectation, partition: &Partition, is_classical: bool) -> Vec<&'static str> {
+/// What of an expectation the map and the coordinates have nothing to compare with, in words.
+pub(crate) fn not_comparable(expect: &Expectation, partition: &Partition) -> Vec<&'static str> {
     let weight = partition.model.weight.as_ref();
-    let has_mass = is_classical || weight.is_some();
-    let has_centre = is_classical || weight.is_some_and(|weight| weight.motions.is_some());
+    let has_mass = weight.is_some();
+    let has_centre = weight.is_some_and(|weight| weight.motions.is_some());
     let lacks = [
         (expect.mass.is_some() && !has_mass, "mass, which needs a dof map or nodes"),
         (expect.cg.is_some() && !has_centre, "centre of mass, which needs a dof map and nodes"),
