@@ -2,11 +2,13 @@
 
     tests/mutations/run.sh [--suite-passed] [NAME ...]
 
-The sources stay as they are: faults go into target/mutations. Every named test first has to pass there without a fault; where the whole
-suite has just passed on the same sources, `--suite-passed` leaves that out.
+The sources stay as they are: faults go into target/mutations. Most faults are branches of one build (switched.py), and a run of a test
+chooses one; what is no branch, as a fault in a constant, is put in and built alone. Every named test first has to pass there without a
+fault; where the whole suite has just passed on the same sources, `--suite-passed` leaves that out.
 Exit code: 0 where every fault was noticed, 1 where one was not.
 """
 
+import json
 import os
 import pathlib
 import re
@@ -15,13 +17,20 @@ import subprocess
 import sys
 import time
 import tomllib
+from concurrent.futures import ThreadPoolExecutor
+
+import switched
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COPY = ROOT / "target" / "mutations"
 TARGET = ROOT / "target" / "mutated"
-# Each fault is a build and one test. Without optimisation a build takes a tenth of the time, and the dependencies, which do most of
-# the arithmetic, stay optimised.
-QUICK_BUILD = {"CARGO_PROFILE_DEV_OPT_LEVEL": "0", "CARGO_PROFILE_DEV_DEBUG": "0"}
+# A folder of its own for what is built: in a shared one cargo may take what a fault made for the work of the sources.
+ENVIRONMENT = dict(os.environ, CARGO_TARGET_DIR=str(TARGET), RUST_BACKTRACE="0", CARGO_PROFILE_DEV_DEBUG="0")
+# The one build of all branches is optimised, since many tests run in it. What is built alone is built for one test: without optimisation
+# that takes a tenth of the time, and the dependencies, which do most of the arithmetic, stay optimised.
+QUICK_BUILD = {"CARGO_PROFILE_DEV_OPT_LEVEL": "0"}
+# A test that runs ten times as long as the slowest one does will not end.
+PATIENCE_SECONDS = 1200
 
 
 def copy_sources():
@@ -40,49 +49,141 @@ def copy_sources():
             shutil.copyfile(source, target)
 
 
-def run(member, target, tests):
-    """Whether `cargo test` passes for a target and some of its tests of the package in a folder, and what it printed."""
+def place_of(mutation):
+    """The package of the test of a fault, as its folder, and the test target."""
+    return mutation.get("member", ""), mutation["test"][0]
+
+
+def crate_root(mutation):
+    """The file of the root of the crate that a fault is in, relative to the repository."""
+    folder = mutation["file"].split("/")[0]
+    return "src/lib.rs" if folder == "src" else f"{folder}/src/lib.rs"
+
+
+def write_switched(numbered):
+    """Writes the faults into the copy as branches, and gives the numbers of those that fit and the switched texts by file."""
+    by_file, texts, fitting = {}, {}, set()
+    for number, mutation in numbered.items():
+        text = (ROOT / mutation["file"]).read_text()
+        if mutation["file"].endswith(".rs") and text.count(mutation["before"]) == 1 and (ROOT / crate_root(mutation)).is_file():
+            by_file.setdefault(mutation["file"], []).append((number, mutation))
+    for name, faults in by_file.items():
+        texts[name], numbers = switched.switched((ROOT / name).read_text(), faults)
+        fitting |= numbers
+    for name in {crate_root(numbered[number]) for number in fitting}:
+        texts[name] = texts.get(name, (ROOT / name).read_text()) + switched.CHOICE
+    copy_sources()
+    for name, text in texts.items():
+        (COPY / name).write_text(text)
+    return fitting, texts
+
+
+def build(places):
+    """The programs of test targets, by package and target, and the messages of the compiler where it refused."""
+    programs, errors = {}, []
+    for member in sorted({member for member, _ in places}):
+        targets = [word for other, target in sorted(places) if other == member for word in ("--test", target)]
+        command = ["cargo", "test", "--no-run", "--message-format", "json", "--manifest-path", str(COPY / member / "Cargo.toml"), *targets]
+        ended = subprocess.run(command, cwd=COPY, env=ENVIRONMENT, capture_output=True, text=True)
+        for line in ended.stdout.splitlines():
+            message = json.loads(line) if line.startswith("{") else {}
+            if message.get("reason") == "compiler-artifact" and message.get("executable") and "test" in message["target"]["kind"]:
+                programs[member, message["target"]["name"]] = message["executable"]
+            if message.get("reason") == "compiler-message" and message["message"]["level"] == "error":
+                errors.append(message["message"])
+        if ended.returncode and not errors:
+            sys.exit(f"the sources cannot be built:\n{ended.stderr[-3000:]}")
+    return programs, errors
+
+
+def build_switched(numbered):
+    """The programs of all faults that can be branches, with their numbers; those that the compiler refuses are left out and built again."""
+    left = dict(numbered)
+    while True:
+        fitting, texts = write_switched(left)
+        if not fitting:
+            return {}, fitting
+        programs, errors = build({place_of(left[number]) for number in fitting})
+        if not errors:
+            return programs, fitting
+        refused = {
+            number
+            for error in errors
+            for span in error["spans"]
+            if span["is_primary"] and span["file_name"] in texts
+            for number in switched.faults_at(texts[span["file_name"]], span["line_start"])
+        }
+        if not refused:
+            sys.exit("\n".join(error["rendered"] for error in errors))
+        left = {number: mutation for number, mutation in left.items() if number not in refused}
+
+
+def run_program(programs, place, tests, number):
+    """Whether a built test program passes with a fault, 0 for none, and what it printed."""
+    member, _ = place
+    environment = ENVIRONMENT | {switched.VARIABLE: str(number)}
+    command = [programs[place], *tests]
+    try:
+        ended = subprocess.run(
+            command, cwd=COPY / member, env=environment, capture_output=True, text=True, errors="replace", timeout=PATIENCE_SECONDS
+        )
+    except subprocess.TimeoutExpired:
+        return False, "error: test failed to end"
+    return ended.returncode == 0, ended.stdout + ended.stderr + ("error: test failed" if ended.returncode else "")
+
+
+def run_cargo(place, tests):
+    """Whether `cargo test` passes for a target and some of its tests, built as they are in the copy, and what it printed."""
+    member, target = place
     command = ["cargo", "test", "--manifest-path", str(COPY / member / "Cargo.toml"), "--test", target, "--", *tests]
-    # A folder of its own: in a shared one cargo may take what a fault made for the work of the sources.
-    environment = dict(os.environ, CARGO_TARGET_DIR=str(TARGET), RUST_BACKTRACE="0", **QUICK_BUILD)
-    ended = subprocess.run(command, cwd=COPY, env=environment, capture_output=True, text=True)
+    ended = subprocess.run(command, cwd=COPY, env=ENVIRONMENT | QUICK_BUILD, capture_output=True, text=True, errors="replace")
     return ended.returncode == 0, ended.stdout + ended.stderr
 
 
-def refuse_failing(chosen):
+def refuse_failing(mutations, passes):
     """Ends where a named test does not exist or does not pass without a fault."""
     targets = {}
-    for mutation in chosen:
-        target, test = mutation["test"]
-        targets.setdefault((mutation.get("member", ""), target), set()).add(test)
-    for (member, target), tests in sorted(targets.items()):
-        passed, text = run(member, target, sorted(tests))
+    for mutation in mutations:
+        targets.setdefault(place_of(mutation), set()).add(mutation["test"][1])
+    for place, tests in sorted(targets.items()):
+        passed, text = passes(place, sorted(tests))
         missing = [test for test in tests if not re.search(rf"^test (.*::)?{re.escape(test)}.* ok$", text, re.M)]
         if not passed or missing:
-            sys.exit(f"{target} {' '.join(missing)} does not pass without a fault:\n{text[-3000:]}")
+            sys.exit(f"{place[1]} {' '.join(missing)} does not pass without a fault:\n{text[-3000:]}")
 
 
-def outcome(mutation):
+def judged(passed, text):
     """What came of one fault, in words, and whether it was noticed."""
+    if passed:
+        return "NOT NOTICED", False
+    if re.search(r"test result: FAILED", text):
+        return "noticed", True
+    if "error: test failed" in text:
+        return "the test ended without a result", False
+    message = next((line for line in text.splitlines() if line.startswith("error")), "no test ran")
+    return f"does not compile: {message}", False
+
+
+def alone(mutation):
+    """What comes of a fault that is built alone."""
     path = COPY / mutation["file"]
     sound = path.read_text()
     if sound.count(mutation["before"]) != 1:
         return "cannot be put in: the place is not there exactly once", False
     path.write_text(sound.replace(mutation["before"], mutation["after"]))
     try:
-        target, test = mutation["test"]
-        passed, text = run(mutation.get("member", ""), target, [test])
+        return judged(*run_cargo(place_of(mutation), [mutation["test"][1]]))
     finally:
         path.write_text(sound)
-    if passed:
-        return "NOT NOTICED", False
-    failed = re.search(r"test result: FAILED", text)
-    if failed is None and "error: test failed" in text:
-        return "the test ended without a result", False
-    if failed is None:
-        message = next((line for line in text.splitlines() if line.startswith("error")), "no test ran")
-        return f"does not compile: {message}", False
-    return "noticed", True
+
+
+def told(mutation, outcome):
+    """Prints the line of one fault once `outcome` is known, and whether the fault was noticed."""
+    begin = time.monotonic()
+    words, noticed = outcome()
+    seconds = time.monotonic() - begin
+    print(f"| {mutation['fact']} | {mutation['name']} | `{'::'.join(mutation['test'])}` | {words} | {seconds:.0f} |", flush=True)
+    return noticed
 
 
 def main():
@@ -91,24 +192,31 @@ def main():
     if flags - {"--suite-passed"}:
         sys.exit(f"no such flag: {', '.join(sorted(flags))}")
     wanted = [argument for argument in sys.argv[1:] if argument not in flags]
-    chosen = [mutation for mutation in table if not wanted or mutation["name"] in wanted]
+    numbered = {number: mutation for number, mutation in enumerate(table, 1) if not wanted or mutation["name"] in wanted}
     unknown = set(wanted) - {mutation["name"] for mutation in table}
     if unknown:
         sys.exit(f"no such fault: {', '.join(sorted(unknown))}")
-    copy_sources()
+
+    programs, fitting = build_switched(numbered)
     if not flags:
-        refuse_failing(chosen)
+        branches = [numbered[number] for number in fitting]
+        refuse_failing(branches, lambda place, tests: run_program(programs, place, tests, 0))
     print("| fact | fault | test that has to notice | outcome | s |\n|---|---|---|---|---|", flush=True)
-    n_unnoticed = 0
-    for mutation in chosen:
-        begin = time.monotonic()
-        words, noticed = outcome(mutation)
-        n_unnoticed += not noticed
-        seconds = time.monotonic() - begin
-        test = "::".join(mutation["test"])
-        print(f"| {mutation['fact']} | {mutation['name']} | `{test}` | {words} | {seconds:.0f} |", flush=True)
-    print(f"\n{len(chosen) - n_unnoticed} of {len(chosen)} faults were noticed")
-    sys.exit(1 if n_unnoticed else 0)
+
+    def branch(number):
+        mutation = numbered[number]
+        test = mutation["test"][1]
+        return told(mutation, lambda: judged(*run_program(programs, place_of(mutation), [test], number)))
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        n_noticed = sum(pool.map(branch, sorted(fitting)))
+    rest = [mutation for number, mutation in numbered.items() if number not in fitting]
+    copy_sources()
+    if rest and not flags:
+        refuse_failing(rest, run_cargo)
+    n_noticed += sum(told(mutation, lambda: alone(mutation)) for mutation in rest)
+    print(f"\n{n_noticed} of {len(numbered)} faults were noticed")
+    sys.exit(0 if n_noticed == len(numbered) else 1)
 
 
 if __name__ == "__main__":
