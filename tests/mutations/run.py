@@ -29,6 +29,8 @@ ENVIRONMENT = dict(os.environ, CARGO_TARGET_DIR=str(TARGET), RUST_BACKTRACE="0",
 # The one build of all branches is optimised, since many tests run in it. What is built alone is built for one test: without optimisation
 # that takes a tenth of the time, and the dependencies, which do most of the arithmetic, stay optimised.
 QUICK_BUILD = {"CARGO_PROFILE_DEV_OPT_LEVEL": "0"}
+# All of the workspace, since that is what the suite builds: dependencies have the same features.
+CARGO_TEST = ["cargo", "test", "--workspace", "--locked", "--features", "supel-models/med,supel-runtime/capi,validation/vtkhdf"]
 # A test that runs ten times as long as the slowest one does will not end.
 PATIENCE_SECONDS = 1200
 
@@ -80,19 +82,19 @@ def write_switched(numbered):
 
 def build(places):
     """The programs of test targets, by package and target, and the messages of the compiler where it refused."""
+    targets = [word for target in sorted({target for _, target in places}) for word in ("--test", target)]
+    command = [*CARGO_TEST, "--no-run", "--message-format", "json", *targets]
+    ended = subprocess.run(command, cwd=COPY, env=ENVIRONMENT, capture_output=True, text=True)
     programs, errors = {}, []
-    for member in sorted({member for member, _ in places}):
-        targets = [word for other, target in sorted(places) if other == member for word in ("--test", target)]
-        command = ["cargo", "test", "--no-run", "--message-format", "json", "--manifest-path", str(COPY / member / "Cargo.toml"), *targets]
-        ended = subprocess.run(command, cwd=COPY, env=ENVIRONMENT, capture_output=True, text=True)
-        for line in ended.stdout.splitlines():
-            message = json.loads(line) if line.startswith("{") else {}
-            if message.get("reason") == "compiler-artifact" and message.get("executable") and "test" in message["target"]["kind"]:
-                programs[member, message["target"]["name"]] = message["executable"]
-            if message.get("reason") == "compiler-message" and message["message"]["level"] == "error":
-                errors.append(message["message"])
-        if ended.returncode and not errors:
-            sys.exit(f"the sources cannot be built:\n{ended.stderr[-3000:]}")
+    for line in ended.stdout.splitlines():
+        message = json.loads(line) if line.startswith("{") else {}
+        if message.get("reason") == "compiler-artifact" and message.get("executable") and "test" in message["target"]["kind"]:
+            member = pathlib.Path(message["manifest_path"]).parent.relative_to(COPY)
+            programs["" if member == pathlib.Path() else str(member), message["target"]["name"]] = message["executable"]
+        if message.get("reason") == "compiler-message" and message["message"]["level"] == "error":
+            errors.append(message["message"])
+    if ended.returncode and not errors:
+        sys.exit(f"the sources cannot be built:\n{ended.stderr[-3000:]}")
     return programs, errors
 
 
@@ -134,8 +136,7 @@ def run_program(programs, place, tests, number):
 
 def run_cargo(place, tests):
     """Whether `cargo test` passes for a target and some of its tests, built as they are in the copy, and what it printed."""
-    member, target = place
-    command = ["cargo", "test", "--manifest-path", str(COPY / member / "Cargo.toml"), "--test", target, "--", *tests]
+    command = [*CARGO_TEST, "--test", place[1], "--", *tests]
     ended = subprocess.run(command, cwd=COPY, env=ENVIRONMENT | QUICK_BUILD, capture_output=True, text=True, errors="replace")
     return ended.returncode == 0, ended.stdout + ended.stderr
 
