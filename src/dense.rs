@@ -110,6 +110,34 @@ pub fn symmetric_eigen(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>)> {
     Ok((eigen.S().column_vector().iter().map(|value| value / unit).collect(), eigen.U().to_owned()))
 }
 
+/// D A D with diagonal entries near one, for a symmetric matrix A, and the powers of two on the diagonal of D.
+pub(crate) fn unit_diagonal(a: MatRef<'_, f64>) -> (Mat<f64>, Vec<f64>) {
+    let scale: Vec<f64> = (0..a.nrows()).map(|i| power_of_two_root(a[(i, i)])).collect();
+    (Mat::from_fn(a.nrows(), a.nrows(), |i, j| a[(i, j)] * scale[i] * scale[j]), scale)
+}
+
+/// The space of some columns in a basis that is orthonormal in M; what M does not see is left out.
+///
+/// # Errors
+/// As [`symmetric_eigen`].
+pub(crate) fn orthonormal(columns: MatRef<'_, f64>, m: MatRef<'_, f64>) -> Result<Mat<f64>> {
+    /// Share of a direction that has to be left of it beyond the others for it to count.
+    const INDEPENDENT: f64 = 1e-12;
+    let lengths: Vec<f64> = dots(columns, product(m, columns).as_ref());
+    let seen: Vec<usize> = (0..columns.ncols()).filter(|j| lengths[*j] > 0.0).collect();
+    let mut basis = Mat::from_fn(columns.nrows(), seen.len(), |i, j| columns[(i, seen[j])] / lengths[seen[j]].sqrt());
+    // Twice, as what rounding leaves after the first time is small.
+    for _ in 0..2 {
+        let mut gram = gram(basis.as_ref(), product(m, basis.as_ref()).as_ref());
+        symmetrise(&mut gram);
+        let (values, vectors) = symmetric_eigen(gram.as_ref())?;
+        let kept: Vec<usize> = (0..values.len()).filter(|j| values[*j] > INDEPENDENT).collect();
+        let turn = Mat::from_fn(values.len(), kept.len(), |i, j| vectors[(i, kept[j])] / values[kept[j]].sqrt());
+        basis = product(basis.as_ref(), turn.as_ref());
+    }
+    Ok(basis)
+}
+
 /// Singular values (descending) and right singular vectors of a matrix with at least as many rows as columns.
 ///
 /// # Errors

@@ -35,6 +35,8 @@ pub struct Reduction {
     pub gravity: Option<Mat<f64>>,
     /// ΨᵀF of the loads of the job, r × n_l, each column in its unit.
     pub loads: Mat<f64>,
+    /// K̂_Bη as it was projected, before it was set to zero, n_B × n_η; rounding where K is exact.
+    pub cleared: Mat<f64>,
     /// What projecting measured.
     pub measured: Projection,
 }
@@ -67,6 +69,7 @@ impl Reduction {
             mass_asymmetry: dense::symmetrise(&mut mass),
             ..Projection::default()
         };
+        let cleared = stiffness.as_ref().get(0..n_b, n_b..).to_owned();
         (measured.block_coupling, measured.block_coupling_at) = match (n_b, rounding) {
             (_, Some(rounding)) => rounding,
             (0, None) => clear_rigid_body(&mut stiffness, rigid.count()),
@@ -91,6 +94,7 @@ impl Reduction {
             rigid_body_mass: rigid.rigid_body_mass(&partition.mass),
             gravity,
             loads: transpose_apply(basis, partition.loads.vectors.as_ref()),
+            cleared,
             measured,
         }
     }

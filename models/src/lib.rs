@@ -20,6 +20,7 @@ pub mod membrane;
 pub mod model;
 pub mod part;
 pub mod random;
+pub mod springs;
 pub mod superelements;
 pub mod tetrahedra;
 pub mod tetrahedron;

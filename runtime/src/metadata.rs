@@ -41,6 +41,13 @@ pub struct Metadata {
     pub verification: Verification,
 }
 
+impl Metadata {
+    /// Every column that the reduction made: the coordinates, then what was left out because others span it.
+    pub fn named_columns(&self) -> impl Iterator<Item = &Coordinate> {
+        self.coordinates.iter().chain(self.dropped.iter().map(|dropped| &dropped.column))
+    }
+}
+
 /// A program and its version.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -3,12 +3,10 @@
 use faer::{Mat, MatRef};
 use supel_runtime::{Coordinate, Superelement};
 
-use super::omitted::{Omitted, omitted, orthonormal};
+use super::omitted::{Omitted, omitted};
+use crate::audit::negative_mass;
 use crate::dense::{self, unpacked};
 use crate::error::{Error, Result};
-
-/// Size of a negative eigenvalue of the mass with unit diagonal that is taken for zero: rotations without inertia leave some.
-const SINGULAR_MASS: f64 = 1e-10;
 
 /// Energy of a rigid-body motion relative to that of the first mode that no rounding leaves: Û is not that of the matrices then.
 const LARGEST_RIGID_ENERGY: f64 = 0.1;
@@ -44,9 +42,8 @@ impl Component {
         let tensors = superelement.tensors();
         let (stiffness, mass) = (unpacked(&tensors.stiffness), unpacked(&tensors.mass));
         let rigid = unpacked(&tensors.rigid_body_modes);
-        let least = least_eigenvalue(mass.as_ref())?;
-        if least < -SINGULAR_MASS {
-            return Err(Error::AssemblyIndefinite { what: format!("component {name}"), matrix: "mass", value: least });
+        if let Some(value) = negative_mass(mass.as_ref())? {
+            return Err(Error::AssemblyIndefinite { what: format!("component {name}"), matrix: "mass", value });
         }
         let rounding = rounding_of(stiffness.as_ref(), mass.as_ref(), rigid.as_ref())?;
         let unit = energy_unit(&superelement);
@@ -100,16 +97,9 @@ pub(super) fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// The least eigenvalue of a matrix brought to unit diagonal.
-fn least_eigenvalue(a: MatRef<'_, f64>) -> Result<f64> {
-    let scale: Vec<f64> = (0..a.nrows()).map(|i| dense::power_of_two_root(a[(i, i)])).collect();
-    let scaled = Mat::from_fn(a.nrows(), a.nrows(), |i, j| a[(i, j)] * scale[i] * scale[j]);
-    Ok(dense::symmetric_eigen(scaled.as_ref())?.0.first().copied().unwrap_or(0.0))
-}
-
 /// The largest eigenvalue that rounding made of a rigid-body motion, whose energy should be nothing.
 fn rounding_of(stiffness: MatRef<'_, f64>, mass: MatRef<'_, f64>, rigid: MatRef<'_, f64>) -> Result<f64> {
-    let motions = orthonormal(rigid, mass)?;
+    let motions = dense::orthonormal(rigid, mass)?;
     let energies = dense::dots(motions.as_ref(), dense::product(stiffness, motions.as_ref()).as_ref());
     Ok(energies.into_iter().fold(0.0, |most, energy| most.max(energy.abs())))
 }

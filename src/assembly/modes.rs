@@ -104,7 +104,8 @@ impl Assembly {
         let band_hz = omitted.iter().flatten().map(|omitted| omitted.hz).reduce(f64::min);
         let rigid = (1..=n_rigid).map(|number| AssemblyMode::rigid(number, lower.as_ref().map(|_| 0.0)));
         let elastic = (0..spectrum.lambda.len()).map(|j| {
-            let found = Found { assembled: &assembled, spectrum: &spectrum, j };
+            let omitted = omitted.as_deref().unwrap_or_default();
+            let found = Found { assembled: &assembled, spectrum: &spectrum, omitted, j };
             self.mode(&found, lower.as_deref(), band_hz, n_rigid)
         });
         let modes = rigid.chain(elastic).take(n_wanted).collect();
@@ -136,7 +137,7 @@ impl Assembly {
     }
 
     fn mode(&self, found: &Found<'_>, lower: Option<&[f64]>, band_hz: Option<f64>, n_rigid: usize) -> AssemblyMode {
-        let Found { assembled, spectrum, j } = found;
+        let Found { assembled, spectrum, omitted, j } = found;
         let (lambda, rounding) = (spectrum.lambda[*j], spectrum.rounding[*j]);
         let has_energy = lambda > rounding;
         let frequency_hz = if has_energy { hertz(lambda) } else { 0.0 };
@@ -156,7 +157,6 @@ impl Assembly {
             });
             (omitted.component, parts.sum::<f64>())
         };
-        let omitted = self.omitted().unwrap_or_default();
         let widest = omitted.iter().map(width).filter(|(_, width)| *width > 0.0);
         let at_least_hz = lower.map(|lower| lower[*j].min(frequency_hz));
         AssemblyMode {
@@ -222,6 +222,8 @@ fn lower_bounds(assembled: &Assembled, omitted: &[OmittedOf<'_>], n: usize) -> R
 struct Found<'a> {
     assembled: &'a Assembled,
     spectrum: &'a Spectrum,
+    /// What each component leaves out; empty also where one does not say.
+    omitted: &'a [OmittedOf<'a>],
     j: usize,
 }
 

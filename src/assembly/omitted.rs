@@ -41,8 +41,6 @@ use crate::job::{Boundary, Method};
 
 /// How far λ of the reduced matrices may be from the one that the file states for the shape to count as exact.
 const SAME_EIGENVALUE: f64 = 1e-6;
-/// Share of a direction that may be left of it beyond the others for it to count in V; leaving it out makes S larger.
-const INDEPENDENT: f64 = 1e-12;
 /// The check that counts the modes.
 const COMPLETENESS: &str = "M-06";
 
@@ -151,9 +149,7 @@ fn kept(superelement: &Superelement) -> Result<(Boundary, f64), String> {
 
 /// How many coordinates of a kind the file names, those included that were dropped because others span them.
 fn n_named(superelement: &Superelement, is_one: impl Fn(&Coordinate) -> bool) -> usize {
-    let metadata = superelement.metadata();
-    let dropped = metadata.dropped.iter().map(|dropped| &dropped.column);
-    metadata.coordinates.iter().chain(dropped).filter(|coordinate| is_one(coordinate)).count()
+    superelement.metadata().named_columns().filter(|coordinate| is_one(coordinate)).count()
 }
 
 /// The omitted mass next to free modes: what is left of M̂ beyond them, each direction on a spring of its own.
@@ -162,7 +158,7 @@ fn of_free_modes(
     (k, m, u): (MatRef<'_, f64>, MatRef<'_, f64>, MatRef<'_, f64>),
     kappa: f64,
 ) -> Result<Result<SprungMass, &'static str>> {
-    let spectrum = match stated_spectrum(superelement, (k, m), orthonormal(u, m)?)? {
+    let spectrum = match stated_spectrum(superelement, (k, m), dense::orthonormal(u, m)?)? {
         Ok(spectrum) => spectrum,
         Err(why) => return Ok(Err(why)),
     };
@@ -232,7 +228,7 @@ fn stated_spectrum(
 /// G of S = M̂ − M̂V (VᵀM̂V)⁻¹ VᵀM̂ = GGᵀ.
 fn omitted_mass(m: MatRef<'_, f64>, exact: MatRef<'_, f64>) -> Result<Mat<f64>> {
     let n = m.nrows();
-    let shapes = orthonormal(exact, m)?;
+    let shapes = dense::orthonormal(exact, m)?;
     let momenta = dense::product(m, shapes.as_ref());
     let taken = dense::product(momenta.as_ref(), momenta.transpose());
     let scale: Vec<f64> = (0..n).map(|i| dense::power_of_two_root(m[(i, i)])).collect();
@@ -242,21 +238,4 @@ fn omitted_mass(m: MatRef<'_, f64>, exact: MatRef<'_, f64>) -> Result<Mat<f64>> 
     // Below, S is the rounding of the difference.
     let kept: Vec<usize> = (0..n).filter(|j| values[*j] > n as f64 * f64::EPSILON).collect();
     Ok(Mat::from_fn(n, kept.len(), |i, j| vectors[(i, kept[j])] * values[kept[j]].sqrt() / scale[i]))
-}
-
-/// The space of some columns in a basis that is orthonormal in M; what M does not see is left out.
-pub(super) fn orthonormal(columns: MatRef<'_, f64>, m: MatRef<'_, f64>) -> Result<Mat<f64>> {
-    let lengths: Vec<f64> = dense::dots(columns, dense::product(m, columns).as_ref());
-    let seen: Vec<usize> = (0..columns.ncols()).filter(|j| lengths[*j] > 0.0).collect();
-    let mut basis = Mat::from_fn(columns.nrows(), seen.len(), |i, j| columns[(i, seen[j])] / lengths[seen[j]].sqrt());
-    // Twice, as what rounding leaves after the first time is small.
-    for _ in 0..2 {
-        let mut gram = dense::gram(basis.as_ref(), dense::product(m, basis.as_ref()).as_ref());
-        dense::symmetrise(&mut gram);
-        let (values, vectors) = dense::symmetric_eigen(gram.as_ref())?;
-        let kept: Vec<usize> = (0..values.len()).filter(|j| values[*j] > INDEPENDENT).collect();
-        let turn = Mat::from_fn(values.len(), kept.len(), |i, j| vectors[(i, kept[j])] / values[kept[j]].sqrt());
-        basis = dense::product(basis.as_ref(), turn.as_ref());
-    }
-    Ok(basis)
 }

@@ -97,8 +97,7 @@ impl Pencil {
 pub(super) fn emptiest(k: MatRef<'_, f64>, m: MatRef<'_, f64>) -> Result<usize> {
     let unit = |a: MatRef<'_, f64>| a.norm_max().max(f64::MIN_POSITIVE);
     let sum = Mat::from_fn(k.nrows(), k.nrows(), |i, j| k[(i, j)] / unit(k) + m[(i, j)] / unit(m));
-    let scale: Vec<f64> = (0..k.nrows()).map(|i| dense::power_of_two_root(sum[(i, i)])).collect();
-    let scaled = Mat::from_fn(k.nrows(), k.nrows(), |i, j| sum[(i, j)] * scale[i] * scale[j]);
+    let (scaled, _) = dense::unit_diagonal(sum.as_ref());
     let (_, vectors) = dense::symmetric_eigen(scaled.as_ref())?;
     Ok((0..k.nrows()).max_by(|a, b| vectors[(*a, 0)].abs().total_cmp(&vectors[(*b, 0)].abs())).unwrap_or(0))
 }

@@ -170,13 +170,8 @@ pub(super) fn coordinate_name(superelement: &Superelement, coordinate: usize) ->
 
 /// The kind of a mode tells where it was computed, whatever the method is called.
 pub(super) fn boundary(superelement: &Superelement) -> Boundary {
-    let metadata = superelement.metadata();
-    let dropped = metadata.dropped.iter().map(|dropped| &dropped.column);
-    let is_fixed = metadata
-        .coordinates
-        .iter()
-        .chain(dropped)
-        .any(|coordinate| matches!(coordinate, Coordinate::FixedInterfaceMode { .. }));
+    let mut columns = superelement.metadata().named_columns();
+    let is_fixed = columns.any(|coordinate| matches!(coordinate, Coordinate::FixedInterfaceMode { .. }));
     if is_fixed { Boundary::FixedInterface } else { Boundary::FreeInterface }
 }
 

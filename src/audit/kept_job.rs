@@ -171,8 +171,7 @@ pub(super) fn n_modes(content: &Content<'_>) -> Option<Check> {
 /// mass properties, gravity and mixing are there where they belong.
 pub(super) fn accounts(content: &Content<'_>) -> Check {
     let (metadata, tensors) = (content.superelement.metadata(), content.superelement.tensors());
-    let modal =
-        || metadata.coordinates[content.n_b..].iter().chain(metadata.dropped.iter().map(|column| &column.column));
+    let modal = || metadata.named_columns().skip(content.n_b);
     let mut flaws = Vec::new();
     let n_modes = tensors.frequencies.len();
     let mut modes: Vec<usize> = modal().filter_map(|coordinate| coordinate.mode().map(|(mode, _)| mode)).collect();
@@ -210,8 +209,7 @@ pub(super) fn accounts(content: &Content<'_>) -> Check {
 /// What the method of a file says of its columns, whoever made them.
 fn of_method(content: &Content<'_>, method: Method) -> Vec<&'static str> {
     let (metadata, tensors) = (content.superelement.metadata(), content.superelement.tensors());
-    let modal =
-        || metadata.coordinates[content.n_b..].iter().chain(metadata.dropped.iter().map(|column| &column.column));
+    let modal = || metadata.named_columns().skip(content.n_b);
     let mut flaws = Vec::new();
     let mut expect = |holds: bool, what: &'static str| {
         if !holds {

@@ -39,6 +39,7 @@ pub use notes::Unvouched;
 pub(crate) use pencil::eigenpairs;
 pub use record::rewritten;
 pub use reproduction::reproduced;
+pub(crate) use spectrum::negative_mass;
 pub use version::{is_of_this_version, kept_job};
 
 /// The result of an audit.

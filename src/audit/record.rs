@@ -85,10 +85,8 @@ fn least(content: &Content<'_>, entry: &Entry) -> usize {
         Recorded::WithInterface => usize::from(content.n_b > 0),
         Recorded::WithCount => usize::from(matches!(certify, Some(Certify::Count | Certify::Full))),
         Recorded::WithResidualVector => {
-            let metadata = content.superelement.metadata();
-            let left_out = metadata.dropped.iter().map(|dropped| &dropped.column);
-            let mut named = metadata.coordinates.iter().chain(left_out);
-            usize::from(named.any(|coordinate| matches!(coordinate, Coordinate::ResidualVector { .. })))
+            let mut columns = content.superelement.metadata().named_columns();
+            usize::from(columns.any(|coordinate| matches!(coordinate, Coordinate::ResidualVector { .. })))
         }
         Recorded::Sometimes => 0,
     }
@@ -99,9 +97,7 @@ fn bars(content: &Content<'_>, checks: &[CheckSummary]) -> Option<String> {
     /// What the residual of a mode adds to its bar, relative to the digits and in itself, where nothing is wrong.
     const RESIDUAL: [f64; 2] = [10.0, 1e-9];
     let record = checks.iter().find(|check| check.id == "M-09")?;
-    let metadata = content.superelement.metadata();
-    let named = metadata.coordinates.iter().chain(metadata.dropped.iter().map(|dropped| &dropped.column));
-    let relative = named.filter_map(|coordinate| match *coordinate {
+    let relative = content.superelement.metadata().named_columns().filter_map(|coordinate| match *coordinate {
         Coordinate::ElasticMode { frequency_hz, error_bar_hz, .. }
         | Coordinate::FixedInterfaceMode { frequency_hz, error_bar_hz, .. } => {
             Some(error_bar_hz.map_or(f64::INFINITY, |bar| bar / frequency_hz))

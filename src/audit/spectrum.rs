@@ -127,10 +127,7 @@ pub(super) fn condition(content: &Content<'_>) -> Result<Check> {
 
 /// λ_max / λ_min of D M D with unit diagonal. A semidefinite mass is judged by M-25.
 pub(super) fn condition_of(m: MatRef<'_, f64>) -> Result<f64> {
-    let n = m.nrows();
-    let d: Vec<f64> = (0..n).map(|i| dense::power_of_two_root(m[(i, i)])).collect();
-    let scaled = Mat::from_fn(n, n, |i, j| m[(i, j)] * d[i] * d[j]);
-    let (values, _) = dense::symmetric_eigen(scaled.as_ref())?;
+    let (values, _) = dense::symmetric_eigen(dense::unit_diagonal(m).0.as_ref())?;
     let (least, most) = (values.first().copied().unwrap_or(1.0), values.last().copied().unwrap_or(1.0));
     Ok(if least > 0.0 { most / least } else { 1.0 / f64::EPSILON })
 }
@@ -149,15 +146,20 @@ pub(super) fn symmetry(content: &Content<'_>) -> Check {
     }
 }
 
-/// Size of a negative eigenvalue of the scaled mass that is taken for zero: rotations without inertia leave some.
-const SINGULAR_MASS: f64 = 1e-10;
+/// The least eigenvalue of a mass brought to unit diagonal, where it is too negative to be that of a singular mass.
+///
+/// # Errors
+/// As [`dense::symmetric_eigen`].
+pub(crate) fn negative_mass(m: MatRef<'_, f64>) -> Result<Option<f64>> {
+    /// Size of a negative eigenvalue that is taken for zero: rotations without inertia leave some.
+    const SINGULAR_MASS: f64 = 1e-10;
+    let (values, _) = dense::symmetric_eigen(dense::unit_diagonal(m).0.as_ref())?;
+    Ok(values.first().copied().filter(|least| *least < -SINGULAR_MASS))
+}
 
 /// M-25, definiteness. As in a reduction a mass that is singular is not a failure; M-23 shows it.
 pub(super) fn definiteness(content: &Content<'_>, spectrum: &Spectrum) -> Check {
-    let d: Vec<f64> = (0..content.n_reduced()).map(|i| dense::power_of_two_root(content.m[(i, i)])).collect();
-    let scaled = Mat::from_fn(d.len(), d.len(), |i, j| content.m[(i, j)] * d[i] * d[j]);
-    let is_mass = dense::symmetric_eigen(scaled.as_ref())
-        .is_ok_and(|(values, _)| values.first().is_none_or(|least| *least >= -SINGULAR_MASS));
+    let is_mass = matches!(negative_mass(content.m.as_ref()), Ok(None));
     let (value, worst) = match spectrum.free.first() {
         _ if !is_mass => (f64::INFINITY, Some("the reduced mass has a negative eigenvalue".to_owned())),
         None if content.n_reduced() > 0 => (f64::INFINITY, Some("K̂ + λ₁M̂ is not definite".to_owned())),

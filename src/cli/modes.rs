@@ -1,25 +1,22 @@
 //! `supel modes`: the modes of superelements that are joined, held and loaded at their interfaces.
 
-use supel_runtime::{Superelement, file_bytes};
-
 use super::answer::Terminal;
 use super::exit_code::ExitCode;
 use super::memory;
 use super::modes_command::{ModesAnswer, ModesCommand};
+use super::superelement_file;
 use crate::assembly::{self, Assembly, Component};
 use crate::error::{Error, Result};
 use crate::memory_forecast::Resources;
-use crate::regular_file;
 use crate::report::ModesReport;
 
 pub(super) fn run(command: &ModesCommand, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
     let mut read = Vec::new();
     let mut digests = Vec::new();
     for (name, path) in &command.components {
-        let failed = |error| Error::of_superelement(path, error);
-        regular_file::open(path).map(drop)?;
-        let superelement = Superelement::from_bytes(&file_bytes(path).map_err(failed)?).map_err(failed)?;
-        digests.push(superelement.to_bytes().map_err(failed)?.digest);
+        let (superelement, _) = superelement_file::read(path)?;
+        let bytes = superelement.to_bytes().map_err(|error| Error::of_superelement(path, error))?;
+        digests.push(bytes.digest);
         read.push((name.clone(), superelement));
     }
     let n = read.iter().map(|(_, superelement)| superelement.n_coordinates()).sum();

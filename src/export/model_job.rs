@@ -110,13 +110,11 @@ fn interfaces(superelement: &Superelement, labels: &[i64]) -> String {
 /// One table for each load; a residual vector where the superelement has one.
 fn loads(superelement: &Superelement, names: &Names) -> String {
     let metadata = superelement.metadata();
-    let dropped = metadata.dropped.iter().map(|dropped| &dropped.column);
-    let columns: Vec<&Coordinate> = metadata.coordinates.iter().chain(dropped).collect();
     let mut text = String::new();
     for (column, name) in metadata.load_names.iter().enumerate() {
         let is_its_own =
-            |coordinate: &&Coordinate| matches!(coordinate, Coordinate::ResidualVector { load } if *load == column);
-        let residual = columns.iter().any(is_its_own);
+            |coordinate: &Coordinate| matches!(coordinate, Coordinate::ResidualVector { load } if *load == column);
+        let residual = metadata.named_columns().any(is_its_own);
         let (name, file) = (Value::from(name.clone()), Value::from(names.name("loads.mtx")));
         let _ = write!(text, "\n[[load]]\nname = {name}\nfile = {file}\ncolumn = {column}\nresidual = {residual}\n");
     }
@@ -129,17 +127,14 @@ fn directions(node: &InterfaceNode) -> String {
 
 fn reduction(superelement: &Superelement) -> String {
     let metadata = superelement.metadata();
-    let dropped = metadata.dropped.iter().map(|dropped| &dropped.column);
-    let coordinates = || metadata.coordinates.iter();
     // Modes that were left out because others span them are found again, as far as there are coordinates for them.
-    let is_mode = |coordinate: &&Coordinate| coordinate.mode().is_some();
-    let n_named = coordinates().chain(dropped).filter(is_mode).count();
+    let n_named = metadata.named_columns().filter(|coordinate| coordinate.mode().is_some()).count();
     let n_still = match metadata.method {
         Method::Herting | Method::Rubin | Method::Macneal => superelement.n_rigid(),
         Method::CraigBampton | Method::ModeAcceleration | Method::Guyan => superelement.n_interface(),
     };
     let n_modes = n_named.min(superelement.n_coordinates().saturating_sub(n_still));
-    let has_relief = coordinates().any(|coordinate| matches!(coordinate, Coordinate::InertiaRelief { .. }));
+    let has_relief = metadata.coordinates.iter().any(|coordinate| matches!(coordinate, Coordinate::InertiaRelief { .. }));
     let (method, is_relief_asked) = match metadata.method {
         Method::CraigBampton | Method::ModeAcceleration if n_modes > 0 => ("craig-bampton", has_relief),
         Method::CraigBampton | Method::ModeAcceleration | Method::Guyan => ("guyan", has_relief),

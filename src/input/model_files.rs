@@ -93,7 +93,7 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
 /// The columns of the files of loads, one for each load that has a file.
 ///
 /// # Errors
-/// Those of [`load_column`](super::load_column); [`Error::LoadKeys`].
+/// What [`load_column`](super::load_column) refuses; [`Error::LoadKeys`].
 pub fn load_columns(loads: &[LoadJob], input: &Input) -> Result<Vec<Option<LoadColumn>>> {
     let n_rows = input.stiffness.matrix.rows() + input.rows.n_dropped();
     let of_load = |load: &LoadJob| match load.pattern()? {

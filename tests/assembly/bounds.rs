@@ -1,23 +1,11 @@
 //! The lower bounds, where they are nearly reached and where a file does not give any.
 
 use supel::assembly::{Assembly, Component, Kind, Omitted};
-use supel_models::{Assembler, Model, spectrum};
+use supel_models::spectrum;
+use supel_models::springs::springs;
 use supel_testing::place::Place;
 
 use crate::{all_modes, assert_enclosed, beams, line, n_rigid, reduced};
-
-/// Masses on springs: to the ground, and between each other.
-fn springs(masses: &[f64], grounded: &[(u32, f64)], between: &[(u32, u32, f64)]) -> Model {
-    let (mut stiffness, mut mass) = (Assembler::default(), Assembler::default());
-    (0..).zip(masses).for_each(|(row, value)| mass.add(row, row, *value));
-    grounded.iter().for_each(|(row, value)| stiffness.add(*row, *row, *value));
-    for &(i, j, value) in between {
-        for (row, column, sign) in [(i, i, 1.0), (j, j, 1.0), (i, j, -1.0), (j, i, -1.0)] {
-            stiffness.add(row, column, sign * value);
-        }
-    }
-    Model { n: masses.len(), ..Model::node_major(Vec::new(), &[], stiffness, mass) }
-}
 
 /// A pin that carries two oscillators of which the slower one is kept: the bound is that of the other one at the frequency of the
 /// kept one, and moving the omitted one there brings the whole model to its bound.

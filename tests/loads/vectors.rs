@@ -128,7 +128,7 @@ fn verification_sees_another_load() {
     assert_eq!(ended.code, ExitCode::CheckFailed, "{}", ended.out);
     assert!(ended.out.contains("pressure at"), "the load is named: {}", ended.out);
     assert!(ended.out.contains("load pressure"), "the file is named: {}", ended.out);
-    // The same loads in another order are others.
+    // Loads that are named in another order are taken for different ones.
     let job = case
         .job("herting", 4)
         .replace("thrust", "x")

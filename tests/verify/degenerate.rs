@@ -4,6 +4,7 @@
 use supel::cli::ExitCode;
 use supel_models::frame::{Inertia, Section, frame};
 use supel_models::model::{Assembler, dot, multiply};
+use supel_models::springs::springs;
 use supel_models::transform::{join, translated};
 use supel_models::{Material, Model, brick};
 
@@ -17,19 +18,6 @@ fn agree(place: &Place, flags: &[String], rest: &str) -> String {
     let job = supel(&["inspect", &place.text("x.supel"), "--job"]).expect(ExitCode::Done).out;
     place.write("kept.json", job.as_bytes());
     supel(&["verify", &place.text("x.supel"), "--job", &place.text("kept.json")]).expect(ExitCode::Done).out
-}
-
-/// Springs between rows and to the ground, and masses, without coordinates.
-fn springs(masses: &[f64], grounded: &[(u32, f64)], between: &[(u32, u32, f64)]) -> Model {
-    let (mut stiffness, mut mass) = (Assembler::default(), Assembler::default());
-    (0..).zip(masses).for_each(|(row, value)| mass.add(row, row, *value));
-    grounded.iter().for_each(|(row, value)| stiffness.add(*row, *row, *value));
-    for &(i, j, value) in between {
-        for (row, column, sign) in [(i, i, 1.0), (j, j, 1.0), (i, j, -1.0), (j, i, -1.0)] {
-            stiffness.add(row, column, sign * value);
-        }
-    }
-    Model { n: masses.len(), ..Model::node_major(Vec::new(), &[], stiffness, mass) }
 }
 
 /// How many coordinates a superelement has and how many columns were left out.

@@ -58,7 +58,7 @@ pub(super) fn error_bars(superelement: &Superelement, file: &Scaled, asked: &Ask
     };
     let limits_of_none = Limits { engineering: SAME_SHAPES, ..Limits::default() };
     let (mut excess, mut value, mut limits, mut worst) = (0.0, 0.0, limits_of_none, None);
-    for coordinate in metadata.coordinates.iter().chain(metadata.dropped.iter().map(|dropped| &dropped.column)) {
+    for coordinate in metadata.named_columns() {
         let (Coordinate::ElasticMode { mode, frequency_hz, error_bar_hz }
         | Coordinate::FixedInterfaceMode { mode, frequency_hz, error_bar_hz }) = *coordinate
         else {
