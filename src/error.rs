@@ -1460,6 +1460,22 @@ pub enum Error {
         /// Name of the load.
         load: String,
     },
+    /// The square of a load leaves the range of double precision.
+    #[entry("E-LOAD-RANGE", InputData, "check its numbers, or write it in other units")]
+    #[error(
+        "the largest entry of load `{load}`{relative} is of the size 2^{exponent} – expected sizes between 2^-{bits} and \
+        2^{bits} – check its numbers, or write it in other units"
+    )]
+    LoadRange {
+        /// Name of the load.
+        load: String,
+        /// To what the size is relative, in words; empty for the user's units.
+        relative: &'static str,
+        /// The size as a power of two.
+        exponent: i32,
+        /// The largest exponent that is taken.
+        bits: i32,
+    },
     /// A load is zero, or held dofs take all of it.
     #[entry("E-LOAD-NOTHING", InputData, "load dofs that move, or leave the load out")]
     #[error("load `{load}` moves nothing – found {found} – expected a force on a dof that moves – leave it out")]

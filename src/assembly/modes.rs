@@ -92,7 +92,7 @@ impl Assembly {
         self.refuse_negative(&spectrum)?;
         let omitted = self.omitted();
         let lower = match &omitted {
-            Some(omitted) => Some(lower_bounds(&assembled, omitted, spectrum.lambda.len())?),
+            Some(omitted) => Some(lower_bounds(&assembled, omitted, &spectrum)?),
             None => None,
         };
         let (n_free, n_rigid) = (pencil.stiffness.nrows(), pencil.rigid.ncols());
@@ -194,9 +194,9 @@ struct OmittedOf<'a> {
     mass: &'a SprungMass,
 }
 
-/// Lower bounds in Hz of the first `n` elastic frequencies: those of the assembly with the omitted mass on springs, and no more than the end
-/// of the lowest band.
-fn lower_bounds(assembled: &Assembled, omitted: &[OmittedOf<'_>], n: usize) -> Result<Vec<f64>> {
+/// Lower bounds in Hz of the elastic frequencies of a spectrum: those of the assembly with the omitted mass on springs, and no more than the
+/// end of the lowest band.
+fn lower_bounds(assembled: &Assembled, omitted: &[OmittedOf<'_>], upper: &Spectrum) -> Result<Vec<f64>> {
     let pencil = &assembled.pencil;
     let n_springs: usize = omitted.iter().map(|omitted| omitted.mass.springs.len()).sum();
     // G in the coordinates of the assembly, and κ′ of each of its columns.
@@ -209,13 +209,23 @@ fn lower_bounds(assembled: &Assembled, omitted: &[OmittedOf<'_>], n: usize) -> R
         kappa.extend(springs);
     }
     let end = omitted.iter().map(|omitted| omitted.hz).fold(f64::INFINITY, f64::min);
-    let sprung = sprung(pencil, &g, &kappa).spectrum()?;
+    // What is taken off the mass may leave coordinates nothing but rounding, which tells no first eigenvalue.
+    let sprung = sprung(pencil, &g, &kappa);
+    let sprung = match upper.first_elastic() {
+        Some(first) => sprung.spectrum_from(first)?,
+        None => sprung.spectrum()?,
+    };
     let lower = |j: usize| match &sprung {
         Some(found) => found.lambda.get(j).map_or(end, |lambda| hertz(lambda - found.rounding[j]).min(end)),
         // Rounding decides; zero is a bound in any case.
         None => 0.0,
     };
-    Ok((0..n).map(lower).collect())
+    // What no frequency is below, no higher one is.
+    let highest = |so_far: &mut f64, bound: f64| {
+        *so_far = so_far.max(bound);
+        Some(*so_far)
+    };
+    Ok((0..upper.lambda.len()).map(lower).scan(0.0, highest).collect())
 }
 
 /// An eigenpair of the assembly.

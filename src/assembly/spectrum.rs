@@ -11,7 +11,7 @@
 use faer::{Mat, MatRef};
 
 use crate::audit::eigenpairs;
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::error::Result;
 use crate::verification::force;
 
@@ -49,11 +49,28 @@ impl Pencil {
     /// # Errors
     /// [`crate::error::Error::DenseEigen`].
     pub(super) fn spectrum(&self) -> Result<Option<Spectrum>> {
+        let momenta = dense::product(self.mass.as_ref(), self.rigid.as_ref());
+        // What is left of the mass of a coordinate that rigid-body motion moves alone is rounding, and no measure of anything.
+        let left = |i: usize| {
+            let taken: f64 = (0..momenta.ncols()).map(|j| momenta[(i, j)].powi(2)).sum();
+            let left = self.mass[(i, i)] - taken;
+            if left > NOISE_FACTOR * f64::EPSILON * taken { left } else { 0.0 }
+        };
+        let n = self.mass.nrows();
+        let diagonal = Mat::from_fn(n, n, |i, j| if i == j { left(i) } else { 0.0 });
+        let alpha = force::lowest_ratio(self.stiffness.as_ref(), diagonal.as_ref());
+        self.spectrum_from(alpha.unwrap_or(1.0))
+    }
+
+    /// The elastic eigenpairs by a first α that is known to be near the first of them.
+    ///
+    /// # Errors
+    /// As [`Self::spectrum`].
+    pub(super) fn spectrum_from(&self, mut alpha: f64) -> Result<Option<Spectrum>> {
         let (n, n_r) = (self.stiffness.nrows(), self.rigid.ncols());
         let momenta = dense::product(self.mass.as_ref(), self.rigid.as_ref());
         let lifted = dense::product(momenta.as_ref(), momenta.transpose());
         let mass = Mat::from_fn(n, n, |i, j| self.mass[(i, j)] - 0.5 * (lifted[(i, j)] + lifted[(j, i)]));
-        let mut alpha = force::lowest_ratio(self.stiffness.as_ref(), mass.as_ref()).unwrap_or(1.0);
         let mut best = None;
         for _ in 0..MAX_SHIFTS {
             let beta = RIGID_STIFFNESS * alpha;
@@ -64,8 +81,7 @@ impl Pencil {
                 break;
             }
             let spectrum = self.quotients(pairs.vectors, &momenta);
-            let first = (0..spectrum.lambda.len()).find(|j| spectrum.lambda[*j] > spectrum.rounding[*j]);
-            let first = first.map(|j| spectrum.lambda[j]);
+            let first = spectrum.first_elastic();
             best = Some(spectrum);
             match first {
                 Some(first) if !(alpha / NEAR..=alpha * NEAR).contains(&first) => alpha = first,
@@ -90,6 +106,13 @@ impl Pencil {
             rounding: order.iter().map(|j| noise[*j] / masses[*j]).collect(),
             shapes: Mat::from_fn(x.nrows(), order.len(), |i, j| x[(i, order[j])] / masses[order[j]].sqrt()),
         }
+    }
+}
+
+impl Spectrum {
+    /// The first eigenvalue that is more than rounding.
+    pub(super) fn first_elastic(&self) -> Option<f64> {
+        self.lambda.iter().zip(&self.rounding).find(|(lambda, rounding)| lambda > rounding).map(|(lambda, _)| *lambda)
     }
 }
 

@@ -9,6 +9,7 @@ use crate::error::Result;
 use crate::job::Boundary;
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::{Judged, n_nearly_free};
+use crate::verification::pencil::sharpen;
 
 /// The eigenvalues that the checks need.
 pub(super) struct Spectrum {
@@ -21,12 +22,16 @@ pub(super) struct Spectrum {
 impl Spectrum {
     pub(super) fn of(content: &Content<'_>) -> Result<Self> {
         let (k, m) = (content.k.as_ref(), content.m.as_ref());
-        let free = eigenvalues(k, m, content.first)?;
+        let mut free = eigenvalues(k, m, content.first)?;
+        sharpen(&mut free, (k, m), content.first, content.n_rigid() + content.lambda.len())?;
         let same_boundary = match content.boundary {
             Boundary::FreeInterface => free.get(content.n_rigid()..).unwrap_or_default().to_vec(),
             Boundary::FixedInterface => {
                 let (b, n) = (content.n_b, content.n_reduced() - content.n_b);
-                eigenvalues(k.submatrix(b, b, n, n), m.submatrix(b, b, n, n), content.first)?
+                let inner = (k.submatrix(b, b, n, n), m.submatrix(b, b, n, n));
+                let mut held = eigenvalues(inner.0, inner.1, content.first)?;
+                sharpen(&mut held, inner, content.first, content.lambda.len())?;
+                held
             }
         };
         Ok(Self { free, same_boundary })

@@ -219,7 +219,7 @@ struct Step {
 /// panel = basis · coefficients + block · coupling, twice over for orthogonality to rounding.
 fn orthonormal_panel(basis: MatRef<'_, f64>, panel: Mat<f64>, (mass, independent): (Leading<'_>, f64)) -> Step {
     let width = panel.ncols();
-    let mut block = panel;
+    let mut block = panel.clone();
     let mut coefficients = Mat::zeros(basis.ncols(), width);
     let mut coupling: Mat<f64> = Mat::identity(width, width);
     let mut dependent = vec![false; width];
@@ -236,5 +236,20 @@ fn orthonormal_panel(basis: MatRef<'_, f64>, panel: Mat<f64>, (mass, independent
         }
         coupling = dense::product(r.as_ref(), coupling.as_ref());
     }
+    // Gram-Schmidt makes nothing of a column that depends on others; what was left of it is measured anew.
+    for j in (0..width).filter(|j| dependent[*j]) {
+        remaining[j] = left_of(panel.as_ref().subcols(j, 1), [basis, block.as_ref().subcols(0, j)], mass);
+    }
     Step { block, coefficients, coupling, kept: (0..width).filter(|j| !dependent[*j]).collect(), remaining }
+}
+
+/// Length in the mass of what is left of a column without its parts along orthonormal columns, some of which may be zero.
+fn left_of(column: MatRef<'_, f64>, without: [MatRef<'_, f64>; 2], mass: Leading<'_>) -> f64 {
+    let mut left = column.to_owned();
+    for basis in [without, without].concat() {
+        let parts = dense::gram(basis, product(mass, left.as_ref()).as_ref());
+        dense::add_product(left.as_mut(), -1.0, basis, parts.as_ref());
+    }
+    let image = product(mass, left.as_ref());
+    dense::dot(dense::column(left.as_ref(), 0), dense::column(image.as_ref(), 0)).max(0.0).sqrt()
 }

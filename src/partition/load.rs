@@ -6,7 +6,7 @@
 //! f_ω    n × 1      centrifugal load per ω²: M p, p = (I − aaᵀ)(x − c) at the translations of a node at x, a the axis through c
 //! ```
 //! The mass that couples dofs that move with held ones takes part in M p, as it does in gravity. Each f is kept with its largest entry
-//! in [1, 2): a load may be of any size.
+//! in [1, 2). Works are products of two loads over a stiffness, so that sizes are limited to [`EXPONENTS`].
 
 use faer::Mat;
 
@@ -20,6 +20,10 @@ use crate::input::LoadColumn;
 use crate::job::{LoadJob, LoadPattern, NodeSelection, RotationJob};
 use crate::model::{Model, Site};
 use crate::sparse::product;
+
+/// Exponents of the largest entry of a load, in the user's units and relative to that of the stiffness: squares, and sums of them, are
+/// numbers.
+const EXPONENTS: std::ops::RangeInclusive<i32> = -400..=400;
 
 /// Loads on the dofs of a partition.
 #[derive(Clone, Debug)]
@@ -120,7 +124,8 @@ fn in_own_unit(
     if largest == 0.0 {
         return Err(Error::LoadNothing { load: job.name.clone(), found: "zero everywhere" });
     }
-    let own = largest.log2().floor().clamp(-1022.0, 1023.0).exp2();
+    refuse_out_of_range(model, job, [largest, unit])?;
+    let own = largest.log2().floor().exp2();
     values.iter_mut().for_each(|value| *value /= own);
     let unit = unit * own;
     let total = |dofs: &[Option<Dof>]| {
@@ -134,6 +139,19 @@ fn in_own_unit(
     let resultant = model.dofs.as_deref().map(total);
     let facts = LoadFacts { name: job.name.clone(), source, unit, has_residual_vector: job.residual, resultant };
     Ok(RowLoad { facts, values })
+}
+
+/// Refuses a load of a largest entry in some unit that leaves the range.
+fn refuse_out_of_range(model: &Model, job: &LoadJob, factors: [f64; 2]) -> Result<()> {
+    let exponent = factors.map(|factor| factor.log2().floor() as i32).iter().sum::<i32>();
+    let sizes = [("", exponent), (", relative to the stiffness,", exponent - model.scaling.stiffness)];
+    match sizes.into_iter().find(|(_, exponent)| !EXPONENTS.contains(exponent)) {
+        Some((relative, exponent)) => {
+            let (load, bits) = (job.name.clone(), *EXPONENTS.end());
+            Err(Error::LoadRange { load, relative, exponent, bits })
+        }
+        None => Ok(()),
+    }
 }
 
 /// An equal share of a force at each of some nodes, and how many these are.

@@ -123,7 +123,17 @@ impl ModesReport<'_> {
         }
         if modes.n_massless > 0 {
             let motions = counted(modes.n_massless, "motion has", "motions have");
-            notes.push(format!("{motions} no mass: as many eigenvalues are infinite, and left out"));
+            notes.push(format!(
+                "{motions} no mass, or too little of it next to the others: as many eigenvalues are infinite as far as \
+                 rounding tells, and left out"
+            ));
+        }
+        if modes.modes.iter().any(|mode| mode.kind == Kind::Elastic && mode.at_least_hz == Some(0.0)) {
+            notes.push(
+                "rounding of the reduced masses leaves no bound from below but 0 of some modes: rigid interfaces next to each \
+                 other and small masses on large ones cause that"
+                    .to_owned(),
+            );
         }
         if modes.modes.iter().any(|mode| mode.kind == Kind::WithoutEnergy) {
             notes.push(

@@ -21,7 +21,7 @@ mod loads;
 mod mass;
 mod named_loads;
 mod penalty;
-mod pencil;
+pub(crate) mod pencil;
 pub mod preservation;
 mod reduced;
 mod residual;

@@ -105,6 +105,32 @@ impl Spectral {
     }
 }
 
+/// Computes anew those of the lowest `n` eigenvalues of K − λM, ascending, that are far above α: θ is known to rounding of the largest
+/// one, which is relative to the eigenvalues next to α.
+///
+/// # Errors
+/// As [`dense::symmetric_eigen`].
+pub(crate) fn sharpen(
+    values: &mut [f64],
+    (k, m): (MatRef<'_, f64>, MatRef<'_, f64>),
+    mut alpha: f64,
+    n: usize,
+) -> Result<()> {
+    /// Ratio of an eigenvalue to α at which it has ten digits.
+    const FAR: f64 = 1e6;
+    let n = n.min(values.len());
+    while let Some(first) = values[..n].iter().position(|value| *value > FAR * alpha) {
+        alpha = values[first];
+        let Some(spectral) = Spectral::if_definite(k, m, alpha)? else { return Ok(()) };
+        let again = spectral.eigenvalues();
+        if again.len() < n {
+            return Ok(());
+        }
+        values[first..n].copy_from_slice(&again[first..n]);
+    }
+    Ok(())
+}
+
 /// z = ω² / (1 + iη) of a scaled eigenvalue ω².
 pub(super) fn complex_shift(lambda: f64, eta: f64) -> c64 {
     c64::new(lambda, 0.0) / c64::new(1.0, eta)

@@ -5,7 +5,7 @@ use faer::{Mat, MatRef};
 use super::check::Limits;
 use super::evidence::{Evidence, coordinate_scales, data_noise};
 use super::limits::{GROUNDED, n_nearly_free};
-use super::pencil::{Spectral, scaled_by};
+use super::pencil::{Spectral, scaled_by, sharpen};
 use crate::dense;
 use crate::eigen::{rayleigh_quotients, zero};
 use crate::error::Result;
@@ -55,12 +55,17 @@ impl Spectrum {
             // Whether K itself is at fault, or its digits, says the full model.
             zero_modes(evidence.partition)?;
         }
-        let (free, shapes) = spectral.map_or((Vec::new(), Mat::zeros(k.nrows(), 0)), |s| s.lowest(n_looked_at));
+        let (mut free, shapes) = spectral.map_or((Vec::new(), Mat::zeros(k.nrows(), 0)), |s| s.lowest(n_looked_at));
+        let n_modes = evidence.retained.modes.count();
+        sharpen(&mut free, (k_held.as_ref(), m), lambda, n_pencil + n_modes)?;
         let same_boundary = match evidence.retained.boundary {
             Boundary::FreeInterface => free.get(n_pencil..).unwrap_or_default().to_vec(),
             Boundary::FixedInterface => {
                 let n = k.nrows() - n_b;
-                lowest_eigenpairs(k.submatrix(n_b, n_b, n, n), m.submatrix(n_b, n_b, n, n), lambda, 0)?.0
+                let inner = (k.submatrix(n_b, n_b, n, n), m.submatrix(n_b, n_b, n, n));
+                let (mut held, _) = lowest_eigenpairs(inner.0, inner.1, lambda, 0)?;
+                sharpen(&mut held, inner, lambda, n_modes)?;
+                held
             }
         };
         let levels = zero_levels(evidence, shapes.as_ref());

@@ -267,3 +267,22 @@ fn a_body_on_springs_that_are_known_is_held_for_the_reduction_and_its_file() {
         }
     }
 }
+
+/// A thin plate that three of its corners hold: by nine digits rigid-body motion costs 0.3 % of the first elastic energy, and the corners
+/// move by so much in the first mode that 4 % of its energy come of that. The check that fails says whose fault it is.
+#[test]
+fn digits_are_named_where_they_move_a_reduced_frequency() {
+    let model = brick([20, 10, 1], [1.0, 0.5, 0.01], &Material::STEEL_SI);
+    let plate = Component { name: "thin plate", model, nodes: vec![1, 21, 211] };
+    let place = folder(&plate, 9);
+    let name = job(&place, &plate, Run { digits: 9, method: "herting", solver: "lanczos", told: Told::Map });
+    let ended = supel(&["reduce", &place.text(&format!("{name}.toml"))]);
+    assert_eq!(ended.code, ExitCode::CheckFailed, "{}{}", ended.out, ended.err);
+    let report = place.report(&format!("{name}.report.json"));
+    let checks = report["body"]["checks"].as_array().expect("checks").iter();
+    let failed: Vec<&Value> = checks.filter(|check| check["verdict"] == "fail").collect();
+    assert_eq!(failed.len(), 1, "{failed:?}");
+    assert_eq!(failed[0]["id"], "M-14");
+    let worst = failed[0]["worst"].as_str().expect("a place");
+    assert!(worst.starts_with("mode 1, as rigid-body motion costs energy by the digits of the stiffness"), "{worst}");
+}

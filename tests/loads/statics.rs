@@ -231,6 +231,23 @@ fn residual_vectors_that_add_nothing_are_left_out() {
     }
 }
 
+/// Two loads that differ by a part in 10⁹: the second residual vector is left out, and what is left of it is told as it is.
+#[test]
+fn what_is_left_of_a_residual_vector_is_measured() {
+    let loads = r#"
+        { name = "thrust", nodes = [3], force = [0, 0, 1] },
+        { name = "nearly", nodes = [3], force = [0, 1e-9, 1] }"#;
+    let interface = r#"{ name = "ends", nodes = [1, 6] }"#;
+    let case = Case { name: "elbow", model: crate::elbow(), interface, fixed: "", loads };
+    let (_, file) = case.made("guyan", 0);
+    let dropped = &file.metadata().dropped;
+    assert_eq!(dropped.len(), 1);
+    let reason = &dropped[0].reason;
+    let left: f64 = reason.split(['(', ' ']).find_map(|word| word.parse().ok()).expect("a number");
+    // The frame answers forces along y and along z alike, within a factor of a hundred.
+    assert!((1e-11..1e-8).contains(&left), "{reason}");
+}
+
 /// One solve for each load, and no factor more.
 #[test]
 fn a_load_costs_one_solve() {
@@ -287,6 +304,21 @@ fn loads_of_any_size() {
         let (a, b) = (one.tensors().load_vectors.as_ref(), other.tensors().load_vectors.as_ref());
         let (a, b) = (a.expect("loads").as_slice(), b.expect("loads").as_slice());
         assert!(a.iter().zip(b).all(|(a, b)| a * size == *b), "load vectors are those of the load, to the bit");
+    }
+}
+
+/// Of a load of 1e170 no square is a number: the load is named, and not the matrices.
+#[test]
+fn loads_beyond_double_precision() {
+    let case = block("range", TIP, WALL, r#"{ name = "pressure", file = "pressure.mtx" }"#);
+    let place = Place::with(&case.model);
+    place.write("job.toml", case.job("craig-bampton", 4).as_bytes());
+    for size in [1e170, 1e-170, 1e-300] {
+        let load: Vec<f64> = pressure(&case.model).iter().map(|value| value * size).collect();
+        place.write("pressure.mtx", crate::array(&[load]).as_bytes());
+        let ended = supel(&["reduce", &place.text("job.toml")]);
+        assert_eq!(ended.code, ExitCode::InputData, "{size:e}: {}", ended.err);
+        assert!(ended.err.contains("E-LOAD-RANGE") && ended.err.contains("load `pressure`"), "{}", ended.err);
     }
 }
 

@@ -1,6 +1,6 @@
 //! The table of faults fits the sources: every place is there exactly once, every test exists.
 //!
-//! `tests/mutations/run.sh` puts the faults in and demands that the tests fail. That takes a build for each; this keeps the
+//! `tests/mutations/run.sh` puts the faults in and demands that the tests fail. That takes a build of its own; this keeps the
 //! table from going stale in between.
 
 use std::path::Path;

@@ -142,31 +142,51 @@ fn rotations_held_next_to_nothing() {
     }
 }
 
+/// A block of one element after the other with oscillators in three directions on its inner nodes, each of one mass and of the stiffness
+/// that belongs to its number.
+fn with_oscillators(block: &Model, mass: f64, stiffness_of: impl Fn(usize) -> f64) -> Model {
+    let mut model = block.clone();
+    let (mut stiffness, mut inertia) = (Assembler::default(), Assembler::default());
+    stiffness.extend(block.stiffness.iter().copied());
+    inertia.extend(block.mass.iter().copied());
+    for (number, host) in [2, 3, 4, 7, 8, 9, 12, 13, 14, 17].into_iter().enumerate() {
+        let label = 500_000 + number as i64;
+        model.labels.push(label);
+        model.nodes.push(block.nodes[host - 1]);
+        for direction in 0..3 {
+            let (i, j) = (3 * (host as u32 - 1) + u32::from(direction), model.n as u32);
+            model.dofs.push((label, direction));
+            model.n += 1;
+            let k = stiffness_of(number);
+            [(i, i, k), (j, j, k), (i, j, -k), (j, i, -k)].into_iter().for_each(|(i, j, k)| stiffness.add(i, j, k));
+            inertia.add(j, j, mass);
+        }
+    }
+    Model { stiffness: stiffness.finish(), mass: inertia.finish(), ..model }
+}
+
+/// Oscillators of a thousandth of a hertz on a bar of a thousand: eigenvalues twelve powers of ten apart are compared to the last digits
+/// of each, whatever the largest of them is.
+#[test]
+fn frequencies_a_million_times_apart() {
+    let block = brick([4, 1, 1], [0.4, 0.06, 0.09], &Material::STEEL_SI);
+    let place = Place::with(&with_oscillators(&block, 0.01, |number| 1e-6 * (1.0 + 0.1 * number as f64)));
+    for method in ["craig-bampton", "herting"] {
+        let rest = format!("--fix wall=1,6,11,16 --rigid-interface b=5,10,15,20 --method {method} --modes 36");
+        let ended = place.reduce(&place.model_flags(), &rest);
+        assert_eq!(ended.code, ExitCode::Done, "{method}:\n{}{}", ended.out, ended.err);
+        passes(&place, method);
+    }
+}
+
 /// Oscillators of a millionth of the component, whose frequencies are one or nearly: the interface hardly sees which of them a mode moves.
 #[test]
 fn light_oscillators_of_near_frequencies() {
     let block = brick([4, 1, 1], [0.4, 0.06, 0.09], &Material::STEEL_SI);
     let omega = std::f64::consts::TAU * 4000.0;
     for (within, mass, count) in [(0.0, 1e-7, 35), (3e-7, 1e-7, 7), (2e-7, 1e-8, 15)] {
-        let mut model = block.clone();
-        let (mut stiffness, mut inertia) = (Assembler::default(), Assembler::default());
-        stiffness.extend(block.stiffness.iter().copied());
-        inertia.extend(block.mass.iter().copied());
-        let inner = [2, 3, 4, 7, 8, 9, 12, 13, 14, 17];
-        for (number, host) in inner.into_iter().enumerate() {
-            let label = 500_000 + number as i64;
-            model.labels.push(label);
-            model.nodes.push(block.nodes[host - 1]);
-            for direction in 0..3 {
-                let (i, j) = (3 * (host as u32 - 1) + u32::from(direction), model.n as u32);
-                model.dofs.push((label, direction));
-                model.n += 1;
-                let k = omega * omega * (1.0 + within * number as f64) * mass;
-                [(i, i, k), (j, j, k), (i, j, -k), (j, i, -k)].into_iter().for_each(|(i, j, k)| stiffness.add(i, j, k));
-                inertia.add(j, j, mass);
-            }
-        }
-        let place = Place::with(&Model { stiffness: stiffness.finish(), mass: inertia.finish(), ..model });
+        let stiffness = |number: usize| omega * omega * (1.0 + within * number as f64) * mass;
+        let place = Place::with(&with_oscillators(&block, mass, stiffness));
         let rest = format!("--rigid-interface a=1,6,11,16 --interface b=5,10,15,20 --method herting --modes {count}");
         place.reduce(&place.model_flags(), &rest).expect(ExitCode::Done);
         passes(&place, &format!("{within:e} apart, {mass:e} each"));
