@@ -2,7 +2,7 @@
 
 use supel::cli::ExitCode;
 use supel_models::model::{Assembler, Entry};
-use supel_models::{Inertia, Material, Model, Section, frame};
+use supel_models::{Inertia, Material, Model, Section, brick, frame};
 
 use crate::faults::{block, shuffled};
 use crate::place::{Ended, Place, supel};
@@ -33,9 +33,12 @@ fn direction_by_direction(model: &Model) -> Model {
 
 /// The block with its mass on the diagonal, as lumping by row sums makes it.
 fn lumped() -> Model {
-    let model = block();
+    lumped_of(&block())
+}
+
+fn lumped_of(model: &Model) -> Model {
     let sums = model.mass.iter().filter(|(row, col, _)| row % 3 == col % 3).map(|(row, _, value)| (*row, *row, *value));
-    with_mass(&model, sums.collect())
+    with_mass(model, sums.collect())
 }
 
 /// Reduces a model at the ends of the block; warnings fail.
@@ -98,10 +101,22 @@ fn nodes_of_a_consistent_mass_shifted_along_the_mesh() {
 #[test]
 fn a_lumped_mass_direction_by_direction() {
     assert_said(&lumped(), "verified");
-    let wrong = direction_by_direction(&lumped());
-    assert_said(&wrong, "M-16");
-    let (place, ended) = reduced(&wrong, "rigid-interface", "--method herting --allow-unverified");
+    // Every third node of the block has a third of its mass: its three directions still have one mass, and the file states properties of
+    // it. In the other block each direction gets another mass, and there are none to state.
+    let uneven = brick([4, 2, 2], [1.2, 0.55, 0.31], &Material::STEEL_SI);
+    for (model, is_a_mass) in [(lumped(), true), (lumped_of(&uneven), false)] {
+        let wrong = direction_by_direction(&model);
+        assert_said(&wrong, "M-16");
+        assert_failed_as_no_body(&wrong, is_a_mass);
+    }
+}
+
+/// Fails a reduction, and both verifications of the file, because the mass is not that of a body, and for nothing else.
+#[track_caller]
+fn assert_failed_as_no_body(wrong: &Model, has_mass_properties: bool) {
+    let (place, ended) = reduced(wrong, "rigid-interface", "--method herting --allow-unverified");
     assert_eq!(ended.code, ExitCode::CheckFailed, "{}", ended.out);
+    assert_eq!(place.superelement("x.supel").metadata().model.mass_properties.is_some(), has_mass_properties);
     let file = place.text("x.supel");
     place.write("job.json", supel(&["inspect", &file, "--job"]).out.as_bytes());
     for rest in [&[][..], &["--job", &place.text("job.json")]] {

@@ -236,6 +236,15 @@ fn what_the_file_says_of_itself() {
     });
 }
 
+/// What follows from content and method holds whatever version a file names.
+#[test]
+fn columns_are_those_of_the_method_in_any_version() {
+    fails(&reduced("herting"), "M-26 its parts belong together", &|_, metadata| {
+        metadata.generator.version = "99.0.0".to_owned();
+        metadata.method = supel_runtime::Method::CraigBampton;
+    });
+}
+
 /// Error bars cannot excuse what is wrong.
 #[test]
 fn error_bars_without_end_excuse_nothing() {
