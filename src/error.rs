@@ -1866,6 +1866,36 @@ pub enum Error {
         /// The mean of the patch.
         middle: [f64; 3],
     },
+    /// The nodes of a patch do not determine the cylinder or the sphere that its origin is taken from.
+    #[entry("E-ORIGIN-FIT", InputData, "check which nodes the patch has, or give the origin as [x, y, z]")]
+    #[error(
+        "interface {interface:?}: its origin is that of a {shape} fitted to its nodes – found {found} – expected nodes of one \
+        {shape}, none farther off than 0.05 of the radius – check which nodes the patch has, or give the origin as [x, y, z]"
+    )]
+    OriginNotFitted {
+        /// The interface.
+        interface: String,
+        /// What is fitted.
+        shape: &'static str,
+        /// What was found, in words.
+        found: String,
+    },
+    /// An area-weighted centroid is asked for where the faces of the patch are not known.
+    #[entry(
+        "E-ORIGIN-AREA",
+        InputData,
+        "give a mesh whose cells have faces in the patch, or give the origin as [x, y, z]"
+    )]
+    #[error(
+        "interface {interface:?}: its origin is the centroid of its faces – found: {found} – expected a mesh whose cells have \
+        faces with all their nodes in the patch – give such a mesh, or give the origin as [x, y, z]"
+    )]
+    OriginWithoutFaces {
+        /// The interface.
+        interface: String,
+        /// Why they are not known, in words.
+        found: String,
+    },
     /// Rigid patches tie all nodes, and nothing elastic is left.
     #[entry("E-WHOLLY-RIGID", ModelPhysics, "leave nodes out of the patch; a rigid part needs no superelement")]
     #[error(

@@ -26,14 +26,14 @@ impl Cells {
             .as_deref()
             .and_then(|path| formats::of_nodes(path).ok())
             .is_some_and(|format| format.has_cells());
-        if is_mesh && job.interfaces.iter().any(has_mean_origin) { Self::Wanted } else { Self::Unwanted }
+        if is_mesh && job.interfaces.iter().any(looks_at_faces) { Self::Wanted } else { Self::Unwanted }
     }
 }
 
-/// Whether the origin of an interface is the mean of several nodes.
-pub fn has_mean_origin(interface: &InterfaceJob) -> bool {
+/// Whether the faces between the nodes of an interface tell something of its origin: what it is, or how far it is from their centroid.
+pub fn looks_at_faces(interface: &InterfaceJob) -> bool {
     let is_one = matches!(&interface.nodes, NodeSelection::Labels(labels) if labels.len() < 2);
-    interface.coupling.is_patch() && interface.origin == Origin::Centroid && !is_one
+    interface.coupling.is_patch() && matches!(interface.origin, Origin::Centroid | Origin::Area) && !is_one
 }
 
 /// What the cells in the file of the nodes tell of the faces of each patch; patches without faces are left out.

@@ -1,6 +1,6 @@
 //! Interfaces of a job: which nodes, how they couple, where the interface node sits.
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::node_selection::NodeSelection;
@@ -57,31 +57,56 @@ impl Coupling {
 
 /// Where the interface node of a rigid patch sits.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged, expecting = "expected \"centroid\" or [x, y, z]")]
+#[serde(untagged, expecting = "expected \"centroid\", \"area\", \"hole\", \"sphere\" or [x, y, z]")]
 pub enum Origin {
-    /// `"centroid"`: the mean of the patch's nodes.
+    /// `"centroid"`: the mean of the patch's nodes, each counted once.
     #[default]
     #[serde(with = "centroid")]
-    #[schemars(schema_with = "centroid")]
+    #[schemars(schema_with = "centroid::schema")]
     Centroid,
+    /// `"area"`: the area-weighted centroid of the patch's faces.
+    #[serde(with = "area")]
+    #[schemars(schema_with = "area::schema")]
+    Area,
+    /// `"hole"`: on the axis of a cylinder fitted to the patch's nodes, in the middle of their extent along it.
+    #[serde(with = "hole")]
+    #[schemars(schema_with = "hole::schema")]
+    Hole,
+    /// `"sphere"`: the centre of a sphere fitted to the patch's nodes.
+    #[serde(with = "sphere")]
+    #[schemars(schema_with = "sphere::schema")]
+    Sphere,
     /// `[x, y, z]`.
     Point([f64; 3]),
 }
 
-mod centroid {
-    //! The word `"centroid"` as a unit variant of an untagged enum.
+/// A word as a unit variant of an untagged enum.
+macro_rules! word {
+    ($module:ident, $word:literal) => {
+        mod $module {
+            use schemars::{Schema, SchemaGenerator, json_schema};
+            use serde::{Deserialize, Deserializer, Serializer, de::Error};
 
-    use serde::{Deserialize, Deserializer, Serializer, de::Error};
+            pub(super) fn serialize<S: Serializer>(serializer: S) -> Result<S::Ok, S::Error> {
+                serializer.serialize_str($word)
+            }
 
-    pub(super) fn serialize<S: Serializer>(serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str("centroid")
-    }
+            pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
+                let word = String::deserialize(deserializer)?;
+                if word == $word { Ok(()) } else { Err(D::Error::custom(concat!("expected \"", $word, "\""))) }
+            }
 
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
-        let word = String::deserialize(deserializer)?;
-        if word == "centroid" { Ok(()) } else { Err(D::Error::custom("expected \"centroid\" or [x, y, z]")) }
-    }
+            pub(super) fn schema(_: &mut SchemaGenerator) -> Schema {
+                json_schema!({ "const": $word })
+            }
+        }
+    };
 }
+
+word!(centroid, "centroid");
+word!(area, "area");
+word!(hole, "hole");
+word!(sphere, "sphere");
 
 impl InterfaceJob {
     /// What it selects, with the name for messages.
@@ -92,9 +117,4 @@ impl InterfaceJob {
             directions: self.dofs.as_deref(),
         }
     }
-}
-
-/// The word for the mean of a patch's nodes.
-fn centroid(_: &mut SchemaGenerator) -> Schema {
-    json_schema!({ "const": "centroid" })
 }

@@ -107,11 +107,11 @@ fn coupling(interface: &InterfaceJob, place: &str) -> Result<()> {
         _ if is_rows && interface.dofs.is_some() => {
             conflict("dofs", "rows, each of which is one degree of freedom", "")
         }
-        Origin::Point(_) if !is_patch => {
+        Origin::Point(_) | Origin::Area | Origin::Hole | Origin::Sphere if !is_patch => {
             conflict("origin", "a direct coupling, whose nodes stay where they are", ", or set coupling = \"rigid\"")
         }
         Origin::Point(point) => ranges::point(&format!("{place}.origin"), point),
-        Origin::Centroid => Ok(()),
+        Origin::Centroid | Origin::Area | Origin::Hole | Origin::Sphere => Ok(()),
     }
 }
 

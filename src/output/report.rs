@@ -154,7 +154,7 @@ fn interfaces(results: &Results<'_>) -> Vec<InterfaceReport> {
         let faces = |position| faces((node, position), origin, &results.input.faces);
         let at = node.position.map(|position| {
             let (faces, faces_unknown) = faces(position);
-            InterfacePosition { node: node.label, position, origin, faces, faces_unknown }
+            InterfacePosition { node: node.label, position, origin, faces, faces_unknown, fit: node.fit }
         });
         match rows.last_mut().filter(|row| row.name == node.name) {
             Some(row) => {
@@ -197,6 +197,9 @@ fn origin(node: &InterfaceNode, jobs: &[InterfaceJob]) -> PositionOrigin {
     match job.map(|job| &job.origin) {
         _ if !node.coupling.is_patch() => PositionOrigin::Node,
         Some(Origin::Point(_)) => PositionOrigin::Job,
+        Some(Origin::Area) => PositionOrigin::CentroidOfFaces,
+        Some(Origin::Hole) => PositionOrigin::Hole,
+        Some(Origin::Sphere) => PositionOrigin::Sphere,
         Some(Origin::Centroid) | None => PositionOrigin::MeanOfNodes,
     }
 }

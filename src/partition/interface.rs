@@ -7,7 +7,7 @@ use super::node_catalogue::NodeCatalogue;
 use super::{direct_nodes, rigid_patch};
 use crate::dofs::{Direction, Dof};
 use crate::error::{Error, Result, Selector};
-use crate::input::{Patch, Patches, has_mean_origin};
+use crate::input::{Patch, Patches, looks_at_faces};
 use crate::job::{Coupling, InterfaceJob, NodeSelection, RecoveryJob};
 use crate::model::Model;
 
@@ -61,7 +61,7 @@ pub fn nodes_of_patches(model: &Model, interfaces: &[InterfaceJob]) -> HashSet<i
     tied.filter_map(|job| catalogue.select(model, &job.selection()).ok()).flatten().collect()
 }
 
-/// The patches of several nodes whose origin is the mean of these. A selection that finds none is refused where it is resolved.
+/// The patches of several nodes whose faces tell something of their origin. A selection that finds none is refused where it is resolved.
 pub fn patches(model: &Model, interfaces: &[InterfaceJob]) -> Patches {
     let Some(nodes) = &model.nodes else { return Patches::default() };
     let catalogue = NodeCatalogue::new(model);
@@ -72,7 +72,7 @@ pub fn patches(model: &Model, interfaces: &[InterfaceJob]) -> Patches {
         let positions = nodes_of.iter().map(|node| nodes.coordinates[*node]).collect();
         Some(Patch { interface: job.name.clone(), nodes: nodes_of, positions })
     };
-    let list = interfaces.iter().filter(|job| has_mean_origin(job)).filter_map(patch).collect();
+    let list = interfaces.iter().filter(|job| looks_at_faces(job)).filter_map(patch).collect();
     Patches { list, n_nodes: nodes.labels.len() }
 }
 
@@ -104,6 +104,7 @@ fn from_rows(model: &Model, catalogue: &NodeCatalogue, job: &InterfaceJob, rows:
         name: job.name.clone(),
         label: None,
         position: None,
+        fit: None,
         directions: Vec::new(),
         coupling: Coupling::Direct,
         n_nodes: rows.len(),

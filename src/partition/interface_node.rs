@@ -1,5 +1,6 @@
 //! The nodes of the superelement's interface and the rows of the model that they stand for.
 
+use super::fitted::Fit;
 use crate::dofs::Direction;
 use crate::job::Coupling;
 
@@ -12,6 +13,8 @@ pub struct InterfaceNode {
     pub label: Option<i64>,
     /// Position, where coordinates are known.
     pub position: Option<[f64; 3]>,
+    /// What its position was fitted from, where it was.
+    pub fit: Option<Fit>,
     /// Its directions, in the order of the interface dofs; empty where the model has no dof map.
     pub directions: Vec<Direction>,
     /// How it couples to the model.

@@ -11,6 +11,8 @@
 
 mod congruence;
 mod direct_nodes;
+mod faces;
+mod fitted;
 mod gravity;
 mod held;
 mod interface;
@@ -25,6 +27,7 @@ mod ordering;
 mod origin;
 #[expect(clippy::module_inception, reason = "the partition is what the folder makes")]
 mod partition;
+mod placement;
 mod problem;
 mod region;
 mod rigid_patch;
@@ -33,6 +36,8 @@ mod sites;
 mod transformation;
 mod transformation_row;
 
+pub use faces::with_faces;
+pub use fitted::Fit;
 pub use gravity::Gravity;
 pub use held::{Held, HeldSelection, held};
 pub use interface::{nodes_of_patches, patches, recovered_rows};

@@ -2,40 +2,36 @@
 
 use super::interface_node::{InterfaceNode, Resolved, Rows};
 use super::node_catalogue::NodeCatalogue;
+use super::placement;
 use super::sites::Sites;
 use super::transformation_row::TransformationRow;
 use crate::dense::rank_of_rows;
 use crate::dofs::Direction;
 use crate::error::{Error, Result};
-use crate::job::{Coupling, InterfaceJob, Origin};
+use crate::job::{Coupling, InterfaceJob};
 
 /// Smallest singular value of a patch's levers, relative to the largest and with rotations scaled to the patch's size,
 /// below which the patch cannot move in six independent ways: far above rounding, far below any real patch.
 const PATCH_RANK_TOLERANCE: f64 = 1e-8;
 
-/// The node of a patch, at the place that the job gives or at the mean of the patch.
+/// The node of a patch, at the place that the job asks for.
 pub(super) fn node(catalogue: &NodeCatalogue, job: &InterfaceJob, labels: &[i64]) -> Result<Resolved> {
     let selector = job.selection().selector;
     let mut rows = Vec::new();
-    let mut centroid = [0.0; 3];
+    let mut points = Vec::new();
     for label in labels {
         rows.extend(catalogue.rows_of(&selector, *label)?.values());
-        let point =
-            catalogue.position(*label).ok_or_else(|| Error::RigidNeedsCoordinates { interface: job.name.clone() })?;
-        for axis in 0..3 {
-            centroid[axis] += point[axis] / labels.len() as f64;
-        }
+        let point = catalogue.position(*label);
+        points.push(point.ok_or_else(|| Error::RigidNeedsCoordinates { interface: job.name.clone() })?);
     }
-    let position = match job.origin {
-        Origin::Centroid => centroid,
-        Origin::Point(point) => point,
-    };
+    let (position, fit) = placement::place(job, &points)?;
     let mut directions = job.dofs.clone().unwrap_or_else(|| Direction::ALL.to_vec());
     directions.sort_unstable();
     let node = InterfaceNode {
         name: job.name.clone(),
         label: None,
         position: Some(position),
+        fit,
         directions,
         coupling: Coupling::Rigid,
         n_nodes: labels.len(),

@@ -417,3 +417,70 @@ fn damaged_cells_are_refused() {
     assert_says(&ended, ExitCode::InputData, &["E-HDF5-INDEX", "entry 5 is 1000000"]);
     assert!(!place.path("bracket.supel").exists());
 }
+
+/// A block of bricks that are finer towards y = 0, with its mesh as XDMF; its faces at x = 0 have their centroid at (0, 0.5, 0.25).
+#[cfg(feature = "hdf5")]
+fn graded_block() -> Place {
+    use supel_models::{HexMesh, Material};
+    let mesh = HexMesh::structured([3, 4, 2], |[x, y, z]| [2.0 * x, y * y, 0.5 * z], |_| true);
+    let place = Place::with(&mesh.assemble(&Material::STEEL_SI));
+    let item = |values: &mut dyn Iterator<Item = String>| {
+        let values: Vec<String> = values.collect();
+        format!("<DataItem Dimensions=\"{}\" Format=\"XML\">{}</DataItem>", values.len(), values.join(" "))
+    };
+    let cells = item(&mut mesh.elements.iter().flatten().map(u32::to_string));
+    let points = item(&mut mesh.nodes.iter().flatten().map(f64::to_string));
+    let text = format!(
+        "<Xdmf><Domain><Grid><Topology TopologyType=\"Hexahedron\">{cells}</Topology>\
+         <Geometry GeometryType=\"XYZ\">{points}</Geometry></Grid></Domain></Xdmf>"
+    );
+    place.write("mesh.xdmf", text.as_bytes());
+    place
+}
+
+/// The job of a graded block whose patch at x = 0 has more keys.
+#[cfg(feature = "hdf5")]
+fn patch_of_block(place: &Place, keys: &str) -> Ended {
+    let text = format!(
+        r#"
+model     = {{ stiffness = "K.mtx", mass = "M.mtx", dofs = "dofs.txt", nodes = "mesh.xdmf" }}
+reduction = {{ method = "herting", modes = {{ count = 5 }} }}
+write     = {{ superelement = "x.supel" }}
+
+[[interface]]
+name  = "foot"
+nodes = {{ within = {{ plane = {{ point = [0, 0, 0], normal = [1, 0, 0], tolerance = 1e-9 }} }} }}
+{keys}
+"#
+    );
+    place.write("job.toml", text.as_bytes());
+    supel(&["reduce", &place.text("job.toml")])
+}
+
+#[cfg(feature = "hdf5")]
+#[test]
+fn origin_at_the_centroid_of_faces() {
+    let place = graded_block();
+    let at = |origin: &str| {
+        let ended =
+            patch_of_block(&place, &format!("coupling = \"rigid\"\norigin = \"{origin}\"")).expect(ExitCode::Done);
+        let at = place.report("x.report.json")["body"]["reduction"]["interfaces"][0]["at"][0].clone();
+        let of = |value: &serde_json::Value| [0, 1, 2].map(|axis| value[axis].as_f64().expect("a number"));
+        (of(&at["position"]), at["origin"].clone(), ended.out)
+    };
+    let (mean, origin, _) = at("centroid");
+    assert_eq!(origin, "mean-of-nodes");
+    // The mean of 0, 1/16, 1/4, 9/16 and 1.
+    assert!((mean[1] - 0.375).abs() < 4.0 * f64::EPSILON, "{mean:?}");
+    let (area, origin, said) = at("area");
+    assert_eq!(origin, "centroid-of-faces");
+    for (found, expected) in area.iter().zip([0.0, 0.5, 0.25]) {
+        assert!((found - expected).abs() < 16.0 * f64::EPSILON, "{area:?}");
+    }
+    assert!(said.contains("at (0, 0.5, 0.25), the centroid of its faces"), "{said}");
+    assert_says(
+        &patch_of_block(&place, "coupling = \"rigid\"\norigin = \"hole\""),
+        ExitCode::InputData,
+        &["error[E-ORIGIN-FIT]"],
+    );
+}

@@ -115,7 +115,7 @@ fn transformation(model: &models::Model, interfaces: &[InterfaceJob], partition:
                 let members = members(model, &job.nodes);
                 let centre: [f64; 3] = match job.origin {
                     Origin::Point(point) => point,
-                    Origin::Centroid => std::array::from_fn(|axis| {
+                    _ => std::array::from_fn(|axis| {
                         members.iter().map(|label| position(*label)[axis]).sum::<f64>() / members.len() as f64
                     }),
                 };
