@@ -40,6 +40,8 @@ pub enum Faces {
         count: usize,
         /// Their area-weighted centroid.
         centroid: [f64; 3],
+        /// The share of each node of the patch in their area: that of a diagonal mass matrix with the diagonal of the consistent one.
+        areas: Vec<f64>,
     },
     /// The mesh has cells, but its faces are not known.
     Unknown {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::patch::{PatchFaces, Patches};
 use super::{Allowance, formats};
 use crate::error::Result;
-use crate::job::{InterfaceJob, Job, ModelJob, NodeSelection, Origin};
+use crate::job::{InterfaceJob, Job, ModelJob, NodeSelection, Origin, Weights};
 use crate::regular_file::unchanged;
 
 /// Whether the cells of a mesh are read.
@@ -30,10 +30,12 @@ impl Cells {
     }
 }
 
-/// Whether the faces between the nodes of an interface tell something of its origin: what it is, or how far it is from their centroid.
+/// Whether the faces between the nodes of an interface tell something of it: its weights, its origin, or how far that is from their
+/// centroid.
 pub fn looks_at_faces(interface: &InterfaceJob) -> bool {
     let is_one = matches!(&interface.nodes, NodeSelection::Labels(labels) if labels.len() < 2);
-    interface.coupling.is_patch() && matches!(interface.origin, Origin::Centroid | Origin::Area) && !is_one
+    let tell = matches!(interface.origin, Origin::Centroid | Origin::Area) || interface.weights == Some(Weights::Area);
+    interface.coupling.is_patch() && tell && !is_one
 }
 
 /// What the cells in the file of the nodes tell of the faces of each patch; patches without faces are left out.

@@ -20,9 +20,12 @@ pub struct InterfaceJob {
     /// How they couple to the interface.
     #[serde(default)]
     pub coupling: Coupling,
-    /// Position of the interface node of a `rigid` coupling.
+    /// Position of the interface node of a `rigid` or `average` coupling.
     #[serde(default)]
     pub origin: Origin,
+    /// Weights of the nodes in the mean of an `average` coupling; uniform if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weights: Option<Weights>,
     /// Directions that belong to the interface; for `direct`, those of the six that the nodes have.
     #[schemars(length(min = 1), extend("uniqueItems" = true))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -38,6 +41,8 @@ pub enum Coupling {
     Direct,
     /// One node of six degrees of freedom that moves the patch as a rigid body.
     Rigid,
+    /// One node of six degrees of freedom that follows the weighted mean motion of the patch, which stays free to deform.
+    Average,
 }
 
 impl Coupling {
@@ -46,16 +51,17 @@ impl Coupling {
         match self {
             Self::Direct => "direct",
             Self::Rigid => "rigid",
+            Self::Average => "average",
         }
     }
 
-    /// Whether the nodes of the interface are tied to one node of their own.
+    /// Whether the nodes of the interface have one node of their own.
     pub fn is_patch(self) -> bool {
-        self == Self::Rigid
+        self != Self::Direct
     }
 }
 
-/// Where the interface node of a rigid patch sits.
+/// Where the interface node of a patch sits.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "expected \"centroid\", \"area\", \"hole\", \"sphere\" or [x, y, z]")]
 pub enum Origin {
@@ -78,6 +84,22 @@ pub enum Origin {
     Sphere,
     /// `[x, y, z]`.
     Point([f64; 3]),
+}
+
+/// The weights of the nodes of a patch in its mean motion.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "expected \"uniform\", \"area\" or a list of numbers")]
+pub enum Weights {
+    /// `"uniform"`: one for each node.
+    #[serde(with = "uniform")]
+    #[schemars(schema_with = "uniform::schema")]
+    Uniform,
+    /// `"area"`: the share of each node in the area of the patch's faces.
+    #[serde(with = "area")]
+    #[schemars(schema_with = "area::schema")]
+    Area,
+    /// One positive number for each node, in the order of the list of nodes.
+    Given(#[schemars(length(min = 1), extend("items" = { "type": "number", "exclusiveMinimum": 0 }))] Vec<f64>),
 }
 
 /// A word as a unit variant of an untagged enum.
@@ -107,6 +129,7 @@ word!(centroid, "centroid");
 word!(area, "area");
 word!(hole, "hole");
 word!(sphere, "sphere");
+word!(uniform, "uniform");
 
 impl InterfaceJob {
     /// What it selects, with the name for messages.

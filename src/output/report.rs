@@ -184,7 +184,7 @@ fn faces(
     match found.map(|found| &found.faces) {
         None => (None, None),
         Some(Faces::Unknown { reason }) => (None, Some(reason.clone())),
-        Some(Faces::Known { count, centroid }) => {
+        Some(Faces::Known { count, centroid, .. }) => {
             let offset = (0..3).map(|axis| (centroid[axis] - position[axis]).powi(2)).sum::<f64>();
             (Some(FacesReport { count: *count, centroid: *centroid, distance: offset.sqrt() }), None)
         }

@@ -2,27 +2,31 @@
 
 use crate::error::{Error, Result};
 use crate::input::{Faces, PatchFaces};
-use crate::job::{InterfaceJob, Origin};
+use crate::job::{InterfaceJob, Origin, Weights};
 
-/// The interfaces with the area-weighted centroids of their faces as points, where they ask for these.
+/// The interfaces with numbers for what they ask of the faces: the area-weighted centroid as a point, the areas of the nodes as weights.
 ///
 /// # Errors
-/// [`Error::OriginWithoutFaces`].
+/// [`Error::PatchWithoutFaces`].
 pub fn with_faces(interfaces: &[InterfaceJob], faces: &[PatchFaces]) -> Result<Vec<InterfaceJob>> {
-    let placed = |job: &InterfaceJob| {
-        let unknown =
-            |found: &str| Err(Error::OriginWithoutFaces { interface: job.name.clone(), found: found.to_owned() });
-        let own = faces.iter().find(|faces| faces.interface == job.name).map(|faces| &faces.faces);
-        match (&job.origin, own) {
-            (Origin::Area, Some(Faces::Known { centroid, .. })) => {
-                Ok(InterfaceJob { origin: Origin::Point(*centroid), ..job.clone() })
-            }
-            (Origin::Area, Some(Faces::Unknown { reason })) => unknown(reason),
-            (Origin::Area, None) => {
-                unknown("no face of the mesh has all its nodes in the patch, or the mesh has no cells")
-            }
-            _ => Ok(job.clone()),
-        }
+    interfaces.iter().map(|job| with_own(job, faces)).collect()
+}
+
+fn with_own(job: &InterfaceJob, faces: &[PatchFaces]) -> Result<InterfaceJob> {
+    let known = |key: &'static str| {
+        let found = match faces.iter().find(|faces| faces.interface == job.name).map(|faces| &faces.faces) {
+            Some(Faces::Known { centroid, areas, .. }) => return Ok((*centroid, areas.clone())),
+            Some(Faces::Unknown { reason }) => reason.clone(),
+            None => "no face of the mesh has all its nodes in the patch, or the mesh has no cells".to_owned(),
+        };
+        Err(Error::PatchWithoutFaces { interface: job.name.clone(), key, found })
     };
-    interfaces.iter().map(placed).collect()
+    let mut job = job.clone();
+    if job.origin == Origin::Area {
+        job.origin = Origin::Point(known("origin")?.0);
+    }
+    if job.weights == Some(Weights::Area) {
+        job.weights = Some(Weights::Given(known("weights")?.1));
+    }
+    Ok(job)
 }

@@ -37,6 +37,26 @@ pub(super) enum Rows {
     Own(Vec<usize>),
     /// All rows of a patch that moves with the node as a rigid body.
     Patch(Vec<usize>),
+    /// The rows of a patch whose mean motion is that of the node.
+    Average {
+        /// Translations, node by node.
+        rows: Vec<usize>,
+        /// The weight of each, positive.
+        weights: Vec<f64>,
+    },
+}
+
+impl Rows {
+    /// All of them.
+    pub(super) fn all(&self) -> &[usize] {
+        let (Self::Own(rows) | Self::Patch(rows) | Self::Average { rows, .. }) = self;
+        rows
+    }
+
+    /// Those of a patch; none of the node's own.
+    pub(super) fn of_patch(&self) -> Option<&[usize]> {
+        if matches!(self, Self::Own(_)) { None } else { Some(self.all()) }
+    }
 }
 
 /// All interfaces of a job, resolved.

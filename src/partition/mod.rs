@@ -9,8 +9,10 @@
 //!
 //! The internal dofs are put into a fill-reducing order once, here, so that no later stage permutes a vector.
 
+mod average_patch;
 mod congruence;
 mod direct_nodes;
+mod distortions;
 mod faces;
 mod fitted;
 mod gravity;

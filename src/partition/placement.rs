@@ -7,7 +7,7 @@ use crate::job::{InterfaceJob, Origin};
 /// The origin of a patch whose nodes are at `points`, and what it was fitted from, where it was.
 ///
 /// # Errors
-/// [`Error::OriginNotFitted`]; [`Error::OriginWithoutFaces`] where nobody looked for the faces of the patch.
+/// [`Error::OriginNotFitted`]; [`Error::PatchWithoutFaces`] where nobody looked for the faces of the patch.
 pub(super) fn place(job: &InterfaceJob, points: &[[f64; 3]]) -> Result<([f64; 3], Option<Fit>)> {
     let fitted = |(place, fit)| (place, Some(fit));
     let refused =
@@ -17,8 +17,9 @@ pub(super) fn place(job: &InterfaceJob, points: &[[f64; 3]]) -> Result<([f64; 3]
         Origin::Point(point) => Ok((point, None)),
         Origin::Hole => fitted::hole(points).map(fitted).map_err(refused("cylinder")),
         Origin::Sphere => fitted::sphere(points).map(fitted).map_err(refused("sphere")),
-        Origin::Area => Err(Error::OriginWithoutFaces {
+        Origin::Area => Err(Error::PatchWithoutFaces {
             interface: job.name.clone(),
+            key: "origin",
             found: "the file of the nodes has no cells".to_owned(),
         }),
     }

@@ -441,10 +441,15 @@ fn graded_block() -> Place {
 /// The job of a graded block whose patch at x = 0 has more keys.
 #[cfg(feature = "hdf5")]
 fn patch_of_block(place: &Place, keys: &str) -> Ended {
+    reduced_block(place, "method = \"herting\", modes = { count = 5 }", keys)
+}
+
+#[cfg(feature = "hdf5")]
+fn reduced_block(place: &Place, reduction: &str, keys: &str) -> Ended {
     let text = format!(
         r#"
 model     = {{ stiffness = "K.mtx", mass = "M.mtx", dofs = "dofs.txt", nodes = "mesh.xdmf" }}
-reduction = {{ method = "herting", modes = {{ count = 5 }} }}
+reduction = {{ {reduction} }}
 write     = {{ superelement = "x.supel" }}
 
 [[interface]]
@@ -483,4 +488,34 @@ fn origin_at_the_centroid_of_faces() {
         ExitCode::InputData,
         &["error[E-ORIGIN-FIT]"],
     );
+}
+
+/// A superelement of a mean motion passes every check, against its model as well, and modes are counted and enclosed; the report names
+/// the coupling.
+#[cfg(feature = "hdf5")]
+#[test]
+fn an_average_is_verified() {
+    let place = graded_block();
+    let keys = "coupling = \"average\"\nweights = \"area\"\norigin = \"area\"\n[run]\ncertify = \"full\"";
+    for method in ["herting", "craig-bampton", "rubin", "guyan"] {
+        let modes = if method == "guyan" { "" } else { ", modes = { count = 5 }" };
+        let tip = "[[interface]]\nname = \"tip\"\ncoupling = \"rigid\"\nnodes = { within = { plane = { point = [2, 0, 0], \
+            normal = [1, 0, 0], tolerance = 1e-9 } } }\n";
+        let keys = keys.replace("[run]", &format!("{tip}[run]"));
+        let ended = reduced_block(&place, &format!("method = \"{method}\"{modes}"), &keys).expect(ExitCode::Done);
+        let report = place.report("x.report.json");
+        assert_eq!(report["body"]["reduction"]["interfaces"][0]["coupling"], "average");
+        assert_eq!(report["body"]["verdict"], "pass", "{method}: {}", ended.out);
+        supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]).expect(ExitCode::Done);
+    }
+    let both = "coupling = \"average\"\n[[interface]]\nname = \"other\"\ncoupling = \"average\"\nnodes = { within = { box = { \
+        min = [0, 0, 0], max = [0.1, 0.1, 1] } } }";
+    let ended = patch_of_block(&place, both);
+    assert_says(&ended, ExitCode::InputData, &["node 1 ux", "\"foot\"", "\"other\"", "take it out of one"]);
+    let far = "coupling = \"average\"\nweights = \"area\"";
+    let model = "nodes = \"mesh.xdmf\"";
+    let text = String::from_utf8(place.bytes("job.toml")).expect("UTF-8");
+    place.write("job.toml", text.replace(model, "nodes = \"nodes.csv\"").replace(both, far).as_bytes());
+    let ended = supel(&["reduce", &place.text("job.toml")]);
+    assert_says(&ended, ExitCode::InputData, &["error[E-PATCH-FACES]", "`weights = \"area\"`"]);
 }

@@ -386,6 +386,21 @@ fn keys_that_contradict_the_coupling_are_refused() {
             "{word}"
         );
     }
+    assert_eq!(
+        message(&with("/interface/0/weights", "uniform".into())),
+        "interface \"hub\": `weights` has no meaning for a coupling that takes no mean – remove it, or set coupling = \
+         \"average\""
+    );
+    let weighted = |nodes: Value, weights: Value| {
+        let mean = json!({ "name": "mean", "nodes": nodes, "coupling": "average", "weights": weights });
+        read(&with("/interface/0", mean))
+    };
+    assert!(weighted(json!([5, 7, 6]), json!([1, 2.5, 1])).is_ok());
+    let conflict = weighted("group:A".into(), json!([1, 2.5, 1]));
+    assert!(matches!(conflict, Err(Error::InterfaceConflict { .. })), "{conflict:?}");
+    let count = weighted(json!([5, 7, 6]), json!([1, 2.5]));
+    assert!(matches!(count, Err(Error::WeightCount { n_weights: 2, n_nodes: 3, .. })), "{count:?}");
+    assert!(matches!(weighted(json!([5, 7, 6]), json!([1, 0, 1])), Err(Error::JobNumber { .. })));
     let rows = |key: &str, value: Value| {
         let mut document = with("/interface/0/nodes", json!({ "rows": [0, 1] }));
         document["interface"][0][key] = value;

@@ -179,8 +179,11 @@ fn origin_of_a_hole_and_of_a_sphere() {
 fn origin_of_faces_that_nobody_knows() {
     let job = InterfaceJob { origin: Origin::Area, ..rigid_group("XMAX") };
     let error = refused(&beam(), &[job]);
-    assert!(matches!(&error, Error::OriginWithoutFaces { interface, .. } if interface == "XMAX"), "{error}");
-    assert_says(&error, ErrorClass::InputData, &["XMAX", "has no cells", "give the origin as [x, y, z]"]);
+    assert!(
+        matches!(&error, Error::PatchWithoutFaces { interface, key: "origin", .. } if interface == "XMAX"),
+        "{error}"
+    );
+    assert_says(&error, ErrorClass::InputData, &["XMAX", "has no cells", "give such a mesh, or another `origin`"]);
 }
 
 /// A patch off its origin still follows; one on a line does not.
