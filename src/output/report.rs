@@ -1,7 +1,7 @@
 //! The body of the report from the results of the stages.
 
 use super::results::Results;
-use super::{rigid_body, warnings};
+use super::{rigid_body, soft_rotation, warnings};
 use crate::basis::DynamicCoordinate;
 use crate::eigen::CLUSTER_GAP;
 use crate::error::Warning;
@@ -269,6 +269,7 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
         });
     }
     warnings.extend(warnings::of_motions(results));
+    warnings.extend(soft_rotation::soft_rotation(results));
     warnings.extend(warnings::penalties(results));
     warnings.extend(warnings::data_precision(results));
     warnings.extend(warnings::mixed_precision(results));
