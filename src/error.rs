@@ -1736,10 +1736,10 @@ pub enum Error {
         /// Who selects.
         selector: Selector,
     },
-    /// A rigid interface has nodes without coordinates.
+    /// A patch has nodes without coordinates.
     #[entry("E-NO-COORDINATES", InputData, "give a table or mesh with every node of the patch")]
     #[error(
-        "interface {interface:?} is rigid – its nodes have no coordinates – expected a node table or mesh with every \
+        "interface {interface:?} is a patch – its nodes have no coordinates – expected a node table or mesh with every \
         node of the patch"
     )]
     RigidNeedsCoordinates {
@@ -1882,6 +1882,48 @@ pub enum Error {
         /// The mean of the patch.
         middle: [f64; 3],
     },
+    /// The nodes of a patch do not determine the cylinder or the sphere that its origin is taken from.
+    #[entry("E-ORIGIN-FIT", InputData, "check which nodes the patch has, or give the origin as [x, y, z]")]
+    #[error(
+        "interface {interface:?}: its origin is that of a {shape} fitted to its nodes – found {found} – expected nodes of one \
+        {shape}, none farther off than 0.05 of the radius – check which nodes the patch has, or give the origin as [x, y, z]"
+    )]
+    OriginNotFitted {
+        /// The interface.
+        interface: String,
+        /// What is fitted.
+        shape: &'static str,
+        /// What was found, in words.
+        found: String,
+    },
+    /// The faces of a patch decide its origin or its weights, and they are not known.
+    #[entry("E-PATCH-FACES", InputData, "give a mesh whose cells have faces in the patch, or do without \"area\"")]
+    #[error(
+        "interface {interface:?}: `{key} = \"area\"` asks for the faces of the patch – found: {found} – expected a mesh whose cells \
+        have faces with all their nodes in the patch – give such a mesh, or another `{key}`"
+    )]
+    PatchWithoutFaces {
+        /// The interface.
+        interface: String,
+        /// The key that asks for them.
+        key: &'static str,
+        /// Why they are not known, in words.
+        found: String,
+    },
+    /// There are more or fewer weights than nodes.
+    #[entry("E-WEIGHTS", Usage, "give one weight for each node, in the order of the nodes")]
+    #[error(
+        "interface {interface:?}: `weights` has {} for {} – expected one for each, in the order of the nodes",
+        counted(*n_weights, "number", "numbers"), counted(*n_nodes, "node", "nodes")
+    )]
+    WeightCount {
+        /// The interface.
+        interface: String,
+        /// Weights there are.
+        n_weights: usize,
+        /// Nodes there are.
+        n_nodes: usize,
+    },
     /// Rigid patches tie all nodes, and nothing elastic is left.
     #[entry("E-WHOLLY-RIGID", ModelPhysics, "leave nodes out of the patch; a rigid part needs no superelement")]
     #[error(
@@ -1898,10 +1940,10 @@ pub enum Error {
         /// Rigid-body motions.
         n_rigid: usize,
     },
-    /// A rigid patch cannot follow all motions of its node.
+    /// A patch cannot follow all motions of its node.
     #[entry("E-PATCH-RANK", InputData, "add nodes off the line, or list fewer dofs")]
     #[error(
-        "interface {interface:?}: its {} can follow only {rank} of {} of a rigid node – expected three \
+        "interface {interface:?}: its {} can follow only {rank} of {} of its node – expected three \
         nodes that are not in line – add nodes to the patch or list fewer dofs",
         counted(*n_rows, "row", "rows"), counted(*expected, "motion", "motions")
     )]

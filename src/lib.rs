@@ -249,14 +249,15 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;
     let loads = partition::loads(&model, &job.loads, &columns)?;
     let patches = partition::patches(&model, &job.interfaces);
+    facts.faces = input::patch_faces(&job.model, &patches, &allowance)?;
+    let interfaces = partition::with_faces(&job.interfaces, &facts.faces)?;
     let is_weighed = job.model.expect.is_some() || !job.fixed.is_empty();
     let weight = if is_weighed { model.weight() } else { None };
     let held = partition::held(&model, &job.fixed)?;
-    let mut partition = Partition::with_held(model, &job.interfaces, held)?;
+    let mut partition = Partition::with_held(model, &interfaces, held)?;
     partition.recovered = recovered;
     partition.loads = Loads::carried(loads, &partition.transformation)?;
     partition.model.weight = weight;
-    facts.faces = input::patch_faces(&job.model, &patches, &allowance)?;
     Ok((facts, partition))
 }
 

@@ -39,7 +39,7 @@ pub use load_file::{LoadColumn, WantedColumn, load_column};
 pub use model_files::{Input, files, hdf5_file, load_columns, read, read_hdf5_parts, read_within, start_hdf5};
 pub use note::InputNote;
 pub use patch::{Faces, Patch, PatchFaces, Patches};
-pub use patch_faces::{Cells, has_mean_origin, patch_faces};
+pub use patch_faces::{Cells, looks_at_faces, patch_faces};
 
 use std::path::PathBuf;
 

@@ -1,8 +1,8 @@
-//! Rigid patches whose origin is the mean of their nodes, and the centroid of the faces between these nodes.
+//! Patches whose origin is the mean of their nodes or of their faces, and the centroid of these faces.
 //!
-//! The mean counts every node once, however large the faces around it are: on a graded mesh the two are at different places.
+//! The mean of the nodes counts every node once, however large the faces around it are: on a graded mesh the two are at different places.
 
-/// The nodes of a rigid patch without an origin of its own.
+/// The nodes of a patch whose faces are looked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patch {
     /// Name of its interface.
@@ -16,7 +16,7 @@ pub struct Patch {
 /// The patches of a job whose faces are looked for.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Patches {
-    /// Each with two or more nodes; no node belongs to two.
+    /// Each with two or more nodes; a node that belongs to two is refused later, and counts for the last of them.
     pub list: Vec<Patch>,
     /// Nodes of the file.
     pub n_nodes: usize,
@@ -40,6 +40,8 @@ pub enum Faces {
         count: usize,
         /// Their area-weighted centroid.
         centroid: [f64; 3],
+        /// The share of each node of the patch in their area: that of a diagonal mass matrix with the diagonal of the consistent one.
+        areas: Vec<f64>,
     },
     /// The mesh has cells, but its faces are not known.
     Unknown {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::patch::{PatchFaces, Patches};
 use super::{Allowance, formats};
 use crate::error::Result;
-use crate::job::{InterfaceJob, Job, ModelJob, NodeSelection, Origin};
+use crate::job::{InterfaceJob, Job, ModelJob, NodeSelection, Origin, Weights};
 use crate::regular_file::unchanged;
 
 /// Whether the cells of a mesh are read.
@@ -26,14 +26,16 @@ impl Cells {
             .as_deref()
             .and_then(|path| formats::of_nodes(path).ok())
             .is_some_and(|format| format.has_cells());
-        if is_mesh && job.interfaces.iter().any(has_mean_origin) { Self::Wanted } else { Self::Unwanted }
+        if is_mesh && job.interfaces.iter().any(looks_at_faces) { Self::Wanted } else { Self::Unwanted }
     }
 }
 
-/// Whether the origin of an interface is the mean of several nodes.
-pub fn has_mean_origin(interface: &InterfaceJob) -> bool {
+/// Whether the faces between the nodes of an interface tell something of it: its weights, its origin, or how far that is from their
+/// centroid.
+pub fn looks_at_faces(interface: &InterfaceJob) -> bool {
     let is_one = matches!(&interface.nodes, NodeSelection::Labels(labels) if labels.len() < 2);
-    interface.coupling.is_patch() && interface.origin == Origin::Centroid && !is_one
+    let tell = matches!(interface.origin, Origin::Centroid | Origin::Area) || interface.weights == Some(Weights::Area);
+    interface.coupling.is_patch() && tell && !is_one
 }
 
 /// What the cells in the file of the nodes tell of the faces of each patch; patches without faces are left out.

@@ -1,6 +1,6 @@
 //! Interfaces of a job: which nodes, how they couple, where the interface node sits.
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::node_selection::NodeSelection;
@@ -20,9 +20,12 @@ pub struct InterfaceJob {
     /// How they couple to the interface.
     #[serde(default)]
     pub coupling: Coupling,
-    /// Position of the interface node of a `rigid` coupling.
+    /// Position of the interface node of a `rigid` or `average` coupling.
     #[serde(default)]
     pub origin: Origin,
+    /// Weights of the nodes in the mean of an `average` coupling; uniform if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weights: Option<Weights>,
     /// Directions that belong to the interface; for `direct`, those of the six that the nodes have.
     #[schemars(length(min = 1), extend("uniqueItems" = true))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -38,6 +41,8 @@ pub enum Coupling {
     Direct,
     /// One node of six degrees of freedom that moves the patch as a rigid body.
     Rigid,
+    /// One node of six degrees of freedom that follows the weighted mean motion of the patch, which stays free to deform.
+    Average,
 }
 
 impl Coupling {
@@ -46,42 +51,85 @@ impl Coupling {
         match self {
             Self::Direct => "direct",
             Self::Rigid => "rigid",
+            Self::Average => "average",
         }
     }
 
-    /// Whether the nodes of the interface are tied to one node of their own.
+    /// Whether the nodes of the interface have one node of their own.
     pub fn is_patch(self) -> bool {
-        self == Self::Rigid
+        self != Self::Direct
     }
 }
 
-/// Where the interface node of a rigid patch sits.
+/// Where the interface node of a patch sits.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged, expecting = "expected \"centroid\" or [x, y, z]")]
+#[serde(untagged, expecting = "expected \"centroid\", \"area\", \"hole\", \"sphere\" or [x, y, z]")]
 pub enum Origin {
-    /// `"centroid"`: the mean of the patch's nodes.
+    /// `"centroid"`: the mean of the patch's nodes, each counted once.
     #[default]
     #[serde(with = "centroid")]
-    #[schemars(schema_with = "centroid")]
+    #[schemars(schema_with = "centroid::schema")]
     Centroid,
+    /// `"area"`: the area-weighted centroid of the patch's faces.
+    #[serde(with = "area")]
+    #[schemars(schema_with = "area::schema")]
+    Area,
+    /// `"hole"`: on the axis of a cylinder fitted to the patch's nodes, in the middle of their extent along it.
+    #[serde(with = "hole")]
+    #[schemars(schema_with = "hole::schema")]
+    Hole,
+    /// `"sphere"`: the centre of a sphere fitted to the patch's nodes.
+    #[serde(with = "sphere")]
+    #[schemars(schema_with = "sphere::schema")]
+    Sphere,
     /// `[x, y, z]`.
     Point([f64; 3]),
 }
 
-mod centroid {
-    //! The word `"centroid"` as a unit variant of an untagged enum.
-
-    use serde::{Deserialize, Deserializer, Serializer, de::Error};
-
-    pub(super) fn serialize<S: Serializer>(serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str("centroid")
-    }
-
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
-        let word = String::deserialize(deserializer)?;
-        if word == "centroid" { Ok(()) } else { Err(D::Error::custom("expected \"centroid\" or [x, y, z]")) }
-    }
+/// The weights of the nodes of a patch in its mean motion.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "expected \"uniform\", \"area\" or a list of numbers")]
+pub enum Weights {
+    /// `"uniform"`: one for each node.
+    #[serde(with = "uniform")]
+    #[schemars(schema_with = "uniform::schema")]
+    Uniform,
+    /// `"area"`: the share of each node in the area of the patch's faces.
+    #[serde(with = "area")]
+    #[schemars(schema_with = "area::schema")]
+    Area,
+    /// One positive number for each node, in the order of the list of nodes.
+    Given(#[schemars(length(min = 1), extend("items" = { "type": "number", "exclusiveMinimum": 0 }))] Vec<f64>),
 }
+
+/// A word as a unit variant of an untagged enum.
+macro_rules! word {
+    ($module:ident, $word:literal) => {
+        mod $module {
+            use schemars::{Schema, SchemaGenerator, json_schema};
+            use serde::{Deserialize, Deserializer, Serializer, de::Error};
+
+            pub(super) fn serialize<S: Serializer>(serializer: S) -> Result<S::Ok, S::Error> {
+                serializer.serialize_str($word)
+            }
+
+            pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
+                let word = String::deserialize(deserializer)?;
+                if word == $word { Ok(()) } else { Err(D::Error::custom(concat!("expected \"", $word, "\""))) }
+            }
+
+            pub(super) fn schema(_: &mut SchemaGenerator) -> Schema {
+                json_schema!({ "const": $word })
+            }
+        }
+    };
+}
+
+word!(centroid, "centroid");
+word!(area, "area");
+word!(hole, "hole");
+word!(sphere, "sphere");
+word!(uniform, "uniform");
 
 impl InterfaceJob {
     /// What it selects, with the name for messages.
@@ -92,9 +140,4 @@ impl InterfaceJob {
             directions: self.dofs.as_deref(),
         }
     }
-}
-
-/// The word for the mean of a patch's nodes.
-fn centroid(_: &mut SchemaGenerator) -> Schema {
-    json_schema!({ "const": "centroid" })
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::interface::{InterfaceJob, Origin};
+use super::interface::{Coupling, InterfaceJob, Origin, Weights};
 use super::node_selection::NodeSelection;
 use super::ranges::{self, positive, size};
 use super::selection;
@@ -87,6 +87,7 @@ fn interfaces(interfaces: &[InterfaceJob]) -> Result<()> {
         selection::validate(&interface.selection(), &place)?;
         selection::directions(&interface.selection(), &place)?;
         coupling(interface, &place)?;
+        weights(interface, &place)?;
         earlier.clone().try_for_each(|other| overlap(other, interface))?;
     }
     Ok(())
@@ -107,12 +108,32 @@ fn coupling(interface: &InterfaceJob, place: &str) -> Result<()> {
         _ if is_rows && interface.dofs.is_some() => {
             conflict("dofs", "rows, each of which is one degree of freedom", "")
         }
-        Origin::Point(_) if !is_patch => {
+        Origin::Point(_) | Origin::Area | Origin::Hole | Origin::Sphere if !is_patch => {
             conflict("origin", "a direct coupling, whose nodes stay where they are", ", or set coupling = \"rigid\"")
         }
         Origin::Point(point) => ranges::point(&format!("{place}.origin"), point),
-        Origin::Centroid => Ok(()),
+        Origin::Centroid | Origin::Area | Origin::Hole | Origin::Sphere => Ok(()),
     }
+}
+
+fn weights(interface: &InterfaceJob, place: &str) -> Result<()> {
+    let conflict = |situation, remedy| {
+        let selector = Selector::Interface(interface.name.clone());
+        Err(Error::InterfaceConflict { selector, key: "weights".to_owned(), situation, remedy })
+    };
+    let Some(weights) = &interface.weights else { return Ok(()) };
+    if interface.coupling != Coupling::Average {
+        return conflict("a coupling that takes no mean", ", or set coupling = \"average\"");
+    }
+    let Weights::Given(given) = weights else { return Ok(()) };
+    let NodeSelection::Labels(labels) = &interface.nodes else {
+        return conflict("a selection whose order the job does not say", ", or list the nodes");
+    };
+    if given.len() != labels.len() {
+        let (n_weights, n_nodes) = (given.len(), labels.len());
+        return Err(Error::WeightCount { interface: interface.name.clone(), n_weights, n_nodes });
+    }
+    given.iter().enumerate().try_for_each(|(at, weight)| ranges::size(&format!("{place}.weights[{at}]"), *weight))
 }
 
 /// Two interfaces may share a node only where both couple directly and claim different directions of it.

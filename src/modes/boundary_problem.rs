@@ -272,6 +272,7 @@ mod tests {
             nodes: NodeSelection::Rows { rows: vec![0, n - 1] },
             coupling: Coupling::Direct,
             origin: Origin::Centroid,
+            weights: None,
             dofs: None,
         };
         Partition::new(Model::new(input).expect("sound"), &[ends]).expect("sound")

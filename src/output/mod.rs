@@ -8,6 +8,7 @@ mod recovery;
 mod report;
 mod results;
 mod rigid_body;
+mod soft_rotation;
 mod superelement;
 mod warnings;
 

@@ -1,7 +1,7 @@
 //! The body of the report from the results of the stages.
 
 use super::results::Results;
-use super::{rigid_body, warnings};
+use super::{rigid_body, soft_rotation, warnings};
 use crate::basis::DynamicCoordinate;
 use crate::eigen::CLUSTER_GAP;
 use crate::error::Warning;
@@ -154,7 +154,7 @@ fn interfaces(results: &Results<'_>) -> Vec<InterfaceReport> {
         let faces = |position| faces((node, position), origin, &results.input.faces);
         let at = node.position.map(|position| {
             let (faces, faces_unknown) = faces(position);
-            InterfacePosition { node: node.label, position, origin, faces, faces_unknown }
+            InterfacePosition { node: node.label, position, origin, faces, faces_unknown, fit: node.fit }
         });
         match rows.last_mut().filter(|row| row.name == node.name) {
             Some(row) => {
@@ -184,7 +184,7 @@ fn faces(
     match found.map(|found| &found.faces) {
         None => (None, None),
         Some(Faces::Unknown { reason }) => (None, Some(reason.clone())),
-        Some(Faces::Known { count, centroid }) => {
+        Some(Faces::Known { count, centroid, .. }) => {
             let offset = (0..3).map(|axis| (centroid[axis] - position[axis]).powi(2)).sum::<f64>();
             (Some(FacesReport { count: *count, centroid: *centroid, distance: offset.sqrt() }), None)
         }
@@ -197,6 +197,9 @@ fn origin(node: &InterfaceNode, jobs: &[InterfaceJob]) -> PositionOrigin {
     match job.map(|job| &job.origin) {
         _ if !node.coupling.is_patch() => PositionOrigin::Node,
         Some(Origin::Point(_)) => PositionOrigin::Job,
+        Some(Origin::Area) => PositionOrigin::CentroidOfFaces,
+        Some(Origin::Hole) => PositionOrigin::Hole,
+        Some(Origin::Sphere) => PositionOrigin::Sphere,
         Some(Origin::Centroid) | None => PositionOrigin::MeanOfNodes,
     }
 }
@@ -266,6 +269,7 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
         });
     }
     warnings.extend(warnings::of_motions(results));
+    warnings.extend(soft_rotation::soft_rotation(results));
     warnings.extend(warnings::penalties(results));
     warnings.extend(warnings::data_precision(results));
     warnings.extend(warnings::mixed_precision(results));

@@ -181,7 +181,7 @@ fn interface_coordinates(results: &Results<'_>, nodes: &[file::InterfaceNode]) -
     let rows = partition.dofs[partition.n_internal..].iter().map(|dof| match dof.origin {
         DofOrigin::Row(row) => Coordinate::InterfaceRow { row: partition.model.rows.of(row) as u64 },
         // A rigid node has a position, so that an interface with one is never bare rows.
-        DofOrigin::PatchNode(node, _) => Coordinate::InterfaceRow { row: node as u64 },
+        DofOrigin::PatchNode(node, _) | DofOrigin::Distortion(node, _) => Coordinate::InterfaceRow { row: node as u64 },
     });
     rows.collect()
 }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::transformation::{DofOrigin, Transformation};
+use super::transformation::{DofOrigin, ReducedDof, Transformation};
 use super::transformation_row::TransformationRow;
 use crate::sparse::{RowStorage, SparseMatrix, filled};
 
@@ -36,6 +36,8 @@ struct Moved<'a> {
     transformation: &'a Transformation,
     /// Rows of A and factors for the dofs of patches; any other dof has one row, factor one.
     by_patch_nodes: BTreeMap<usize, Vec<(u32, f64)>>,
+    /// Whether rows of T have tens of entries: rows of A are added up before T expands them.
+    has_long_rows: bool,
 }
 
 impl<'a> Moved<'a> {
@@ -48,7 +50,9 @@ impl<'a> Moved<'a> {
                 }
             }
         }
-        Self { transformation, by_patch_nodes }
+        let is_long = |dof: &ReducedDof| matches!(dof.origin, DofOrigin::Distortion(..));
+        let has_long_rows = transformation.dofs.iter().any(is_long);
+        Self { transformation, by_patch_nodes, has_long_rows }
     }
 
     /// Entries of a dof's row where it is a row of A with its columns in other places, each to itself.
@@ -62,7 +66,7 @@ impl<'a> Moved<'a> {
     fn with(&self, dof: usize) -> impl Iterator<Item = (usize, f64)> {
         let own = match self.transformation.dofs[dof].origin {
             DofOrigin::Row(row) => Some((row, 1.0)),
-            DofOrigin::PatchNode(..) => None,
+            DofOrigin::PatchNode(..) | DofOrigin::Distortion(..) => None,
         };
         let several = self.by_patch_nodes.get(&dof).into_iter().flatten();
         own.into_iter().chain(several.map(|(row, factor)| (*row as usize, *factor)))
@@ -81,18 +85,39 @@ struct Row {
 impl Row {
     /// The rows that move with this dof, expanded by T.
     fn gather(&mut self, matrix: &SparseMatrix, moved: &Moved<'_>, dof: usize) -> &mut Self {
-        self.keys.clear();
-        self.values.clear();
+        self.clear();
         for (row, factor) in moved.with(dof) {
             for (col, value) in matrix.outer_view(row).iter().flat_map(|row| row.iter()) {
-                for (target, lever) in moved.transformation.rows[col].entries() {
-                    self.keys.push(u64::from(target) << 32 | self.values.len() as u64);
-                    self.values.push(factor * value * lever);
+                match moved.has_long_rows {
+                    true => self.push(col as u32, factor * value),
+                    false => self.expand(moved, (col, factor * value)),
                 }
             }
         }
+        if moved.has_long_rows {
+            let columns: Vec<(u32, f64)> = self.sums().collect();
+            self.clear();
+            columns.into_iter().for_each(|(col, value)| self.expand(moved, (col as usize, value)));
+        }
         assert!(self.values.len() <= u32::MAX as usize, "a row of TᵀAT has {} terms", self.values.len());
         self
+    }
+
+    fn clear(&mut self) {
+        self.keys.clear();
+        self.values.clear();
+    }
+
+    fn push(&mut self, column: u32, value: f64) {
+        self.keys.push(u64::from(column) << 32 | self.values.len() as u64);
+        self.values.push(value);
+    }
+
+    /// The terms of a column of A.
+    fn expand(&mut self, moved: &Moved<'_>, (col, value): (usize, f64)) {
+        for (target, lever) in moved.transformation.rows[col].entries() {
+            self.push(target, value * lever);
+        }
     }
 
     /// Columns in ascending order, and the sum of the terms of each.
@@ -150,7 +175,6 @@ mod tests {
     use super::*;
     use crate::dofs::Direction;
     use crate::model::Site;
-    use crate::partition::ReducedDof;
 
     /// A chain of rows, the first and the last few of which move with the nodes of two patches by levers that no sum of keeps exact.
     fn two_patches(n: usize) -> (SparseMatrix, Transformation) {

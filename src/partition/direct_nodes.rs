@@ -12,6 +12,7 @@ pub(super) fn node(catalogue: &NodeCatalogue, job: &InterfaceJob, label: i64) ->
         name: job.name.clone(),
         label: Some(label),
         position: catalogue.position(label),
+        fit: None,
         directions,
         coupling: Coupling::Direct,
         n_nodes: 1,

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashSet};
 use serde::Serialize;
 
 use super::interface::row_of_model;
-use super::interface_node::{Interfaces, Resolved, Rows};
+use super::interface_node::{Interfaces, Resolved};
 use super::node_catalogue::NodeCatalogue;
 use crate::error::{Error, Result, Selector};
 use crate::job::{FixedJob, NodeSelection};
@@ -61,8 +61,7 @@ impl Held {
     /// Refuses interfaces that move a held dof.
     pub(super) fn refuse_interface(&self, model: &Model, interfaces: &Interfaces) -> Result<()> {
         for Resolved { node, rows } in &interfaces.0 {
-            let (Rows::Own(rows) | Rows::Patch(rows)) = rows;
-            if let Some((row, selection)) = rows.iter().find_map(|row| Some((*row, *self.rows.get(row)?))) {
+            if let Some((row, selection)) = rows.all().iter().find_map(|row| Some((*row, *self.rows.get(row)?))) {
                 let fixed = Selector::Fixed(self.selections[selection].name.clone());
                 return Err(Error::FixedInterface {
                     dof: model.names().short(row),

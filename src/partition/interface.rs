@@ -4,10 +4,10 @@ use std::collections::{HashMap, HashSet};
 
 use super::interface_node::{InterfaceNode, Interfaces, Resolved, Rows};
 use super::node_catalogue::NodeCatalogue;
-use super::{direct_nodes, rigid_patch};
+use super::{average_patch, direct_nodes, rigid_patch};
 use crate::dofs::{Direction, Dof};
 use crate::error::{Error, Result, Selector};
-use crate::input::{Patch, Patches, has_mean_origin};
+use crate::input::{Patch, Patches, looks_at_faces};
 use crate::job::{Coupling, InterfaceJob, NodeSelection, RecoveryJob};
 use crate::model::Model;
 
@@ -20,7 +20,7 @@ pub(super) fn resolve(model: &Model, interfaces: &[InterfaceJob]) -> Result<Inte
             (NodeSelection::Rows { rows }, Coupling::Direct) => {
                 resolved.extend(from_rows(model, &catalogue, job, rows)?)
             }
-            (NodeSelection::Rows { .. }, Coupling::Rigid) => {
+            (NodeSelection::Rows { .. }, Coupling::Rigid | Coupling::Average) => {
                 return Err(Error::RigidNeedsCoordinates { interface: job.name.clone() });
             }
             (_, Coupling::Direct) => {
@@ -30,6 +30,9 @@ pub(super) fn resolve(model: &Model, interfaces: &[InterfaceJob]) -> Result<Inte
             }
             (_, Coupling::Rigid) => {
                 resolved.push(rigid_patch::node(&catalogue, job, &catalogue.select(model, &job.selection())?)?)
+            }
+            (_, Coupling::Average) => {
+                resolved.push(average_patch::node(&catalogue, job, &catalogue.select(model, &job.selection())?)?)
             }
         }
     }
@@ -54,14 +57,14 @@ pub fn recovered_rows(model: &Model, recovery: Option<&RecoveryJob>) -> Result<V
     Ok(rows)
 }
 
-/// Labels of the nodes that rigid patches tie. A selection that finds none is refused where it is resolved.
+/// Labels of the nodes of patches, whose coordinates count. A selection that finds none is refused where it is resolved.
 pub fn nodes_of_patches(model: &Model, interfaces: &[InterfaceJob]) -> HashSet<i64> {
     let catalogue = NodeCatalogue::new(model);
     let tied = interfaces.iter().filter(|job| job.coupling.is_patch());
     tied.filter_map(|job| catalogue.select(model, &job.selection()).ok()).flatten().collect()
 }
 
-/// The patches of several nodes whose origin is the mean of these. A selection that finds none is refused where it is resolved.
+/// The patches of several nodes whose faces tell something of them. A selection that finds none is refused where it is resolved.
 pub fn patches(model: &Model, interfaces: &[InterfaceJob]) -> Patches {
     let Some(nodes) = &model.nodes else { return Patches::default() };
     let catalogue = NodeCatalogue::new(model);
@@ -72,7 +75,7 @@ pub fn patches(model: &Model, interfaces: &[InterfaceJob]) -> Patches {
         let positions = nodes_of.iter().map(|node| nodes.coordinates[*node]).collect();
         Some(Patch { interface: job.name.clone(), nodes: nodes_of, positions })
     };
-    let list = interfaces.iter().filter(|job| has_mean_origin(job)).filter_map(patch).collect();
+    let list = interfaces.iter().filter(|job| looks_at_faces(job)).filter_map(patch).collect();
     Patches { list, n_nodes: nodes.labels.len() }
 }
 
@@ -104,6 +107,7 @@ fn from_rows(model: &Model, catalogue: &NodeCatalogue, job: &InterfaceJob, rows:
         name: job.name.clone(),
         label: None,
         position: None,
+        fit: None,
         directions: Vec::new(),
         coupling: Coupling::Direct,
         n_nodes: rows.len(),
@@ -129,8 +133,7 @@ fn refused(model: &Model, selector: &Selector, row: usize, found: &'static str) 
 fn refuse_shared_rows(model: &Model, resolved: &[Resolved]) -> Result<()> {
     let mut owner: HashMap<usize, &str> = HashMap::new();
     for Resolved { node, rows } in resolved {
-        let (Rows::Own(rows) | Rows::Patch(rows)) = rows;
-        for row in rows {
+        for row in rows.all() {
             if let Some(first) = owner.insert(*row, &node.name) {
                 let in_files = || format!("row {} (from zero)", model.rows.of(*row));
                 let dof = model.dofs.as_ref().and_then(|dofs| dofs[*row]).map_or_else(in_files, |dof| dof.to_string());

@@ -1,5 +1,6 @@
 //! The nodes of the superelement's interface and the rows of the model that they stand for.
 
+use super::fitted::Fit;
 use crate::dofs::Direction;
 use crate::job::Coupling;
 
@@ -12,6 +13,8 @@ pub struct InterfaceNode {
     pub label: Option<i64>,
     /// Position, where coordinates are known.
     pub position: Option<[f64; 3]>,
+    /// What its position was fitted from, where it was.
+    pub fit: Option<Fit>,
     /// Its directions, in the order of the interface dofs; empty where the model has no dof map.
     pub directions: Vec<Direction>,
     /// How it couples to the model.
@@ -34,6 +37,26 @@ pub(super) enum Rows {
     Own(Vec<usize>),
     /// All rows of a patch that moves with the node as a rigid body.
     Patch(Vec<usize>),
+    /// The rows of a patch whose mean motion is that of the node.
+    Average {
+        /// Translations, node by node.
+        rows: Vec<usize>,
+        /// The weight of each, positive.
+        weights: Vec<f64>,
+    },
+}
+
+impl Rows {
+    /// All of them.
+    pub(super) fn all(&self) -> &[usize] {
+        let (Self::Own(rows) | Self::Patch(rows) | Self::Average { rows, .. }) = self;
+        rows
+    }
+
+    /// Those of a patch; none of the node's own.
+    pub(super) fn of_patch(&self) -> Option<&[usize]> {
+        if matches!(self, Self::Own(_)) { None } else { Some(self.all()) }
+    }
 }
 
 /// All interfaces of a job, resolved.

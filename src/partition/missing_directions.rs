@@ -3,9 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::dofs::Direction;
+use crate::job::Coupling;
 use crate::model::{Finding, Model};
 
-use super::interface_node::{Interfaces, Resolved, Rows};
+use super::interface_node::{Interfaces, Resolved};
 
 /// One finding for each interface node, or node of a patch, that is held in a direction.
 ///
@@ -22,15 +23,16 @@ pub(super) fn constrained_nodes(model: &Model, interfaces: &Interfaces) -> Vec<F
     let usual = [&Direction::ALL[..3], &Direction::ALL[3..]].map(|kind| usual_directions(&of_node, kind));
     let mut findings = Vec::new();
     for Resolved { node, rows } in &interfaces.0 {
-        let (Rows::Own(rows) | Rows::Patch(rows)) = rows;
-        let labels: BTreeSet<i64> = rows.iter().filter_map(|row| dofs[*row]).map(|dof| dof.node).collect();
+        let labels: BTreeSet<i64> = rows.all().iter().filter_map(|row| dofs[*row]).map(|dof| dof.node).collect();
         for label in labels {
             let has = &of_node[&label];
             let lacking = usual.iter().filter(|usual| usual.iter().any(|direction| has.contains(direction)));
             let lacks: Vec<Direction> = lacking.flatten().filter(|d| !has.contains(d)).copied().collect();
             // A node that couples directly is asked for the directions its job lists and no others.
             let asked = |direction: &Direction| {
-                node.coupling.is_patch() || node.directions.iter().any(|d| d.is_rotation() == direction.is_rotation())
+                node.coupling == Coupling::Rigid
+                    || node.coupling == Coupling::Average && !direction.is_rotation()
+                    || node.directions.iter().any(|d| d.is_rotation() == direction.is_rotation())
             };
             let lacks: Vec<Direction> = lacks.into_iter().filter(asked).collect();
             if !lacks.is_empty() {

@@ -9,8 +9,12 @@
 //!
 //! The internal dofs are put into a fill-reducing order once, here, so that no later stage permutes a vector.
 
+mod average_patch;
 mod congruence;
 mod direct_nodes;
+mod distortions;
+mod faces;
+mod fitted;
 mod gravity;
 mod held;
 mod interface;
@@ -25,6 +29,7 @@ mod ordering;
 mod origin;
 #[expect(clippy::module_inception, reason = "the partition is what the folder makes")]
 mod partition;
+mod placement;
 mod problem;
 mod region;
 mod rigid_patch;
@@ -33,6 +38,8 @@ mod sites;
 mod transformation;
 mod transformation_row;
 
+pub use faces::with_faces;
+pub use fitted::Fit;
 pub use gravity::Gravity;
 pub use held::{Held, HeldSelection, held};
 pub use interface::{nodes_of_patches, patches, recovered_rows};

@@ -3,6 +3,8 @@
 //! Nested dissection runs on the graph of nodes, not of dofs: which is three to six times smaller and has the same separators. For frames
 //! minimum degree may need less work, and then it is used.
 
+use std::collections::HashMap;
+
 use rayon::prelude::*;
 
 use super::metis::{Graph, nested_dissection};
@@ -107,6 +109,7 @@ fn node_graph(model: &Model, transformation: &Transformation, nodes: &InternalNo
             TransformationRow::Tied(_) | TransformationRow::Held => NONE,
         })
         .collect();
+    let shared = Shared::of(transformation, nodes);
     let n_nodes = nodes.len();
     let lists: Vec<Lists> = (0..n_nodes.div_ceil(NODES_PER_TASK))
         .into_par_iter()
@@ -115,7 +118,8 @@ fn node_graph(model: &Model, transformation: &Transformation, nodes: &InternalNo
             |last_seen, task| {
                 let mut lists = Lists::default();
                 for node in (task * NODES_PER_TASK..n_nodes).take(NODES_PER_TASK) {
-                    lists.add(model, &group_of_row, node as u32, own_rows(transformation, nodes.dofs(node)), last_seen);
+                    let rows = own_rows(transformation, nodes.dofs(node)).chain(shared.rows_of(node as u32));
+                    lists.add((model, &shared), &group_of_row, node as u32, rows, last_seen);
                 }
                 lists
             },
@@ -131,11 +135,47 @@ fn node_graph(model: &Model, transformation: &Transformation, nodes: &InternalNo
     graph
 }
 
+/// The rows that distortions of patches move, which are no dofs of their own.
+#[derive(Default)]
+struct Shared {
+    groups: HashMap<u32, Vec<u32>>,
+    rows: HashMap<u32, Vec<usize>>,
+}
+
+impl Shared {
+    fn of(transformation: &Transformation, nodes: &InternalNodes) -> Self {
+        let mut shared = Self::default();
+        let is_distortion = |dof: &u32| matches!(transformation.dofs[*dof as usize].origin, DofOrigin::Distortion(..));
+        for (row, entries) in transformation.rows.iter().enumerate() {
+            let TransformationRow::Tied(entries) = entries else { continue };
+            let distortions = entries.iter().map(|(dof, _)| *dof).filter(is_distortion);
+            let mut groups: Vec<u32> = distortions.map(|dof| nodes.of_dof[dof as usize]).collect();
+            groups.sort_unstable();
+            groups.dedup();
+            for group in &groups {
+                shared.rows.entry(*group).or_default().push(row);
+            }
+            if !groups.is_empty() {
+                shared.groups.insert(row as u32, groups);
+            }
+        }
+        shared
+    }
+
+    fn groups_of(&self, row: u32) -> impl Iterator<Item = u32> {
+        self.groups.get(&row).into_iter().flatten().copied()
+    }
+
+    fn rows_of(&self, group: u32) -> impl Iterator<Item = usize> {
+        self.rows.get(&group).into_iter().flatten().copied()
+    }
+}
+
 /// The rows of the model that are these dofs.
 fn own_rows<'a>(transformation: &'a Transformation, dofs: &'a [u32]) -> impl Iterator<Item = usize> {
     dofs.iter().filter_map(|dof| match transformation.dofs[*dof as usize].origin {
         DofOrigin::Row(row) => Some(row),
-        DofOrigin::PatchNode(..) => None,
+        DofOrigin::PatchNode(..) | DofOrigin::Distortion(..) => None,
     })
 }
 
@@ -151,7 +191,7 @@ impl Lists {
     /// Adds the list of a node; `last_seen` is the node whose list took each node last.
     fn add(
         &mut self,
-        model: &Model,
+        (model, shared): (&Model, &Shared),
         group_of_row: &[u32],
         node: u32,
         rows: impl Iterator<Item = usize>,
@@ -161,10 +201,12 @@ impl Lists {
         for row in rows {
             let views = [&model.stiffness, &model.mass].map(|matrix| matrix.outer_view(row));
             for col in views.iter().flatten().flat_map(|view| view.indices()) {
-                let other = group_of_row[*col as usize];
-                if other != NONE && last_seen[other as usize] != node {
-                    last_seen[other as usize] = node;
-                    self.neighbours.push(other as i32);
+                let own = Some(group_of_row[*col as usize]).filter(|group| *group != NONE);
+                for other in own.into_iter().chain(shared.groups_of(*col)) {
+                    if last_seen[other as usize] != node {
+                        last_seen[other as usize] = node;
+                        self.neighbours.push(other as i32);
+                    }
                 }
             }
         }

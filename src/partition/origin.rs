@@ -1,6 +1,6 @@
-//! Origins of rigid patches that lie far away from the part: a length in another unit.
+//! Origins of patches that lie far away from the part: a length in another unit.
 
-use super::interface_node::{Interfaces, Resolved, Rows};
+use super::interface_node::{Interfaces, Resolved};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::model::{Finding, Model, Site};
@@ -20,7 +20,7 @@ pub(super) fn far_origins(model: &Model, interfaces: &Interfaces) -> Result<Vec<
     let size = size_of(&sites);
     let mut findings = Vec::new();
     for Resolved { node, rows } in &interfaces.0 {
-        let (Rows::Patch(rows), Some(origin)) = (rows, node.position) else { continue };
+        let (Some(rows), Some(origin)) = (rows.of_patch(), node.position) else { continue };
         let places = || rows.iter().filter_map(|row| sites[*row]);
         let mean = |axis: usize| places().map(|site| site.position[axis]).sum::<f64>() / rows.len() as f64;
         let middle = [0, 1, 2].map(mean);

@@ -2,45 +2,46 @@
 
 use super::interface_node::{InterfaceNode, Resolved, Rows};
 use super::node_catalogue::NodeCatalogue;
+use super::placement;
 use super::sites::Sites;
 use super::transformation_row::TransformationRow;
 use crate::dense::rank_of_rows;
 use crate::dofs::Direction;
 use crate::error::{Error, Result};
-use crate::job::{Coupling, InterfaceJob, Origin};
+use crate::job::InterfaceJob;
 
 /// Smallest singular value of a patch's levers, relative to the largest and with rotations scaled to the patch's size,
 /// below which the patch cannot move in six independent ways: far above rounding, far below any real patch.
 const PATCH_RANK_TOLERANCE: f64 = 1e-8;
 
-/// The node of a patch, at the place that the job gives or at the mean of the patch.
+/// The node of a rigid patch with all rows of its nodes.
 pub(super) fn node(catalogue: &NodeCatalogue, job: &InterfaceJob, labels: &[i64]) -> Result<Resolved> {
     let selector = job.selection().selector;
     let mut rows = Vec::new();
-    let mut centroid = [0.0; 3];
     for label in labels {
         rows.extend(catalogue.rows_of(&selector, *label)?.values());
-        let point =
-            catalogue.position(*label).ok_or_else(|| Error::RigidNeedsCoordinates { interface: job.name.clone() })?;
-        for axis in 0..3 {
-            centroid[axis] += point[axis] / labels.len() as f64;
-        }
     }
-    let position = match job.origin {
-        Origin::Centroid => centroid,
-        Origin::Point(point) => point,
+    Ok(Resolved { node: interface_node(catalogue, job, labels)?, rows: Rows::Patch(rows) })
+}
+
+/// The node of a patch without its rows, at the place that the job asks for.
+pub(super) fn interface_node(catalogue: &NodeCatalogue, job: &InterfaceJob, labels: &[i64]) -> Result<InterfaceNode> {
+    let point = |label: &i64| {
+        catalogue.position(*label).ok_or_else(|| Error::RigidNeedsCoordinates { interface: job.name.clone() })
     };
+    let points = labels.iter().map(point).collect::<Result<Vec<[f64; 3]>>>()?;
+    let (position, fit) = placement::place(job, &points)?;
     let mut directions = job.dofs.clone().unwrap_or_else(|| Direction::ALL.to_vec());
     directions.sort_unstable();
-    let node = InterfaceNode {
+    Ok(InterfaceNode {
         name: job.name.clone(),
         label: None,
         position: Some(position),
+        fit,
         directions,
-        coupling: Coupling::Rigid,
+        coupling: job.coupling,
         n_nodes: labels.len(),
-    };
-    Ok(Resolved { node, rows: Rows::Patch(rows) })
+    })
 }
 
 /// Whether the rows of a patch take part in a direction of its node.
@@ -58,17 +59,29 @@ pub(super) fn tied_rows(
     (node, rows): (&InterfaceNode, &[usize]),
     columns: [Option<u32>; 6],
 ) -> Result<Vec<TransformationRow>> {
-    let position = node.position.unwrap_or_default();
-    let levers: Vec<[f64; 6]> = rows.iter().map(|row| sites.lever(*row, position)).collect();
-    let rank = rank_of_rows(&levers, PATCH_RANK_TOLERANCE);
-    let expected = columns.iter().flatten().count();
-    if rank < expected {
-        return Err(Error::PatchRank { interface: node.name.clone(), n_rows: rows.len(), rank, expected });
-    }
+    let levers = independent(sites, (node, rows), columns.iter().flatten().count())?;
     let entries_of = |lever: &[f64; 6]| {
         let entries = lever.iter().zip(columns).filter(|(factor, _)| **factor != 0.0);
         let entries = entries.filter_map(|(factor, column)| column.map(|column| (column, *factor)));
         TransformationRow::Tied(entries.collect())
     };
     Ok(levers.iter().map(entries_of).collect())
+}
+
+/// How the rows of a patch move with the six dofs of its node.
+///
+/// # Errors
+/// [`Error::PatchRank`] where these are fewer than `expected` independent motions.
+pub(super) fn independent(
+    sites: &Sites<'_>,
+    (node, rows): (&InterfaceNode, &[usize]),
+    expected: usize,
+) -> Result<Vec<[f64; 6]>> {
+    let position = node.position.unwrap_or_default();
+    let levers: Vec<[f64; 6]> = rows.iter().map(|row| sites.lever(*row, position)).collect();
+    let rank = rank_of_rows(&levers, PATCH_RANK_TOLERANCE);
+    if rank < expected {
+        return Err(Error::PatchRank { interface: node.name.clone(), n_rows: rows.len(), rank, expected });
+    }
+    Ok(levers)
 }

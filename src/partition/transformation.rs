@@ -1,14 +1,15 @@
 //! The transformation T between the rows of the model and the dofs of the partition.
 //!
-//! A row of an ordinary dof holds a single one. A row of a patch holds how it follows the dofs of the interface node. For a
-//! rigid patch that is the motion of its point, u = t + θ × r for a translation, θ for a rotation; where coordinates are
+//! A row of an ordinary dof holds a single one. A row of a patch holds how it follows the dofs of the interface node and, where these
+//! are those of its mean motion, what it deviates by. To follow a node is the motion of its point, u = t + θ × r for a translation, θ for a rotation; where coordinates are
 //! rounded, the motion that K knows instead of the one by the coordinates.
 
+use super::distortions::Owner;
 use super::held::Held;
 use super::interface_node::{InterfaceNode, Interfaces, Resolved, Rows};
-use super::rigid_patch;
 use super::sites::Sites;
 use super::transformation_row::TransformationRow;
+use super::{average_patch, rigid_patch};
 use crate::dofs::{Direction, Dof, FileRows};
 use crate::error::Result;
 use crate::model::{Model, Site};
@@ -35,6 +36,8 @@ pub enum DofOrigin {
     Row(usize),
     /// A direction of the interface node of a patch (its index in the job's order).
     PatchNode(usize, Direction),
+    /// A motion of the patch of an interface node besides its mean motion, by its number.
+    Distortion(usize, u32),
 }
 
 impl ReducedDof {
@@ -42,6 +45,9 @@ impl ReducedDof {
     pub(super) fn name(&self, interface: &[InterfaceNode], rows: &FileRows) -> String {
         match (self.origin, self.dof) {
             (DofOrigin::PatchNode(node, direction), _) => format!("interface {} {direction}", interface[node].name),
+            (DofOrigin::Distortion(node, number), _) => {
+                format!("interface {} distortion {}", interface[node].name, number + 1)
+            }
             (DofOrigin::Row(_), Some(dof)) => dof.to_string(),
             (DofOrigin::Row(row), None) => format!("row {}", rows.of(row) + 1),
         }
@@ -62,33 +68,40 @@ impl Transformation {
     pub(super) fn new(model: &Model, interfaces: &Interfaces, held: &Held) -> Result<Self> {
         let n = model.n_dofs();
         let mut taken: Vec<bool> = (0..n).map(|row| held.holds(row)).collect();
-        for Resolved { rows: Rows::Own(rows) | Rows::Patch(rows), .. } in &interfaces.0 {
-            for row in rows {
+        for Resolved { rows, .. } in &interfaces.0 {
+            for row in rows.all() {
                 taken[*row] = true;
             }
         }
         let sites = Sites::new(model);
+        let n_nodes = sites.n_nodes + interfaces.0.len() as u32;
         let mut builder =
-            Builder { dofs: Vec::with_capacity(n), rows: vec![TransformationRow::Dof(u32::MAX); n], sites };
+            Builder { dofs: Vec::with_capacity(n), rows: vec![TransformationRow::Dof(u32::MAX); n], sites, n_nodes };
         for row in (0..n).filter(|row| held.holds(*row)) {
             builder.rows[row] = TransformationRow::Held;
         }
         for row in (0..n).filter(|row| !taken[*row]) {
             builder.own_row(row, Part::Internal);
         }
+        let distorted = builder.distort_patches(interfaces)?;
         for part in [Part::Internal, Part::Interface] {
             for (index, resolved) in interfaces.0.iter().enumerate() {
                 match (&resolved.rows, part) {
                     (Rows::Own(rows), Part::Interface) => rows.iter().for_each(|row| builder.own_row(*row, part)),
                     (Rows::Own(_), Part::Internal) => {}
-                    (Rows::Patch(rows), _) => builder.patch_node(index, resolved, rows, part),
+                    (Rows::Patch(rows) | Rows::Average { rows, .. }, _) => {
+                        builder.patch_node(index, resolved, rows, part)
+                    }
                 }
             }
         }
         for (index, resolved) in interfaces.0.iter().enumerate() {
-            if let Rows::Patch(rows) = &resolved.rows {
+            if let Some(rows) = resolved.rows.of_patch() {
                 builder.tie_patch(index, resolved, rows)?;
             }
+        }
+        for (row, own) in distorted {
+            builder.rows[row].extend(&own);
         }
         Ok(Self { dofs: builder.dofs, rows: builder.rows })
     }
@@ -130,6 +143,8 @@ struct Builder<'a> {
     dofs: Vec<ReducedDof>,
     rows: Vec<TransformationRow>,
     sites: Sites<'a>,
+    /// Numbers of nodes, and of groups of nodes, that are taken.
+    n_nodes: u32,
 }
 
 impl Builder<'_> {
@@ -142,6 +157,36 @@ impl Builder<'_> {
             node: self.sites.node_of_row[row],
             dof: self.sites.dofs.and_then(|dofs| dofs[row]),
         });
+    }
+
+    /// Adds the distortions of patches whose mean motion counts as internal dofs, and gives their entries by rows.
+    fn distort_patches(&mut self, interfaces: &Interfaces) -> Result<Vec<(usize, Vec<(u32, f64)>)>> {
+        let mut entries = Vec::new();
+        for (index, Resolved { node, rows }) in interfaces.0.iter().enumerate() {
+            let Rows::Average { rows, weights } = rows else { continue };
+            let moves = |direction: &Direction| {
+                node.directions.contains(direction) || rigid_patch::moves(&self.sites, (node, rows), *direction)
+            };
+            let n_directions = Direction::ALL.iter().filter(|direction| moves(direction)).count();
+            let found = average_patch::distortions(&self.sites, node, (rows, weights), n_directions)?;
+            let first = self.dofs.len() as u32;
+            let mut n_groups = 0;
+            for (number, owner) in (0..).zip(&found.owners) {
+                let node = match owner {
+                    Owner::Node(node) => *node,
+                    Owner::Group(group) => {
+                        n_groups = n_groups.max(group + 1);
+                        self.n_nodes + group
+                    }
+                };
+                let origin = DofOrigin::Distortion(index, number);
+                self.dofs.push(ReducedDof { origin, is_interface: false, site: None, node, dof: None });
+            }
+            self.n_nodes += n_groups;
+            let placed = |row: Vec<(u32, f64)>| row.into_iter().map(|(dof, factor)| (first + dof, factor)).collect();
+            entries.extend(rows.iter().copied().zip(found.rows.into_iter().map(placed)));
+        }
+        Ok(entries)
     }
 
     /// Adds the directions of a patch's node that are interface dofs, or those that are not and that its patch can move in.

@@ -5,13 +5,20 @@
 pub enum TransformationRow {
     /// The row is a dof of the partition itself.
     Dof(u32),
-    /// The row follows the interface node of a patch.
+    /// The row follows the interface node of a patch, and distortions of the patch where it has any.
     Tied(Box<[(u32, f64)]>),
     /// The row is at rest.
     Held,
 }
 
 impl TransformationRow {
+    /// Adds entries to those of a row that follows a patch.
+    pub(super) fn extend(&mut self, more: &[(u32, f64)]) {
+        if let Self::Tied(entries) = self {
+            *entries = entries.iter().chain(more).copied().collect();
+        }
+    }
+
     /// The entries of the row.
     pub fn entries(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
         let single = match self {

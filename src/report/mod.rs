@@ -30,7 +30,7 @@ use crate::error::Warning;
 use crate::input::Digits;
 use crate::job::{Coupling, Eigensolver, Method};
 use crate::number;
-use crate::partition::HeldSelection;
+use crate::partition::{Fit, HeldSelection};
 use crate::rigid::RigidSource;
 use crate::verification::check::{Check, Verdict};
 use crate::verification::preservation::Preservation;
@@ -234,6 +234,8 @@ pub struct InterfacePosition {
     pub faces: Option<FacesReport>,
     /// Why these faces are not known although the mesh has cells.
     pub faces_unknown: Option<String>,
+    /// The cylinder or the sphere whose axis or centre it is.
+    pub fit: Option<Fit>,
 }
 
 /// The faces all of whose nodes belong to a patch.
@@ -255,6 +257,12 @@ pub enum PositionOrigin {
     Node,
     /// The mean of the nodes of a patch, each counted once: no centroid of its faces.
     MeanOfNodes,
+    /// The area-weighted centroid of the faces of a patch.
+    CentroidOfFaces,
+    /// The axis of a cylinder fitted to the nodes of a patch, in the middle of their extent.
+    Hole,
+    /// The centre of a sphere fitted to the nodes of a patch.
+    Sphere,
     /// The job says it.
     Job,
 }

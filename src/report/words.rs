@@ -6,7 +6,7 @@ use super::{
 };
 use crate::job::Eigensolver;
 use crate::number::{self, counted};
-use crate::partition::HeldSelection;
+use crate::partition::{Fit, HeldSelection};
 use crate::verification::check::{ActiveLimit, Check, Verdict};
 
 pub(super) fn eigensolver(eigensolver: Eigensolver) -> &'static str {
@@ -146,6 +146,13 @@ pub(super) fn positions(interface: &InterfaceReport) -> Option<String> {
                     unknown.map(|why| format!("; the centroid of its faces is not known: {why}")).unwrap_or_default();
                 format!("{place}, the mean of its nodes{faces}{unknown}")
             }
+            PositionOrigin::CentroidOfFaces => format!("{place}, the centroid of its faces"),
+            PositionOrigin::Hole => {
+                format!("{place}, on the axis of a cylinder{}", at.fit.map(of_fit).unwrap_or_default())
+            }
+            PositionOrigin::Sphere => {
+                format!("{place}, the centre of a sphere{}", at.fit.map(of_fit).unwrap_or_default())
+            }
             PositionOrigin::Job => format!("{place}, as the job says"),
         }
     };
@@ -154,6 +161,12 @@ pub(super) fn positions(interface: &InterfaceReport) -> Option<String> {
         places.push(format!("… and {} more in the report", interface.at.len() - SHOWN));
     }
     (!places.is_empty()).then(|| format!("at {}", places.join(", ")))
+}
+
+/// The radius of a fitted surface, and how far nodes are from it.
+fn of_fit(fit: Fit) -> String {
+    let [radius, residual] = [number::quantity(fit.radius, 6), number::scientific(fit.residual, 1)];
+    format!(" of radius {radius} fitted to its nodes, which are up to {residual} off")
 }
 
 /// How far the mean of nodes is from the centroid of their faces, among coordinates of a size.

@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 use crate::factor::Cholesky;
 use crate::job::Eigensolver;
 use crate::model::{Finding, Site};
-use crate::partition::Partition;
+use crate::partition::{DofOrigin, Partition};
 use crate::random::SEED;
 
 /// Below this ratio of singular values the interface does not react a motion.
@@ -104,11 +104,12 @@ fn rank_within(partition: &Partition, rigid: &RigidBodyModes, tolerance: f64) ->
 pub(crate) fn scales(partition: &Partition) -> Vec<f64> {
     let size = partition.sites().map_or(1.0, |sites| size_of(&sites));
     let stiffness = crate::sparse::diagonal(&partition.stiffness);
-    let scale = |dof: usize| match partition.dofs[dof].site {
-        Some(site) if site.direction.is_rotation() => size,
-        Some(_) => 1.0,
+    let scale = |dof: usize| match (partition.dofs[dof].origin, partition.dofs[dof].site) {
+        (_, Some(site)) if site.direction.is_rotation() => size,
+        // Distortions of patches are displacements.
+        (DofOrigin::Distortion(..), _) | (_, Some(_)) => 1.0,
         // Without coordinates nothing tells a rotation from a translation; their stiffness makes them alike.
-        None => 1.0 / dense::power_of_two_root(stiffness[dof]),
+        _ => 1.0 / dense::power_of_two_root(stiffness[dof]),
     };
     (0..partition.n_dofs()).map(scale).collect()
 }

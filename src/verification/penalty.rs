@@ -16,7 +16,7 @@ use super::evidence::Evidence;
 use super::limits::{ENERGY_ASKED, FREQUENCY_ASKED};
 use crate::dense;
 use crate::dofs::Direction;
-use crate::partition::Partition;
+use crate::partition::{DofOrigin, Partition};
 use crate::sparse::{Leading, diagonal, panels, product_and_terms};
 
 /// How many times stiffer than a neighbour a row of a mesh is, at most: the corner of a solid has an eighth of the stiffness inside, and
@@ -157,6 +157,9 @@ impl<'a> Contrast<'a> {
     fn is_like(&self, row: usize, other: usize) -> bool {
         let kind = |row: usize| {
             let dof = &self.partition.dofs[row];
+            if matches!(dof.origin, DofOrigin::Distortion(..)) {
+                return Some(false);
+            }
             let direction = dof.dof.map(|dof| dof.direction).or(dof.site.map(|site| site.direction));
             direction.map(Direction::is_rotation)
         };

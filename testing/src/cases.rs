@@ -1,6 +1,7 @@
 //! The models the theorems are tested on.
 
-use supel::job::InterfaceJob;
+use supel::dofs::Direction;
+use supel::job::{Coupling, InterfaceJob, NodeSelection, Origin, Weights};
 use supel_models::transform::{carrying, join, supported};
 use supel_models::{Inertia, Material, Model, Section, brick, frame, membrane};
 
@@ -36,6 +37,15 @@ pub fn cases() -> Vec<Case> {
         case("two bodies that carry one device", one_device, pins(), 12),
         case("held solid", supported(&solid(), |(label, _)| label % 5 == 1), vec![rigid_group("XMAX")], 0),
         case("pendulum", pendulum(), vec![direct("tip", &[6])], 1),
+        case("free solid, average and patch", broad(), vec![weighted(&broad(), "XMAX"), rigid_group("XMIN")], 6),
+        case("held solid, average", supported(&solid(), |(label, _)| label % 5 == 1), vec![average("XMAX")], 0),
+        case(
+            "free frame, average and node",
+            elbow(Inertia::Consistent),
+            vec![of_nodes(&[2, 4, 5, 6]), direct("end", &[1])],
+            6,
+        ),
+        case("free membrane, average", sheet(), vec![plane(of_nodes(&[1, 5, 7, 12, 20]))], 3),
     ]
 }
 
@@ -59,6 +69,38 @@ pub fn for_each_method(check: impl Fn(&Case, &Chain, &Twin)) {
 /// Unequal sides keep the natural frequencies apart.
 fn solid() -> Model {
     brick([4, 2, 2], [4.0, 1.2, 0.7], &Material::UNIT)
+}
+
+/// Its ends have more nodes than a group that is divided no further.
+pub fn broad() -> Model {
+    brick([2, 6, 5], [1.0, 3.0, 2.2], &Material::UNIT)
+}
+
+/// The mean motion of a group.
+pub fn average(name: &str) -> InterfaceJob {
+    InterfaceJob { coupling: Coupling::Average, ..rigid_group(name) }
+}
+
+/// The mean motion of a group, with weights of a factor of ten, about a point that is not among its nodes.
+fn weighted(model: &Model, name: &str) -> InterfaceJob {
+    let labels = model.groups[name].clone();
+    let weights = labels.iter().map(|label| 1.0 + 9.0 * (12.9 * *label as f64).sin().abs()).collect();
+    InterfaceJob {
+        nodes: NodeSelection::Labels(labels),
+        origin: Origin::Point([1.5, 1.0, 1.0]),
+        weights: Some(Weights::Given(weights)),
+        ..average(name)
+    }
+}
+
+/// The mean motion of some nodes.
+fn of_nodes(labels: &[i64]) -> InterfaceJob {
+    InterfaceJob { nodes: NodeSelection::Labels(labels.to_vec()), ..average("mean") }
+}
+
+/// In the plane of a membrane.
+fn plane(job: InterfaceJob) -> InterfaceJob {
+    InterfaceJob { dofs: Some(vec![Direction::Ux, Direction::Uy, Direction::Rz]), ..job }
 }
 
 fn small_solid() -> Model {

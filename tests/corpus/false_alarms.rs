@@ -27,7 +27,7 @@ fn interface_rows(pairs: &Path, pair: &Pair) -> supel::error::Result<Vec<usize>>
     let (rigid, _) = rigid_body_modes(&partition)?;
     let row_of = |dof: usize| match partition.dofs[dof].origin {
         DofOrigin::Row(row) => row,
-        DofOrigin::PatchNode(..) => unreachable!("there is no interface"),
+        DofOrigin::PatchNode(..) | DofOrigin::Distortion(..) => unreachable!("there is no interface"),
     };
     let stiffness = supel::sparse::diagonal(&partition.stiffness);
     if rigid.count() == 0 {

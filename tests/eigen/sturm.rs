@@ -8,7 +8,14 @@ use supel_models::*;
 use crate::component::partition;
 
 fn interface(nodes: NodeSelection) -> InterfaceJob {
-    InterfaceJob { name: "held".to_owned(), nodes, coupling: Coupling::Direct, origin: Origin::Centroid, dofs: None }
+    InterfaceJob {
+        name: "held".to_owned(),
+        nodes,
+        coupling: Coupling::Direct,
+        origin: Origin::Centroid,
+        weights: None,
+        dofs: None,
+    }
 }
 
 /// Counts at shifts midway between neighbouring eigenvalues, where both spectra leave a gap.

@@ -417,3 +417,105 @@ fn damaged_cells_are_refused() {
     assert_says(&ended, ExitCode::InputData, &["E-HDF5-INDEX", "entry 5 is 1000000"]);
     assert!(!place.path("bracket.supel").exists());
 }
+
+/// A block of bricks that are finer towards y = 0, with its mesh as XDMF; its faces at x = 0 have their centroid at (0, 0.5, 0.25).
+#[cfg(feature = "hdf5")]
+fn graded_block() -> Place {
+    use supel_models::{HexMesh, Material};
+    let mesh = HexMesh::structured([3, 4, 2], |[x, y, z]| [2.0 * x, y * y, 0.5 * z], |_| true);
+    let place = Place::with(&mesh.assemble(&Material::STEEL_SI));
+    let item = |values: &mut dyn Iterator<Item = String>| {
+        let values: Vec<String> = values.collect();
+        format!("<DataItem Dimensions=\"{}\" Format=\"XML\">{}</DataItem>", values.len(), values.join(" "))
+    };
+    let cells = item(&mut mesh.elements.iter().flatten().map(u32::to_string));
+    let points = item(&mut mesh.nodes.iter().flatten().map(f64::to_string));
+    let text = format!(
+        "<Xdmf><Domain><Grid><Topology TopologyType=\"Hexahedron\">{cells}</Topology>\
+         <Geometry GeometryType=\"XYZ\">{points}</Geometry></Grid></Domain></Xdmf>"
+    );
+    place.write("mesh.xdmf", text.as_bytes());
+    place
+}
+
+/// The job of a graded block whose patch at x = 0 has more keys.
+#[cfg(feature = "hdf5")]
+fn patch_of_block(place: &Place, keys: &str) -> Ended {
+    reduced_block(place, "method = \"herting\", modes = { count = 5 }", keys)
+}
+
+#[cfg(feature = "hdf5")]
+fn reduced_block(place: &Place, reduction: &str, keys: &str) -> Ended {
+    let text = format!(
+        r#"
+model     = {{ stiffness = "K.mtx", mass = "M.mtx", dofs = "dofs.txt", nodes = "mesh.xdmf" }}
+reduction = {{ {reduction} }}
+write     = {{ superelement = "x.supel" }}
+
+[[interface]]
+name  = "foot"
+nodes = {{ within = {{ plane = {{ point = [0, 0, 0], normal = [1, 0, 0], tolerance = 1e-9 }} }} }}
+{keys}
+"#
+    );
+    place.write("job.toml", text.as_bytes());
+    supel(&["reduce", &place.text("job.toml")])
+}
+
+#[cfg(feature = "hdf5")]
+#[test]
+fn origin_at_the_centroid_of_faces() {
+    let place = graded_block();
+    let at = |origin: &str| {
+        let ended =
+            patch_of_block(&place, &format!("coupling = \"rigid\"\norigin = \"{origin}\"")).expect(ExitCode::Done);
+        let at = place.report("x.report.json")["body"]["reduction"]["interfaces"][0]["at"][0].clone();
+        let of = |value: &serde_json::Value| [0, 1, 2].map(|axis| value[axis].as_f64().expect("a number"));
+        (of(&at["position"]), at["origin"].clone(), ended.out)
+    };
+    let (mean, origin, _) = at("centroid");
+    assert_eq!(origin, "mean-of-nodes");
+    // The mean of 0, 1/16, 1/4, 9/16 and 1.
+    assert!((mean[1] - 0.375).abs() < 4.0 * f64::EPSILON, "{mean:?}");
+    let (area, origin, said) = at("area");
+    assert_eq!(origin, "centroid-of-faces");
+    for (found, expected) in area.iter().zip([0.0, 0.5, 0.25]) {
+        assert!((found - expected).abs() < 16.0 * f64::EPSILON, "{area:?}");
+    }
+    assert!(said.contains("at (0, 0.5, 0.25), the centroid of its faces"), "{said}");
+    assert_says(
+        &patch_of_block(&place, "coupling = \"rigid\"\norigin = \"hole\""),
+        ExitCode::InputData,
+        &["error[E-ORIGIN-FIT]"],
+    );
+}
+
+/// A superelement of a mean motion passes every check, against its model as well, and modes are counted and enclosed; the report names
+/// the coupling.
+#[cfg(feature = "hdf5")]
+#[test]
+fn an_average_is_verified() {
+    let place = graded_block();
+    let keys = "coupling = \"average\"\nweights = \"area\"\norigin = \"area\"\n[run]\ncertify = \"full\"";
+    for method in ["herting", "craig-bampton", "rubin", "guyan"] {
+        let modes = if method == "guyan" { "" } else { ", modes = { count = 5 }" };
+        let tip = "[[interface]]\nname = \"tip\"\ncoupling = \"rigid\"\nnodes = { within = { plane = { point = [2, 0, 0], \
+            normal = [1, 0, 0], tolerance = 1e-9 } } }\n";
+        let keys = keys.replace("[run]", &format!("{tip}[run]"));
+        let ended = reduced_block(&place, &format!("method = \"{method}\"{modes}"), &keys).expect(ExitCode::Done);
+        let report = place.report("x.report.json");
+        assert_eq!(report["body"]["reduction"]["interfaces"][0]["coupling"], "average");
+        assert_eq!(report["body"]["verdict"], "pass", "{method}: {}", ended.out);
+        supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]).expect(ExitCode::Done);
+    }
+    let both = "coupling = \"average\"\n[[interface]]\nname = \"other\"\ncoupling = \"average\"\nnodes = { within = { box = { \
+        min = [0, 0, 0], max = [0.1, 0.1, 1] } } }";
+    let ended = patch_of_block(&place, both);
+    assert_says(&ended, ExitCode::InputData, &["node 1 ux", "\"foot\"", "\"other\"", "take it out of one"]);
+    let far = "coupling = \"average\"\nweights = \"area\"";
+    let model = "nodes = \"mesh.xdmf\"";
+    let text = String::from_utf8(place.bytes("job.toml")).expect("UTF-8");
+    place.write("job.toml", text.replace(model, "nodes = \"nodes.csv\"").replace(both, far).as_bytes());
+    let ended = supel(&["reduce", &place.text("job.toml")]);
+    assert_says(&ended, ExitCode::InputData, &["error[E-PATCH-FACES]", "`weights = \"area\"`"]);
+}

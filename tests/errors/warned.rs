@@ -2,7 +2,7 @@
 
 use supel::cli::ExitCode;
 use supel_models::transform::grounded;
-use supel_models::{Ends, HexMesh, Material, spring};
+use supel_models::{Ends, HexMesh, Inertia, Material, Section, frame, spring};
 
 use crate::place::{Ended, Place, steel_brick, supel};
 
@@ -54,4 +54,27 @@ fn component_on_a_soft_spring() {
     let place = Place::with(&grounded(&model, 0, 1e-6 * largest));
     let ended = place.reduce(&place.model_flags(), "--interface foot=1,11,31,41 --method herting --modes 5");
     assert_warned(&place, &ended, "W-GROUNDED");
+}
+
+/// A node with a rotation about x that resists a millionth of what the others do, next to one that resists as a strip of 1:50 does.
+#[test]
+fn rotation_of_an_interface_node_that_hardly_resists() {
+    let nodes = [[0.0, 0.0, 0.0], [0.5, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.6, 0.0], [1.0, 1.3, 0.0]];
+    let of = |torsion: f64| {
+        let section = Section { torsion, ..Section::round(0.05) };
+        let edges = [[0, 1], [1, 2], [2, 3], [3, 4]];
+        let place = Place::with(&frame(&nodes, &edges, &section, &Material::STEEL_SI, Inertia::Consistent));
+        let ended = place.reduce(&place.model_flags(), "--interface ends=1,5 --method herting --modes 3");
+        (place, ended)
+    };
+    let bending = Section::round(0.05).second_moment_z;
+    // With all else held GJ/L against 4EI/L: 0.1 J/I.
+    let (place, ended) = of(1e-5 * bending);
+    assert_warned(&place, &ended, "W-SOFT-ROTATION");
+    let said = place.report("x.report.json")["body"]["warnings"][0]["message"].as_str().expect("words").to_owned();
+    for part in ["node 1 of interface \"ends\", and 1 node like it", "about (1, 0, 0) has 1e-6", "\"average\""] {
+        assert!(said.contains(part), "{said}");
+    }
+    let (place, _) = of(1e-3 * bending);
+    assert_eq!(place.report("x.report.json")["body"]["warnings"].as_array().expect("warnings").len(), 0);
 }

@@ -45,6 +45,7 @@ fn partition(matrix: &SparseMatrix, mass: impl Fn(usize) -> f64, interface: &[us
         nodes,
         coupling: Coupling::Direct,
         origin: Origin::Centroid,
+        weights: None,
         dofs: None,
     };
     Partition::new(Model::new(input).expect("a model"), &[interface]).expect("a partition")

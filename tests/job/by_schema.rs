@@ -45,6 +45,11 @@ fn jobs() -> Vec<Value> {
         job(labels, json!({ "count": 5 }), json!([4, 6])),
         job(json!([{ "name": "hub", "nodes": { "rows": [3, 5] } }]), json!({ "up_to_hz": 100.5 }), json!("group:SKIN")),
         job(
+            json!([{ "name": "hub", "nodes": [7, 8], "coupling": "average", "weights": [1.5, 2.5], "origin": "area" }]),
+            json!({ "count": 5 }),
+            json!("group:SKIN"),
+        ),
+        job(
             json!([{ "name": "hub", "nodes": "group:HUB", "coupling": "rigid", "origin": "centroid" }]),
             json!({ "count": 5 }),
             json!("group:SKIN"),
@@ -154,6 +159,7 @@ fn is_about_two_keys(error: &Error) -> bool {
             | Error::InterfaceTwice { .. }
             | Error::FixedTwice { .. }
             | Error::LoadTwice { .. }
+            | Error::WeightCount { .. }
     )
 }
 

@@ -194,7 +194,7 @@ fn values_of_the_wrong_kind_are_located() {
     insta::assert_snapshot!(at_28("{ up_to_hz = true }"), @"job.toml:28: `reduction.modes.up_to_hz` is true – expected a number");
     insta::assert_snapshot!(wrong("nodes = [412, 413]", "nodes = 412"), @r#"job.toml:18: `interface[1].nodes` is 412 – expected a text such as "group:HUB", a list or a table with keys of rows, within"#);
     insta::assert_snapshot!(wrong("nodes = [412, 413]", "nodes = [412, \"413\"]"), @r#"job.toml:18: `interface[1].nodes[1]` is "413" – expected a whole number"#);
-    insta::assert_snapshot!(wrong("origin   = [0, 0, 12.5]", "origin = \"middle\""), @r#"job.toml:14: `interface[0].origin` is "middle" – expected "centroid" or a list of 3"#);
+    insta::assert_snapshot!(wrong("origin   = [0, 0, 12.5]", "origin = \"middle\""), @r#"job.toml:14: `interface[0].origin` is "middle" – expected "centroid", "area", "hole", "sphere" or a list of 3"#);
     insta::assert_snapshot!(wrong("radius = 5", "inner_radius = 5"), @"job.toml:23: `interface[2].nodes.within.cylinder.radius` is missing");
     insta::assert_snapshot!(wrong("{ cylinder = { from = [0, 0, 0], to = [0, 0, 1], radius = 5 } }", "{}"), @"job.toml:23: `interface[2].nodes.within` is empty – expected exactly one of `box`, `plane`, `cylinder` and `sphere`");
     insta::assert_snapshot!(wrong("[\"ux\", \"uy\", \"uz\"]", "[1]"), @r#"job.toml:19: `interface[1].dofs[0]` is 1 – expected "ux", "uy", "uz", "rx", "ry" or "rz""#);
@@ -202,7 +202,7 @@ fn values_of_the_wrong_kind_are_located() {
     insta::assert_snapshot!(wrong("[0, 500]", "[0]"), @"job.toml:32: `scene.band_hz` is a list of 1 – expected a list of 2");
     insta::assert_snapshot!(wrong("[write]", "[write"), @"job.toml:40: this is no TOML: unclosed table, expected `]`");
     insta::assert_snapshot!(at_28("[3, 4]"), @"job.toml:28: `reduction.modes` is a list – expected a table with keys of count, up_to_hz");
-    insta::assert_snapshot!(wrong("12.5]", "12.5, 0]"), @r#"job.toml:14: `interface[0].origin` is a list of 4 – expected "centroid" or a list of 3"#);
+    insta::assert_snapshot!(wrong("12.5]", "12.5, 0]"), @r#"job.toml:14: `interface[0].origin` is a list of 4 – expected "centroid", "area", "hole", "sphere" or a list of 3"#);
     insta::assert_snapshot!(wrong("\"none\"", "{ none = {} }"), @r#"job.toml:37: `run.certify` is a table – expected "none", "count" or "full""#);
     insta::assert_snapshot!(message(&with("/model/dofs", Value::Null)), @"job.json: `model.dofs` is null – expected a value, or the key left out");
     insta::assert_snapshot!(message(&with("/model/dofs", 3.into())), @"job.json: `model.dofs` is 3 – expected a text");
@@ -380,6 +380,27 @@ fn keys_that_contradict_the_coupling_are_refused() {
         "interface \"hub\": `origin` has no meaning for a direct coupling, whose nodes stay where they are – remove it, \
          or set coupling = \"rigid\""
     );
+    for word in ["area", "hole", "sphere"] {
+        assert!(
+            matches!(read(&with("/interface/0/origin", word.into())), Err(Error::InterfaceConflict { .. })),
+            "{word}"
+        );
+    }
+    assert_eq!(
+        message(&with("/interface/0/weights", "uniform".into())),
+        "interface \"hub\": `weights` has no meaning for a coupling that takes no mean – remove it, or set coupling = \
+         \"average\""
+    );
+    let weighted = |nodes: Value, weights: Value| {
+        let mean = json!({ "name": "mean", "nodes": nodes, "coupling": "average", "weights": weights });
+        read(&with("/interface/0", mean))
+    };
+    assert!(weighted(json!([5, 7, 6]), json!([1, 2.5, 1])).is_ok());
+    let conflict = weighted("group:A".into(), json!([1, 2.5, 1]));
+    assert!(matches!(conflict, Err(Error::InterfaceConflict { .. })), "{conflict:?}");
+    let count = weighted(json!([5, 7, 6]), json!([1, 2.5]));
+    assert!(matches!(count, Err(Error::WeightCount { n_weights: 2, n_nodes: 3, .. })), "{count:?}");
+    assert!(matches!(weighted(json!([5, 7, 6]), json!([1, 0, 1])), Err(Error::JobNumber { .. })));
     let rows = |key: &str, value: Value| {
         let mut document = with("/interface/0/nodes", json!({ "rows": [0, 1] }));
         document["interface"][0][key] = value;
@@ -462,6 +483,8 @@ fn changed_jobs() -> Vec<Value> {
         with("/interface/0/coupling", "average".into()),
         with("/interface/0/origin", "centroid".into()),
         with("/interface/0/origin", "middle".into()),
+        with("/interface/0", json!({ "name": "a", "nodes": "group:A", "coupling": "rigid", "origin": "area" })),
+        with("/interface/0", json!({ "name": "a", "nodes": "group:A", "coupling": "rigid", "origin": "sphere" })),
         with("/interface/0/nodes", json!({ "within": { "sphere": { "center": [0, 0, 0], "radius": 1 } } })),
         with("/interface/0/nodes", json!({ "within": { "sphere": { "center": [0, 0], "radius": 1 } } })),
         with("/interface/0/nodes", json!({ "within": { "sphere": { "center": [0, 0, 0], "radius": 0 } } })),

@@ -154,6 +154,38 @@ fn patch_that_cannot_turn() {
     }
 }
 
+/// The bore of the bundled bracket has its axis along y, 112 above the ground; nodes in the middle of its length are closer together.
+#[test]
+fn origin_of_a_hole_and_of_a_sphere() {
+    let bore = InterfaceJob { origin: Origin::Hole, ..rigid_group("EYE") };
+    let bracket = models::bracket();
+    let found = partition(&bracket, &[bore]).expect("a bore").interface[0].clone();
+    let (place, fit) = (found.position.expect("a place"), found.fit.expect("a fit"));
+    // Coordinates of a hundred, rounded as they were made.
+    let rounding = 112.0 * 64.0 * f64::EPSILON;
+    for (found, expected) in place.iter().zip([0.0, 0.0, 112.0]) {
+        assert!((found - expected).abs() < rounding, "{place:?}");
+    }
+    assert!((fit.radius - 18.0).abs() < rounding && fit.residual < rounding, "{fit:?}");
+    for (origin, shape) in [(Origin::Sphere, "sphere"), (Origin::Hole, "cylinder")] {
+        // Four bolt holes lie on no cylinder and on no sphere.
+        let error = refused(&bracket, &[InterfaceJob { origin, ..rigid_group("BASE") }]);
+        assert!(matches!(&error, Error::OriginNotFitted { shape: found, .. } if *found == shape), "{error}");
+        assert_says(&error, ErrorClass::InputData, &["BASE", shape, "give the origin as [x, y, z]"]);
+    }
+}
+
+#[test]
+fn origin_of_faces_that_nobody_knows() {
+    let job = InterfaceJob { origin: Origin::Area, ..rigid_group("XMAX") };
+    let error = refused(&beam(), &[job]);
+    assert!(
+        matches!(&error, Error::PatchWithoutFaces { interface, key: "origin", .. } if interface == "XMAX"),
+        "{error}"
+    );
+    assert_says(&error, ErrorClass::InputData, &["XMAX", "has no cells", "give such a mesh, or another `origin`"]);
+}
+
 /// A patch off its origin still follows; one on a line does not.
 #[test]
 fn patch_may_sit_off_its_origin() {

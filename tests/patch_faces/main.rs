@@ -263,7 +263,7 @@ fn topology(kind: &str, numbers: &[i64]) -> String {
 #[track_caller]
 fn assert_centroid(found: &Result<Vec<PatchFaces>>, n_faces: usize, centroid: Point, what: &str) {
     let Ok([only]) = found.as_deref() else { panic!("{what}: {found:?}") };
-    let Faces::Known { count, centroid: found } = &only.faces else { panic!("{what}: {only:?}") };
+    let Faces::Known { count, centroid: found, .. } = &only.faces else { panic!("{what}: {only:?}") };
     assert_eq!((only.interface.as_str(), *count), ("below", n_faces), "{what}");
     for (found, expected) in found.iter().zip(centroid) {
         assert!((found - expected).abs() <= ROUNDING * 3.0, "{what}: {only:?}");

@@ -3,6 +3,7 @@
 //!
 //! What a test compares with is computed densely from the model's own entries; see `chain`.
 
+mod average;
 mod basis;
 mod eigenpairs;
 mod reduction;

@@ -27,7 +27,7 @@ fn rigid_body_modes_are_unit_motions() {
         let error = against_bound((&t * &rigid.modes).as_ref(), expected.as_ref(), bound.as_ref());
         assert!(error <= 1.0, "{}: {error} of the bound", case.name);
     }
-    assert_eq!(n_classical, 5, "bodies with six geometric rigid-body modes");
+    assert_eq!(n_classical, 7, "bodies with six geometric rigid-body modes");
 }
 
 /// Equation (3): K U = 0.

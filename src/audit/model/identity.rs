@@ -80,7 +80,7 @@ fn stored(superelement: &Superelement) -> Vec<String> {
 fn rows_asked(partition: &Partition) -> Vec<String> {
     let of = |dof: &ReducedDof| match dof.origin {
         DofOrigin::Row(row) => format!("row {}", partition.model.rows.of(row) + 1),
-        DofOrigin::PatchNode(node, _) => format!("row {}", node + 1),
+        DofOrigin::PatchNode(node, _) | DofOrigin::Distortion(node, _) => format!("row {}", node + 1),
     };
     partition.dofs[partition.n_internal..].iter().map(of).collect()
 }

@@ -184,11 +184,27 @@ impl<'a> Gathered<'a> {
             let faces = match counted(faces) {
                 _ if *is_unclear => unknown("nodes of edges come in an order that no format has")?,
                 None => unknown("cells of one kind cover faces of another in part")?,
-                Some(counted) => centroid(patch, &counted)?,
+                Some(counted) => self.known(patch, &counted)?,
             };
             Some(PatchFaces { interface: patch.interface.clone(), faces })
         };
         Ok(self.patches.list.iter().zip(&self.is_unclear).zip(&of_patch).filter_map(known).collect())
+    }
+
+    /// Centroid and areas of faces of a patch; none where they have no area.
+    fn known(&self, patch: &Patch, faces: &[&Found]) -> Option<Faces> {
+        let from = patch.positions.first()?;
+        let mut sum = Moments::default();
+        let mut areas = vec![0.0; patch.nodes.len()];
+        for found in faces {
+            sum = sum.plus(found.moments);
+            let shares = area::shares(found.corners.len(), found.others.len());
+            for (node, share) in found.corners.iter().chain(&found.others).zip(shares) {
+                areas[self.members[*node][1] as usize] += share * found.moments.area;
+            }
+        }
+        let centroid = std::array::from_fn(|axis| from[axis] + sum.first[axis] / sum.area);
+        (sum.area > 0.0).then_some(Faces::Known { count: faces.len(), centroid, areas })
     }
 
     /// Every patch with the reason why no face is known.
@@ -199,17 +215,6 @@ impl<'a> Gathered<'a> {
         };
         self.patches.list.iter().map(unknown).collect()
     }
-}
-
-/// The area-weighted centroid of faces; none where they have no area.
-fn centroid(patch: &Patch, faces: &[&Found]) -> Option<Faces> {
-    let from = patch.positions.first()?;
-    let mut sum = Moments::default();
-    for found in faces {
-        sum = sum.plus(found.moments);
-    }
-    let centroid = std::array::from_fn(|axis| from[axis] + sum.first[axis] / sum.area);
-    (sum.area > 0.0).then_some(Faces::Known { count: faces.len(), centroid })
 }
 
 /// What is known of the nodes of a face whose corners are in a patch.

@@ -97,7 +97,7 @@ pub fn judge(search: &Search<'_>, modes: Modes, certificate: Certificate) -> Cer
     let unit = partition.scaling.eigenvalue_unit();
     let row = |dof: &supel::partition::ReducedDof| match dof.origin {
         DofOrigin::Row(row) => row,
-        DofOrigin::PatchNode(..) => usize::MAX,
+        DofOrigin::PatchNode(..) | DofOrigin::Distortion(..) => usize::MAX,
     };
     let rows = partition.dofs.iter().map(row).collect();
     let orthogonality = mass_orthogonality(search.problem.modal().mass, modes.shapes.as_ref()).error;

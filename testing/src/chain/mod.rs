@@ -27,7 +27,9 @@ use supel::sparse::{AssemblyNotes, Declared, SparseMatrix, Triplets};
 use supel_models as models;
 use supel_models::model::Entry;
 
-pub use twin::{EPS, Twin, absolute, against_bound, column_difference, dense, difference, psi, spectrum, terms};
+pub use twin::{
+    EPS, Twin, absolute, against_bound, column_difference, dense, difference, mean_motion, psi, spectrum, terms,
+};
 
 /// A generated model as the readers would hand it over.
 pub fn input(model: &models::Model) -> Input {
@@ -85,7 +87,7 @@ pub fn rows(name: &str, rows: &[usize]) -> InterfaceJob {
 
 /// An interface with the centroid as origin and all dofs.
 pub fn interface(name: &str, nodes: NodeSelection, coupling: Coupling) -> InterfaceJob {
-    InterfaceJob { name: name.to_owned(), nodes, coupling, origin: Origin::Centroid, dofs: None }
+    InterfaceJob { name: name.to_owned(), nodes, coupling, origin: Origin::Centroid, weights: None, dofs: None }
 }
 
 /// Everything the stages handed on.

@@ -1,10 +1,10 @@
-//! The dense twin of a partition, made from the model's own entries and from the definition of a rigid patch.
+//! The dense twin of a partition, made from the model's own entries and from the definitions of a rigid patch and of a mean motion.
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef, Side};
 use supel::basis::Basis;
 use supel::dofs::Direction;
-use supel::job::{InterfaceJob, NodeSelection, Origin};
+use supel::job::{Coupling, InterfaceJob, NodeSelection, Origin, Weights};
 use supel::model::Site;
 use supel::partition::{DofOrigin, Partition};
 use supel::sparse::SparseMatrix;
@@ -33,6 +33,12 @@ pub struct Twin {
 impl Twin {
     pub fn new(model: &models::Model, interfaces: &[InterfaceJob], partition: &Partition) -> Self {
         let (transformation, sizes) = transformation(model, interfaces, partition);
+        for (index, node) in partition.interface.iter().enumerate() {
+            let job = interfaces.iter().find(|job| job.name == node.name).expect("a job for every node");
+            if job.coupling == Coupling::Average {
+                assert_mean_motion(model, job, (partition, index), transformation.as_ref());
+            }
+        }
         let scaled = |entries: &[Entry], unit: f64| {
             let mut full = Mat::zeros(model.n, model.n);
             entries.iter().for_each(|&(i, j, value)| full[(i as usize, j as usize)] = value / unit);
@@ -109,17 +115,22 @@ fn transformation(model: &models::Model, interfaces: &[InterfaceJob], partition:
     for (column, dof) in partition.dofs.iter().enumerate() {
         match dof.origin {
             DofOrigin::Row(row) => (t[(row, column)], sizes[(row, column)]) = (1.0, 1.0),
+            // Any will do that leave the mean motion as it is: see assert_mean_motion.
+            DofOrigin::Distortion(..) => {
+                for (row, own) in partition.transformation.rows.iter().enumerate() {
+                    for (_, factor) in own.entries().filter(|(dof, _)| *dof as usize == column) {
+                        (t[(row, column)], sizes[(row, column)]) = (factor, factor.abs());
+                    }
+                }
+            }
             DofOrigin::PatchNode(index, direction) => {
                 let node = &partition.interface[index];
                 let job = interfaces.iter().find(|job| job.name == node.name).expect("a job for every node");
                 let members = members(model, &job.nodes);
-                let centre: [f64; 3] = match job.origin {
-                    Origin::Point(point) => point,
-                    Origin::Centroid => std::array::from_fn(|axis| {
-                        members.iter().map(|label| position(*label)[axis]).sum::<f64>() / members.len() as f64
-                    }),
-                };
-                for (row, &(label, at)) in model.dofs.iter().enumerate().filter(|(_, dof)| members.contains(&dof.0)) {
+                let centre = centre(model, job);
+                let follows =
+                    |dof: &(i64, u8)| members.contains(&dof.0) && (job.coupling == Coupling::Rigid || dof.1 < 3);
+                for (row, &(label, at)) in model.dofs.iter().enumerate().filter(|(_, dof)| follows(dof)) {
                     let r = position(label);
                     let at = Direction::ALL[usize::from(at)];
                     let lever = |offset| unit_motions(Site { position: offset, direction: at })[direction as usize];
@@ -130,6 +141,70 @@ fn transformation(model: &models::Model, interfaces: &[InterfaceJob], partition:
         }
     }
     (t, sizes)
+}
+
+/// Where the node of a patch sits.
+fn centre(model: &models::Model, job: &InterfaceJob) -> [f64; 3] {
+    let members = members(model, &job.nodes);
+    let position = |label: &i64| model.nodes[model.labels.iter().position(|other| other == label).expect("a node")];
+    match job.origin {
+        Origin::Point(point) => point,
+        _ => std::array::from_fn(|axis| {
+            members.iter().map(|label| position(label)[axis]).sum::<f64>() / members.len() as f64
+        }),
+    }
+}
+
+/// G of a patch from the normal equations, for these directions of its node, d × n: the q for which Σ w |u − L q|² is least.
+pub fn mean_motion(model: &models::Model, job: &InterfaceJob, directions: &[Direction]) -> Mat<f64> {
+    let (members, centre) = (members(model, &job.nodes), centre(model, job));
+    let weight = |label: i64| match &job.weights {
+        Some(Weights::Given(given)) => given[members.iter().position(|member| *member == label).expect("a node")],
+        _ => 1.0,
+    };
+    let mut normal: Mat<f64> = Mat::zeros(directions.len(), directions.len());
+    let mut moments: Mat<f64> = Mat::zeros(directions.len(), model.n);
+    for (row, &(label, at)) in model.dofs.iter().enumerate().filter(|(_, dof)| members.contains(&dof.0) && dof.1 < 3) {
+        let r = model.nodes[model.labels.iter().position(|other| *other == label).expect("a node")];
+        let position = std::array::from_fn(|axis| r[axis] - centre[axis]);
+        let motions = unit_motions(Site { position, direction: Direction::ALL[usize::from(at)] });
+        for (i, a) in directions.iter().enumerate() {
+            moments[(i, row)] = weight(label) * motions[*a as usize];
+            for (j, b) in directions.iter().enumerate() {
+                normal[(i, j)] += weight(label) * motions[*a as usize] * motions[*b as usize];
+            }
+        }
+    }
+    normal.partial_piv_lu().solve(moments)
+}
+
+/// G T picks the dofs of the patch's node, and T is regular: T stands for all motions of the model, and none is tied.
+fn assert_mean_motion(
+    model: &models::Model,
+    job: &InterfaceJob,
+    (partition, index): (&Partition, usize),
+    t: MatRef<'_, f64>,
+) {
+    let of_node = |direction: Direction| {
+        partition.dofs.iter().position(|dof| dof.origin == DofOrigin::PatchNode(index, direction))
+    };
+    let directions: Vec<Direction> =
+        Direction::ALL.into_iter().filter(|direction| of_node(*direction).is_some()).collect();
+    let g = mean_motion(model, job, &directions);
+    let (found, sizes) = (&g * t, absolute(g.as_ref()) * absolute(t));
+    for (i, direction) in directions.iter().enumerate() {
+        for j in 0..t.ncols() {
+            let expected = f64::from(u8::from(of_node(*direction) == Some(j)));
+            // Sums of n terms, of coefficients that are rounded as the largest of a row are, from small equations whose condition
+            // is in the hundreds.
+            let bound = 1e3 * model.n as f64 * EPS * sizes.row(i).norm_max();
+            let error = (found[(i, j)] - expected).abs();
+            assert!(error <= bound, "{} {direction}, dof {j}: {error:e} above {bound:e}", job.name);
+        }
+    }
+    let singular = t.singular_values().expect("a finite matrix");
+    let condition = singular[0] / singular[singular.len() - 1];
+    assert!(condition < 1e4, "{}: the condition of T is {condition:e}", job.name);
 }
 
 /// Equation (2) written out: u = t + θ × r.

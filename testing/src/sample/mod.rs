@@ -102,6 +102,7 @@ fn body() -> ReportBody {
                         origin: PositionOrigin::MeanOfNodes,
                         faces: Some(FacesReport { count: 80, centroid: [0.25, 3e-3, -5.5e-3], distance: 5e-3 }),
                         faces_unknown: None,
+                        fit: None,
                     }],
                 },
                 InterfaceReport {

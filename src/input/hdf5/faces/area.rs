@@ -57,6 +57,20 @@ pub(super) fn moments(corners: &[[f64; 3]], middles: &[[f64; 3]]) -> Moments {
     total
 }
 
+/// The shares of corners and other nodes, in this order, in the area of a face: in proportion to the diagonal ∫ N² dA of the consistent
+/// mass matrix (Hinton, Rock and Zienkiewicz 1976), as it is on a face whose corners span a parallelogram or a triangle.
+pub(super) fn shares(n_corners: usize, n_others: usize) -> Vec<f64> {
+    let (corner, middle, centre) = match (n_corners, n_others) {
+        (3, 3) => (3.0 / 57.0, 16.0 / 57.0, 0.0),
+        (4, 4) => (3.0 / 76.0, 16.0 / 76.0, 0.0),
+        (4, 5) => (1.0 / 36.0, 4.0 / 36.0, 16.0 / 36.0),
+        // Faces without other nodes, and such as collapsed cells have.
+        (_, others) => (1.0 / (n_corners + others) as f64, 1.0 / (n_corners + others) as f64, 0.0),
+    };
+    let others = (0..n_others).map(|other| if other < n_corners || centre == 0.0 { middle } else { centre });
+    std::iter::repeat_n(corner, n_corners).chain(others).collect()
+}
+
 /// Shape functions of a triangle with corners (0, 0), (1, 0), (0, 1).
 fn triangle(x: f64, y: f64, degree: Degree) -> Vec<Shape> {
     let linear: [Shape; 3] = [[1.0 - x - y, -1.0, -1.0], [x, 1.0, 0.0], [y, 0.0, 1.0]];
