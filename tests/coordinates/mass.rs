@@ -3,6 +3,7 @@
 use supel::cli::ExitCode;
 use supel_models::model::{Assembler, Entry};
 use supel_models::{Inertia, Material, Model, Section, brick, frame};
+use supel_runtime::Superelement;
 
 use crate::faults::{block, shuffled};
 use crate::place::{Ended, Place, supel};
@@ -107,16 +108,16 @@ fn a_lumped_mass_direction_by_direction() {
     for (model, is_a_mass) in [(lumped(), true), (lumped_of(&uneven), false)] {
         let wrong = direction_by_direction(&model);
         assert_said(&wrong, "M-16");
-        assert_failed_as_no_body(&wrong, is_a_mass);
+        let superelement = assert_failed_as_no_body(&wrong);
+        assert_eq!(superelement.metadata().model.mass_properties.is_some(), is_a_mass);
     }
 }
 
-/// Fails a reduction, and both verifications of the file, because the mass is not that of a body, and for nothing else.
+/// A reduction, and both verifications of its file, fail because the mass is not that of a body, and for nothing else; gives the file.
 #[track_caller]
-fn assert_failed_as_no_body(wrong: &Model, has_mass_properties: bool) {
+fn assert_failed_as_no_body(wrong: &Model) -> Superelement {
     let (place, ended) = reduced(wrong, "rigid-interface", "--method herting --allow-unverified");
     assert_eq!(ended.code, ExitCode::CheckFailed, "{}", ended.out);
-    assert_eq!(place.superelement("x.supel").metadata().model.mass_properties.is_some(), has_mass_properties);
     let file = place.text("x.supel");
     place.write("job.json", supel(&["inspect", &file, "--job"]).out.as_bytes());
     for rest in [&[][..], &["--job", &place.text("job.json")]] {
@@ -131,6 +132,7 @@ fn assert_failed_as_no_body(wrong: &Model, has_mass_properties: bool) {
             "{rest:?}"
         );
     }
+    place.superelement("x.supel")
 }
 
 /// Nodes of a lumped mass permuted: no order contradicts K, and the page says so.
