@@ -139,6 +139,9 @@ enum Part {
     Interface,
 }
 
+/// Dofs and factors in a row.
+type Entries = Vec<(u32, f64)>;
+
 struct Builder<'a> {
     dofs: Vec<ReducedDof>,
     rows: Vec<TransformationRow>,
@@ -160,7 +163,7 @@ impl Builder<'_> {
     }
 
     /// Adds the distortions of patches whose mean motion counts as internal dofs, and gives their entries by rows.
-    fn distort_patches(&mut self, interfaces: &Interfaces) -> Result<Vec<(usize, Vec<(u32, f64)>)>> {
+    fn distort_patches(&mut self, interfaces: &Interfaces) -> Result<Vec<(usize, Entries)>> {
         let mut entries = Vec::new();
         for (index, Resolved { node, rows }) in interfaces.0.iter().enumerate() {
             let Rows::Average { rows, weights } = rows else { continue };
@@ -183,7 +186,7 @@ impl Builder<'_> {
                 self.dofs.push(ReducedDof { origin, is_interface: false, site: None, node, dof: None });
             }
             self.n_nodes += n_groups;
-            let placed = |row: Vec<(u32, f64)>| row.into_iter().map(|(dof, factor)| (first + dof, factor)).collect();
+            let placed = |row: Entries| row.into_iter().map(|(dof, factor)| (first + dof, factor)).collect();
             entries.extend(rows.iter().copied().zip(found.rows.into_iter().map(placed)));
         }
         Ok(entries)
