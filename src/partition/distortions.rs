@@ -60,8 +60,8 @@ pub(super) struct Distortions {
 /// What a distortion belongs to, for the order of elimination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Owner {
-    /// A node, by its number.
-    Node(u32),
+    /// A row of the patch, by its place there.
+    Row(usize),
     /// A group of nodes, by its number in the patch.
     Group(u32),
 }
@@ -128,7 +128,7 @@ impl Distortions {
         let made_up = columns(&order[..d]).partial_piv_lu().solve(columns(&order[d..])) * faer::Scale(-1.0);
         for (column, own) in order[d..].iter().enumerate() {
             let row = group.rows[*own];
-            let number = self.add(Owner::Node(patch.rows[row].node));
+            let number = self.add(Owner::Row(row));
             self.rows[row].push((number, 1.0));
             for (at, other) in order[..d].iter().enumerate().filter(|(at, _)| made_up[(*at, column)].abs() > NO_ENTRY) {
                 self.rows[group.rows[*other]].push((number, made_up[(at, column)]));

@@ -45,7 +45,8 @@ impl ReducedDof {
     pub(super) fn name(&self, interface: &[InterfaceNode], rows: &FileRows) -> String {
         match (self.origin, self.dof) {
             (DofOrigin::PatchNode(node, direction), _) => format!("interface {} {direction}", interface[node].name),
-            (DofOrigin::Distortion(node, number), _) => {
+            (DofOrigin::Distortion(node, _), Some(dof)) => format!("{dof} in the patch of {}", interface[node].name),
+            (DofOrigin::Distortion(node, number), None) => {
                 format!("interface {} distortion {}", interface[node].name, number + 1)
             }
             (DofOrigin::Row(_), Some(dof)) => dof.to_string(),
@@ -139,6 +140,9 @@ enum Part {
     Interface,
 }
 
+/// Dofs and factors in a row.
+type Entries = Vec<(u32, f64)>;
+
 struct Builder<'a> {
     dofs: Vec<ReducedDof>,
     rows: Vec<TransformationRow>,
@@ -160,7 +164,7 @@ impl Builder<'_> {
     }
 
     /// Adds the distortions of patches whose mean motion counts as internal dofs, and gives their entries by rows.
-    fn distort_patches(&mut self, interfaces: &Interfaces) -> Result<Vec<(usize, Vec<(u32, f64)>)>> {
+    fn distort_patches(&mut self, interfaces: &Interfaces) -> Result<Vec<(usize, Entries)>> {
         let mut entries = Vec::new();
         for (index, Resolved { node, rows }) in interfaces.0.iter().enumerate() {
             let Rows::Average { rows, weights } = rows else { continue };
@@ -172,18 +176,20 @@ impl Builder<'_> {
             let first = self.dofs.len() as u32;
             let mut n_groups = 0;
             for (number, owner) in (0..).zip(&found.owners) {
-                let node = match owner {
-                    Owner::Node(node) => *node,
+                let (node, dof) = match owner {
+                    Owner::Row(at) => {
+                        (self.sites.node_of_row[rows[*at]], self.sites.dofs.and_then(|dofs| dofs[rows[*at]]))
+                    }
                     Owner::Group(group) => {
                         n_groups = n_groups.max(group + 1);
-                        self.n_nodes + group
+                        (self.n_nodes + group, None)
                     }
                 };
                 let origin = DofOrigin::Distortion(index, number);
-                self.dofs.push(ReducedDof { origin, is_interface: false, site: None, node, dof: None });
+                self.dofs.push(ReducedDof { origin, is_interface: false, site: None, node, dof });
             }
             self.n_nodes += n_groups;
-            let placed = |row: Vec<(u32, f64)>| row.into_iter().map(|(dof, factor)| (first + dof, factor)).collect();
+            let placed = |row: Entries| row.into_iter().map(|(dof, factor)| (first + dof, factor)).collect();
             entries.extend(rows.iter().copied().zip(found.rows.into_iter().map(placed)));
         }
         Ok(entries)

@@ -519,3 +519,38 @@ fn an_average_is_verified() {
     let ended = supel(&["reduce", &place.text("job.toml")]);
     assert_says(&ended, ExitCode::InputData, &["error[E-PATCH-FACES]", "`weights = \"area\"`"]);
 }
+
+/// Weights by area are those that the sizes of the faces give by hand: a quarter of each face for each of its corners.
+#[cfg(feature = "hdf5")]
+#[test]
+fn weights_by_area_are_those_of_the_faces() {
+    let place = graded_block();
+    let stiffness = || place.superelement("x.supel").tensors().stiffness.clone();
+    let keys = |weights: &str| {
+        let wall = "nodes = { within = { plane = { point = [2, 0, 0], normal = [1, 0, 0], tolerance = 1e-9 } } }";
+        format!("coupling = \"average\"\norigin = [0, 0.5, 0.25]\nweights = {weights}\n[[fixed]]\n{wall}")
+    };
+    patch_of_block(&place, &keys("\"area\"")).expect(ExitCode::Done);
+    let by_area = stiffness();
+    patch_of_block(&place, &keys("\"uniform\"")).expect(ExitCode::Done);
+    let uniform = stiffness();
+    // Nodes at y = 0, 1/16, 1/4, 9/16, 1 and z = 0, 1/4, 1/2; halves of the cells on either side of each.
+    let along_y = [1.0, 4.0, 8.0, 12.0, 7.0];
+    let weights = [1.0, 2.0, 1.0].map(|along_z: f64| along_y.map(|along_y| along_y * along_z)).concat();
+    let labels: Vec<usize> = (0..15).map(|node| 1 + 4 * node).collect();
+    let region = "nodes = { within = { plane = { point = [0, 0, 0], normal = [1, 0, 0], tolerance = 1e-9 } } }";
+    patch_of_block(&place, &keys(&format!("{weights:?}")));
+    let text = String::from_utf8(place.bytes("job.toml")).expect("UTF-8");
+    assert!(text.contains(region), "{text}");
+    place.write("job.toml", text.replace(region, &format!("nodes = {labels:?}")).as_bytes());
+    supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+    let by_hand = stiffness();
+    let at_node = || (0..6).flat_map(|i| (0..6).map(move |j| (i, j)));
+    let difference = |other: &supel_runtime::Matrix| {
+        let size = at_node().fold(0.0f64, |max, at| max.max(by_area[at].abs()));
+        at_node().fold(0.0f64, |max, at| max.max((by_area[at] - other[at]).abs())) / size
+    };
+    // Weights are the same but for the rounding of areas, which conditions of some 1e4 enlarge.
+    assert!(difference(&by_hand) < 1e4 * 100.0 * f64::EPSILON, "{:e}", difference(&by_hand));
+    assert!(difference(&uniform) > 1e-3, "{:e}", difference(&uniform));
+}

@@ -197,6 +197,17 @@ fn patch_may_sit_off_its_origin() {
     assert!(matches!(refused(&beam(), &[line]), Error::PatchRank { rank: 5, .. }));
 }
 
+/// A dof of a patch that stays free to deform is named by its node.
+#[test]
+fn distortions_have_names() {
+    let job = InterfaceJob { coupling: Coupling::Average, ..rigid_group("XMAX") };
+    let partition = partition(&beam(), &[job]).expect("a patch");
+    // Four nodes with twelve translations: six stand for the others, next to the mean motion.
+    let names: Vec<String> = (0..partition.n_internal).map(|dof| partition.name_of(dof)).collect();
+    assert_eq!((partition.n_internal, partition.n_interface()), (30, 6));
+    assert_eq!(names.iter().filter(|name| name.ends_with(" in the patch of XMAX")).count(), 6, "{names:?}");
+}
+
 #[test]
 fn lists_keep_their_order() {
     let partition = partition(&beam(), &[direct("b", &[7, 2]), direct("a", &[12])]).expect("nodes");

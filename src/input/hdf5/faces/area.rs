@@ -167,4 +167,33 @@ mod tests {
         let centroid = [(1.0 / 6.0 + 2.0 * h / 3.0 * 0.5) / area, (1.0 / 6.0 - 2.0 * h / 3.0 * 0.4 * h) / area];
         assert_is(moments(&triangle, &middles), area, centroid);
     }
+
+    /// The shares are in proportion to ∫ N² over the triangle and the square, which three Gauss points each way integrate exactly.
+    #[test]
+    fn shares_are_those_of_a_lumped_mass_matrix() {
+        const AT: [f64; 3] = [-0.774_596_669_241_483_4, 0.0, 0.774_596_669_241_483_4];
+        const WEIGHT: [f64; 3] = [5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0];
+        for (n_corners, degree) in [(3, Degree::Linear), (3, Degree::Quadratic), (4, Degree::Quadratic)] {
+            let mut squares = vec![0.0; if degree == Degree::Linear { n_corners } else { 2 * n_corners }];
+            for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+                let (shapes, weight) = if n_corners == 3 {
+                    let (a, b) = (0.5 * (1.0 + AT[i]), 0.5 * (1.0 + AT[j]));
+                    (triangle(a, b * (1.0 - a), degree), (1.0 - a) * WEIGHT[i] * WEIGHT[j])
+                } else {
+                    (quadrilateral(AT[i], AT[j], degree), WEIGHT[i] * WEIGHT[j])
+                };
+                squares.iter_mut().zip(&shapes).for_each(|(sum, shape)| *sum += weight * shape[0] * shape[0]);
+            }
+            let total: f64 = squares.iter().sum();
+            let found = shares(n_corners, squares.len() - n_corners);
+            assert_eq!(found.len(), squares.len());
+            for (share, square) in found.iter().zip(&squares) {
+                assert!((share - square / total).abs() < ROUNDING, "{found:?} {squares:?}");
+            }
+        }
+        for (n_corners, n_others) in [(3, 0), (3, 3), (3, 4), (4, 0), (4, 4), (4, 5)] {
+            let sum: f64 = shares(n_corners, n_others).iter().sum();
+            assert!((sum - 1.0).abs() < ROUNDING, "{n_corners} and {n_others}: {sum}");
+        }
+    }
 }
