@@ -490,6 +490,37 @@ pub enum Error {
         /// Fields of the header.
         expected: u64,
     },
+    /// A table of states lacks a column of a coordinate, has one twice, or has another one.
+    #[entry(
+        "E-STATE-COLUMN",
+        InputData,
+        "give each coordinate one column, as `supel inspect --coordinates` prints them"
+    )]
+    #[error(
+        "{}: {found} – expected one column for each of {}, and `time` where it is known{} –         `supel inspect --coordinates` prints such a header",
+        path.display(), counted(*n as u64, "coordinate", "coordinates"), Offered(suggestion)
+    )]
+    StateColumn {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with the header.
+        found: String,
+        /// Coordinates of the superelement.
+        n: usize,
+        /// The coordinate that was probably meant.
+        suggestion: Option<String>,
+    },
+    /// Velocities or accelerations are those of other states.
+    #[entry("E-STATE-ROWS", InputData, "write all tables from the same steps")]
+    #[error("{}: {found} – expected the states of {}, row by row – write both from the same steps", path.display(), of.display())]
+    StateRows {
+        /// The table of the velocities or accelerations.
+        path: PathBuf,
+        /// What is different.
+        found: String,
+        /// The table of the states.
+        of: PathBuf,
+    },
     /// A field of a table cannot be read.
     #[entry("E-TABLE-FIELD", InputData, "correct it; decimals take a point")]
     #[error("{}:{line}: column `{column}` – found `{found}` – expected {expected}", path.display())]
@@ -1949,6 +1980,30 @@ pub enum Error {
     NoInertiaRelief {
         /// The superelement.
         path: PathBuf,
+    },
+    /// A superelement holds no rows that would recover what is asked of it.
+    #[entry("E-NO-RECOVERY", Usage, "reduce it with `write.recovery`")]
+    #[error("{}: holds no {missing} – expected what {wanted} is made of – reduce it with {key}", path.display())]
+    NoRecovery {
+        /// The superelement.
+        path: PathBuf,
+        /// What it lacks.
+        missing: &'static str,
+        /// The flag that asks for it.
+        wanted: &'static str,
+        /// The key of the job that puts it into the file.
+        key: &'static str,
+    },
+    /// What follows from a state is beyond the range of double precision.
+    #[entry("E-STATE-RANGE", InputData, "check the units of the table")]
+    #[error("{}: state {number}: {what} overflows – expected a finite number – check the units of the table", path.display())]
+    StateRange {
+        /// The table of the states.
+        path: PathBuf,
+        /// Number of the state, from 1.
+        number: u64,
+        /// What was computed.
+        what: String,
     },
     /// Unit accelerations do not deform the interior, so that rigid-body motion cannot be taken out of its static modes.
     #[entry("E-ATTACHMENT", ModelPhysics, "use herting, or craig-bampton with inertia relief")]

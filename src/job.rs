@@ -37,3 +37,4 @@ pub(crate) use shape::nearest;
 pub use types::{
     Certify, Duplicates, Expectation, Job, ModeSelection, ModelJob, Precision, ReductionJob, RunJob, WriteJob,
 };
+pub(crate) use validation::ends_in;

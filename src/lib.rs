@@ -79,7 +79,7 @@
 //! factor · eigen
 //! job · input · model · partition · rigid · coordinates · constraint · modes · basis · reduction · rubin
 //! memory_forecast · verification · audit · assembly
-//! report · output · outcome · export · cli
+//! report · output · outcome · export · expansion · cli
 //! ```
 //!
 //! # Invariants
@@ -105,6 +105,7 @@ pub mod dense;
 pub mod dofs;
 pub mod eigen;
 pub mod error;
+pub mod expansion;
 pub mod export;
 pub mod factor;
 pub mod foreign_exit;

@@ -143,7 +143,7 @@ mod tensors;
 mod validation;
 
 #[cfg(feature = "std")]
-pub use atomic_file::{StagedFile, abandoned_parts};
+pub use atomic_file::{StagedFile, StagedWriter, abandoned_parts};
 #[cfg(feature = "std")]
 pub use disk::file_bytes;
 pub use document::FORMAT_VERSION;

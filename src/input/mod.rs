@@ -28,6 +28,7 @@ mod patch;
 mod patch_faces;
 mod single_precision;
 mod source;
+mod state_table;
 mod table;
 mod unsupported_format;
 mod written;
@@ -40,6 +41,7 @@ pub use model_files::{Input, files, hdf5_file, load_columns, read, read_hdf5_par
 pub use note::InputNote;
 pub use patch::{Faces, Patch, PatchFaces, Patches};
 pub use patch_faces::{Cells, has_mean_origin, patch_faces};
+pub use state_table::{StateRow, StateTable};
 
 use std::path::PathBuf;
 
