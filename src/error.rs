@@ -1448,6 +1448,53 @@ pub enum Error {
         /// What belongs there.
         expected: &'static str,
     },
+    /// A file of quantities is not one of the two forms of Matrix Market that are read.
+    #[entry(
+        "E-QUANTITY-FORMAT",
+        InputData,
+        "write `%%MatrixMarket matrix coordinate real general`, then `rows columns entries`, then `row column value`"
+    )]
+    #[error("{}:{line}: no rows of quantities – found `{found}` – expected {expected}", path.display())]
+    QuantityFormat {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// The line.
+        found: String,
+        /// What belongs there.
+        expected: &'static str,
+    },
+    /// A file of quantities has another size than names and matrices say.
+    #[entry("E-QUANTITY-SIZE", InputData, "give it one row for each name and one column for each row of the matrices")]
+    #[error(
+        "{}: {rows} × {columns} – expected {n_names} × {n} – give it one row for each name and one column for each row of \
+        the matrices",
+        path.display()
+    )]
+    QuantitySize {
+        /// The file.
+        path: PathBuf,
+        /// Its rows.
+        rows: u64,
+        /// Its columns.
+        columns: u64,
+        /// Names.
+        n_names: u64,
+        /// Rows of the matrices as they are in their files.
+        n: u64,
+    },
+    /// A quantity has no name, or that of another one.
+    #[entry("E-QUANTITY-NAME", InputData, "give each quantity a name of its own")]
+    #[error("{}:{line}: {found} – expected a name for each quantity, all different", path.display())]
+    QuantityName {
+        /// The table.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// What is wrong.
+        found: String,
+    },
     /// A file of loads has another number of rows than the matrices.
     #[entry("E-LOAD-ROWS", InputData, "export it from the model of the matrices, in the order of their rows")]
     #[error(
@@ -1982,7 +2029,7 @@ pub enum Error {
         path: PathBuf,
     },
     /// A superelement holds no rows that would recover what is asked of it.
-    #[entry("E-NO-RECOVERY", Usage, "reduce it with `write.recovery`")]
+    #[entry("E-NO-RECOVERY", Usage, "reduce it with the key that the message names")]
     #[error("{}: holds no {missing} – expected what {wanted} is made of – reduce it with {key}", path.display())]
     NoRecovery {
         /// The superelement.

@@ -140,7 +140,7 @@ use model::Model;
 use modes::{Component, ModeSource, Retained, Search};
 use outcome::Outcome;
 use output::Results;
-use partition::{Loads, Partition};
+use partition::{Loads, Partition, Quantities};
 use random::SEED;
 use reduction::Reduction;
 use report::Observer;
@@ -237,7 +237,8 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     let allowance = Allowance::of(resources.allowed(job));
     let read = input::read_within(&job.model, &allowance)?;
     let columns = input::load_columns(&job.loads, &read)?;
-    let mut facts = InputFacts::of(&read).with_loads(&job.loads, &columns);
+    let rows = input::job_quantities(job.write.quantities.as_ref(), &read, &allowance)?;
+    let mut facts = InputFacts::of(&read).with_loads(&job.loads, &columns).with_quantities(rows.as_ref());
 
     observer.stage("check");
     let model = Model::new(read)?;
@@ -249,12 +250,14 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     observer.stage("partition");
     let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;
     let loads = partition::loads(&model, &job.loads, &columns)?;
+    let quantities = partition::quantities(&model, rows)?;
     let patches = partition::patches(&model, &job.interfaces);
     let is_weighed = job.model.expect.is_some() || !job.fixed.is_empty();
     let weight = if is_weighed { model.weight() } else { None };
     let held = partition::held(&model, &job.fixed)?;
     let mut partition = Partition::with_held(model, &job.interfaces, held)?;
     partition.recovered = recovered;
+    partition.quantities = Quantities::carried(quantities, &partition.transformation);
     partition.loads = Loads::carried(loads, &partition.transformation)?;
     partition.model.weight = weight;
     facts.faces = input::patch_faces(&job.model, &patches, &allowance)?;

@@ -161,7 +161,7 @@ impl ExportCommand {
             file,
             format: to,
             answer: if json { Answer::Json } else { Answer::Text },
-            unverified: Unverified::of(allow_unverified),
+            unverified: if allow_unverified { Unverified::Written } else { Unverified::Refused },
         }
     }
 }
@@ -190,7 +190,7 @@ fn build_reduce(flags: ReduceFlags) -> Result<ReduceCommand> {
         (false, true) => Answer::Nothing,
         (false, false) => Answer::Text,
     };
-    let unverified = Unverified::of(output.allow_unverified);
+    let unverified = if output.allow_unverified { Unverified::Written } else { Unverified::Refused };
     let strictness = if output.strict { Strictness::Strict } else { Strictness::Normal };
     let (mut job, remarks) = match &document {
         Some(path) => {
@@ -322,6 +322,7 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
             html: output.html,
             junit: output.junit,
             recovery: None,
+            quantities: None,
         },
     })
 }

@@ -208,6 +208,7 @@ pub(super) struct ModesFlags {
 }
 
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("results").args(["output", "quantities", "loads"]).required(true).multiple(true))]
 pub(super) struct RecoverFlags {
     /// Superelement file
     pub(super) file: PathBuf,
@@ -223,7 +224,16 @@ pub(super) struct RecoverFlags {
     pub(super) acceleration: Option<PathBuf>,
     /// File for the motion of the recovered nodes, NAME.csv
     #[arg(short, long, value_name = "FILE")]
-    pub(super) output: PathBuf,
+    pub(super) output: Option<PathBuf>,
+    /// File for the quantities of the superelement, stresses for instance, NAME.csv
+    #[arg(long, value_name = "FILE")]
+    pub(super) quantities: Option<PathBuf>,
+    /// File for the loads on the interface and their resultants, NAME.csv; inertia counts where accelerations are given
+    #[arg(long, value_name = "FILE")]
+    pub(super) loads: Option<PathBuf>,
+    /// Gravity in which the loads act, an acceleration: --gravity=0,0,-9.81
+    #[arg(long, value_name = "X,Y,Z", requires = "loads", allow_hyphen_values = true)]
+    pub(super) gravity: Option<String>,
     /// Use even a superelement that failed a check; the exit code stays 1
     #[arg(long)]
     pub(super) allow_unverified: bool,

@@ -12,7 +12,9 @@ use super::recover_command::RecoverCommand;
 use super::superelement_file;
 use super::unverified::Unverified;
 use crate::error::{Error, Result};
-use crate::expansion::{Displacements, Order, Sheet, SheetOutput, States, coordinate_names, fill};
+use crate::expansion::{
+    Displacements, InterfaceLoads, Order, Quantities, Sheet, SheetOutput, States, coordinate_names, fill,
+};
 use crate::number;
 use crate::report::printable;
 
@@ -50,8 +52,15 @@ struct Asked<'a> {
 }
 
 fn sheets<'a>(command: &'a RecoverCommand, superelement: &'a Superelement) -> Result<Vec<Asked<'a>>> {
+    let motion = command.output.as_deref().map(|path| motion(path, &command.file, superelement));
+    let quantities = command.quantities.as_deref().map(|path| quantities(path, &command.file, superelement));
+    let loads = command.loads.as_deref().map(|path| loads(path, command, superelement));
+    [motion, quantities, loads].into_iter().flatten().collect()
+}
+
+fn motion<'a>(path: &'a Path, file: &Path, superelement: &'a Superelement) -> Result<Asked<'a>> {
     let recovery = superelement.tensors().recovery.as_ref().ok_or_else(|| Error::NoRecovery {
-        path: command.file.clone(),
+        path: file.to_owned(),
         missing: "recovered nodes",
         wanted: "--output",
         key: "write.recovery",
@@ -62,7 +71,34 @@ fn sheets<'a>(command: &'a RecoverCommand, superelement: &'a Superelement) -> Re
         Precision::Single => ", to the seven digits of single precision",
     };
     let content = format!("motion of {rows}{digits}");
-    Ok(vec![Asked { flag: "--output", path: &command.output, content, sheet: Box::new(Displacements::new(recovery)) }])
+    Ok(Asked { flag: "--output", path, content, sheet: Box::new(Displacements::new(recovery)) })
+}
+
+fn quantities<'a>(path: &'a Path, file: &Path, superelement: &'a Superelement) -> Result<Asked<'a>> {
+    let rows = superelement.tensors().quantities.as_ref().ok_or_else(|| Error::NoRecovery {
+        path: file.to_owned(),
+        missing: "quantities",
+        wanted: "--quantities",
+        key: "write.quantities",
+    })?;
+    let content = number::counted(rows.rows() as u64, "quantity", "quantities");
+    let sheet = Box::new(Quantities::new(&superelement.metadata().quantities, rows));
+    Ok(Asked { flag: "--quantities", path, content, sheet })
+}
+
+fn loads<'a>(path: &'a Path, command: &RecoverCommand, superelement: &'a Superelement) -> Result<Asked<'a>> {
+    let lacking = |missing, wanted, key| Error::NoRecovery { path: command.file.clone(), missing, wanted, key };
+    if superelement.n_interface() == 0 {
+        return Err(lacking("interface", "--loads", "[[interface]]"));
+    }
+    let sheet = InterfaceLoads::new(superelement);
+    let sheet = match (&command.gravity, &superelement.tensors().gravity) {
+        (None, _) => sheet,
+        (Some(field), Some(of_file)) => sheet.with_gravity(of_file, field),
+        (Some(_), None) => return Err(lacking("loads of gravity", "--gravity", "model.dofs and model.nodes")),
+    };
+    let inertia = if command.states.path(Order::Acceleration).is_some() { "" } else { ", without those of inertia," };
+    Ok(Asked { flag: "--loads", path, content: format!("loads on the interface{inertia}"), sheet: Box::new(sheet) })
 }
 
 fn inputs(command: &RecoverCommand) -> Vec<Named> {

@@ -6,10 +6,3 @@ pub(super) enum Unverified {
     Refused,
     Written,
 }
-
-impl Unverified {
-    /// By the flag `--allow-unverified`.
-    pub(super) fn of(allow_unverified: bool) -> Self {
-        if allow_unverified { Self::Written } else { Self::Refused }
-    }
-}

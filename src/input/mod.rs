@@ -26,6 +26,8 @@ mod node_table;
 mod note;
 mod patch;
 mod patch_faces;
+mod quantity_files;
+mod rectangular;
 mod single_precision;
 mod source;
 mod state_table;
@@ -37,10 +39,13 @@ pub use allowance::Allowance;
 pub use digits::{Digits, DigitsBy, digits_of};
 pub use facts::{InputFacts, MatrixFacts};
 pub use load_file::{LoadColumn, WantedColumn, load_column};
-pub use model_files::{Input, files, hdf5_file, load_columns, read, read_hdf5_parts, read_within, start_hdf5};
+pub use model_files::{
+    Input, files, hdf5_file, job_quantities, load_columns, read, read_hdf5_parts, read_within, start_hdf5,
+};
 pub use note::InputNote;
 pub use patch::{Faces, Patch, PatchFaces, Patches};
 pub use patch_faces::{Cells, has_mean_origin, patch_faces};
+pub use quantity_files::{QuantityRows, quantity_rows};
 pub use state_table::{StateRow, StateTable};
 
 use std::path::PathBuf;

@@ -25,6 +25,7 @@ pub(super) fn validate(job: &Job) -> Result<()> {
     }
     let write = &job.write;
     write.recovery.as_ref().map_or(Ok(()), super::recovery::validate)?;
+    write.quantities.as_ref().map_or(Ok(()), super::quantities::validate)?;
     ends_in("write.superelement", &write.superelement, ".supel")?;
     let others = [
         ("write.report", write.report.as_deref(), ".json"),

@@ -9,6 +9,7 @@ mod report;
 mod results;
 mod rigid_body;
 mod superelement;
+mod user_basis;
 mod warnings;
 
 pub use both::output;

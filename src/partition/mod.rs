@@ -26,6 +26,7 @@ mod origin;
 #[expect(clippy::module_inception, reason = "the partition is what the folder makes")]
 mod partition;
 mod problem;
+mod quantities;
 mod region;
 mod rigid_patch;
 mod roundings;
@@ -35,11 +36,12 @@ mod transformation_row;
 
 pub use gravity::Gravity;
 pub use held::{Held, HeldSelection, held};
-pub use interface::{nodes_of_patches, patches, recovered_rows};
+pub use interface::{RecoveredRows, nodes_of_patches, patches, recovered_rows};
 pub use interface_node::InterfaceNode;
 pub use load::{LoadFacts, Loads, RowLoad, loads};
 pub use noise::CHANCE_OF_MORE;
 pub use partition::{LARGEST_INTERFACE, Partition};
 pub use problem::EntriesAt;
+pub use quantities::{ModelQuantities, Quantities, quantities};
 pub use transformation::{DofOrigin, ReducedDof, Transformation};
 pub use transformation_row::TransformationRow;

@@ -12,7 +12,7 @@ use super::{Case, any, difference, foot_rows, largest};
 const EXACT: f64 = 1e-10;
 
 /// Displacements of the full model with its interface moved and nothing else acting.
-fn static_answer(case: &Case, u_b: &[f64]) -> Vec<f64> {
+pub(crate) fn static_answer(case: &Case, u_b: &[f64]) -> Vec<f64> {
     let model = &case.model;
     let interface = foot_rows(model);
     let inside: Vec<usize> = (0..model.n).filter(|row| !interface.contains(row)).collect();

@@ -1,6 +1,8 @@
 //! `supel recover`: states of a simulation expanded to what happens inside, against the full model.
 
 mod displacements;
+mod loads;
+mod quantities;
 mod refused;
 
 use std::collections::BTreeMap;
@@ -30,7 +32,15 @@ impl Case {
 
     /// With other keys of `[write]`.
     fn writing(method: &str, interfaces: &str, write: &str) -> Self {
-        let (model, place) = (steel_brick(), Place::with_brick());
+        Self { place: Place::with_brick(), model: steel_brick() }.reduced(method, interfaces, write)
+    }
+
+    /// The place once more, with other keys of `[write]`.
+    fn again(self, interfaces: &str, write: &str) -> Self {
+        self.reduced("craig-bampton", interfaces, write)
+    }
+
+    fn reduced(self, method: &str, interfaces: &str, write: &str) -> Self {
         let job = format!(
             r#"
 model     = {{ stiffness = "K.mtx", mass = "M.mtx", dofs = "dofs.txt", nodes = "nodes.csv" }}
@@ -41,9 +51,9 @@ superelement = "x.supel"
 {write}
 "#
         );
-        place.write("job.toml", job.as_bytes());
-        supel(&["reduce", &place.text("job.toml"), "--quiet"]).expect(ExitCode::Done);
-        Self { place, model }
+        self.place.write("job.toml", job.as_bytes());
+        supel(&["reduce", &self.place.text("job.toml"), "--quiet"]).expect(ExitCode::Done);
+        self
     }
 
     /// The header that a table of states of x.supel has.
@@ -85,6 +95,20 @@ superelement = "x.supel"
         let of_state = |row: &&BTreeMap<String, String>| row["state"] == state.to_string();
         self.rows(name).iter().filter(of_state).map(|row| row[column].parse().expect("a number")).collect()
     }
+}
+
+/// Names of all files in the folder of a case.
+fn files(case: &Case) -> Vec<String> {
+    let entries = std::fs::read_dir(case.place.path("")).expect("a folder");
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+/// A direct interface and a rigid patch.
+fn foot_and_hub() -> &'static str {
+    "{ name = \"foot\", nodes = [1, 11, 31] }, { name = \"hub\", nodes = [5, 10, 15, 20, 25], coupling = \"rigid\" }"
 }
 
 /// Rows of the interface in the full model, in the order of the coordinates.

@@ -3,16 +3,7 @@
 use supel::cli::ExitCode;
 use supel_runtime::{Superelement, Verdict};
 
-use super::{Case, any};
-
-/// Names of all files in the folder of a case.
-fn files(case: &Case) -> Vec<String> {
-    let entries = std::fs::read_dir(case.place.path("")).expect("a folder");
-    let mut names: Vec<String> =
-        entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
-    names.sort();
-    names
-}
+use super::{Case, any, files};
 
 #[track_caller]
 fn refused(case: &Case, more: &[&str], code: ExitCode, said: &[&str]) {
