@@ -490,6 +490,37 @@ pub enum Error {
         /// Fields of the header.
         expected: u64,
     },
+    /// A table of states lacks a column of a coordinate, has one twice, or has another one.
+    #[entry(
+        "E-STATE-COLUMN",
+        InputData,
+        "give each coordinate one column, as `supel inspect --coordinates` prints them"
+    )]
+    #[error(
+        "{}: {found} – expected one column for each of {}, and `time` where it is known{} –         `supel inspect --coordinates` prints such a header",
+        path.display(), counted(*n as u64, "coordinate", "coordinates"), Offered(suggestion)
+    )]
+    StateColumn {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with the header.
+        found: String,
+        /// Coordinates of the superelement.
+        n: usize,
+        /// The coordinate that was probably meant.
+        suggestion: Option<String>,
+    },
+    /// Velocities or accelerations are those of other states.
+    #[entry("E-STATE-ROWS", InputData, "write all tables from the same steps")]
+    #[error("{}: {found} – expected the states of {}, row by row – write both from the same steps", path.display(), of.display())]
+    StateRows {
+        /// The table of the velocities or accelerations.
+        path: PathBuf,
+        /// What is different.
+        found: String,
+        /// The table of the states.
+        of: PathBuf,
+    },
     /// A field of a table cannot be read.
     #[entry("E-TABLE-FIELD", InputData, "correct it; decimals take a point")]
     #[error("{}:{line}: column `{column}` – found `{found}` – expected {expected}", path.display())]
@@ -1417,6 +1448,53 @@ pub enum Error {
         /// What belongs there.
         expected: &'static str,
     },
+    /// A file of quantities is not one of the two forms of Matrix Market that are read.
+    #[entry(
+        "E-QUANTITY-FORMAT",
+        InputData,
+        "write `%%MatrixMarket matrix coordinate real general`, then `rows columns entries`, then `row column value`"
+    )]
+    #[error("{}:{line}: no rows of quantities – found `{found}` – expected {expected}", path.display())]
+    QuantityFormat {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// The line.
+        found: String,
+        /// What belongs there.
+        expected: &'static str,
+    },
+    /// A file of quantities has another size than names and matrices say.
+    #[entry("E-QUANTITY-SIZE", InputData, "give it one row for each name and one column for each row of the matrices")]
+    #[error(
+        "{}: {rows} × {columns} – expected {n_names} × {n} – give it one row for each name and one column for each row of \
+        the matrices",
+        path.display()
+    )]
+    QuantitySize {
+        /// The file.
+        path: PathBuf,
+        /// Its rows.
+        rows: u64,
+        /// Its columns.
+        columns: u64,
+        /// Names.
+        n_names: u64,
+        /// Rows of the matrices as they are in their files.
+        n: u64,
+    },
+    /// A quantity has no name, or that of another one.
+    #[entry("E-QUANTITY-NAME", InputData, "give each quantity a name of its own")]
+    #[error("{}:{line}: {found} – expected a name for each quantity, all different", path.display())]
+    QuantityName {
+        /// The table.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// What is wrong.
+        found: String,
+    },
     /// A file of loads has another number of rows than the matrices.
     #[entry("E-LOAD-ROWS", InputData, "export it from the model of the matrices, in the order of their rows")]
     #[error(
@@ -2007,6 +2085,30 @@ pub enum Error {
     NoInertiaRelief {
         /// The superelement.
         path: PathBuf,
+    },
+    /// A superelement holds no rows that would recover what is asked of it.
+    #[entry("E-NO-RECOVERY", Usage, "reduce it with the key that the message names")]
+    #[error("{}: holds no {missing} – expected what {wanted} is made of – reduce it with {key}", path.display())]
+    NoRecovery {
+        /// The superelement.
+        path: PathBuf,
+        /// What it lacks.
+        missing: &'static str,
+        /// The flag that asks for it.
+        wanted: &'static str,
+        /// The key of the job that puts it into the file.
+        key: &'static str,
+    },
+    /// What follows from a state is beyond the range of double precision.
+    #[entry("E-STATE-RANGE", InputData, "check the units of the table")]
+    #[error("{}: state {number}: {what} overflows – expected a finite number – check the units of the table", path.display())]
+    StateRange {
+        /// The table of the states.
+        path: PathBuf,
+        /// Number of the state, from 1.
+        number: u64,
+        /// What was computed.
+        what: String,
     },
     /// Unit accelerations do not deform the interior, so that rigid-body motion cannot be taken out of its static modes.
     #[entry("E-ATTACHMENT", ModelPhysics, "use herting, or craig-bampton with inertia relief")]

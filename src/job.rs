@@ -10,6 +10,7 @@ mod load;
 mod location;
 mod method;
 mod node_selection;
+mod quantities;
 mod ranges;
 mod reading;
 mod recovery;
@@ -29,6 +30,7 @@ pub use load::{LoadJob, LoadPattern, RotationJob};
 pub use location::Holder;
 pub use method::{Boundary, Method};
 pub use node_selection::{NodeSelection, Region};
+pub use quantities::QuantitiesJob;
 pub use recovery::RecoveryJob;
 pub use scene::{DampingJob, SceneJob, Support};
 pub use schema::{Role, schema};
@@ -37,3 +39,4 @@ pub(crate) use shape::nearest;
 pub use types::{
     Certify, Duplicates, Expectation, Job, ModeSelection, ModelJob, Precision, ReductionJob, RunJob, WriteJob,
 };
+pub(crate) use validation::ends_in;

@@ -79,7 +79,7 @@
 //! factor · eigen
 //! job · input · model · partition · rigid · coordinates · constraint · modes · basis · reduction · rubin
 //! memory_forecast · verification · audit · assembly
-//! report · output · outcome · export · cli
+//! report · output · outcome · export · expansion · cli
 //! ```
 //!
 //! # Invariants
@@ -105,6 +105,7 @@ pub mod dense;
 pub mod dofs;
 pub mod eigen;
 pub mod error;
+pub mod expansion;
 pub mod export;
 pub mod factor;
 pub mod foreign_exit;
@@ -139,7 +140,7 @@ use model::Model;
 use modes::{Component, ModeSource, Retained, Search};
 use outcome::Outcome;
 use output::Results;
-use partition::{Loads, Partition};
+use partition::{Loads, Partition, Quantities};
 use random::SEED;
 use reduction::Reduction;
 use report::Observer;
@@ -236,7 +237,8 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     let allowance = Allowance::of(resources.allowed(job));
     let read = input::read_within(&job.model, &allowance)?;
     let columns = input::load_columns(&job.loads, &read)?;
-    let mut facts = InputFacts::of(&read).with_loads(&job.loads, &columns);
+    let rows = input::job_quantities(job.write.quantities.as_ref(), &read, &allowance)?;
+    let mut facts = InputFacts::of(&read).with_loads(&job.loads, &columns).with_quantities(rows.as_ref());
 
     observer.stage("check");
     let model = Model::new(read)?;
@@ -248,6 +250,7 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     observer.stage("partition");
     let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;
     let loads = partition::loads(&model, &job.loads, &columns)?;
+    let quantities = partition::quantities(&model, rows)?;
     let patches = partition::patches(&model, &job.interfaces);
     facts.faces = input::patch_faces(&job.model, &patches, &allowance)?;
     let interfaces = partition::with_faces(&job.interfaces, &facts.faces)?;
@@ -256,6 +259,7 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     let held = partition::held(&model, &job.fixed)?;
     let mut partition = Partition::with_held(model, &interfaces, held)?;
     partition.recovered = recovered;
+    partition.quantities = Quantities::carried(quantities, &partition.transformation);
     partition.loads = Loads::carried(loads, &partition.transformation)?;
     partition.model.weight = weight;
     Ok((facts, partition))

@@ -166,7 +166,9 @@ impl Forecast {
         let of_loads = 3 * partition.loads.count() as u64;
         let vectors =
             of_loads + 2 * partition.n_interface() as u64 + of_solver.max(BLOCKS_OF_MODES * n_modes) + refinement;
-        let recovery = COPIES * partition.recovered.len() as u64 * (partition.n_interface() as u64 + n_modes);
+        let recovery = COPIES
+            * (partition.recovered.rows.len() + partition.quantities.rows.len()) as u64
+            * (partition.n_interface() as u64 + n_modes);
         Self { factors, matrices: n_copies * ENTRY_BYTES * entries, vectors: DOUBLE * (n * vectors + recovery) }
     }
 

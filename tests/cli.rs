@@ -382,6 +382,7 @@ fn help_is_an_answer() {
     insta::assert_snapshot!("help_reduce", help_of("reduce"));
     insta::assert_snapshot!("help_verify", help_of("verify"));
     insta::assert_snapshot!("help_modes", help_of("modes"));
+    insta::assert_snapshot!("help_recover", help_of("recover"));
 }
 
 #[test]

@@ -98,7 +98,7 @@ fn every_command_of_the_readme_runs() {
         }
         n_run += usize::from(mark.ends_with(" run") || mark.ends_with(" peers"));
     }
-    assert_eq!(n_run, 11, "blocks that are run");
+    assert_eq!(n_run, 12, "blocks that are run");
     let again = Job::read(&folder.path().join("again.json")).expect("the job kept in the file is a job");
     assert_eq!(again.write.superelement.file_name(), Some("small.supel".as_ref()));
     let named = [
@@ -107,6 +107,7 @@ fn every_command_of_the_readme_runs() {
         "bracket-cb.supel",
         "bracket.html",
         "checks.xml",
+        "displacements.csv",
         "small.op4",
         "again.again.supel",
     ];

@@ -502,10 +502,19 @@ size_t supel_n_recovered(const struct SupelComponent *component);
 // `component` is null or comes from `supel_component_open`.
 const int64_t *supel_recovered_labels(const struct SupelComponent *component);
 
+// Positions of the recovered nodes in the reference configuration, three values for each; null for null and where the file does
+// not have them.
+//
+// # Safety
+//
+// `component` is null or comes from `supel_component_open`.
+const double *supel_recovered_positions(const struct SupelComponent *component);
+
 // Displacements and rotations of the recovered nodes in the state last evaluated in the workspace.
 //
-// The file has no positions of these nodes: `positions` gives three values for each, in the reference configuration. A
-// file may hold nodes with only some directions, which cannot be turned with the floating frame: one of them is an error.
+// `positions` gives three values for each of these nodes, in the reference configuration: those of `supel_recovered_positions`, or
+// the caller's own for a file that does not have them. Nodes of which a file holds only some directions cannot be turned with the
+// floating frame; they are none of the recovered nodes.
 //
 // # Safety
 //

@@ -6,7 +6,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use crate::error::{FileError, Result};
@@ -31,17 +31,9 @@ impl StagedFile {
     /// [`FileError::NotAFile`] if the name is taken by something that is not a regular file,
     /// [`FileError::Write`] if the system refuses; nothing is left behind in both cases.
     pub fn write(target: &Path, bytes: &[u8]) -> Result<Self> {
-        let name = target.file_name().ok_or_else(|| FileError::NotAFile { path: target.to_owned() })?;
-        // Renaming onto a device or a pipe would replace it; onto a folder it fails only after all the work.
-        if fs::metadata(target).is_ok_and(|found| !found.is_file()) {
-            return Err(FileError::NotAFile { path: target.to_owned() });
-        }
-        let failed = |source| FileError::Write { path: target.to_owned(), source };
-        let (mut file, temporary) = create_next_to(target, name).map_err(failed)?;
-        // From here on the temporary file is removed on every way out.
-        let staged = Self { target: target.to_owned(), temporary, committed: false };
-        file.write_all(bytes).and_then(|()| file.sync_all()).map_err(failed)?;
-        Ok(staged)
+        let mut writer = StagedWriter::create(target)?;
+        writer.write_all(bytes).map_err(|source| FileError::Write { path: target.to_owned(), source })?;
+        writer.finish()
     }
 
     /// Where the bytes are until the commit, to read them back.
@@ -97,6 +89,62 @@ impl StagedFile {
             .map_err(|source| FileError::Write { path: self.target.clone(), source })?;
         self.committed = true;
         Ok(())
+    }
+}
+
+/// A staged file that is still being written, piece by piece; dropped before [`StagedWriter::finish`] it is removed.
+#[derive(Debug)]
+pub struct StagedWriter {
+    file: BufWriter<File>,
+    staged: StagedFile,
+}
+
+impl StagedWriter {
+    /// An empty file next to `target`, under a name of its own.
+    ///
+    /// # Errors
+    ///
+    /// [`FileError::NotAFile`] if the name is taken by something that is not a regular file,
+    /// [`FileError::Write`] if the system refuses; nothing is left behind in both cases.
+    pub fn create(target: &Path) -> Result<Self> {
+        let name = target.file_name().ok_or_else(|| FileError::NotAFile { path: target.to_owned() })?;
+        // Renaming onto a device or a pipe would replace it; onto a folder it fails only after all the work.
+        if fs::metadata(target).is_ok_and(|found| !found.is_file()) {
+            return Err(FileError::NotAFile { path: target.to_owned() });
+        }
+        let failed = |source| FileError::Write { path: target.to_owned(), source };
+        let (file, temporary) = create_next_to(target, name).map_err(failed)?;
+        // From here on the temporary file is removed on every way out.
+        let staged = StagedFile { target: target.to_owned(), temporary, committed: false };
+        Ok(Self { file: BufWriter::new(file), staged })
+    }
+
+    /// Where the bytes are meanwhile.
+    pub fn path(&self) -> &Path {
+        self.staged.path()
+    }
+
+    /// Syncs what was written to the disk.
+    ///
+    /// # Errors
+    ///
+    /// [`FileError::Write`] if the system refuses; nothing is left behind.
+    pub fn finish(self) -> Result<StagedFile> {
+        let Self { file, staged } = self;
+        let failed = |source| FileError::Write { path: staged.target.clone(), source };
+        let file = file.into_inner().map_err(|error| failed(error.into_error()))?;
+        file.sync_all().map_err(failed)?;
+        Ok(staged)
+    }
+}
+
+impl Write for StagedWriter {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
     }
 }
 

@@ -52,7 +52,7 @@ impl Dtype {
 /// Every tensor a superelement can have, in the order of the file.
 ///
 /// `recovery` comes last: in single precision it would leave what follows unaligned.
-pub(crate) const TENSORS: [&str; 13] = [
+pub(crate) const TENSORS: [&str; 15] = [
     "damping",
     "frequencies",
     "gravity",
@@ -61,7 +61,9 @@ pub(crate) const TENSORS: [&str; 13] = [
     "load_vectors",
     "mass",
     "mixing",
+    "quantities",
     "recovery_dofs",
+    "recovery_positions",
     "rigid_body_mass",
     "rigid_body_modes",
     "stiffness",

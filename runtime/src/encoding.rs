@@ -30,10 +30,15 @@ fn encode_one(tensors: &Tensors, name: &'static str) -> Option<TensorToWrite> {
         "mixing" => matrix(tensors.mixing.as_ref()?),
         "gravity" => matrix(tensors.gravity.as_ref()?),
         "load_vectors" => matrix(tensors.load_vectors.as_ref()?),
+        "quantities" => matrix(tensors.quantities.as_ref()?),
         "frequencies" => doubles(vec![tensors.frequencies.len()], &tensors.frequencies),
         "interface_positions" => doubles(vec![nodes, 3], tensors.interface_positions.as_flattened()),
         "interface_frames" => doubles(vec![nodes, 3, 3], tensors.interface_frames.as_flattened().as_flattened()),
         "recovery_dofs" => recovered_dofs(tensors.recovery.as_ref()?),
+        "recovery_positions" => {
+            let positions = tensors.recovery.as_ref()?.positions()?;
+            doubles(vec![positions.len(), 3], positions.as_flattened())
+        }
         "recovery" => match tensors.recovery.as_ref()? {
             Recovery { rows, precision: Precision::Double, .. } => matrix(rows),
             Recovery { rows, precision: Precision::Single, .. } => singles(rows),
@@ -71,6 +76,7 @@ pub(crate) fn decode(raw: &RawTensors) -> Result<Tensors> {
         gravity: find(raw, "gravity").map(matrix).transpose()?,
         load_vectors: find(raw, "load_vectors").map(matrix).transpose()?,
         recovery: recovery(raw)?,
+        quantities: find(raw, "quantities").map(matrix).transpose()?,
     })
 }
 
@@ -124,8 +130,10 @@ fn frames(tensor: Named) -> Result<Vec<[[f64; 3]; 3]>> {
 }
 
 fn recovery(raw: &RawTensors) -> Result<Option<Recovery>> {
+    let places = find(raw, "recovery_positions");
     let (rows, dofs) = match (find(raw, "recovery"), find(raw, "recovery_dofs")) {
         (Some(rows), Some(dofs)) => (rows, dofs),
+        (None, None) if places.is_some() => return Err(FileError::RecoveryIncomplete { missing: "recovery" }),
         (None, None) => return Ok(None),
         (None, Some(_)) => return Err(FileError::RecoveryIncomplete { missing: "recovery" }),
         (Some(_), None) => {
@@ -133,18 +141,22 @@ fn recovery(raw: &RawTensors) -> Result<Option<Recovery>> {
         }
     };
     let dofs = read_recovered_dofs(dofs)?;
-    match rows.1.dtype {
+    let recovery = match rows.1.dtype {
         Dtype::F32 => {
             let [n_rows, n_cols] = shape(rows)?;
             let values = rows.1.bytes.as_chunks().0.iter().map(|&bytes| f64::from(f32::from_le_bytes(bytes)));
             let rows = Matrix::from_row_major(n_rows, n_cols, values.collect())?;
-            Recovery::new(rows, dofs, Precision::Single).map(Some)
+            Recovery::new(rows, dofs, Precision::Single)?
         }
-        Dtype::F64 => Recovery::new(matrix(rows)?, dofs, Precision::Double).map(Some),
+        Dtype::F64 => Recovery::new(matrix(rows)?, dofs, Precision::Double)?,
         Dtype::I64 => {
             let found = Dtype::I64.name();
-            Err(FileError::WrongDtype { tensor: "recovery", found, expected: "F64 or F32" })
+            return Err(FileError::WrongDtype { tensor: "recovery", found, expected: "F64 or F32" });
         }
+    };
+    match places {
+        Some(places) => recovery.with_positions(positions(places)?).map(Some),
+        None => Ok(Some(recovery)),
     }
 }
 

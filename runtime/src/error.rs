@@ -401,8 +401,16 @@ pub enum FileError {
         /// Columns of the tensor.
         vectors: usize,
     },
-    /// Only one of `recovery` and `recovery_dofs` is there.
-    #[error("`recovery` and `recovery_dofs` belong together; `{missing}` is missing")]
+    /// Number of named quantities and of their rows differ.
+    #[error("{names} named quantities for {rows} rows of `quantities`")]
+    QuantityNames {
+        /// Quantities in the metadata.
+        names: usize,
+        /// Rows of the tensor.
+        rows: usize,
+    },
+    /// Only one of `recovery` and `recovery_dofs` is there, or positions without them.
+    #[error("`recovery` and `recovery_dofs` belong together, and `recovery_positions` to both; `{missing}` is missing")]
     RecoveryIncomplete {
         /// The absent one.
         missing: &'static str,

@@ -29,6 +29,8 @@
 //! | `gravity` | r × 3 | optional: loads of a unit gravity field along x, y, z |
 //! | `load_vectors` | r × n_loads | optional |
 //! | `recovery`, `recovery_dofs` | rows × r, rows × 2 | optional: basis rows, and the node label and direction (0 to 5) of each |
+//! | `quantities` | m × r | optional: rows R Ψ of quantities that follow from displacements |
+//! | `recovery_positions` | nodes × 3 | optional, with those: where the recovered nodes are, in the order of their first rows |
 //!
 //! all of them 64-bit floating point, except `recovery_dofs` (64-bit integers) and `recovery`, which may be 32-bit
 //! where it is applied to the deformation only. No other tensor may occur. The reduced coordinates are displacements and
@@ -143,7 +145,7 @@ mod tensors;
 mod validation;
 
 #[cfg(feature = "std")]
-pub use atomic_file::{StagedFile, abandoned_parts};
+pub use atomic_file::{StagedFile, StagedWriter, abandoned_parts};
 #[cfg(feature = "std")]
 pub use disk::file_bytes;
 pub use document::FORMAT_VERSION;
@@ -153,7 +155,7 @@ pub use mass_properties::mass_properties;
 pub use matrix::Matrix;
 pub use metadata::{
     CheckSummary, Coordinate, Direction, DroppedColumn, Flag, Generator, InterfaceDof, InterfaceNode, MOTIONS,
-    MassProperties, Metadata, Method, ModelSummary, RigidBodyModes, Validity, Verdict, Verification,
+    MassProperties, Metadata, Method, ModelSummary, Quantity, RigidBodyModes, Validity, Verdict, Verification,
 };
 pub use superelement::Superelement;
 pub use tensors::{Precision, RecoveredDof, Recovery, Tensors};

@@ -27,6 +27,9 @@ pub struct Metadata {
     pub dropped: Vec<DroppedColumn>,
     /// Name of each column of `load_vectors`.
     pub load_names: Vec<String>,
+    /// What each row of the tensor `quantities` is. Absent from the file where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub quantities: Vec<Quantity>,
     /// What the superelement may be used for.
     pub validity: Validity,
     /// Properties that a client must know before it uses the matrices.
@@ -219,6 +222,16 @@ pub struct DroppedColumn {
     pub column: Coordinate,
     /// Why it was left out.
     pub reason: String,
+}
+
+/// A quantity that follows from the displacements inside the component: a stress, a strain, the elongation of a spring.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Quantity {
+    /// Its name, by which it is told from the others.
+    pub name: String,
+    /// Its unit; empty where nobody said it. No number depends on it.
+    pub unit: String,
 }
 
 /// What the superelement may be used for.

@@ -7,6 +7,7 @@
 //! | M_F | `rigid_body_mass` | n_r × n_r |
 //! | ω | `frequencies` | n_modes, rad/s |
 
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 use serde::{Deserialize, Serialize};
@@ -46,6 +47,8 @@ pub struct Tensors {
     pub load_vectors: Option<Matrix>,
     /// Rows of the reduction basis for displacements inside the component.
     pub recovery: Option<Recovery>,
+    /// Rows R Ψ of quantities that follow from displacements, stresses for instance, m × r, named by `quantities` of the metadata.
+    pub quantities: Option<Matrix>,
 }
 
 /// Rows of the reduction basis Ψ: displacement inside the component = `rows` · reduced coordinates.
@@ -57,6 +60,7 @@ pub struct Recovery {
     pub(crate) rows: Matrix,
     pub(crate) dofs: Vec<RecoveredDof>,
     pub(crate) precision: Precision,
+    pub(crate) positions: Option<Vec<[f64; 3]>>,
 }
 
 /// What one recovered row is.
@@ -96,7 +100,32 @@ impl Recovery {
             Precision::Double => rows,
             Precision::Single => Matrix::from_fn(rows.rows(), rows.cols(), |i, j| f64::from(rows[(i, j)] as f32)),
         };
-        Ok(Self { rows, dofs, precision })
+        Ok(Self { rows, dofs, precision, positions: None })
+    }
+
+    /// These rows with the positions of their nodes in the reference configuration, in the order of [`Recovery::labels`].
+    ///
+    /// # Errors
+    ///
+    /// [`FileError::WrongShape`] if there are not as many positions as nodes.
+    pub fn with_positions(self, positions: Vec<[f64; 3]>) -> Result<Self> {
+        let (found, expected) = (positions.len(), self.labels().len());
+        if found != expected {
+            let (found, expected) = (vec![found, 3], vec![expected, 3]);
+            return Err(FileError::WrongShape { tensor: "recovery_positions", found, expected });
+        }
+        Ok(Self { positions: Some(positions), ..self })
+    }
+
+    /// Labels of the nodes, each once, in the order of their first rows.
+    pub fn labels(&self) -> Vec<i64> {
+        let mut known = BTreeSet::new();
+        self.dofs.iter().map(|dof| dof.node).filter(|node| known.insert(*node)).collect()
+    }
+
+    /// Positions of the nodes in the order of [`Recovery::labels`], where the model has coordinates.
+    pub fn positions(&self) -> Option<&[[f64; 3]]> {
+        self.positions.as_deref()
     }
 
     /// The rows, n × r.

@@ -50,6 +50,7 @@ fn matrices(tensors: &Tensors) -> impl Iterator<Item = (&'static str, &Matrix)> 
         ("gravity", tensors.gravity.as_ref()),
         ("load_vectors", tensors.load_vectors.as_ref()),
         ("recovery", tensors.recovery.as_ref().map(|recovery| &recovery.rows)),
+        ("quantities", tensors.quantities.as_ref()),
     ]
     .into_iter()
     .filter_map(|(name, matrix)| Some((name, matrix?)))
@@ -67,7 +68,7 @@ fn check_shapes(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
             "mixing" => (n_eta, n_eta),
             "gravity" => (r, 3),
             "load_vectors" => (r, matrix.cols()),
-            "recovery" => (matrix.rows(), r),
+            "recovery" | "quantities" => (matrix.rows(), r),
             _ => (r, r),
         };
         if found != expected {
@@ -84,14 +85,20 @@ fn check_shapes(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
         return wrong("interface_frames", vec![tensors.interface_frames.len(), 3, 3], vec![k, 3, 3]);
     }
     let (names, vectors) = (metadata.load_names.len(), tensors.load_vectors.as_ref().map_or(0, Matrix::cols));
-    if names == vectors { Ok(()) } else { Err(FileError::LoadNames { names, vectors }) }
+    if names != vectors {
+        return Err(FileError::LoadNames { names, vectors });
+    }
+    let (names, rows) = (metadata.quantities.len(), tensors.quantities.as_ref().map_or(0, Matrix::rows));
+    if names == rows { Ok(()) } else { Err(FileError::QuantityNames { names, rows }) }
 }
 
 fn check_values(tensors: &Tensors) -> Result<()> {
+    let recovered = tensors.recovery.as_ref().and_then(|recovery| recovery.positions());
     let vectors = [
         ("interface_positions", tensors.interface_positions.as_flattened()),
         ("interface_frames", tensors.interface_frames.as_flattened().as_flattened()),
         ("frequencies", tensors.frequencies.as_slice()),
+        ("recovery_positions", recovered.unwrap_or_default().as_flattened()),
     ];
     for (tensor, values) in matrices(tensors).map(|(name, matrix)| (name, matrix.as_slice())).chain(vectors) {
         if let Some((index, &value)) = values.iter().enumerate().find(|(_, value)| !value.is_finite()) {

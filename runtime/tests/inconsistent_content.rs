@@ -82,6 +82,11 @@ fn number_in_a_tensor_not_finite() {
     assert_refused!(error, FileError::NotFinite { tensor: "interface_positions", index: 1, .. });
     let error = refusal(|tensors, _| tensors.interface_frames[0][2][0] = f64::NAN);
     assert_refused!(error, FileError::NotFinite { tensor: "interface_frames", index: 6, .. });
+    let error = refusal(|tensors, _| {
+        let recovery = tensors.recovery.take().unwrap();
+        tensors.recovery = recovery.with_positions(vec![[0.0, f64::NAN, 0.0]]).ok();
+    });
+    assert_refused!(error, FileError::NotFinite { tensor: "recovery_positions", index: 1, .. });
     // The largest double does not fit the single precision of the sample's recovery.
     let dofs = sample::complete().tensors().recovery.as_ref().unwrap().dofs().to_vec();
     let rows = with(&zeros(3, 9), (0, 1), f64::MAX);
@@ -219,6 +224,25 @@ fn names_and_vectors_of_the_loads() {
     assert_refused!(error, FileError::LoadNames { names: 0, vectors: 1 });
     let error = refusal(|tensors, _| tensors.load_vectors = None);
     assert_refused!(error, FileError::LoadNames { names: 1, vectors: 0 });
+}
+
+#[test]
+fn names_and_rows_of_the_quantities() {
+    let stress = || vec![supel_runtime::Quantity { name: "stress".into(), unit: "MPa".into() }];
+    let error = refusal(|_, metadata| metadata.quantities = stress());
+    assert_refused!(error, FileError::QuantityNames { names: 1, rows: 0 });
+    let error = refusal(|tensors, metadata| {
+        metadata.quantities = stress();
+        tensors.quantities = Some(zeros(2, 9));
+    });
+    assert_refused!(error, FileError::QuantityNames { names: 1, rows: 2 });
+    let error = refusal(|tensors, _| tensors.quantities = Some(zeros(1, 8)));
+    assert_refused!(error, FileError::WrongShape { tensor: "quantities", .. });
+    let (mut tensors, mut metadata) = sample::complete_parts();
+    metadata.quantities = stress();
+    tensors.quantities = Some(zeros(1, 9));
+    let whole = Superelement::new(tensors, metadata).unwrap();
+    assert_eq!(Superelement::from_bytes(&whole.to_bytes().unwrap().bytes).unwrap(), whole);
 }
 
 #[test]

@@ -91,6 +91,7 @@ fn evaluations_allocate_nothing() {
             component.add_load(&load, motions, &mut forces).expect("a node of the component");
             component.add_load_stiffness(&load, motions, &mut stiffness).expect("a node of the component");
             assert_eq!(outcome.is_ok(), component.recover(&workspace, &[[0.0; 3]], &mut node).is_ok());
+            assert_eq!(outcome.is_ok(), component.recover_node(&workspace, 7, &[0.0; 3]).is_ok());
         }
         assert_eq!(CALLS.get(), before);
     }

@@ -67,9 +67,12 @@ fn by_job(content: &Content<'_>, job: &Job) -> Vec<&'static str> {
     expect(!found.is_empty() || !is_by_rows || rows(content) == rows_asked(job), "other interface rows");
     expect(metadata.validity.band_hz == band(content.superelement, job), "another band");
     expect(metadata.load_names.iter().eq(job.loads.iter().map(|load| &load.name)), "other loads");
+    expect(tensors.quantities.is_some() == job.write.quantities.is_some(), "other quantities");
     let precision = job.write.recovery.as_ref().map(|recovery| recovery.precision);
     let recovery = tensors.recovery.as_ref();
     expect(recovery.map(supel_runtime::Recovery::precision) == precision, "another recovery");
+    let has_positions = recovery.is_some_and(|recovery| recovery.positions().is_some());
+    expect(has_positions == (recovery.is_some() && job.model.nodes.is_some()), "positions of recovered nodes");
     if let (Some(recovery), Some(NodeSelection::Labels(asked))) =
         (recovery, job.write.recovery.as_ref().map(|recovery| &recovery.nodes))
     {

@@ -37,7 +37,7 @@ const fn unvouched(field: &'static str, reason: &'static str) -> Unvouched {
 const NOT_AT_HAND: &str = "names things of a model that is not at hand";
 
 /// Fields that the file alone cannot confirm.
-const ALONE: [Unvouched; 25] = [
+const ALONE: [Unvouched; 27] = [
     unvouched("generator", "a file has no other sign of who made it"),
     unvouched("units", "the job kept in it is the only other place, and may be changed too"),
     unvouched("interface_nodes[].name", "the job kept in it is the only other place, and may be changed too"),
@@ -75,9 +75,14 @@ const ALONE: [Unvouched; 25] = [
     unvouched("rigid_body_mass", "of a held component there is none"),
     unvouched(
         "recovery",
-        "rigid-body motion ties its interface columns, nothing its modal ones; any node may have any place",
+        "rigid-body motion and the positions of its nodes tie its interface columns, nothing its modal ones",
     ),
     unvouched("recovery_dofs", NOT_AT_HAND),
+    unvouched("quantities", "names, units and rows of a recovery matrix that is not at hand"),
+    unvouched(
+        "recovery_positions",
+        "rows that move with them may be changed too; motions that are not six units tell none",
+    ),
 ];
 
 /// Fields that a comparison with the job cannot confirm either.
@@ -110,7 +115,9 @@ pub(super) fn fields(superelement: &Superelement, compared: Compared) -> Vec<Unv
         "gravity" => is_algebraic && tensors.gravity.is_some(),
         "load_vectors" => tensors.load_vectors.is_some(),
         "rigid_body_mass" => superelement.n_rigid() == 0,
+        "quantities" => tensors.quantities.is_some(),
         "recovery" | "recovery_dofs" => tensors.recovery.is_some(),
+        "recovery_positions" => tensors.recovery.as_ref().is_some_and(|recovery| recovery.positions().is_some()),
         _ => true,
     };
     list.iter().filter(is_there).copied().collect()

@@ -3,13 +3,14 @@
 //! ```text
 //! W Û   m × 6    displacements of the recovered nodes under the six unit motions
 //! ```
-//! The file does not say where a recovered node is; but whatever its place p, a unit translation moves it by that translation
-//! and a unit rotation θ by θ × p: nine numbers of each node for three unknown.
+//! A unit translation moves a node by that translation, and a unit rotation θ moves one at p by θ × p. Where the file does not say where a
+//! recovered node is, that are nine numbers of each node for three unknown.
 
 use supel_runtime::{Direction, Precision, RecoveredDof, RigidBodyModes};
 
 use super::content::Content;
 use crate::dense::{self, NOISE_FACTOR, unpacked};
+use crate::model::Site;
 use crate::verification::check::{Check, Limits};
 
 /// M-11: recovered rows carry rigid-body motion, where that is the six unit motions.
@@ -28,10 +29,11 @@ pub(super) fn rigid_motion(content: &Content<'_>) -> Option<Check> {
     let mut worst = (0.0, None);
     let mut rounding = 0.0f64;
     let dofs = recovery.dofs();
-    let mut first = 0;
+    let (mut first, mut places) = (0, recovery.positions().unwrap_or_default().iter());
     while first < dofs.len() {
         let n = dofs[first..].iter().take_while(|dof| dof.node == dofs[first].node).count();
-        let node = Node { dofs: &dofs[first..first + n], displacement: &|i, j| motion[(first + i, j)] };
+        let displacement = |i: usize, j: usize| motion[(first + i, j)];
+        let node = Node { dofs: &dofs[first..first + n], position: places.next(), displacement: &displacement };
         for (i, dof) in node.dofs.iter().enumerate() {
             for j in 0..6 {
                 let unit = if j < 3 || is_rotation(dof.direction) { 1.0 } else { size };
@@ -68,6 +70,8 @@ fn is_rotation(direction: Direction) -> bool {
 /// The recovered rows of a node under the unit motions.
 struct Node<'a> {
     dofs: &'a [RecoveredDof],
+    /// Where it is, as far as the file says it.
+    position: Option<&'a [f64; 3]>,
     /// Displacement of a row under a unit motion.
     displacement: &'a dyn Fn(usize, usize) -> f64,
 }
@@ -79,6 +83,10 @@ impl Node<'_> {
         let found = (self.displacement)(i, j);
         if j < 3 || is_rotation(self.dofs[i].direction) {
             return (found - f64::from(u8::from(direction == j))).abs();
+        }
+        if let Some(position) = self.position {
+            let site = Site { position: *position, direction: self.dofs[i].direction };
+            return (found - site.rigid_motion()[j]).abs();
         }
         // θ_b × p along a is ± the coordinate of the third axis, and nothing along b itself.
         let (a, b) = (direction, j - 3);

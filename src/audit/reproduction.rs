@@ -64,6 +64,7 @@ fn tensors(one: &Tensors, other: &Tensors, parts: &mut Vec<String>) {
         gravity,
         load_vectors,
         recovery,
+        quantities,
     } = one;
     let mut note = |name: &str, differs: bool, size: Option<f64>| {
         if differs {
@@ -79,6 +80,7 @@ fn tensors(one: &Tensors, other: &Tensors, parts: &mut Vec<String>) {
         ("mixing", mixing.as_ref(), other.mixing.as_ref()),
         ("gravity", gravity.as_ref(), other.gravity.as_ref()),
         ("load_vectors", load_vectors.as_ref(), other.load_vectors.as_ref()),
+        ("quantities", quantities.as_ref(), other.quantities.as_ref()),
     ];
     for (name, one, other) in matrices {
         note(name, one != other, one.zip(other).and_then(|(one, other)| distance(one, other)));

@@ -7,6 +7,8 @@ use super::flags::{
 };
 use super::modes_command::ModesCommand;
 use super::process;
+use super::recover_command::RecoverCommand;
+use super::unverified::Unverified;
 use crate::dofs::Direction;
 use crate::error::{Error, Result};
 use crate::export::Format;
@@ -23,6 +25,7 @@ pub(super) enum Command {
     Inspect(InspectCommand),
     Modes(ModesCommand),
     Export(ExportCommand),
+    Recover(RecoverCommand),
     /// What a child process does for its parent, see [`super::rehearsal`].
     RehearseReading,
 }
@@ -111,14 +114,8 @@ pub(super) enum InspectAnswer {
     Text,
     Json,
     Rubin,
+    Coordinates,
     Job,
-}
-
-/// What becomes of a superelement that failed a check.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Unverified {
-    Refused,
-    Written,
 }
 
 /// Whether warnings count as failed checks.
@@ -133,19 +130,26 @@ impl Command {
         match line.command {
             Typed::Reduce(flags) => build_reduce(*flags).map(|command| Self::Reduce(Box::new(command))),
             Typed::Verify(flags) => build_verify(flags).map(|command| Self::Verify(Box::new(command))),
-            Typed::Inspect(InspectFlags { file, json, rubin, job }) => {
-                let answer = match (json, rubin, job) {
-                    (_, _, true) => InspectAnswer::Job,
-                    (_, true, false) => InspectAnswer::Rubin,
-                    (true, false, false) => InspectAnswer::Json,
-                    (false, false, false) => InspectAnswer::Text,
-                };
-                Ok(Self::Inspect(InspectCommand { file, answer }))
-            }
+            Typed::Inspect(flags) => Ok(Self::Inspect(InspectCommand::of(flags))),
             Typed::Modes(flags) => ModesCommand::build(flags).map(Self::Modes),
             Typed::Export(flags) => Ok(Self::Export(ExportCommand::of(flags))),
+            Typed::Recover(flags) => RecoverCommand::build(flags).map(Self::Recover),
             Typed::RehearseReading => Ok(Self::RehearseReading),
         }
+    }
+}
+
+impl InspectCommand {
+    fn of(InspectFlags { file, json, rubin, coordinates, job }: InspectFlags) -> Self {
+        let asked = [
+            (json, InspectAnswer::Json),
+            (rubin, InspectAnswer::Rubin),
+            (coordinates, InspectAnswer::Coordinates),
+            (job, InspectAnswer::Job),
+        ];
+        let answer =
+            asked.into_iter().find(|(is_asked, _)| *is_asked).map_or(InspectAnswer::Text, |(_, answer)| answer);
+        Self { file, answer }
     }
 }
 
@@ -318,6 +322,7 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
             html: output.html,
             junit: output.junit,
             recovery: None,
+            quantities: None,
         },
     })
 }

@@ -6,11 +6,12 @@ use serde_json::json;
 use supel_runtime::{Superelement, Verdict};
 
 use super::answer::Terminal;
-use super::command::{Answer, ExportCommand, Unverified};
+use super::command::{Answer, ExportCommand};
 use super::exit_code::ExitCode;
 use super::outputs::{Outputs, abandoned};
 use super::overwriting::OwnFiles;
 use super::superelement_file;
+use super::unverified::Unverified;
 use crate::error::{Error, Result};
 use crate::export::{ExportedFile, Names};
 use crate::number;

@@ -30,6 +30,9 @@ pub(super) enum Typed {
     /// Find the modes of superelements that are joined, held and loaded at their interfaces
     #[command(after_help = EXIT_CODES)]
     Modes(ModesFlags),
+    /// Expand states of a simulation to the nodes that a superelement recovers
+    #[command(after_help = EXIT_CODES)]
+    Recover(RecoverFlags),
     /// Write a superelement in a format of other programs, or as a model that can be reduced again
     #[command(after_help = EXIT_CODES)]
     Export(ExportFlags),
@@ -163,11 +166,14 @@ pub(super) struct InspectFlags {
     /// Superelement file
     pub(super) file: PathBuf,
     /// Print all content except the matrices as JSON
-    #[arg(long, conflicts_with_all = ["job", "rubin"])]
+    #[arg(long, conflicts_with_all = ["job", "rubin", "coordinates"])]
     pub(super) json: bool,
     /// Print Rubin's own matrices (45) and (47) and the map (51) to the coordinates of the file, as JSON
-    #[arg(long, conflicts_with = "job")]
+    #[arg(long, conflicts_with_all = ["job", "coordinates"])]
     pub(super) rubin: bool,
+    /// Print the names of the coordinates in one line, the header of a table for `supel recover`
+    #[arg(long, conflicts_with = "job")]
+    pub(super) coordinates: bool,
     /// Print the job that made the file, as JSON that `supel reduce` accepts in any folder: its paths are absolute
     #[arg(long)]
     pub(super) job: bool,
@@ -199,6 +205,38 @@ pub(super) struct ModesFlags {
     /// Print the modes as JSON
     #[arg(long)]
     pub(super) json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("results").args(["output", "quantities", "loads"]).required(true).multiple(true))]
+pub(super) struct RecoverFlags {
+    /// Superelement file
+    pub(super) file: PathBuf,
+    /// Table of states: a column for each coordinate, named as `supel inspect FILE --coordinates` prints them, and `time` if
+    /// it is known
+    #[arg(long, value_name = "TABLE")]
+    pub(super) state: PathBuf,
+    /// Velocities of the coordinates in the same states, in a table of the same form
+    #[arg(long, value_name = "TABLE")]
+    pub(super) velocity: Option<PathBuf>,
+    /// Accelerations of the coordinates in the same states
+    #[arg(long, value_name = "TABLE")]
+    pub(super) acceleration: Option<PathBuf>,
+    /// File for the motion of the recovered nodes, NAME.csv
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+    /// File for the quantities of the superelement, stresses for instance, NAME.csv
+    #[arg(long, value_name = "FILE")]
+    pub(super) quantities: Option<PathBuf>,
+    /// File for the loads on the interface and their resultants, NAME.csv; inertia counts where accelerations are given
+    #[arg(long, value_name = "FILE")]
+    pub(super) loads: Option<PathBuf>,
+    /// Gravity in which the loads act, an acceleration: --gravity=0,0,-9.81
+    #[arg(long, value_name = "X,Y,Z", requires = "loads", allow_hyphen_values = true)]
+    pub(super) gravity: Option<String>,
+    /// Use even a superelement that failed a check; the exit code stays 1
+    #[arg(long)]
+    pub(super) allow_unverified: bool,
 }
 
 #[derive(Debug, Args)]

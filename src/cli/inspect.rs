@@ -12,6 +12,7 @@ use super::exit_code::ExitCode;
 use super::superelement_file;
 use super::verify::job_of_file;
 use crate::error::{Error, Result, json_value};
+use crate::expansion::coordinate_names;
 use crate::report::{inspection, value_text};
 use crate::rubin::{Herting, Rubin};
 
@@ -23,6 +24,7 @@ pub(super) fn run(command: &InspectCommand, terminal: &mut Terminal<'_>) -> Resu
         InspectAnswer::Text => inspection(&superelement, file_bytes as u64, terminal.paint),
         InspectAnswer::Json => value_text(&document(&superelement)?),
         InspectAnswer::Rubin => value_text(&rubin(&superelement, &command.file)?),
+        InspectAnswer::Coordinates => coordinate_names(&superelement).join(",") + "\n",
         InspectAnswer::Job => {
             let (job, remark) = job_of_file(&superelement, &command.file)?;
             remark.iter().for_each(|remark| terminal.complain(remark));

@@ -24,12 +24,15 @@ mod overwriting;
 mod pipeline;
 mod process;
 mod progress;
+mod recover;
+mod recover_command;
 mod reduce;
 mod refusal;
 mod rehearsal;
 mod signals;
 mod superelement_file;
 mod unmet;
+mod unverified;
 mod verify;
 
 use std::ffi::OsString;
@@ -96,6 +99,7 @@ fn execute(flags: flags::CommandLine, pipeline: Pipeline, terminal: &mut Termina
         Command::Inspect(command) => inspect::run(&command, terminal),
         Command::Modes(command) => modes::run(&command, terminal),
         Command::Export(command) => export::run(&command, terminal),
+        Command::Recover(command) => recover::run(&command, terminal),
         Command::RehearseReading => rehearsal::read_from_stdin(),
     }
 }

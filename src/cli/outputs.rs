@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use supel_runtime::{StagedFile, abandoned_parts};
+use supel_runtime::{StagedFile, StagedWriter, abandoned_parts};
 
 use super::overwriting::OwnFiles;
 use super::signals;
@@ -49,6 +49,17 @@ pub(super) fn staged(own: &OwnFiles, path: &Path, bytes: &[u8]) -> Result<Staged
     let staged = StagedFile::write(path, bytes).map_err(Error::of_writing)?;
     heap::remove_at_end(staged.path());
     Ok(staged)
+}
+
+/// A file that is written piece by piece under a temporary name, which is removed wherever the run ends before it gets its own.
+///
+/// # Panics
+/// Where it is none of the outputs of the command.
+pub(super) fn writer(own: &OwnFiles, path: &Path) -> Result<StagedWriter> {
+    assert!(own.paths().iter().any(|output| output == path), "{} is no output of this command", path.display());
+    let writer = StagedWriter::create(path).map_err(Error::of_writing)?;
+    heap::remove_at_end(writer.path());
+    Ok(writer)
 }
 
 /// Refuses an output that has no place before the model is read, with the error that its writing would end in: an empty

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use supel_runtime::{StagedFile, Superelement};
 
 use super::answer::{Program, Terminal};
-use super::command::{Answer, ReduceCommand, Strictness, Unverified};
+use super::command::{Answer, ReduceCommand, Strictness};
 use super::exit_code::ExitCode;
 use super::outputs::{Outputs, abandoned, refuse_unwritable, staged};
 use super::overwriting::OwnFiles;
@@ -13,6 +13,7 @@ use super::pipeline::Pipeline;
 use super::progress::StageLine;
 use super::rehearsal::{self, Rehearsed};
 use super::unmet::unmet;
+use super::unverified::Unverified;
 use super::{memory, overwriting, process};
 use crate::error::{Error, Result};
 use crate::input::Cells;

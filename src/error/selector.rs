@@ -13,6 +13,8 @@ pub enum Selector {
     Load(String),
     /// The nodes whose displacements are recovered.
     Recovery,
+    /// The rows of the matrices on which quantities depend.
+    Quantities,
 }
 
 impl Selector {
@@ -21,6 +23,7 @@ impl Selector {
         match self {
             Self::Interface(name) | Self::Fixed(name) | Self::Load(name) => name,
             Self::Recovery => "write.recovery",
+            Self::Quantities => "write.quantities",
         }
     }
 }
@@ -31,7 +34,7 @@ impl fmt::Display for Selector {
             Self::Interface(name) => write!(f, "interface {name:?}"),
             Self::Fixed(name) => write!(f, "fixed {name:?}"),
             Self::Load(name) => write!(f, "load {name:?}"),
-            Self::Recovery => f.write_str(self.name()),
+            Self::Recovery | Self::Quantities => f.write_str(self.name()),
         }
     }
 }

@@ -7,7 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-use supel_runtime::{Coordinate, InterfaceNode, Matrix, Superelement, Tensors};
+use supel_runtime::{Coordinate, InterfaceNode, Matrix, Quantity, Superelement, Tensors};
 
 use super::format::{ExportedFile, Format};
 use super::model_job::job;
@@ -29,7 +29,8 @@ impl Format for MatrixMarket {
         let nodes = &superelement.metadata().interface_nodes;
         let labels = labels(nodes);
         let rows = rows(superelement, &labels);
-        let Tensors { stiffness, mass, damping, gravity, load_vectors, recovery, .. } = superelement.tensors();
+        let Tensors { stiffness, mass, damping, gravity, load_vectors, recovery, quantities, .. } =
+            superelement.tensors();
         let mut files = vec![
             file("stiffness.mtx", "stiffness", symmetric(stiffness, &rows)),
             file("mass.mtx", "mass", symmetric(mass, &rows)),
@@ -39,12 +40,17 @@ impl Format for MatrixMarket {
             ("gravity.mtx", "loads of a unit gravity field along x, y, z", gravity.as_ref()),
             ("loads.mtx", "load vectors", load_vectors.as_ref()),
             ("recovery.mtx", "recovery", recovery.as_ref().map(|recovery| recovery.rows())),
+            ("quantities.mtx", "quantities", quantities.as_ref()),
         ];
         let arrays = arrays.into_iter().filter_map(|(ending, content, matrix)| Some((ending, content, matrix?)));
         files.extend(arrays.map(|(ending, content, matrix)| file(ending, content, array(matrix))));
         files.extend(recovery.as_ref().map(|recovery| {
             let dofs = recovery.dofs().iter().map(|dof| (Some(dof.node), dof.direction.to_string()));
             file("recovery-dofs.csv", "node and direction of each row of the recovery", dof_map(dofs))
+        }));
+        files.extend(quantities.as_ref().map(|_| {
+            let text = quantity_table(&superelement.metadata().quantities);
+            file("quantities.csv", "name and unit of each quantity", text)
         }));
         if !nodes.is_empty() {
             files.push(file("dofs.csv", "node and direction of each row", dofs(superelement, &labels)));
@@ -126,6 +132,13 @@ fn dof_map(rows: impl Iterator<Item = (Option<i64>, String)>) -> String {
         let _ = writeln!(text, "{},{dof}", node.map_or_else(String::new, |node| node.to_string()));
     }
     text
+}
+
+/// Names and units in quotation marks.
+fn quantity_table(quantities: &[Quantity]) -> String {
+    let quoted = |text: &str| printable(text).replace('"', "\"\"");
+    let row = |quantity: &Quantity| format!("\"{}\",\"{}\"\n", quoted(&quantity.name), quoted(&quantity.unit));
+    std::iter::once("name,unit\n".to_owned()).chain(quantities.iter().map(row)).collect()
 }
 
 /// Nodes with their interfaces; dofs of one node may belong to several.

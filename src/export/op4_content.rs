@@ -30,7 +30,7 @@ pub(super) const LAST: f64 = std::f64::consts::SQRT_2;
 /// # Errors
 /// [`Error::ExportLabel`].
 pub(super) fn matrices(superelement: &Superelement) -> Result<Vec<Named>> {
-    let Tensors { stiffness, mass, damping, gravity, load_vectors, recovery, .. } = superelement.tensors();
+    let Tensors { stiffness, mass, damping, gravity, load_vectors, recovery, quantities, .. } = superelement.tensors();
     let recovery_dofs = recovery.as_ref().map(recovery_dofs).transpose()?;
     let all = [
         ("KAA", Form::Symmetric, Some(stiffness)),
@@ -40,6 +40,7 @@ pub(super) fn matrices(superelement: &Superelement) -> Result<Vec<Named>> {
         ("LOADS", Form::Rectangular, load_vectors.as_ref()),
         ("RECOVERY", Form::Rectangular, recovery.as_ref().map(|recovery| recovery.rows())),
         ("RECDOFS", Form::Rectangular, recovery_dofs.as_ref()),
+        ("OTM", Form::Rectangular, quantities.as_ref()),
     ];
     let named = all.into_iter().filter_map(|(name, form, matrix)| Some(Named { name, form, matrix: matrix?.clone() }));
     Ok(named.collect())

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Digits, Input, InputNote, LoadColumn, MatrixInput, PatchFaces};
+use super::{Digits, Input, InputNote, LoadColumn, MatrixInput, PatchFaces, QuantityRows};
 use crate::error::Warning;
 use crate::job::LoadJob;
 
@@ -11,7 +11,8 @@ use crate::job::LoadJob;
 pub struct InputFacts {
     /// Digits and digest of K and M.
     pub matrices: [MatrixFacts; 2],
-    /// Digests of the other files by their role: `dofs`, `nodes`, and `nodes_data` for what those refer to.
+    /// Digests of the other files by their role: `dofs`, `nodes`, `nodes_data` for what those refer to, `quantities` and
+    /// `quantity_names`.
     pub files: BTreeMap<&'static str, String>,
     /// Digests of the files of loads by the name of the load.
     pub loads: BTreeMap<String, String>,
@@ -50,6 +51,14 @@ impl InputFacts {
             notes: input.notes.iter().filter(|note| note.warning_code().is_none()).map(ToString::to_string).collect(),
             warnings: input.notes.iter().filter_map(warning).collect(),
         }
+    }
+
+    /// These facts with the digests of the files of quantities, where there are some.
+    #[must_use]
+    pub fn with_quantities(mut self, rows: Option<&QuantityRows>) -> Self {
+        let digests = rows.into_iter().flat_map(|rows| ["quantities", "quantity_names"].into_iter().zip(&rows.digests));
+        self.files.extend(digests.map(|(role, digest)| (role, digest.clone())));
+        self
     }
 
     /// These facts with the digests of the files of loads.

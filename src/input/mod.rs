@@ -26,8 +26,11 @@ mod node_table;
 mod note;
 mod patch;
 mod patch_faces;
+mod quantity_files;
+mod rectangular;
 mod single_precision;
 mod source;
+mod state_table;
 mod table;
 mod unsupported_format;
 mod written;
@@ -36,10 +39,14 @@ pub use allowance::Allowance;
 pub use digits::{Digits, DigitsBy, digits_of};
 pub use facts::{InputFacts, MatrixFacts};
 pub use load_file::{LoadColumn, WantedColumn, load_column};
-pub use model_files::{Input, files, hdf5_file, load_columns, read, read_hdf5_parts, read_within, start_hdf5};
+pub use model_files::{
+    Input, files, hdf5_file, job_quantities, load_columns, read, read_hdf5_parts, read_within, start_hdf5,
+};
 pub use note::InputNote;
 pub use patch::{Faces, Patch, PatchFaces, Patches};
 pub use patch_faces::{Cells, looks_at_faces, patch_faces};
+pub use quantity_files::{QuantityRows, quantity_rows};
+pub use state_table::{StateRow, StateTable};
 
 use std::path::PathBuf;
 

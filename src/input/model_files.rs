@@ -9,10 +9,11 @@ use super::format::{DirectionBase, MatrixSource, OrderSource, ReadMatrix};
 use super::hdf5_format::split_group;
 use super::load_file::{LoadColumn, WantedColumn, load_column};
 use super::patch::Patches;
+use super::quantity_files::{QuantityRows, quantity_rows};
 use super::{Cells, InputNote, MatrixInput, MatrixRole, dof_map, empty_rows, formats};
 use crate::dofs::{DofMap, FileRows, Nodes};
 use crate::error::{Error, Result};
-use crate::job::{Duplicates, LoadJob, LoadPattern, ModelJob};
+use crate::job::{Duplicates, LoadJob, LoadPattern, ModelJob, QuantitiesJob};
 use crate::regular_file::{digest, unchanged};
 use crate::sparse::SparseMatrix;
 use crate::sparse::Triangle;
@@ -103,6 +104,19 @@ pub fn load_columns(loads: &[LoadJob], input: &Input) -> Result<Vec<Option<LoadC
         LoadPattern::Force(..) | LoadPattern::Rotation(_) => Ok(None),
     };
     loads.iter().map(of_load).collect()
+}
+
+/// The rows of quantities of a job, where it asks for some.
+///
+/// # Errors
+/// Those of [`quantity_rows`](super::quantity_rows).
+pub fn job_quantities(
+    job: Option<&QuantitiesJob>,
+    input: &Input,
+    allowance: &Allowance,
+) -> Result<Option<QuantityRows>> {
+    let n_rows = input.stiffness.matrix.rows() + input.rows.n_dropped();
+    job.map(|job| quantity_rows(job, n_rows, allowance)).transpose()
 }
 
 /// Starts the HDF5 library. A failure after that is the fault of a file.

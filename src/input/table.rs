@@ -117,6 +117,11 @@ impl Table {
         })
     }
 
+    /// The names of the columns, as they are written.
+    pub(super) fn header(&self) -> &[String] {
+        &self.header
+    }
+
     /// Name of a column, in lower case.
     pub(super) fn name(&self, column: usize) -> String {
         self.header.get(column).map(|name| name.to_lowercase()).unwrap_or_default()

@@ -73,11 +73,15 @@ impl Job {
     /// All paths of the job with their keys.
     fn paths_mut(&mut self) -> impl Iterator<Item = (&'static str, &mut PathBuf)> {
         let (model, write) = (&mut self.model, &mut self.write);
+        let quantities = write.quantities.as_mut().map(|quantities| (&mut quantities.matrix, &mut quantities.names));
+        let (matrix, names) = quantities.unzip();
         let paths = [
             ("model.stiffness", Some(&mut model.stiffness)),
             ("model.mass", Some(&mut model.mass)),
             ("model.dofs", model.dofs.as_mut()),
             ("model.nodes", model.nodes.as_mut()),
+            ("write.quantities.matrix", matrix),
+            ("write.quantities.names", names),
             ("write.superelement", Some(&mut write.superelement)),
             ("write.report", write.report.as_mut()),
             ("write.html", write.html.as_mut()),

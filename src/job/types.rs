@@ -15,6 +15,7 @@ use super::fixed::FixedJob;
 use super::interface::InterfaceJob;
 use super::load::LoadJob;
 use super::method::Method;
+use super::quantities::QuantitiesJob;
 use super::ranges::{LARGEST, MAX_DIGITS, SMALLEST};
 use super::recovery::RecoveryJob;
 use super::scene::SceneJob;
@@ -307,6 +308,9 @@ pub struct WriteJob {
     /// Displacements inside the component that the superelement can recover, where they are wanted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recovery: Option<RecoveryJob>,
+    /// Quantities that follow from displacements inside the component, stresses for instance, where they are wanted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub quantities: Option<QuantitiesJob>,
 }
 
 impl WriteJob {

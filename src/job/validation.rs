@@ -25,13 +25,14 @@ pub(super) fn validate(job: &Job) -> Result<()> {
     }
     let write = &job.write;
     write.recovery.as_ref().map_or(Ok(()), super::recovery::validate)?;
-    output("write.superelement", &write.superelement, ".supel")?;
+    write.quantities.as_ref().map_or(Ok(()), super::quantities::validate)?;
+    ends_in("write.superelement", &write.superelement, ".supel")?;
     let others = [
         ("write.report", write.report.as_deref(), ".json"),
         ("write.html", write.html.as_deref(), ".html"),
         ("write.junit", write.junit.as_deref(), ".xml"),
     ];
-    others.into_iter().try_for_each(|(key, path, ending)| path.map_or(Ok(()), |path| output(key, path, ending)))
+    others.into_iter().try_for_each(|(key, path, ending)| path.map_or(Ok(()), |path| ends_in(key, path, ending)))
 }
 
 fn reduction(job: &ReductionJob) -> Result<()> {
@@ -160,7 +161,11 @@ fn overlap(first: &InterfaceJob, second: &InterfaceJob) -> Result<()> {
     }
 }
 
-fn output(key: &'static str, path: &Path, expected: &'static str) -> Result<()> {
+/// Refuses a name of an output that has another ending.
+///
+/// # Errors
+/// [`Error::OutputName`].
+pub(crate) fn ends_in(key: &'static str, path: &Path, expected: &'static str) -> Result<()> {
     // `name.supel`, not a bare `.supel`, which would be a hidden file without a name.
     // `x.supel/` is the name of a folder, although it has the file name `x.supel`.
     let has_ending = path.as_os_str().as_encoded_bytes().ends_with(expected.as_bytes());

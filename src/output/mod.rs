@@ -10,6 +10,7 @@ mod results;
 mod rigid_body;
 mod soft_rotation;
 mod superelement;
+mod user_basis;
 mod warnings;
 
 pub use both::output;

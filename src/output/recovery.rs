@@ -1,4 +1,4 @@
-//! Rows of the basis by which displacements inside the component are recovered.
+//! Rows of the basis by which displacements inside the component, and what follows from them, are recovered.
 //!
 //! ```text
 //! T      n × n'              rows of the model from dofs of the partition
@@ -9,6 +9,7 @@
 use supel_runtime::{Matrix, Precision, RecoveredDof, Recovery};
 
 use super::results::Results;
+use super::user_basis::psi;
 use crate::error::{Error, Result};
 
 /// Single precision keeps all its digits, 24 bits, of numbers from 2⁻¹²⁶ to 2¹²⁸. Shapes whose largest entry lies between these
@@ -22,14 +23,8 @@ const RANGE_OF_SINGLE: [i32; 2] = [-100, 127];
 pub(super) fn recovery(results: &Results<'_>) -> Result<Option<Recovery>> {
     let Some(job) = &results.job.write.recovery else { return Ok(None) };
     let (partition, basis) = (results.evidence.partition, results.evidence.basis);
-    let (n_i, n_b) = (partition.n_internal, partition.n_interface());
-    let shape = partition.scaling.shape_unit();
-    let psi = |dof: usize, column: usize| match (dof < n_i, column < n_b) {
-        (true, true) => basis.constraint_modes[(dof, column)],
-        (true, false) => shape * basis.dynamic_modes[(dof, column - n_b)],
-        (false, _) => f64::from(u8::from(dof - n_i == column)),
-    };
-    let rows = &partition.recovered;
+    let (n_b, psi) = (partition.n_interface(), psi(results));
+    let rows = &partition.recovered.rows;
     let values = Matrix::from_fn(rows.len(), basis.n_reduced(), |i, column| {
         let of_row = partition.transformation.rows[rows[i].0].entries();
         of_row.map(|(dof, factor)| factor * psi(dof as usize, column)).sum()
@@ -39,7 +34,18 @@ pub(super) fn recovery(results: &Results<'_>) -> Result<Option<Recovery>> {
     }
     let dofs = rows.iter().map(|(_, dof)| RecoveredDof { node: dof.node, direction: dof.direction });
     let recovery = Recovery::new(values, dofs.collect(), job.precision);
-    recovery.map(Some).map_err(|error| Error::of_superelement(&results.job.write.superelement, error))
+    let placed = |recovery: Recovery| match &partition.recovered.positions {
+        Some(positions) => recovery.with_positions(positions.clone()),
+        None => Ok(recovery),
+    };
+    recovery.and_then(placed).map(Some).map_err(|error| Error::of_superelement(&results.job.write.superelement, error))
+}
+
+/// R T Ψ in the user's units, m × r; none where the job asks for no quantities.
+pub(super) fn quantities(results: &Results<'_>) -> Option<Matrix> {
+    let (rows, psi) = (&results.evidence.partition.quantities.rows, psi(results));
+    let entry = |i: usize, column: usize| rows[i].iter().map(|(dof, factor)| factor * psi(*dof as usize, column)).sum();
+    (!rows.is_empty()).then(|| Matrix::from_fn(rows.len(), results.evidence.basis.n_reduced(), entry))
 }
 
 /// The size of the dynamic modes depends on the units; the constraint modes are displacements under unit displacements.

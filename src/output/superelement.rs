@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use faer::{Mat, MatRef};
 use supel_runtime::{self as file, Coordinate, Matrix, Metadata, Superelement, Tensors};
 
-use super::recovery::recovery;
+use super::recovery::{quantities, recovery};
 use super::results::Results;
 use crate::basis::DynamicCoordinate;
 use crate::error::{Error, Result, json_value};
@@ -16,7 +16,7 @@ use crate::verification::check::{Check, Verdict};
 
 /// Puts the units back and names every coordinate.
 pub(super) fn superelement(results: &Results<'_>, verdict: Verdict) -> Result<Superelement> {
-    let tensors = Tensors { recovery: recovery(results)?, ..tensors(results) };
+    let tensors = Tensors { recovery: recovery(results)?, quantities: quantities(results), ..tensors(results) };
     refuse_out_of_range(&tensors)?;
     let metadata = metadata(results, &tensors, verdict)?;
     Superelement::new(tensors, metadata).map_err(|error| Error::of_superelement(&results.job.write.superelement, error))
@@ -27,8 +27,9 @@ fn refuse_out_of_range(tensors: &Tensors) -> Result<()> {
     let mixing = tensors.mixing.iter().map(|mixing| ("the inertia-relief modes in the units of the matrices", mixing));
     let matrices = [("the reduced stiffness", &tensors.stiffness), ("the reduced mass", &tensors.mass)];
     let loads = tensors.load_vectors.iter().map(|loads| ("a load in the units of its coordinates", loads));
-    for (what, matrix) in matrices.into_iter().chain(mixing).chain(loads) {
-        if matrix.as_slice().contains(&f64::INFINITY) || matrix.as_slice().contains(&f64::NEG_INFINITY) {
+    let rows = tensors.quantities.iter().map(|rows| ("a quantity in the units of its rows", rows));
+    for (what, matrix) in matrices.into_iter().chain(mixing).chain(loads).chain(rows) {
+        if matrix.as_slice().iter().any(|value| !value.is_finite()) {
             return Err(Error::UnitRange { what, exponent: f64::MAX_EXP });
         }
     }
@@ -149,6 +150,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Resul
         coordinates,
         dropped: dropped.collect(),
         load_names: evidence.partition.loads.facts.iter().map(|load| load.name.clone()).collect(),
+        quantities: evidence.partition.quantities.names.clone(),
         validity: file::Validity {
             band_hz: band(results.job, tensors),
             assumptions: results.job.assumptions(),
@@ -222,6 +224,10 @@ fn job_document(job: &Job) -> Result<serde_json::Value> {
     job.model.dofs.as_mut().map(relative);
     job.model.nodes.as_mut().map(relative);
     job.loads.iter_mut().filter_map(|load| load.file.as_mut()).for_each(relative);
+    if let Some(quantities) = &mut job.write.quantities {
+        relative(&mut quantities.matrix);
+        relative(&mut quantities.names);
+    }
     relative(&mut job.write.superelement);
     job.write.report.as_mut().map(relative);
     (job.write.html, job.write.junit) = (None, None);

@@ -40,21 +40,30 @@ pub(super) fn resolve(model: &Model, interfaces: &[InterfaceJob]) -> Result<Inte
     Ok(Interfaces(resolved))
 }
 
-/// The rows of the model whose displacements a job recovers, node by node in the order of the selection, and which dof each of
-/// them is; none where the job recovers nothing.
+/// Rows of the model whose displacements the superelement recovers; none unless a job asks for some.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RecoveredRows {
+    /// The rows, node by node in the order of the selection, and which dof each of them is.
+    pub rows: Vec<(usize, Dof)>,
+    /// Where the nodes are, in their order; none where the model has no coordinates.
+    pub positions: Option<Vec<[f64; 3]>>,
+}
+
+/// The rows of the model whose displacements a job recovers; none where the job recovers nothing.
 ///
 /// # Errors
 /// Nodes that do not exist or have no rows, a group that the mesh does not have, a selection without nodes, a model without a
 /// dof map or (where the selection needs them) nodes.
-pub fn recovered_rows(model: &Model, recovery: Option<&RecoveryJob>) -> Result<Vec<(usize, Dof)>> {
-    let Some(recovery) = recovery else { return Ok(Vec::new()) };
+pub fn recovered_rows(model: &Model, recovery: Option<&RecoveryJob>) -> Result<RecoveredRows> {
+    let Some(recovery) = recovery else { return Ok(RecoveredRows::default()) };
     let (catalogue, selection) = (NodeCatalogue::new(model), recovery.selection());
-    let mut rows = Vec::new();
-    for node in catalogue.select(model, &selection)? {
+    let (mut rows, nodes) = (Vec::new(), catalogue.select(model, &selection)?);
+    let positions = nodes.iter().map(|node| catalogue.position(*node)).collect();
+    for node in nodes {
         let of_node = catalogue.rows_of(&selection.selector, node)?.iter();
         rows.extend(of_node.map(|(direction, row)| (*row, Dof { node, direction: *direction })));
     }
-    Ok(rows)
+    Ok(RecoveredRows { rows, positions })
 }
 
 /// Labels of the nodes of patches, whose coordinates count. A selection that finds none is refused where it is resolved.

@@ -4,7 +4,6 @@ use std::sync::OnceLock;
 
 use faer::Mat;
 
-use crate::dofs::Dof;
 use crate::dofs::FileRows;
 use crate::error::{Error, Result};
 use crate::factor::Analysis;
@@ -16,8 +15,10 @@ use crate::sparse::{Leading, SparseMatrix};
 
 use super::gravity::Gravity;
 use super::held::Held;
+use super::interface::RecoveredRows;
 use super::interface_node::InterfaceNode;
 use super::load::Loads;
+use super::quantities::Quantities;
 use super::roundings::{PatchEntries, Roundings};
 use super::transformation::{DofOrigin, ReducedDof, Transformation};
 use super::transformation_row::TransformationRow;
@@ -48,7 +49,9 @@ pub struct Partition {
     /// Loads that the superelement carries by name; none unless the caller adds them.
     pub loads: Loads,
     /// Rows of the model whose displacements the superelement recovers; none unless the caller adds them.
-    pub recovered: Vec<(usize, Dof)>,
+    pub recovered: RecoveredRows,
+    /// Quantities that the superelement gives; none unless the caller adds them.
+    pub quantities: Quantities,
     /// Powers of two taken out of K and M.
     pub scaling: Scaling,
     /// How well the entries of K and M of the model are known.
@@ -132,7 +135,8 @@ impl Partition {
             held,
             gravity,
             loads: Loads::none(n_internal + n_interface),
-            recovered: Vec::new(),
+            recovered: RecoveredRows::default(),
+            quantities: Quantities::default(),
             scaling: model.scaling,
             precision: model.precision,
             patches,

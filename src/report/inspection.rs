@@ -43,6 +43,7 @@ fn head(page: &mut Page, superelement: &Superelement, file_bytes: u64) {
         ("gravity", tensors.gravity.is_some()),
         ("load vectors", tensors.load_vectors.is_some()),
         ("recovery", tensors.recovery.is_some()),
+        ("quantities", tensors.quantities.is_some()),
     ];
     let present: Vec<&str> = optional.into_iter().filter(|(_, is_present)| *is_present).map(|(name, _)| name).collect();
     if !present.is_empty() {

@@ -113,7 +113,8 @@ pub struct ModelReport {
     pub stiffness: MatrixReport,
     /// M.
     pub mass: MatrixReport,
-    /// BLAKE3 digests of the other files by their role: `dofs`, `nodes`, and `nodes_data` for what those refer to.
+    /// BLAKE3 digests of the other files by their role: `dofs`, `nodes`, `nodes_data` for what those refer to, `quantities` and
+    /// `quantity_names`.
     pub files: BTreeMap<&'static str, String>,
     /// What M says of the component as a rigid body.
     pub mass_properties: MassProperties,

@@ -21,6 +21,7 @@ pub(super) fn file(role: &str) -> &str {
     match role {
         "dofs" => "dof map",
         "nodes_data" => "data of nodes",
+        "quantity_names" => "names of quantities",
         other => other,
     }
 }

@@ -132,7 +132,7 @@ write     = { superelement = "x.supel" }
     assert!(single < double);
     let dof = Dof { node: 1, direction: Direction::Ux };
     let mut recovering = partition;
-    recovering.recovered = vec![(0, dof); 100];
+    recovering.recovered.rows = vec![(0, dof); 100];
     // Six interface dofs and six modes, in three copies of eight bytes.
     assert_eq!(needed(&recovering, Storage::Double), double + 100 * 12 * 24);
     job.run.memory_gib = Some((single + double) as f64 / 2.0 / f64::from(1 << 30));

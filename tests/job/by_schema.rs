@@ -37,6 +37,7 @@ fn jobs() -> Vec<Value> {
             "write": {
                 "superelement": "x.supel", "report": "x.json", "html": "x.html", "junit": "x.xml",
                 "recovery": { "nodes": recovered, "precision": "single" },
+                "quantities": { "matrix": "stress.mtx", "names": "stress.csv" },
             },
         })
     };

@@ -52,6 +52,7 @@ pub fn selected(rich: &Superelement, modes: Modes) -> Result<Superelement> {
         damping: tensors.damping.as_ref().map(|damping| on_both_sides(damping, &transform)),
         gravity: tensors.gravity.as_ref().map(|gravity| projected(gravity, &transform)),
         load_vectors: tensors.load_vectors.as_ref().map(|loads| projected(loads, &transform)),
+        quantities: tensors.quantities.as_ref().map(|rows| on_the_right(rows, &transform)),
         recovery: tensors.recovery.as_ref().map(|recovery| recovered(recovery, &transform)).transpose()?,
         rigid_body_mass: tensors.rigid_body_mass.clone(),
         interface_positions: tensors.interface_positions.clone(),
@@ -148,7 +149,16 @@ fn projected(b: &Matrix, t: &Mat<f64>) -> Matrix {
 }
 
 /// Rows W T.
+fn on_the_right(rows: &Matrix, t: &Mat<f64>) -> Matrix {
+    plain(&dense::product(columns(rows).as_ref(), t.as_ref()))
+}
+
+/// Rows W T of the same nodes.
 fn recovered(recovery: &Recovery, t: &Mat<f64>) -> Result<Recovery> {
-    let rows = dense::product(columns(recovery.rows()).as_ref(), t.as_ref());
-    Ok(Recovery::new(plain(&rows), recovery.dofs().to_vec(), recovery.precision())?)
+    let rows = on_the_right(recovery.rows(), t);
+    let new = Recovery::new(rows, recovery.dofs().to_vec(), recovery.precision())?;
+    Ok(match recovery.positions() {
+        Some(positions) => new.with_positions(positions.to_vec())?,
+        None => new,
+    })
 }

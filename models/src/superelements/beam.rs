@@ -307,6 +307,7 @@ pub fn parts(stiffness: Matrix, mass: Matrix, positions: &[Vector3]) -> (Tensors
         coordinates: of_nodes.chain(of_modes).collect(),
         dropped: Vec::new(),
         load_names: Vec::new(),
+        quantities: Vec::new(),
         validity: Validity::default(),
         flags: Default::default(),
         model: ModelSummary { n_dofs: r as u64, rigid_body_modes: RigidBodyModes::Geometric, mass_properties: None },

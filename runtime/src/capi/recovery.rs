@@ -42,10 +42,24 @@ pub unsafe extern "C" fn supel_recovered_labels(component: *const SupelComponent
     labels.filter(|labels| !labels.is_empty()).map_or(std::ptr::null(), <[i64]>::as_ptr)
 }
 
+/// Positions of the recovered nodes in the reference configuration, three values for each; null for null and where the file does
+/// not have them.
+///
+/// # Safety
+///
+/// `component` is null or comes from `supel_component_open`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn supel_recovered_positions(component: *const SupelComponent) -> *const f64 {
+    // SAFETY: null or a component by the promise of the caller.
+    let positions = unsafe { component.as_ref() }.and_then(|component| component.component.recovered_positions());
+    positions.filter(|positions| !positions.is_empty()).map_or(std::ptr::null(), |positions| positions[0].as_ptr())
+}
+
 /// Displacements and rotations of the recovered nodes in the state last evaluated in the workspace.
 ///
-/// The file has no positions of these nodes: `positions` gives three values for each, in the reference configuration. A
-/// file may hold nodes with only some directions, which cannot be turned with the floating frame: one of them is an error.
+/// `positions` gives three values for each of these nodes, in the reference configuration: those of `supel_recovered_positions`, or
+/// the caller's own for a file that does not have them. Nodes of which a file holds only some directions cannot be turned with the
+/// floating frame; they are none of the recovered nodes.
 ///
 /// # Safety
 ///

@@ -164,6 +164,12 @@ pub enum EvaluationError {
         /// Label of the node.
         label: i64,
     },
+    /// A node that the file does not recover.
+    #[error("node {label} is not recovered by the file; reduce it with this node among those of `write.recovery`")]
+    NotRecovered {
+        /// Label of the node.
+        label: i64,
+    },
     /// A load on a dof of which the file says that none acts.
     #[error(
         "load along {} of interface node {node} (from 0), which the superelement was told to be unloaded; reduce it without that statement",

@@ -5,6 +5,7 @@
 
 use super::error::EvaluationError;
 use super::modal_component::ModalComponent;
+use super::recovery_map::RecoveryMap;
 use super::workspace::Workspace;
 use super::workspace::check_finite;
 use crate::motion::{Matrix3, Motion, Vector3, join, multiply_3};
@@ -22,25 +23,33 @@ pub struct RecoveredNode {
 }
 
 impl ModalComponent {
-    /// Labels of the nodes that the file recovers, in the order of their first rows; empty where it recovers none.
+    /// Labels of the nodes that [`recover`](Self::recover) moves, in the order of their first rows; empty where the file recovers none.
+    /// They are those of which the file has all three translations, and all three rotations or none.
     pub fn recovered_labels(&self) -> &[i64] {
         self.recovery.as_ref().map_or(&[], |recovery| &recovery.labels)
+    }
+
+    /// Positions of these nodes in the reference configuration; none where the file does not have them.
+    pub fn recovered_positions(&self) -> Option<&[Vector3]> {
+        self.recovery.as_ref()?.positions.as_deref()
+    }
+
+    /// Labels of the nodes of which the file has only some translations or only some rotations: these cannot be turned with the floating
+    /// frame, and no function moves them.
+    pub fn incomplete_labels(&self) -> &[i64] {
+        self.recovery.as_ref().map_or(&[], |recovery| &recovery.incomplete)
     }
 
     /// Displacements and rotations of the recovered nodes in the state last evaluated in `workspace`, in the order of
     /// [`recovered_labels`](Self::recovered_labels).
     ///
-    /// `positions` are those of the nodes in the reference configuration, which the file does not hold. It allocates nothing
-    /// and costs O(rows · r).
+    /// `positions` are those of the nodes in the reference configuration: [`recovered_positions`](Self::recovered_positions), or the
+    /// caller's own for a file that does not have them. It allocates nothing and costs O(rows · r).
     ///
     /// # Errors
     ///
     /// [`EvaluationError::ForeignWorkspace`]; [`EvaluationError::NoState`] after an evaluation that failed;
-    /// [`EvaluationError::WrongLength`]; [`EvaluationError::NotFinite`] for `positions`; [`EvaluationError::Overflow`];
-    /// [`EvaluationError::IncompleteRecovery`] where the file recovers only some of the
-    /// three translations of a node, or only some of its rotations: they cannot be turned with the floating frame. The tool
-    /// writes the directions that a node of the model has, which may be fewer: one such node makes this function refuse
-    /// the file as a whole, and the job must leave it out of `recovery`.
+    /// [`EvaluationError::WrongLength`]; [`EvaluationError::NotFinite`] for `positions`; [`EvaluationError::Overflow`].
     pub fn recover(
         &self,
         workspace: &Workspace,
@@ -61,21 +70,51 @@ impl ModalComponent {
         let Some(recovery) = &self.recovery else {
             return Ok(());
         };
-        let (frame, e) = (&workspace.floating_frame, workspace.deformation());
         for ((place, position), node) in positions.iter().enumerate().zip(nodes) {
-            let incomplete = || EvaluationError::IncompleteRecovery { label: recovery.labels[place] };
-            let [d, theta] = recovery.deformation(place, e);
-            let d = d.ok_or_else(incomplete)?;
-            let n_rotations = recovery.directions[place][3..].iter().flatten().count();
-            if theta.is_none() && n_rotations > 0 {
-                return Err(incomplete());
-            }
-            let moved = frame.apply(&core::array::from_fn(|i| position[i] + d[i]));
-            let turn = Motion::exp(&join(&[0.0; 3], &theta.unwrap_or_default())).rotation;
-            node.displacement = core::array::from_fn(|i| moved[i] - position[i]);
-            node.rotation = multiply_3(&frame.rotation, &turn);
-            check_finite([("displacements of recovered nodes", &node.displacement)])?;
+            *node = moved(recovery, workspace, (place, position))?;
         }
         Ok(())
     }
+
+    /// Displacement and rotation of one recovered node, by its label, in the state last evaluated in `workspace`.
+    ///
+    /// `position` is that of the node in the reference configuration. It allocates nothing and costs O(n + r) for n recovered nodes.
+    ///
+    /// # Errors
+    ///
+    /// [`EvaluationError::IncompleteRecovery`] for one of [`incomplete_labels`](Self::incomplete_labels),
+    /// [`EvaluationError::NotRecovered`] for a node that the file does not recover, and those of [`recover`](Self::recover).
+    pub fn recover_node(
+        &self,
+        workspace: &Workspace,
+        label: i64,
+        position: &Vector3,
+    ) -> Result<RecoveredNode, EvaluationError> {
+        workspace.check_component(self)?;
+        workspace.check_state()?;
+        if let Some(index) = position.iter().position(|value| !value.is_finite()) {
+            return Err(EvaluationError::NotFinite { what: "positions of recovered nodes", index });
+        }
+        let recovery = self.recovery.as_ref().ok_or(EvaluationError::NotRecovered { label })?;
+        match recovery.labels.iter().position(|other| *other == label) {
+            Some(place) => moved(recovery, workspace, (place, position)),
+            None if recovery.incomplete.contains(&label) => Err(EvaluationError::IncompleteRecovery { label }),
+            None => Err(EvaluationError::NotRecovered { label }),
+        }
+    }
+}
+
+/// x − x₀ and the rotation of the node at a place of the map, whose position is x₀.
+fn moved(
+    recovery: &RecoveryMap,
+    workspace: &Workspace,
+    (place, position): (usize, &Vector3),
+) -> Result<RecoveredNode, EvaluationError> {
+    let frame = &workspace.floating_frame;
+    let (d, theta) = recovery.deformation(place, workspace.deformation());
+    let moved = frame.apply(&core::array::from_fn(|i| position[i] + d[i]));
+    let turn = Motion::exp(&join(&[0.0; 3], &theta.unwrap_or_default())).rotation;
+    let displacement = core::array::from_fn(|i| moved[i] - position[i]);
+    check_finite([("displacements of recovered nodes", &displacement)])?;
+    Ok(RecoveredNode { displacement, rotation: multiply_3(&frame.rotation, &turn) })
 }

@@ -12,9 +12,14 @@ use crate::tensors::Recovery;
 pub(super) struct RecoveryMap {
     /// rows × r.
     rows: Vec<f64>,
+    /// Nodes that can be turned with the floating frame: all three translations, and all rotations or none.
     pub(super) labels: Vec<i64>,
-    /// For each node the row of each direction.
-    pub(super) directions: Vec<[Option<usize>; 6]>,
+    /// For each of them the row of each direction.
+    directions: Vec<[Option<usize>; 6]>,
+    /// Where each of them is, as far as the file says it.
+    pub(super) positions: Option<Vec<Vector3>>,
+    /// The other nodes of the file.
+    pub(super) incomplete: Vec<i64>,
 }
 
 impl RecoveryMap {
@@ -27,27 +32,37 @@ impl RecoveryMap {
                 dense::add_scaled(target, *factor, change_row);
             }
         }
-        let (mut labels, mut directions) = (Vec::new(), Vec::new());
-        let mut places = BTreeMap::new();
+        let mut of_node: BTreeMap<i64, [Option<usize>; 6]> = BTreeMap::new();
         for (row, dof) in recovery.dofs().iter().enumerate() {
-            let place = *places.entry(dof.node).or_insert_with(|| {
-                labels.push(dof.node);
-                directions.push([None; 6]);
-                labels.len() - 1
-            });
-            directions[place][dof.direction as usize] = Some(row);
+            of_node.entry(dof.node).or_default()[dof.direction as usize] = Some(row);
         }
-        Self { rows, labels, directions }
+        let (mut labels, mut directions, mut incomplete) = (Vec::new(), Vec::new(), Vec::new());
+        let mut positions = recovery.positions().map(|_| Vec::new());
+        for (place, label) in recovery.labels().into_iter().enumerate() {
+            if !is_complete(&of_node[&label]) {
+                incomplete.push(label);
+                continue;
+            }
+            labels.push(label);
+            directions.push(of_node[&label]);
+            if let (Some(kept), Some(all)) = (&mut positions, recovery.positions()) {
+                kept.push(all[place]);
+            }
+        }
+        Self { rows, labels, directions, positions, incomplete }
     }
 
-    /// Displacement and rotation of a node in the floating frame, each `None` unless all three are recovered.
-    pub(super) fn deformation(&self, place: usize, e: &[f64]) -> [Option<Vector3>; 2] {
-        let value = |row: usize| dense::dot(&self.rows[row * e.len()..(row + 1) * e.len()], e);
-        let [x, y, z, rx, ry, rz] = self.directions[place];
-        let three = |rows: [Option<usize>; 3]| match rows {
-            [Some(x), Some(y), Some(z)] => Some([value(x), value(y), value(z)]),
-            _ => None,
-        };
-        [three([x, y, z]), three([rx, ry, rz])]
+    /// Displacement and rotation of a node in the floating frame; no rotation where none is recovered.
+    pub(super) fn deformation(&self, place: usize, e: &[f64]) -> (Vector3, Option<Vector3>) {
+        let value = |row: Option<usize>| row.map(|row| dense::dot(&self.rows[row * e.len()..(row + 1) * e.len()], e));
+        let [x, y, z, rx, ry, rz] = self.directions[place].map(value);
+        let rotation = rx.zip(ry).zip(rz).map(|((x, y), z)| [x, y, z]);
+        ([x, y, z].map(Option::unwrap_or_default), rotation)
     }
+}
+
+/// Whether the directions of a node can be turned into others.
+fn is_complete(directions: &[Option<usize>; 6]) -> bool {
+    let n_rotations = directions[3..].iter().flatten().count();
+    directions[..3].iter().all(Option::is_some) && (n_rotations == 0 || n_rotations == 3)
 }

@@ -135,7 +135,8 @@ fn arc() -> Superelement {
     let (mut tensors, mut metadata, basis) = beam::reduced_parts(&beam::arc_nodes(), &beam::SOFT, &[0, 8], 3);
     tensors.damping = Some(tensors.mass.clone());
     let rows = Matrix::from_fn(6, 15, |i, j| basis[(6 * 4 + i) * 15 + j]);
-    tensors.recovery = recovery(4, &Direction::ALL, rows);
+    let places = vec![[1.5, 2.5, -3.5]];
+    tensors.recovery = recovery(4, &Direction::ALL, rows).map(|rows| rows.with_positions(places).expect("one node"));
     let turned = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
     tensors.interface_frames[1] = turned;
     metadata.interface_nodes[0].name = "hub \0 à gauche".into();

@@ -143,7 +143,9 @@ int main(int argc, char **argv)
     EXPECT(supel_recover(component, NULL, position, &node), SUPEL_STATUS_ARGUMENT, "workspace is null");
     EXPECT(supel_recover(component, workspace, NULL, &node), SUPEL_STATUS_ARGUMENT, "positions is null");
     EXPECT(supel_recover(component, workspace, position, NULL), SUPEL_STATUS_ARGUMENT, "nodes is null");
-    EXPECT(supel_recover(other, foreign, position, &node), SUPEL_STATUS_STATE, "some directions of node 7");
+    REQUIRE(supel_n_recovered(other) == 0 && supel_recovered_labels(other) == NULL);
+    REQUIRE(supel_recovered_positions(component)[1] == 2.5 && supel_recovered_positions(component)[2] == -3.5);
+    REQUIRE(supel_recovered_positions(other) == NULL && supel_recovered_positions(NULL) == NULL);
     REQUIRE(supel_n_recovered(component) == 1 && supel_recovered_labels(component)[0] == 4);
     REQUIRE(supel_n_recovered(NULL) == 0 && supel_recovered_labels(NULL) == NULL);
 

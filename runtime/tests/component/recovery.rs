@@ -109,10 +109,58 @@ fn what_cannot_be_recovered_is_refused() {
     assert_eq!(whole.recover(&far, &[[1.7e308; 3]; 2], &mut [EMPTY; 2]), overflow);
     assert_eq!(refusal(&component(&WHOLE), 1, 2), wrong("positions of recovered nodes", 1));
     assert_eq!(refusal(&component(&WHOLE), 2, 3), wrong("recovered nodes", 3));
-    let incomplete = EvaluationError::IncompleteRecovery { label: 3 };
-    assert_eq!(refusal(&component(&[(3, 0), (3, 1)]), 1, 1), incomplete);
-    assert_eq!(refusal(&component(&[(3, 0), (3, 1), (3, 2), (3, 5)]), 1, 1), incomplete);
+    let at = |label: i64, position: Vector3| whole.recover_node(&whole.workspace(), label, &position);
+    assert_eq!(at(4, [0.0; 3]), Err(EvaluationError::NotRecovered { label: 4 }));
+    let not_finite = EvaluationError::NotFinite { what: "positions of recovered nodes", index: 2 };
+    assert_eq!(at(3, [0.0, 0.0, f64::INFINITY]), Err(not_finite));
     let none = ModalComponent::new(&beam::arc(0).superelement, FloatingFrame::Rigid).expect("a free body");
     assert!(none.recovered_labels().is_empty());
     assert_eq!(none.recover(&none.workspace(), &[], &mut []), Ok(()));
+    let missing = none.recover_node(&none.workspace(), 3, &[0.0; 3]);
+    assert_eq!(missing, Err(EvaluationError::NotRecovered { label: 3 }));
+}
+
+/// A node of which the file has some directions is refused by its name, and costs no other node.
+#[test]
+fn nodes_with_some_directions_cost_no_others() {
+    let nodes = beam::arc_nodes();
+    let partial = [(4, 0), (4, 1), (7, 0), (7, 1), (7, 2), (7, 5)];
+    let with_partial = |first: usize| [&partial[..first], &WHOLE[..], &partial[first..]].concat();
+    let whole = ModalComponent::new(&arc(&WHOLE).0, FloatingFrame::MassWeighted).expect("a free body");
+    let situation = Situation::random(&whole, 0.01, 5);
+    let expected = recovered(&whole, &situation);
+    for first in [0, 2, 6] {
+        let component = ModalComponent::new(&arc(&with_partial(first)).0, FloatingFrame::MassWeighted);
+        let component = component.expect("a free body");
+        assert_eq!((component.recovered_labels(), component.incomplete_labels()), (&[5, 3][..], &[4, 7][..]));
+        assert_eq!(recovered(&component, &situation), expected, "the same bits");
+        let workspace = situation.evaluated(&component);
+        assert_eq!(component.recover_node(&workspace, 3, &nodes[3]), Ok(expected[1]));
+        for label in [4, 7] {
+            let error = component.recover_node(&workspace, label, &nodes[0]).expect_err("some directions");
+            assert_eq!(error, EvaluationError::IncompleteRecovery { label });
+            assert!(error.to_string().contains(&format!("node {label};")), "{error}");
+        }
+    }
+}
+
+/// Positions of the file come in the order of the labels, those of other nodes left out.
+#[test]
+fn positions_come_with_the_file() {
+    let at = |label: i64| [label as f64, 0.5, -1.0];
+    let directions = [&[(4, 0), (4, 1)][..], &WHOLE].concat();
+    let placed = |superelement: Superelement, labels: &[i64]| {
+        let mut tensors = superelement.tensors().clone();
+        let recovery = tensors.recovery.take().expect("rows");
+        tensors.recovery = recovery.with_positions(labels.iter().map(|label| at(*label)).collect()).ok();
+        Superelement::new(tensors, superelement.metadata().clone()).expect("the parts fit")
+    };
+    let file = placed(arc(&directions).0, &[4, 5, 3]);
+    assert_eq!(Superelement::from_bytes(&file.to_bytes().expect("bytes").bytes).expect("a file"), file);
+    let component = ModalComponent::new(&file, FloatingFrame::Rigid).expect("a free body");
+    assert_eq!(component.recovered_positions(), Some(&[at(5), at(3)][..]));
+    let without = ModalComponent::new(&arc(&WHOLE).0, FloatingFrame::Rigid).expect("a free body");
+    assert_eq!(without.recovered_positions(), None);
+    let few = arc(&WHOLE).0.tensors().recovery.clone().expect("rows").with_positions(vec![at(5)]);
+    assert!(matches!(few, Err(supel_runtime::FileError::WrongShape { tensor: "recovery_positions", .. })), "{few:?}");
 }

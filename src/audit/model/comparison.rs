@@ -47,6 +47,7 @@ impl Comparison<'_> {
             checks.push(rows(found.as_ref(), &expected.combined(b), f64::EPSILON, (words, &at)));
         }
         checks.extend(self.loads());
+        checks.extend(self.quantities());
         if let (Some(expected), Some(stored)) = (&projected.recovery, &file.recovery)
             && expected.rows.nrows() == stored.nrows()
         {
@@ -71,9 +72,20 @@ impl Comparison<'_> {
             let found = self.mixed_rows(stored.as_ref());
             rows(found.as_ref(), &expected.combined(&self.b), f64::EPSILON, (words, &at))
         };
-        let checks = self.projected.loads.iter().zip(&self.file.loads).enumerate().map(of_load);
-        let share = |check: &Check| check.value / check.limits.value();
-        checks.reduce(|worst, check| if crate::dense::worse(share(&check), share(&worst)) { check } else { worst })
+        worst(self.projected.loads.iter().zip(&self.file.loads).enumerate().map(of_load))
+    }
+
+    /// M-15: the quantities of the job, each by itself because their units differ, of which the worst is told.
+    fn quantities(&self) -> Option<Check> {
+        let words =
+            ("M-15", "quantities are those of the full model", "max |R T Ψ − quantities|_ij, relative to |R T||Ψ|");
+        let names = &self.superelement.metadata().quantities;
+        let of_row = |(row, (expected, stored)): (usize, (&Rows, &Mat<f64>))| {
+            let at = |_: usize, i: usize| format!("{} of {}", names[row].name, self.name_of(i));
+            let found = self.mixed_rows(stored.as_ref());
+            rows(found.as_ref(), &expected.combined(&self.b), f64::EPSILON, (words, &at))
+        };
+        worst(self.projected.quantities.iter().zip(&self.file.quantities).enumerate().map(of_row))
     }
 
     /// How many modal coordinates are compared.
@@ -109,4 +121,10 @@ impl Comparison<'_> {
             format!("node {} {}", dof.node, format!("{:?}", dof.direction).to_lowercase())
         })
     }
+}
+
+/// The check that is farthest beyond its limit, or closest to it.
+fn worst(checks: impl Iterator<Item = Check>) -> Option<Check> {
+    let share = |check: &Check| check.value / check.limits.value();
+    checks.reduce(|worst, check| if crate::dense::worse(share(&check), share(&worst)) { check } else { worst })
 }

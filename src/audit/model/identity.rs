@@ -236,6 +236,7 @@ pub(super) fn statements(
     expect(tensors.damping.is_none(), "damping");
     let names = partition.loads.facts.iter().map(|load| &load.name);
     expect(metadata.load_names.iter().eq(names), "loads");
+    expect(metadata.quantities == partition.quantities.names, "quantities");
     expect(metadata.flags.is_empty(), "flags");
     expect(metadata.validity.assumptions == job.assumptions(), "assumptions about the simulation");
     expect(metadata.validity.unloaded.is_empty(), "unloaded directions");
@@ -248,9 +249,10 @@ pub(super) fn statements(
         let is_row = |(found, row): (&supel_runtime::RecoveredDof, &(usize, crate::dofs::Dof))| {
             found.node == row.1.node && found.direction as usize == row.1.direction as usize
         };
-        let n_alike = recovery.dofs().iter().zip(&partition.recovered).filter(|pair| is_row(*pair)).count();
-        let n = partition.recovered.len();
+        let n_alike = recovery.dofs().iter().zip(&partition.recovered.rows).filter(|pair| is_row(*pair)).count();
+        let n = partition.recovered.rows.len();
         expect(n_alike == n && recovery.dofs().len() == n, "recovered degrees of freedom");
+        expect(recovery.positions() == partition.recovered.positions.as_deref(), "positions of recovered nodes");
     }
     flaw(
         "it says of itself what the job makes",

@@ -4,6 +4,7 @@
 //! WᵀKW, WᵀMW   q × q      q = p + n_N
 //! WᵀMe         q × 3      e a unit translation
 //! FᵀTW         n_l × q    loads of the job
+//! RTW          1 × q      a quantity of the job
 //! TW           m × q      rows of the model that the file recovers
 //! ```
 //! Nothing larger outlives this stage.
@@ -53,6 +54,8 @@ pub(super) struct Projected {
     pub(super) gravity_weight: Option<f64>,
     /// fᵀTW of each load of the job, 1 × q, in its unit.
     pub(super) loads: Vec<Rows>,
+    /// R T W of each quantity of the job, 1 × q.
+    pub(super) quantities: Vec<Rows>,
     /// TW, where rows are recovered.
     pub(super) recovery: Option<Rows>,
     /// (WᵀMU)ᵀ, n_r × q, U the unit motions; of a component without interface that has them.
@@ -83,7 +86,10 @@ impl Projected {
             named_load(partition, (load, norm), shapes, [&stiffness, &mass])
         });
         let named_loads: Vec<Rows> = named_loads.collect();
-        let recovery = (!partition.recovered.is_empty()).then(|| recovered(partition, shapes, (&mass, n_probes)));
+        let diagonal = crate::sparse::diagonal(&partition.mass);
+        let quantities =
+            partition.quantities.rows.iter().map(|row| quantity(row, shapes, (&mass, &diagonal))).collect();
+        let recovery = (!partition.recovered.rows.is_empty()).then(|| recovered(partition, shapes, (&mass, n_probes)));
         let is_modal = columns.probes.ncols() == 0;
         let motions =
             unit.filter(|_| is_modal).map(|unit| dense::gram(product(&partition.mass, unit).as_ref(), shapes));
@@ -97,6 +103,7 @@ impl Projected {
             gravity,
             gravity_weight,
             loads: named_loads,
+            quantities,
             recovery,
             motions,
             residual,
@@ -196,10 +203,36 @@ fn named_load(
     }
 }
 
+/// r W of one quantity r. An error e of a column has the inertia eᵀMe, so that |r e| is about √(Σ r_k²/M_kk) √(eᵀMe) at most. What a
+/// massless dof lacks is like its own motion.
+fn quantity(row: &[(u32, f64)], shapes: MatRef<'_, f64>, (mass, diagonal): (&Form, &[f64])) -> Rows {
+    let terms = |j: usize| row.iter().map(|(dof, factor)| (factor * shapes[(*dof as usize, j)]).abs()).sum::<f64>();
+    let share = |(dof, factor): &(u32, f64)| {
+        let mass = diagonal[*dof as usize];
+        if mass > 0.0 { factor * factor / mass } else { 0.0 }
+    };
+    let norm = row.iter().map(share).sum::<f64>().sqrt();
+    let massless = |j: usize| {
+        let of_dof = |(dof, factor): &(u32, f64)| {
+            if diagonal[*dof as usize] > 0.0 { 0.0 } else { (factor * shapes[(*dof as usize, j)]).abs() }
+        };
+        let length = mass.matrix[(j, j)].max(0.0).sqrt();
+        if length > 0.0 { row.iter().map(of_dof).sum::<f64>() / length } else { 0.0 }
+    };
+    let error = |j: usize| (norm + massless(j)) * mass.errors[j] + f64::EPSILON * terms(j);
+    Rows {
+        rows: Mat::from_fn(1, shapes.ncols(), |_, j| {
+            row.iter().map(|(dof, factor)| factor * shapes[(*dof as usize, j)]).sum()
+        }),
+        errors: (0..shapes.ncols()).map(error).collect(),
+        sizes: (0..shapes.ncols()).map(terms).collect(),
+    }
+}
+
 /// TW. What a column lacks is a motion of like columns: displacements for its inertia are as large as theirs.
 fn recovered(partition: &Partition, shapes: MatRef<'_, f64>, (mass, n_probes): (&Form, usize)) -> Rows {
-    let rows = Mat::from_fn(partition.recovered.len(), shapes.ncols(), |i, j| {
-        let entries = partition.transformation.rows[partition.recovered[i].0].entries();
+    let rows = Mat::from_fn(partition.recovered.rows.len(), shapes.ncols(), |i, j| {
+        let entries = partition.transformation.rows[partition.recovered.rows[i].0].entries();
         entries.map(|(dof, factor)| factor * shapes[(dof as usize, j)]).sum()
     });
     let length = |j: usize| mass.matrix[(j, j)].max(0.0).sqrt();

@@ -16,6 +16,8 @@ pub(super) struct Scaled {
     pub(super) gravity: Option<Mat<f64>>,
     /// fᵀΨ of each load, 1 × r, where there are as many as in the job.
     pub(super) loads: Vec<Mat<f64>>,
+    /// R T Ψ, a matrix 1 × r for each row, where there are as many as in the job.
+    pub(super) quantities: Vec<Mat<f64>>,
     /// W, rows × r.
     pub(super) recovery: Option<Mat<f64>>,
     /// Relative rounding of the rows as they are kept.
@@ -59,6 +61,7 @@ impl Scaled {
             m_f,
             gravity: gravity.map(|g| Mat::from_fn(g.cols(), g.rows(), |i, j| g[(j, i)] / (units.mass_unit() * of(j)))),
             loads: loads_in_units(superelement, partition, &of),
+            quantities: quantities_in_units(superelement, partition, &of),
             recovery: recovery.map(|w| {
                 let w = w.rows();
                 Mat::from_fn(w.rows(), w.cols(), |i, j| w[(i, j)] / of(j))
@@ -94,4 +97,17 @@ fn loads_in_units(
         Mat::from_fn(1, vectors.rows(), |_, j| vectors[(j, load)] / unit / of_coordinate(j))
     };
     loads.iter().map(|facts| facts.unit).enumerate().map(of_load).collect()
+}
+
+/// The quantities of a file on shapes in the units of a partition; none where there are not as many.
+fn quantities_in_units(
+    superelement: &Superelement,
+    partition: &Partition,
+    of_coordinate: &dyn Fn(usize) -> f64,
+) -> Vec<Mat<f64>> {
+    let n_rows = partition.quantities.rows.len();
+    let Some(rows) = superelement.tensors().quantities.as_ref().filter(|stored| stored.rows() == n_rows) else {
+        return Vec::new();
+    };
+    (0..n_rows).map(|row| Mat::from_fn(1, rows.cols(), |_, j| rows[(row, j)] / of_coordinate(j))).collect()
 }

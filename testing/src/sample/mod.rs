@@ -220,6 +220,7 @@ fn metadata(interface_nodes: Vec<InterfaceNode>) -> Metadata {
         coordinates: vec![coordinate(0), coordinate(1)],
         dropped: Vec::new(),
         load_names: Vec::new(),
+        quantities: Vec::new(),
         validity: Validity::default(),
         flags: BTreeSet::new(),
         model: ModelSummary {

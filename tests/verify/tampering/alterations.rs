@@ -85,14 +85,32 @@ fn first_mode(metadata: &Metadata) -> Option<usize> {
 
 fn rows_of(recovery: &Recovery, change: impl FnOnce(&Matrix) -> Matrix) -> Option<Recovery> {
     let rows = change(recovery.rows());
-    (rows != *recovery.rows())
-        .then(|| Recovery::new(rows, recovery.dofs().to_vec(), recovery.precision()).expect("rows"))
+    (rows != *recovery.rows()).then(|| with_places_of(recovery, rows, recovery.dofs().to_vec(), recovery.precision()))
+}
+
+/// Other rows at the nodes of a recovery.
+fn with_places_of(recovery: &Recovery, rows: Matrix, dofs: Vec<RecoveredDof>, precision: Precision) -> Recovery {
+    let new = Recovery::new(rows, dofs, precision).expect("as many dofs as rows");
+    match recovery.positions() {
+        Some(positions) => new.with_positions(positions.to_vec()).expect("as many positions as nodes"),
+        None => new,
+    }
 }
 
 fn recovered(tensors: &mut Tensors, change: impl FnOnce(&Matrix) -> Matrix) -> bool {
     let new = tensors.recovery.as_ref().and_then(|recovery| rows_of(recovery, change));
     let is_changed = new.is_some();
     tensors.recovery = new.or(tensors.recovery.take());
+    is_changed
+}
+
+/// Changes the positions of recovered nodes.
+fn placed(tensors: &mut Tensors, change: impl FnOnce(&mut [[f64; 3]])) -> bool {
+    let Some(recovery) = tensors.recovery.as_ref() else { return false };
+    let Some(mut positions) = recovery.positions().map(<[[f64; 3]]>::to_vec) else { return false };
+    change(&mut positions);
+    let is_changed = recovery.positions() != Some(&positions[..]);
+    tensors.recovery = recovery.clone().with_positions(positions).ok();
     is_changed
 }
 
@@ -112,8 +130,10 @@ fn keep(tensors: &mut Tensors, metadata: &mut Metadata, kept: &[usize]) {
     tensors.mixing = tensors.mixing.as_ref().map(|mixing| of(mixing, &modal, &modal));
     tensors.recovery = tensors.recovery.as_ref().map(|recovery| {
         let rows: Vec<usize> = (0..recovery.rows().rows()).collect();
-        Recovery::new(of(recovery.rows(), &rows, kept), recovery.dofs().to_vec(), recovery.precision()).expect("rows")
+        let kept = of(recovery.rows(), &rows, kept);
+        with_places_of(recovery, kept, recovery.dofs().to_vec(), recovery.precision())
     });
+    tensors.quantities = tensors.quantities.as_ref().map(|rows| of(rows, &(0..rows.rows()).collect::<Vec<_>>(), kept));
     metadata.coordinates = kept.iter().map(|at| metadata.coordinates[*at].clone()).collect();
 }
 
@@ -442,7 +462,8 @@ pub(super) const ALTERATIONS: &[Alteration] = &[
                 Precision::Single => Precision::Double,
                 Precision::Double => Precision::Single,
             };
-            t.recovery = Recovery::new(recovery.rows().clone(), recovery.dofs().to_vec(), other).ok();
+            let dofs = recovery.dofs().to_vec();
+            t.recovery = Some(with_places_of(recovery, recovery.rows().clone(), dofs, other));
             true
         },
     },
@@ -454,7 +475,7 @@ pub(super) const ALTERATIONS: &[Alteration] = &[
             let mut dofs: Vec<RecoveredDof> = recovery.dofs().to_vec();
             let label = dofs[0].node;
             dofs.iter_mut().filter(|dof| dof.node == label).for_each(|dof| dof.node += 1000);
-            t.recovery = Recovery::new(recovery.rows().clone(), dofs, recovery.precision()).ok();
+            t.recovery = Some(with_places_of(recovery, recovery.rows().clone(), dofs, recovery.precision()));
             true
         },
     },
@@ -466,6 +487,69 @@ pub(super) const ALTERATIONS: &[Alteration] = &[
             let mut dofs: Vec<RecoveredDof> = recovery.dofs().to_vec();
             let (a, b) = (dofs[0].direction, dofs[1].direction);
             (dofs[0].direction, dofs[1].direction) = (b, a);
+            t.recovery = Some(with_places_of(recovery, recovery.rows().clone(), dofs, recovery.precision()));
+            true
+        },
+    },
+    Alteration {
+        field: "quantities",
+        what: "the smallest row × 1.01",
+        alter: |t, _| {
+            let Some(rows) = &mut t.quantities else { return false };
+            *rows = Matrix::from_fn(rows.rows(), rows.cols(), |i, j| rows[(i, j)] * if i == 0 { 1.01 } else { 1.0 });
+            true
+        },
+    },
+    Alteration {
+        field: "quantities",
+        what: "every seventh value × 1.5",
+        alter: |t, _| {
+            let Some(rows) = &mut t.quantities else { return false };
+            let factor = |at: usize| if at.is_multiple_of(7) { 1.5 } else { 1.0 };
+            *rows = Matrix::from_fn(rows.rows(), rows.cols(), |i, j| rows[(i, j)] * factor(i * rows.cols() + j));
+            true
+        },
+    },
+    Alteration {
+        field: "quantities",
+        what: "two rows exchanged",
+        alter: |t, _| {
+            let Some(rows) = &mut t.quantities else { return false };
+            *rows = Matrix::from_fn(rows.rows(), rows.cols(), |i, j| rows[(rows.rows() - 1 - i, j)]);
+            true
+        },
+    },
+    Alteration {
+        field: "quantities",
+        what: "taken out with their names",
+        alter: |t, m| {
+            m.quantities.clear();
+            t.quantities.take().is_some()
+        },
+    },
+    Alteration {
+        field: "recovery_positions",
+        what: "a node elsewhere",
+        alter: |t, _| {
+            placed(t, |positions| {
+                let size = positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
+                positions[0][1] += 1e-3 * size;
+            })
+        },
+    },
+    Alteration {
+        field: "recovery_positions",
+        what: "two nodes exchanged",
+        alter: |t, _| placed(t, |positions| positions.swap(0, 1)),
+    },
+    Alteration {
+        field: "recovery_positions",
+        what: "taken out",
+        alter: |t, _| {
+            let Some(recovery) = t.recovery.as_ref().filter(|recovery| recovery.positions().is_some()) else {
+                return false;
+            };
+            let dofs = recovery.dofs().to_vec();
             t.recovery = Recovery::new(recovery.rows().clone(), dofs, recovery.precision()).ok();
             true
         },

@@ -104,7 +104,7 @@ fn rows(name: &'static str, ends: Ends, method: &str) -> Subject {
     Subject::of(name, place, &text(FILES, interfaces, &reduction, ""))
 }
 
-/// A solid with loads: one answered by its residual vector, one by that of the first, one by the modes alone.
+/// A solid with quantities and loads: one answered by its residual vector, one by that of the first, one by the modes alone.
 fn loaded() -> Subject {
     let place = Place::with(&steel_brick());
     let interfaces = patch("foot", "[1, 11, 31, 41]", "direct")
@@ -112,7 +112,14 @@ fn loaded() -> Subject {
         + "[[load]]\nname = \"again\"\nnodes = [23]\nforce = [3.0, 5.0, 7.0]\n"
         + "[[load]]\nname = \"spin\"\nrotation = { axis = [1.5, 0.5, 2.5] }\nresidual = false\n";
     let reduction = "method = \"herting\"\nmodes = { count = 5 }";
-    Subject::of("loads", place, &text(&(FILES.to_owned() + MESH), &interfaces, reduction, ""))
+    // A strain of an element inside, and another one that is 10⁹ times as large as a number.
+    place.write(
+        "R.mtx",
+        b"%%MatrixMarket matrix coordinate real general\n2 135 4\n1 67 4\n1 64 -4\n2 41 1e9\n2 38 -2e9\n",
+    );
+    place.write("names.csv", b"name,unit\nstrain,1\nstress,Pa\n");
+    let write = "quantities = { matrix = \"R.mtx\", names = \"names.csv\" }";
+    Subject::of("loads", place, &text(&(FILES.to_owned() + MESH), &interfaces, reduction, write))
 }
 
 /// A solid without interface: its own modes.

@@ -12,7 +12,7 @@ use supel::input;
 use supel::input::InputFacts;
 use supel::job::Job;
 use supel::model::Model;
-use supel::partition::{Loads, Partition, loads, recovered_rows};
+use supel::partition::{Loads, Partition, Quantities, loads, quantities, recovered_rows};
 use supel::verification::check::Verdict;
 use supel_models::fnv1a;
 use supel_runtime::Superelement;
@@ -110,13 +110,17 @@ impl Known {
         let job = subject.job();
         let read = input::read(&job.model).expect("files");
         let columns = input::load_columns(&job.loads, &read).expect("files");
-        let facts = InputFacts::of(&read).with_loads(&job.loads, &columns);
+        let rows =
+            input::job_quantities(job.write.quantities.as_ref(), &read, &input::Allowance::of(None)).expect("files");
+        let facts = InputFacts::of(&read).with_loads(&job.loads, &columns).with_quantities(rows.as_ref());
         let model = Model::new(read).expect("a model");
         let recovered = recovered_rows(&model, job.write.recovery.as_ref()).expect("nodes");
+        let of_job = quantities(&model, rows).expect("rows");
         let row_loads = loads(&model, &job.loads, &columns).expect("nodes");
         let mut partition = Partition::new(model, &job.interfaces).expect("interfaces");
         partition.loads = Loads::carried(row_loads, &partition.transformation).expect("dofs that move");
         partition.recovered = recovered;
+        partition.quantities = Quantities::carried(of_job, &partition.transformation);
         Self { job, facts, partition }
     }
 }
@@ -266,9 +270,10 @@ fn tensor_names(superelement: &Superelement) -> BTreeSet<String> {
         gravity: _,
         load_vectors: _,
         recovery: _,
+        quantities: _,
     } = superelement.tensors();
     let names = "stiffness mass rigid_body_modes rigid_body_mass interface_positions interface_frames frequencies damping mixing \
-                 gravity load_vectors recovery recovery_dofs";
+                 gravity load_vectors quantities recovery recovery_dofs recovery_positions";
     names.split_whitespace().map(str::to_owned).collect()
 }
 

@@ -1,0 +1,124 @@
+//! `supel recover`: states of a simulation expanded to what happens inside the component.
+
+use std::path::Path;
+
+use supel_runtime::{Precision, Superelement, Verdict};
+
+use super::answer::Terminal;
+use super::exit_code::ExitCode;
+use super::outputs::{Outputs, abandoned, writer};
+use super::overwriting::{Named, OwnFiles};
+use super::recover_command::RecoverCommand;
+use super::superelement_file;
+use super::unverified::Unverified;
+use crate::error::{Error, Result};
+use crate::expansion::{
+    Displacements, InterfaceLoads, Order, Quantities, Sheet, SheetOutput, States, coordinate_names, fill,
+};
+use crate::number;
+use crate::report::printable;
+
+pub(super) fn run(command: &RecoverCommand, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
+    let (superelement, bytes) = superelement_file::read(&command.file)?;
+    drop(bytes);
+    let verdict = superelement.metadata().verification.verdict;
+    if verdict == Verdict::Fail && command.unverified == Unverified::Refused {
+        let file = command.file.display();
+        let advice = "see `supel inspect`, or use it anyway with --allow-unverified";
+        terminal.complain(&format!("supel: {file}: nothing recovered: a check failed when it was made – {advice}"));
+        return Ok(ExitCode::CheckFailed);
+    }
+    let sheets = sheets(command, &superelement)?;
+    let outputs: Vec<Named> = sheets.iter().map(|sheet| (sheet.flag, sheet.path.to_owned())).collect();
+    let own = OwnFiles::of(&inputs(command), &outputs)?;
+    let complaints = abandoned(&own);
+    let mut states = States::open(&command.states, &coordinate_names(&superelement))?;
+    let n_states = write(&own, &mut states, &sheets)?;
+    for sheet in &sheets {
+        let states = number::counted(n_states, "state", "states");
+        let path = sheet.path.display().to_string();
+        terminal.answer(&format!("{}: {} in {states}\n", printable(&path), sheet.content));
+    }
+    complaints.iter().for_each(|complaint| terminal.complain(complaint));
+    Ok(if verdict == Verdict::Fail { ExitCode::CheckFailed } else { ExitCode::Done })
+}
+
+/// Results that are asked for, where they go and what they are.
+struct Asked<'a> {
+    flag: &'static str,
+    path: &'a Path,
+    content: String,
+    sheet: Box<dyn Sheet + 'a>,
+}
+
+fn sheets<'a>(command: &'a RecoverCommand, superelement: &'a Superelement) -> Result<Vec<Asked<'a>>> {
+    let motion = command.output.as_deref().map(|path| motion(path, &command.file, superelement));
+    let quantities = command.quantities.as_deref().map(|path| quantities(path, &command.file, superelement));
+    let loads = command.loads.as_deref().map(|path| loads(path, command, superelement));
+    [motion, quantities, loads].into_iter().flatten().collect()
+}
+
+fn motion<'a>(path: &'a Path, file: &Path, superelement: &'a Superelement) -> Result<Asked<'a>> {
+    let recovery = superelement.tensors().recovery.as_ref().ok_or_else(|| Error::NoRecovery {
+        path: file.to_owned(),
+        missing: "recovered nodes",
+        wanted: "--output",
+        key: "write.recovery",
+    })?;
+    let rows = number::counted(recovery.dofs().len() as u64, "degree of freedom", "degrees of freedom");
+    let digits = match recovery.precision() {
+        Precision::Double => "",
+        Precision::Single => ", to the seven digits of single precision",
+    };
+    let content = format!("motion of {rows}{digits}");
+    Ok(Asked { flag: "--output", path, content, sheet: Box::new(Displacements::new(recovery)) })
+}
+
+fn quantities<'a>(path: &'a Path, file: &Path, superelement: &'a Superelement) -> Result<Asked<'a>> {
+    let rows = superelement.tensors().quantities.as_ref().ok_or_else(|| Error::NoRecovery {
+        path: file.to_owned(),
+        missing: "quantities",
+        wanted: "--quantities",
+        key: "write.quantities",
+    })?;
+    let content = number::counted(rows.rows() as u64, "quantity", "quantities");
+    let sheet = Box::new(Quantities::new(&superelement.metadata().quantities, rows));
+    Ok(Asked { flag: "--quantities", path, content, sheet })
+}
+
+fn loads<'a>(path: &'a Path, command: &RecoverCommand, superelement: &'a Superelement) -> Result<Asked<'a>> {
+    let lacking = |missing, wanted, key| Error::NoRecovery { path: command.file.clone(), missing, wanted, key };
+    if superelement.n_interface() == 0 {
+        return Err(lacking("interface", "--loads", "[[interface]]"));
+    }
+    let sheet = InterfaceLoads::new(superelement);
+    let sheet = match (&command.gravity, &superelement.tensors().gravity) {
+        (None, _) => sheet,
+        (Some(field), Some(of_file)) => sheet.with_gravity(of_file, field),
+        (Some(_), None) => return Err(lacking("loads of gravity", "--gravity", "model.dofs and model.nodes")),
+    };
+    let inertia = if command.states.path(Order::Acceleration).is_some() { "" } else { ", without those of inertia," };
+    Ok(Asked { flag: "--loads", path, content: format!("loads on the interface{inertia}"), sheet: Box::new(sheet) })
+}
+
+fn inputs(command: &RecoverCommand) -> Vec<Named> {
+    let tables =
+        Order::ALL.into_iter().filter_map(|order| Some(("a table of states", command.states.path(order)?.to_owned())));
+    std::iter::once(("the superelement", command.file.clone())).chain(tables).collect()
+}
+
+/// Writes all sheets, and gives them their names when all are complete.
+fn write(own: &OwnFiles, states: &mut States, sheets: &[Asked<'_>]) -> Result<u64> {
+    let mut writers = sheets.iter().map(|asked| writer(own, asked.path)).collect::<Result<Vec<_>>>()?;
+    let both = sheets.iter().zip(&mut writers);
+    let mut to_fill: Vec<SheetOutput<'_>> =
+        both.map(|(asked, out)| SheetOutput { sheet: asked.sheet.as_ref(), path: asked.path, out }).collect();
+    let n_states = fill(states, &mut to_fill)?;
+    drop(to_fill);
+    let mut outputs = Outputs::new(own);
+    for writer in writers {
+        outputs.push(writer.finish().map_err(Error::of_writing)?);
+    }
+    outputs.commit()?;
+    Ok(n_states)
+}

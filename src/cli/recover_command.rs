@@ -1,0 +1,56 @@
+//! What was typed after `supel recover`, checked.
+
+use std::path::PathBuf;
+
+use super::flags::RecoverFlags;
+use super::unverified::Unverified;
+use crate::error::{Error, Result};
+use crate::expansion::StateFiles;
+use crate::job::ends_in;
+
+/// Expand states of a simulation.
+#[derive(Debug)]
+pub(super) struct RecoverCommand {
+    pub(super) file: PathBuf,
+    pub(super) states: StateFiles,
+    /// Where the motion of the recovered nodes goes.
+    pub(super) output: Option<PathBuf>,
+    /// Where the quantities go.
+    pub(super) quantities: Option<PathBuf>,
+    /// Where the loads on the interface go.
+    pub(super) loads: Option<PathBuf>,
+    /// The field of gravity in which they act.
+    pub(super) gravity: Option<[f64; 3]>,
+    pub(super) unverified: Unverified,
+}
+
+impl RecoverCommand {
+    pub(super) fn build(flags: RecoverFlags) -> Result<Self> {
+        let RecoverFlags { file, state, velocity, acceleration, output, quantities, loads, gravity, allow_unverified } =
+            flags;
+        for (flag, path) in [("--output", &output), ("--quantities", &quantities), ("--loads", &loads)] {
+            path.as_ref().map_or(Ok(()), |path| ends_in(flag, path, ".csv"))?;
+        }
+        Ok(Self {
+            file,
+            states: StateFiles { displacement: state, velocity, acceleration },
+            output,
+            quantities,
+            loads,
+            gravity: gravity.as_deref().map(acceleration_of).transpose()?,
+            unverified: if allow_unverified { Unverified::Written } else { Unverified::Refused },
+        })
+    }
+}
+
+/// Three numbers.
+fn acceleration_of(text: &str) -> Result<[f64; 3]> {
+    let number = |word: &str| word.trim().parse().ok().filter(|value: &f64| value.is_finite());
+    let numbers: Option<Vec<f64>> = text.split(',').map(number).collect();
+    let wrong = || Error::FlagText {
+        flag: "--gravity",
+        text: text.to_owned(),
+        expected: "an acceleration along x, y and z, as in --gravity=0,0,-9.81",
+    };
+    numbers.and_then(|numbers| numbers.try_into().ok()).ok_or_else(wrong)
+}

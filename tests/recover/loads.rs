@@ -1,0 +1,109 @@
+//! Loads on the interface: what the full model needs there to move so.
+
+use supel::cli::ExitCode;
+use supel_models::model::multiply;
+
+use super::{Case, any, difference, foot_and_hub, foot_rows, largest};
+use crate::displacements::static_answer;
+
+/// Loads on the dofs of the interface nodes, in the order of the coordinates.
+fn nodal(case: &Case, state: usize) -> Vec<f64> {
+    let rows = case.rows("f.csv");
+    let of_state = rows.iter().filter(|row| row["state"] == state.to_string() && row["node"] != "all");
+    of_state.map(|row| row["load"].parse().expect("a number")).collect()
+}
+
+/// The resultant on an interface, or on the whole component for no name.
+fn resultant(case: &Case, state: usize, interface: &str) -> Vec<f64> {
+    let rows = case.rows("f.csv");
+    let is_its = |row: &&std::collections::BTreeMap<String, String>| {
+        row["state"] == state.to_string() && row["node"] == "all" && row["interface"] == interface
+    };
+    rows.iter().filter(is_its).map(|row| row["load"].parse().expect("a number")).collect()
+}
+
+/// Force and moment about the origin of loads on all rows of the full model: their work on its rigid-body motions.
+fn total(case: &Case, loads: &[f64]) -> Vec<f64> {
+    let work = |mode: &Vec<f64>| mode.iter().zip(loads).map(|(u, f)| u * f).sum::<f64>();
+    case.model.rigid_body_modes().iter().map(work).collect()
+}
+
+/// A static state takes K u at the interface, and in sum nothing.
+#[test]
+fn loads_of_a_static_state_are_those_of_the_full_model() {
+    let case = Case::new("craig-bampton");
+    let state = [any(9, 7), vec![0.0; 5]].concat();
+    case.table("q.csv", &case.header(), std::slice::from_ref(&state));
+    let ended = case.recover(&["--loads", "f.csv"]).expect(ExitCode::Done);
+    assert!(ended.out.contains("loads on the interface, without those of inertia, in 1 state"), "{}", ended.out);
+    let forces = multiply(&case.model.stiffness, &static_answer(&case, &state[..9]));
+    let at_interface: Vec<f64> = foot_rows(&case.model).iter().map(|row| forces[*row]).collect();
+    let error = difference(&nodal(&case, 1), &at_interface);
+    // As displacements of a static state are good to 1e-10, and forces are their differences.
+    assert!(error <= 1e-9, "{error:e}");
+    let net = resultant(&case, 1, "");
+    assert!(net.len() == 6 && largest(&net) <= 1e-9 * largest(&at_interface), "{net:?}");
+    let first = &case.rows("f.csv")[4];
+    let words = ["interface", "node", "component"].map(|column| first[column].as_str());
+    assert_eq!(words, ["foot", "11", "fy"]);
+}
+
+/// Whatever moves, loads and resultants are K u + M ü of the full model with the motion that is recovered: at the nodes of a direct interface
+/// as they are, and in sum the change of momentum.
+#[test]
+fn loads_of_a_motion_change_its_momentum() {
+    let all = "recovery = { nodes = { within = { box = { min = [0, 0, 0], max = [1, 1, 1] } } } }";
+    let case = Case::writing("craig-bampton", foot_and_hub(), all);
+    let n = case.header().split(',').count();
+    let omega = case.place.superelement("x.supel").tensors().frequencies.clone();
+    // A mode with the interface held, which obeys the equations inside, and a turn with its acceleration.
+    let mode = |factor: f64| (0..n).map(|at| if at + 5 == n { factor } else { 0.0 }).collect::<Vec<f64>>();
+    let turning: Vec<f64> = {
+        let u = case.place.superelement("x.supel").tensors().rigid_body_modes.clone();
+        (0..n).map(|row| u[(row, 4)] + 0.5 * u[(row, 0)]).collect()
+    };
+    case.table("q.csv", &case.header(), &[mode(1.0), vec![0.0; n]]);
+    case.table("a.csv", &case.header(), &[mode(-omega[0] * omega[0]), turning]);
+    case.recover(&["-o", "u.csv", "--loads", "f.csv", "--acceleration", "a.csv"]).expect(ExitCode::Done);
+    for state in [1, 2] {
+        let [u, a] = ["displacement", "acceleration"].map(|name| case.values("u.csv", state, name));
+        let (elastic, inertial) = (multiply(&case.model.stiffness, &u), multiply(&case.model.mass, &a));
+        let outer: Vec<f64> = elastic.iter().zip(&inertial).map(|(k, m)| k + m).collect();
+        if state == 1 {
+            let at_foot: Vec<f64> = foot_rows(&case.model).iter().map(|row| outer[*row]).collect();
+            let error = difference(&nodal(&case, state)[..9], &at_foot);
+            // The residual of a mode, as in the test of its swing.
+            assert!(error <= 1e-8, "{error:e}");
+        }
+        let error = difference(&resultant(&case, state, ""), &total(&case, &inertial));
+        // Rounding of K, which lets rigid-body motion pass to 1e-12 of the forces inside.
+        assert!(error <= 1e-9, "state {state}: {error:e}");
+        let [foot, hub] = ["foot", "hub"].map(|name| resultant(&case, state, name));
+        let sum: Vec<f64> = foot.iter().zip(&hub).map(|(a, b)| a + b).collect();
+        assert!(difference(&sum, &resultant(&case, state, "")) <= 1e-13);
+    }
+}
+
+/// At rest the interface carries the weight; in free fall it carries nothing.
+#[test]
+fn gravity_is_carried_by_the_interface() {
+    let case = Case::new("herting");
+    let (file, n) = (case.place.superelement("x.supel"), case.header().split(',').count());
+    let u = &file.tensors().rigid_body_modes;
+    let g = [0.5, -2.0, -9.81];
+    case.table("q.csv", &case.header(), &[vec![0.0; n], vec![0.0; n]]);
+    let falling = (0..n).map(|row| (0..3).map(|axis| g[axis] * u[(row, axis)]).sum()).collect();
+    case.table("a.csv", &case.header(), &[vec![0.0; n], falling]);
+    let more = ["--loads", "f.csv", "--acceleration", "a.csv", "--gravity=0.5,-2,-9.81"];
+    case.recover(&more).expect(ExitCode::Done);
+    let weight: Vec<f64> = g.map(|g| -g * case.model.total_mass(0)).into();
+    let found = resultant(&case, 1, "");
+    // Roundings of the mass, summed over the model.
+    assert!(difference(&found[..3], &weight) <= 1e-12, "{found:?} for {weight:?}");
+    assert!(largest(&nodal(&case, 2)) <= 1e-10 * largest(&weight), "{:?}", nodal(&case, 2));
+    for wrong in ["--gravity=1,2", "--gravity=1,2,x", "--gravity=1,2,inf"] {
+        let ended = case.recover(&["--loads", "f.csv", wrong]).expect(ExitCode::Usage);
+        assert!(ended.err.contains("E-FLAG-TEXT"), "{}", ended.err);
+    }
+    case.recover(&["-o", "u.csv", "--gravity=1,2,3"]).expect(ExitCode::Usage);
+}
