@@ -240,7 +240,7 @@ impl Assembly {
             add(&mut stiffness, &component.stiffness, &block, 1.0);
             add(&mut mass, &component.mass, &block, 1.0);
             add(&mut rounding, &terms[0], &block, NOISE_FACTOR * f64::EPSILON);
-            add(&mut rounding, &terms[1], &block, NOISE_FACTOR * component.rounding);
+            add(&mut rounding, &terms[1], &block, NOISE_FACTOR * component.rounding + component.known_to);
             first += block.len();
             blocks.push(block);
         }

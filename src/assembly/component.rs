@@ -28,6 +28,9 @@ pub struct Component {
     pub(super) rigid: Mat<f64>,
     /// The eigenvalue that rounding of K̂ can make, as rigid-body motion shows it.
     pub(super) rounding: f64,
+    /// How far the first eigenvalue may be off by the error bar that the file states: what rounding of the full matrices makes of an energy,
+    /// which a component without rigid-body motion shows nowhere else.
+    pub(super) known_to: f64,
 }
 
 impl Component {
@@ -51,7 +54,8 @@ impl Component {
             return Err(Error::AssemblyRigid { name, value: rounding / unit });
         }
         let omitted = omitted(&superelement, stiffness.as_ref(), mass.as_ref(), rigid.as_ref())?;
-        Ok(Self { name, superelement, omitted, stiffness, mass, rigid, rounding })
+        let known_to = known_to(&superelement);
+        Ok(Self { name, superelement, omitted, stiffness, mass, rigid, rounding, known_to })
     }
 
     /// r.
@@ -102,6 +106,20 @@ fn rounding_of(stiffness: MatRef<'_, f64>, mass: MatRef<'_, f64>, rigid: MatRef<
     let motions = dense::orthonormal(rigid, mass)?;
     let energies = dense::dots(motions.as_ref(), dense::product(stiffness, motions.as_ref()).as_ref());
     Ok(energies.into_iter().fold(0.0, |most, energy| most.max(energy.abs())))
+}
+
+/// How far the first eigenvalue of a mode may be off by its error bar; zero without modes, and the eigenvalue itself where no bar is known.
+fn known_to(superelement: &Superelement) -> f64 {
+    let coordinates = &superelement.metadata().coordinates;
+    let first = coordinates.iter().find_map(|coordinate| match *coordinate {
+        Coordinate::ElasticMode { frequency_hz, error_bar_hz, .. }
+        | Coordinate::FixedInterfaceMode { frequency_hz, error_bar_hz, .. } => Some((frequency_hz, error_bar_hz)),
+        _ => None,
+    });
+    first.map_or(0.0, |(hertz, bar)| {
+        let [lower, upper] = [hertz, hertz + bar.unwrap_or(hertz)].map(|hertz| (std::f64::consts::TAU * hertz).powi(2));
+        upper - lower
+    })
 }
 
 /// What energies are compared with: the eigenvalue of the first mode that the file states, or of the stiffest coordinate where it states

@@ -155,15 +155,16 @@ impl<'a> Reference<'a> {
         Ok(audit)
     }
 
-    /// What the job expects of a component whose file has no mass properties to compare with it.
+    /// What the mass before supports says of a component whose file has no mass properties: that it is a body's, and what the job expects.
     fn expectations(&self, superelement: &Superelement) -> Vec<Check> {
+        let mut checks: Vec<Check> = verification::of_held_body(self.partition).into_iter().collect();
         let has_properties = superelement.metadata().model.mass_properties.is_some();
-        let Some(expect) = self.job.model.expect.as_ref().filter(|_| !has_properties) else { return Vec::new() };
-        let lacks = verification::not_comparable(expect, self.partition);
-        verification::expected_by_weight(expect, self.partition)
-            .into_iter()
-            .chain(verification::comparable(&lacks))
-            .collect()
+        if let Some(expect) = self.job.model.expect.as_ref().filter(|_| !has_properties) {
+            let lacks = verification::not_comparable(expect, self.partition);
+            checks.extend(verification::expected_by_weight(expect, self.partition));
+            checks.extend(verification::comparable(&lacks));
+        }
+        checks
     }
 
     /// Everything that has the coordinates of the file.

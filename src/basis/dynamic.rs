@@ -117,14 +117,16 @@ pub(super) struct Independent {
 ///
 /// The order matters: a column is replaced by what it adds to the columns before it, so the low modes keep their shape.
 pub(super) fn independent(named: DynamicColumns, mass: Leading<'_>) -> Independent {
-    match orthonormalised(named.columns.as_ref(), mass) {
+    let n_rows = rows_with_mass(mass);
+    // More columns than there are dimensions depend on each other, whatever rounding leaves of the last ones.
+    match orthonormalised(named.columns.as_ref(), mass).filter(|(modes, _)| modes.ncols() <= n_rows) {
         Some((modes, mixing)) => {
             let kept = (0..modes.ncols()).collect();
             Independent { modes, coordinates: named.coordinates, mixing, kept, dropped: Vec::new() }
         }
         None => {
             let found = by_panels(&named, mass, INDEPENDENT);
-            let is_complete = found.kept.len() == rows_with_mass(mass);
+            let is_complete = found.kept.len() == n_rows;
             if !is_complete || found.least_share() > CLEARLY_INDEPENDENT[0] {
                 return found;
             }
@@ -156,9 +158,10 @@ impl Independent {
     }
 }
 
-/// The independent columns where columns may depend on each other: those that keep more than `least` of their length.
+/// The independent columns where columns may depend on each other: those that keep more than `least` of their length, and no more than
+/// there are rows with mass, whatever rounding leaves of further ones.
 fn by_panels(named: &DynamicColumns, mass: Leading<'_>, least: f64) -> Independent {
-    let (n, total) = (named.columns.nrows(), named.columns.ncols());
+    let (n, total, most) = (named.columns.nrows(), named.columns.ncols(), rows_with_mass(mass));
     let mut basis = Mat::zeros(n, total);
     let mut mixing = Mat::zeros(total, total);
     let (mut coordinates, mut kept, mut dropped) = (Vec::new(), Vec::new(), Vec::new());
@@ -167,7 +170,8 @@ fn by_panels(named: &DynamicColumns, mass: Leading<'_>, least: f64) -> Independe
         let mut panel = named.columns.as_ref().subcols(start, width).to_owned();
         let lengths = scale_to_unit_mass(&mut panel, mass);
         let size = kept.len();
-        let step = orthonormal_panel(basis.as_ref().subcols(0, size), panel, (mass, least));
+        let mut step = orthonormal_panel(basis.as_ref().subcols(0, size), panel, (mass, least));
+        step.kept.truncate(most - size);
         for j in 0..width {
             let coordinate = named.coordinates[start + j];
             for i in 0..size {

@@ -24,7 +24,8 @@ const FEWEST_DIGITS: i64 = 4;
 /// interface that just holds its component has no stiffness but rounding.
 pub(super) fn job(superelement: &Superelement, labels: &[i64], names: &Names) -> Result<Option<String>> {
     let digits = digits(superelement)?;
-    if superelement.n_interface() == 0 || digits.is_some_and(|digits| digits < FEWEST_DIGITS) {
+    let is_rigid = superelement.n_rigid() >= superelement.n_coordinates();
+    if superelement.n_interface() == 0 || is_rigid || digits.is_some_and(|digits| digits < FEWEST_DIGITS) {
         return Ok(None);
     }
     let metadata = superelement.metadata();
@@ -134,7 +135,8 @@ fn reduction(superelement: &Superelement) -> String {
         Method::CraigBampton | Method::ModeAcceleration | Method::Guyan => superelement.n_interface(),
     };
     let n_modes = n_named.min(superelement.n_coordinates().saturating_sub(n_still));
-    let has_relief = metadata.coordinates.iter().any(|coordinate| matches!(coordinate, Coordinate::InertiaRelief { .. }));
+    let has_relief =
+        metadata.coordinates.iter().any(|coordinate| matches!(coordinate, Coordinate::InertiaRelief { .. }));
     let (method, is_relief_asked) = match metadata.method {
         Method::CraigBampton | Method::ModeAcceleration if n_modes > 0 => ("craig-bampton", has_relief),
         Method::CraigBampton | Method::ModeAcceleration | Method::Guyan => ("guyan", has_relief),

@@ -1,5 +1,7 @@
 //! The mass of the whole model as its map and its coordinates see it, whether supports hold it or not.
 
+use std::collections::HashMap;
+
 use faer::Mat;
 
 use super::Model;
@@ -13,6 +15,8 @@ pub struct Weight {
     pub translations: [f64; 3],
     /// UᵀMU of the six unit motions about the origin, 6 × 6, where coordinates are known.
     pub motions: Option<Mat<f64>>,
+    /// Whether every node has all translations or none, so that no direction lacks mass that others have.
+    pub has_whole_nodes: bool,
 }
 
 impl Model {
@@ -34,6 +38,11 @@ impl Model {
         let mut masses = dense::gram(motions.as_ref(), product(&self.mass, motions.as_ref()).as_ref());
         dense::symmetrise(&mut masses);
         let translations = std::array::from_fn(|axis| masses[(axis, axis)]);
-        Some(Weight { translations, motions: sites.is_some().then_some(masses) })
+        let mut n_translations: HashMap<i64, usize> = HashMap::new();
+        for dof in dofs.iter().flatten().filter(|dof| !dof.direction.is_rotation()) {
+            *n_translations.entry(dof.node).or_default() += 1;
+        }
+        let has_whole_nodes = n_translations.values().all(|count| *count == 3);
+        Some(Weight { translations, motions: sites.is_some().then_some(masses), has_whole_nodes })
     }
 }

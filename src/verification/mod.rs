@@ -35,7 +35,7 @@ pub use evidence::Evidence;
 pub use findings::{Findings, RigidBody, verify};
 pub use grounding::{Grounding, Restraint};
 pub use loads::EffectiveMasses;
-pub(crate) use mass::{comparable, expected_by_weight, not_comparable, of_a_body};
+pub(crate) use mass::{comparable, expected_by_weight, not_comparable, of_a_body, of_held_body};
 pub(crate) use penalty::LARGEST_OF_MESHES;
 pub use penalty::{Penalties, penalties};
 pub use preservation::{Compared, preservation};

@@ -1,8 +1,9 @@
 //! The lower bounds, where they are nearly reached and where a file does not give any.
 
 use supel::assembly::{Assembly, Component, Kind, Omitted};
-use supel_models::{Material, brick, spectrum};
 use supel_models::springs::springs;
+use supel_models::{Material, brick, spectrum};
+use supel_runtime::Coordinate;
 use supel_testing::place::Place;
 
 use crate::{all_modes, assert_enclosed, beams, line, n_rigid, reduced};
@@ -103,4 +104,33 @@ fn patches_next_to_each_other_leave_bounds() {
             assert!(known.contains(&lower), "{method}: {lower} Hz of {} Hz", mode.frequency_hz);
         }
     }
+}
+
+/// A held component has no rigid-body motion that would show the rounding of its matrices; the error bars in its file do.
+#[test]
+fn rounding_is_no_less_than_the_error_bar_of_a_held_component() {
+    for method in ["herting", "craig-bampton"] {
+        let flags = format!("--fix wall=1 --interface tip=13 --method {method} --modes 4");
+        let component = reduced("beam", &beams(&line()), &flags);
+        let bar = component.superelement.metadata().coordinates.iter().find_map(|coordinate| match coordinate {
+            Coordinate::ElasticMode { frequency_hz, error_bar_hz, .. }
+            | Coordinate::FixedInterfaceMode { frequency_hz, error_bar_hz, .. } => {
+                Some(2.0 * std::f64::consts::TAU.powi(2) * frequency_hz * error_bar_hz.expect("a bar"))
+            }
+            _ => None,
+        });
+        let modes = all_modes(&Assembly::new(vec![component]).expect("one name"));
+        let first = &modes.modes[0];
+        let rounding = 2.0 * std::f64::consts::TAU.powi(2) * first.frequency_hz * first.rounding_hz;
+        // Eigenvalues, to first order of their bars.
+        assert!(rounding >= 0.99 * bar.expect("a mode"), "{method}: {rounding:e}, {bar:?}");
+    }
+}
+
+/// A free component of which six dofs are left has six motions, and rounding of its matrices is none.
+#[test]
+fn nothing_but_rigid_body_modes() {
+    let component = reduced("beam", &beams(&line()), "--interface tip=13 --method guyan");
+    let modes = all_modes(&Assembly::new(vec![component]).expect("one name"));
+    assert_eq!((modes.n_free, modes.n_rigid, modes.n_modes), (6, 6, 6));
 }

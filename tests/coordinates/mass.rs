@@ -135,6 +135,25 @@ fn assert_failed_as_no_body(wrong: &Model) -> Superelement {
     place.superelement("x.supel")
 }
 
+/// Supports in the job hide nothing of it: the whole mass is known before they take rows out.
+#[test]
+fn a_lumped_mass_direction_by_direction_of_a_held_block() {
+    for (model, code) in [(lumped(), ExitCode::Done), (direction_by_direction(&lumped()), ExitCode::CheckFailed)] {
+        let place = Place::with(&model);
+        let [wall, end] = [&model.groups["XMIN"], &model.groups["XMAX"]].map(|labels| listed(labels));
+        for coupling in ["interface", "rigid-interface"] {
+            let flags =
+                format!("--fix wall={wall} --{coupling} end={end} --modes 5 --method herting --allow-unverified");
+            let ended = place.reduce(&place.model_flags(), &flags);
+            assert_eq!(ended.code, code, "{coupling}: {}{}", ended.out, ended.err);
+            assert_eq!(ended.out.contains("1 of"), code == ExitCode::CheckFailed, "M-16 alone: {}", ended.out);
+            place.write("job.json", supel(&["inspect", &place.text("x.supel"), "--job"]).out.as_bytes());
+            let verified = supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.json")]);
+            assert_eq!(verified.code, code, "{coupling}: {}{}", verified.out, verified.err);
+        }
+    }
+}
+
 /// Nodes of a lumped mass permuted: no order contradicts K, and the page says so.
 #[test]
 fn nodes_of_a_lumped_mass_in_another_order_are_not_seen() {

@@ -4,6 +4,7 @@
 use supel::cli::ExitCode;
 use supel_models::frame::{Inertia, Section, frame};
 use supel_models::model::{Assembler, dot, multiply};
+use supel_models::random::SplitMix64;
 use supel_models::springs::springs;
 use supel_models::transform::{join, translated};
 use supel_models::{Material, Model, brick};
@@ -204,6 +205,23 @@ fn whole_basis_is_verified_whatever_was_left_out() {
         assert!(least > 1e-4, "a column keeps {least:e} of its length");
         supel(&["verify", &place.text("x.supel")]).expect(ExitCode::Done);
         supel(&["verify", &place.text("x.supel"), "--job", &path]).expect(ExitCode::Done);
+    }
+}
+
+/// All modes of short chains that an end holds: with the columns of the interface there is one more than there are dofs, and rounding of it
+/// is no coordinate.
+#[test]
+fn no_more_coordinates_than_dofs() {
+    for seed in 0..24 {
+        let mut random = SplitMix64::new(seed);
+        let n = 3 + seed as usize % 4;
+        let masses: Vec<f64> = (0..n).map(|_| 10f64.powf(3.0 * random.uniform() - 1.0)).collect();
+        let between: Vec<(u32, u32, f64)> =
+            (1..n as u32).map(|row| (row - 1, row, 10f64.powf(3.0 + 4.0 * random.uniform()))).collect();
+        let place = Place::with(&springs(&masses, &[(0, 1e5)], &between));
+        let rest = format!("--interface end=rows:{} --method herting --modes {n}", n - 1);
+        agree(&place, &place.matrix_flags(), &rest);
+        assert!(sizes(&place).0 <= n, "{seed}: {:?} of {n}", sizes(&place));
     }
 }
 
