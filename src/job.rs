@@ -27,7 +27,7 @@ pub use fixed::FixedJob;
 pub use interface::{Coupling, InterfaceJob, Origin};
 pub use load::{LoadJob, LoadPattern, RotationJob};
 pub use location::Holder;
-pub use method::{Boundary, Method};
+pub use method::{Boundary, Method, ModeOrigin};
 pub use node_selection::{NodeSelection, Region};
 pub use recovery::RecoveryJob;
 pub use scene::{DampingJob, SceneJob, Support};
@@ -35,5 +35,5 @@ pub use schema::{Role, schema};
 pub use selection::Selection;
 pub(crate) use shape::nearest;
 pub use types::{
-    Certify, Duplicates, Expectation, Job, ModeSelection, ModelJob, Precision, ReductionJob, RunJob, WriteJob,
+    Certify, Duplicates, Expectation, Job, ModeSelection, ModelJob, ModesJob, Precision, ReductionJob, RunJob, WriteJob,
 };

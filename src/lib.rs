@@ -86,8 +86,8 @@
 //!
 //! 1. Of the stages only [`input`] and [`output`] touch files. Around them [`job`] reads its document, [`report`] reads the
 //!    clock, [`cli`] and the program have the terminal, and [`heap`] writes the last line of a run that finds no memory.
-//! 2. [`job::Method`] alone decides what a reduction method means: the boundary under which its modes are sought, whether it
-//!    has inertia relief, and what is proved of it. No later stage asks which method it is: modes, basis and verification know
+//! 2. [`job::Method`] alone decides what a reduction method means: the boundary under which its modes are sought or the file that
+//!    has them, whether it has inertia relief, and what is proved of it. No later stage asks which method it is: modes, basis and verification know
 //!    the boundary, basis and audit whether there is inertia relief, output and report the name.
 //! 3. A matrix is factored once per shift and solved many times; no inverse is ever formed.
 //! 4. The superelement format has one owner, the crate `supel-runtime`, used by the writer and by every reader.
@@ -139,7 +139,7 @@ use model::Model;
 use modes::{Component, ModeSource, Retained, Search};
 use outcome::Outcome;
 use output::Results;
-use partition::{Loads, Partition};
+use partition::{Expansion, Loads, Partition};
 use random::SEED;
 use reduction::Reduction;
 use report::Observer;
@@ -177,7 +177,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let found = factor.vouched(search.with_slices_at_once(at_once).lowest(SEED))?;
 
     observer.stage("certificate");
-    let (found, certificate) = modes::certified(&search, &search.problem, found, search.edge(), job.run.certify)?;
+    let (found, certificate) = modes::certified(&search, &search.problem, found, search.edge(), job.certified())?;
     let retained = Retained { modes: found, boundary: search.problem.boundary };
 
     observer.stage("basis");
@@ -190,7 +190,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let rubin = rubin::rubin_where_asked(&job.reduction, &basis, &reduction, &retained)?;
 
     observer.stage("enclosures");
-    let enclosures = verification::enclosures_where_asked(component, &retained, job.run.certify)?;
+    let enclosures = verification::enclosures_where_asked(component, &retained, job.certified())?;
 
     observer.stage("verification");
     let evidence = Evidence {
@@ -236,7 +236,8 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     let allowance = Allowance::of(resources.allowed(job));
     let read = input::read_within(&job.model, &allowance)?;
     let columns = input::load_columns(&job.loads, &read)?;
-    let mut facts = InputFacts::of(&read).with_loads(&job.loads, &columns);
+    let modes = input::expansion_columns(&job.reduction, &read, &allowance)?;
+    let mut facts = InputFacts::of(&read).with_loads(&job.loads, &columns).with_modes(modes.as_ref());
 
     observer.stage("check");
     let model = Model::new(read)?;
@@ -248,6 +249,7 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     observer.stage("partition");
     let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;
     let loads = partition::loads(&model, &job.loads, &columns)?;
+    let modes = modes.map(|modes| partition::expansion_modes(&model, &modes)).transpose()?;
     let patches = partition::patches(&model, &job.interfaces);
     let is_weighed = job.model.expect.is_some() || !job.fixed.is_empty();
     let weight = if is_weighed { model.weight() } else { None };
@@ -255,6 +257,9 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     let mut partition = Partition::with_held(model, &job.interfaces, held)?;
     partition.recovered = recovered;
     partition.loads = Loads::carried(loads, &partition.transformation)?;
+    if let Some(modes) = modes {
+        partition.expansion = Expansion::carried(&modes, &partition.transformation)?;
+    }
     partition.model.weight = weight;
     facts.faces = input::patch_faces(&job.model, &patches, &allowance)?;
     Ok((facts, partition))

@@ -52,7 +52,8 @@ fn refuse(inputs: &[Named], outputs: &[Named]) -> Result<()> {
 pub(super) fn inputs(job: &Job, document: Option<&Path>) -> Vec<Named> {
     let document = document.map(|path| ("the job document", path.to_owned()));
     let loads = job.loads.iter().filter_map(|load| Some(("a load", load.file.clone()?)));
-    input::files(&job.model).into_iter().chain(loads).chain(document).collect()
+    let modes = job.reduction.modes_file().map(|path| ("the modes", input::file_of(path)));
+    input::files(&job.model).into_iter().chain(loads).chain(modes).chain(document).collect()
 }
 
 /// The outputs of a job in the order in which they get their names: the superelement, which the others tell about, last.

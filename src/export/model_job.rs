@@ -132,7 +132,9 @@ fn reduction(superelement: &Superelement) -> String {
     let dropped = metadata.dropped.iter().map(|dropped| &dropped.column);
     let coordinates = || metadata.coordinates.iter();
     // Modes that were left out because others span them are found again, as far as there are coordinates for them.
-    let is_mode = |coordinate: &&Coordinate| coordinate.mode().is_some();
+    let is_mode = |coordinate: &&Coordinate| {
+        coordinate.mode().is_some() || matches!(coordinate, Coordinate::ExpansionMode { .. })
+    };
     let n_named = coordinates().chain(dropped).filter(is_mode).count();
     let n_still = match metadata.method {
         Method::Herting | Method::Rubin | Method::Macneal => superelement.n_rigid(),

@@ -5,6 +5,7 @@
 mod allowance;
 mod banner;
 mod blocks;
+mod column_file;
 mod decimal;
 mod digits;
 mod dof_map;
@@ -21,9 +22,12 @@ pub mod hdf5;
 mod hdf5_format;
 mod load_file;
 mod matrix_market;
+mod mode_matrix;
 mod model_files;
+mod modes_file;
 mod node_table;
 mod note;
+mod npy;
 mod patch;
 mod patch_faces;
 mod single_precision;
@@ -36,7 +40,10 @@ pub use allowance::Allowance;
 pub use digits::{Digits, DigitsBy, digits_of};
 pub use facts::{InputFacts, MatrixFacts};
 pub use load_file::{LoadColumn, WantedColumn, load_column};
-pub use model_files::{Input, files, hdf5_file, load_columns, read, read_hdf5_parts, read_within, start_hdf5};
+pub use model_files::{
+    Input, expansion_columns, file_of, files, hdf5_file, load_columns, read, read_hdf5_parts, read_within, start_hdf5,
+};
+pub use modes_file::{ModeColumns, mode_columns};
 pub use note::InputNote;
 pub use patch::{Faces, Patch, PatchFaces, Patches};
 pub use patch_faces::{Cells, has_mean_origin, patch_faces};

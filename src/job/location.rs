@@ -46,7 +46,8 @@ impl Job {
         let model = &self.model;
         let files = [Some(&model.stiffness), Some(&model.mass), model.dofs.as_ref(), model.nodes.as_ref()];
         let of_loads = self.loads.iter().map(|load| load.file.as_ref());
-        files.into_iter().chain(of_loads).flatten().all(|path| is_there(&folder.join(path)))
+        let modes = self.reduction.modes_file().is_none_or(|path| is_there(&folder.join(path)));
+        modes && files.into_iter().chain(of_loads).flatten().all(|path| is_there(&folder.join(path)))
     }
 }
 

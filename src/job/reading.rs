@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::location::Holder;
-use super::types::Job;
+use super::types::{Certify, Job, ModesJob};
 use super::{document, validation};
 use crate::error::{Error, Result};
 
@@ -51,6 +51,14 @@ impl Job {
         self.fixed.iter().enumerate().map(|(index, fixed)| fixed.assumption(index)).collect()
     }
 
+    /// How completeness of the computed modes is certified: not at all where a file has the modes, which may leave out any others.
+    pub fn certified(&self) -> Certify {
+        match self.reduction.modes_file() {
+            Some(_) => Certify::None,
+            None => self.run.certify,
+        }
+    }
+
     /// This job with paths relative to `folder` made absolute, their folders without `..` and links: the superelement keeps the way
     /// from its own folder to the inputs, which is counted in names of folders.
     ///
@@ -73,11 +81,16 @@ impl Job {
     /// All paths of the job with their keys.
     fn paths_mut(&mut self) -> impl Iterator<Item = (&'static str, &mut PathBuf)> {
         let (model, write) = (&mut self.model, &mut self.write);
+        let modes = match &mut self.reduction.modes {
+            Some(ModesJob::File { file }) => Some(file),
+            Some(ModesJob::Computed(_)) | None => None,
+        };
         let paths = [
             ("model.stiffness", Some(&mut model.stiffness)),
             ("model.mass", Some(&mut model.mass)),
             ("model.dofs", model.dofs.as_mut()),
             ("model.nodes", model.nodes.as_mut()),
+            ("reduction.modes.file", modes),
             ("write.superelement", Some(&mut write.superelement)),
             ("write.report", write.report.as_mut()),
             ("write.html", write.html.as_mut()),

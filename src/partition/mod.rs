@@ -11,6 +11,7 @@
 
 mod congruence;
 mod direct_nodes;
+mod expansion;
 mod gravity;
 mod held;
 mod interface;
@@ -33,6 +34,7 @@ mod sites;
 mod transformation;
 mod transformation_row;
 
+pub use expansion::{Expansion, ExpansionFacts, RowModes, expansion_modes};
 pub use gravity::Gravity;
 pub use held::{Held, HeldSelection, held};
 pub use interface::{nodes_of_patches, patches, recovered_rows};

@@ -14,6 +14,7 @@ use crate::sparse::Pencil;
 use crate::sparse::Precision;
 use crate::sparse::{Leading, SparseMatrix};
 
+use super::expansion::Expansion;
 use super::gravity::Gravity;
 use super::held::Held;
 use super::interface_node::InterfaceNode;
@@ -47,6 +48,8 @@ pub struct Partition {
     pub gravity: Option<Gravity>,
     /// Loads that the superelement carries by name; none unless the caller adds them.
     pub loads: Loads,
+    /// Expansion modes of a file; none unless the caller adds them.
+    pub expansion: Expansion,
     /// Rows of the model whose displacements the superelement recovers; none unless the caller adds them.
     pub recovered: Vec<(usize, Dof)>,
     /// Powers of two taken out of K and M.
@@ -132,6 +135,7 @@ impl Partition {
             held,
             gravity,
             loads: Loads::none(n_internal + n_interface),
+            expansion: Expansion::none(n_internal + n_interface),
             recovered: Vec::new(),
             scaling: model.scaling,
             precision: model.precision,
