@@ -128,13 +128,17 @@ fn directions(node: &InterfaceNode) -> String {
 fn reduction(superelement: &Superelement) -> String {
     let metadata = superelement.metadata();
     // Modes that were left out because others span them are found again, as far as there are coordinates for them.
-    let n_named = metadata.named_columns().filter(|coordinate| coordinate.mode().is_some()).count();
+    let is_mode = |coordinate: &&Coordinate| {
+        coordinate.mode().is_some() || matches!(coordinate, Coordinate::ExpansionMode { .. })
+    };
+    let n_named = metadata.named_columns().filter(is_mode).count();
     let n_still = match metadata.method {
         Method::Herting | Method::Rubin | Method::Macneal => superelement.n_rigid(),
         Method::CraigBampton | Method::ModeAcceleration | Method::Guyan => superelement.n_interface(),
     };
     let n_modes = n_named.min(superelement.n_coordinates().saturating_sub(n_still));
-    let has_relief = metadata.coordinates.iter().any(|coordinate| matches!(coordinate, Coordinate::InertiaRelief { .. }));
+    let has_relief =
+        metadata.coordinates.iter().any(|coordinate| matches!(coordinate, Coordinate::InertiaRelief { .. }));
     let (method, is_relief_asked) = match metadata.method {
         Method::CraigBampton | Method::ModeAcceleration if n_modes > 0 => ("craig-bampton", has_relief),
         Method::CraigBampton | Method::ModeAcceleration | Method::Guyan => ("guyan", has_relief),

@@ -1,8 +1,8 @@
 //! The lower bounds, where they are nearly reached and where a file does not give any.
 
 use supel::assembly::{Assembly, Component, Kind, Omitted};
-use supel_models::{Material, brick, spectrum};
 use supel_models::springs::springs;
+use supel_models::{Material, brick, spectrum};
 use supel_testing::place::Place;
 
 use crate::{all_modes, assert_enclosed, beams, line, n_rigid, reduced};

@@ -117,6 +117,7 @@ fn body() -> ReportBody {
             n_inertia_relief: 6,
             n_modes: 50,
             n_reduced: 65,
+            expansion: None,
             loads: Vec::new(),
             dropped: Vec::new(),
             modes: (1..=50).map(row).collect(),
