@@ -18,8 +18,8 @@ use supel_runtime::FileError;
 
 use code::catalogued;
 use words::{
-    At, BY_ROWS, FEW_DIGITS, Offered, STATE_DIGITS, STATE_EXACT, Suggested, column_words, forecast, groups, listed,
-    not_text, place, quoted,
+    At, BY_ROWS, FEW_DIGITS, Offered, STATE_DIGITS, STATE_EXACT, Suggested, at_line, column_words, forecast, groups,
+    listed, not_text, place, quoted,
 };
 
 use crate::number::{bytes, count, counted, quantity, typed};
@@ -1146,8 +1146,13 @@ pub enum Error {
         /// What belongs there.
         expected: &'static str,
     },
-    /// The job has no modes where its method needs them, or modes where its method has none.
-    #[entry("E-JOB-MODES", Usage, "say how many modes are kept, or remove the key with the method guyan")]
+    /// The job has no modes where its method needs them, or modes that its method does not take.
+    #[entry(
+        "E-JOB-MODES",
+        Usage,
+        "say how many modes are kept, name their file with the method mode-acceleration, or remove the key with the method \
+         guyan"
+    )]
     #[error("`reduction.modes` is {found} – {expected}")]
     JobModes {
         /// Whether the key is there.
@@ -1563,6 +1568,71 @@ pub enum Error {
         /// What was found, in words.
         found: &'static str,
     },
+    /// A file of modes is none.
+    #[entry(
+        "E-MODES-FORMAT",
+        InputData,
+        "write them by scipy.io.mmwrite(\"modes.mtx\", V, precision=17) or numpy.save(\"modes.npy\", V), one mode in each \
+         column"
+    )]
+    #[error("{}{}: not the modes of a reduction – found {found} – expected {expected}", path.display(), at_line(*line))]
+    ModesFormat {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1, of a text.
+        line: Option<u64>,
+        /// What is there, in words.
+        found: String,
+        /// What belongs there.
+        expected: &'static str,
+    },
+    /// A file of modes has another number of rows than the matrices.
+    #[entry("E-MODES-ROWS", InputData, "give each mode a value for every row of the matrices, in their order")]
+    #[error(
+        "{}: the modes have {} – expected {n}, one for each row of the matrices – give each mode a value for every row, in \
+        the order of the matrices",
+        path.display(), counted(*found, "row", "rows")
+    )]
+    ModesRows {
+        /// The file.
+        path: PathBuf,
+        /// Its rows.
+        found: u64,
+        /// Rows of the matrices as they are in their files.
+        n: usize,
+    },
+    /// A file of modes has no mode, or more than there can be.
+    #[entry("E-MODES-COUNT", InputData, "write one mode in each column")]
+    #[error(
+        "{}: the file has {} – expected one mode in each column, from 1 to {n_rows} of them – write one mode in each column",
+        path.display(), counted(*found, "column", "columns")
+    )]
+    ModesColumns {
+        /// The file.
+        path: PathBuf,
+        /// Its columns.
+        found: u64,
+        /// Rows of the matrices as they are in their files, which is the most that independent modes can be.
+        n_rows: usize,
+    },
+    /// A mode of a file is zero, or held dofs take all of it.
+    #[entry("E-MODES-NOTHING", InputData, "leave the mode out of the file")]
+    #[error(
+        "mode {mode} of the file moves nothing – found {found} – expected a motion with mass – leave it out of the file"
+    )]
+    ModesNothing {
+        /// Number of the mode, from 1.
+        mode: usize,
+        /// What was found, in words.
+        found: &'static str,
+    },
+    /// Mode acceleration answers inertia forces while something holds the component.
+    #[entry("E-MODES-UNHELD", ModelPhysics, "name an interface, or hold dofs by [[fixed]]")]
+    #[error(
+        "mode-acceleration answers the inertia forces of its modes with the interface held – found a free component without \
+        an interface – expected one that something holds – name an interface, or hold dofs by [[fixed]]"
+    )]
+    ModesUnheld,
     /// K, M or the frequencies leave the range of double precision.
     #[entry("E-RANGE", InputData, "write the matrices in other units")]
     #[error(

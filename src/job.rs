@@ -28,7 +28,7 @@ pub use fixed::FixedJob;
 pub use interface::{Coupling, InterfaceJob, Origin, Weights};
 pub use load::{LoadJob, LoadPattern, RotationJob};
 pub use location::Holder;
-pub use method::{Boundary, Method};
+pub use method::{Boundary, Method, ModeOrigin};
 pub use node_selection::{NodeSelection, Region};
 pub use quantities::QuantitiesJob;
 pub use recovery::RecoveryJob;
@@ -37,6 +37,6 @@ pub use schema::{Role, schema};
 pub use selection::Selection;
 pub(crate) use shape::nearest;
 pub use types::{
-    Certify, Duplicates, Expectation, Job, ModeSelection, ModelJob, Precision, ReductionJob, RunJob, WriteJob,
+    Certify, Duplicates, Expectation, Job, ModeSelection, ModelJob, ModesJob, Precision, ReductionJob, RunJob, WriteJob,
 };
 pub(crate) use validation::ends_in;

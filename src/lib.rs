@@ -86,8 +86,8 @@
 //!
 //! 1. Of the stages only [`input`] and [`output`] touch files. Around them [`job`] reads its document, [`report`] reads the
 //!    clock, [`cli`] and the program have the terminal, and [`heap`] writes the last line of a run that finds no memory.
-//! 2. [`job::Method`] alone decides what a reduction method means: the boundary under which its modes are sought, whether it
-//!    has inertia relief, and what is proved of it. No later stage asks which method it is: modes, basis and verification know
+//! 2. [`job::Method`] alone decides what a reduction method means: the boundary under which its modes are sought or the file that
+//!    has them, whether it has inertia relief, and what is proved of it. No later stage asks which method it is: modes, basis and verification know
 //!    the boundary, basis and audit whether there is inertia relief, output and report the name.
 //! 3. A matrix is factored once per shift and solved many times; no inverse is ever formed.
 //! 4. The superelement format has one owner, the crate `supel-runtime`, used by the writer and by every reader.
@@ -140,7 +140,7 @@ use model::Model;
 use modes::{Component, ModeSource, Retained, Search};
 use outcome::Outcome;
 use output::Results;
-use partition::{Loads, Partition, Quantities};
+use partition::{Expansion, Loads, Partition, Quantities};
 use random::SEED;
 use reduction::Reduction;
 use report::Observer;
@@ -178,7 +178,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let found = factor.vouched(search.with_slices_at_once(at_once).lowest(SEED))?;
 
     observer.stage("certificate");
-    let (found, certificate) = modes::certified(&search, &search.problem, found, search.edge(), job.run.certify)?;
+    let (found, certificate) = modes::certified(&search, &search.problem, found, search.edge(), job.certified())?;
     let retained = Retained { modes: found, boundary: search.problem.boundary };
 
     observer.stage("basis");
@@ -191,7 +191,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let rubin = rubin::rubin_where_asked(&job.reduction, &basis, &reduction, &retained)?;
 
     observer.stage("enclosures");
-    let enclosures = verification::enclosures_where_asked(component, &retained, job.run.certify)?;
+    let enclosures = verification::enclosures_where_asked(component, &retained, job.certified())?;
 
     observer.stage("verification");
     let evidence = Evidence {
@@ -237,8 +237,10 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     let allowance = Allowance::of(resources.allowed(job));
     let read = input::read_within(&job.model, &allowance)?;
     let columns = input::load_columns(&job.loads, &read)?;
+    let modes = input::expansion_columns(&job.reduction, &read, &allowance)?;
     let rows = input::job_quantities(job.write.quantities.as_ref(), &read, &allowance)?;
-    let mut facts = InputFacts::of(&read).with_loads(&job.loads, &columns).with_quantities(rows.as_ref());
+    let facts = InputFacts::of(&read).with_loads(&job.loads, &columns).with_modes(modes.as_ref());
+    let mut facts = facts.with_quantities(rows.as_ref());
 
     observer.stage("check");
     let model = Model::new(read)?;
@@ -250,6 +252,7 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     observer.stage("partition");
     let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;
     let loads = partition::loads(&model, &job.loads, &columns)?;
+    let modes = modes.map(|modes| partition::expansion_modes(&model, &modes)).transpose()?;
     let quantities = partition::quantities(&model, rows)?;
     let patches = partition::patches(&model, &job.interfaces);
     facts.faces = input::patch_faces(&job.model, &patches, &allowance)?;
@@ -261,6 +264,9 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     partition.recovered = recovered;
     partition.quantities = Quantities::carried(quantities, &partition.transformation);
     partition.loads = Loads::carried(loads, &partition.transformation)?;
+    if let Some(modes) = modes {
+        partition.expansion = Expansion::carried(&modes, &partition.transformation)?;
+    }
     partition.model.weight = weight;
     Ok((facts, partition))
 }

@@ -162,8 +162,8 @@ impl Forecast {
         let others = analysis.factor_bytes(Storage::Double).saturating_mul(n_other);
         let stacks = analysis.stack_bytes().saturating_mul(in_slices.max(1));
         let factors = analysis.factor_bytes(storage).saturating_add(others).saturating_add(stacks);
-        // The loads, their static answers and their columns of the basis.
-        let of_loads = 3 * partition.loads.count() as u64;
+        // The loads and the inertia forces of the modes of a file, their static answers and their columns of the basis.
+        let of_loads = 3 * (partition.loads.count() + partition.expansion.count()) as u64;
         let vectors =
             of_loads + 2 * partition.n_interface() as u64 + of_solver.max(BLOCKS_OF_MODES * n_modes) + refinement;
         let recovery = COPIES

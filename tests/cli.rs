@@ -218,7 +218,7 @@ fn flags_alone_make_a_job() {
     assert_eq!(job.interfaces[1].nodes, NodeSelection::Rows { rows: vec![0, 1] });
     assert_eq!(job.interfaces[2].nodes.group_name(), Some("RIM"));
     assert_eq!(job.interfaces[2].coupling, Coupling::Rigid);
-    assert_eq!(job.reduction.modes, Some(ModeSelection::UpTo { up_to_hz: 500.0 }));
+    assert_eq!(job.reduction.modes, Some(ModeSelection::UpTo { up_to_hz: 500.0 }.into()));
     assert_eq!(job.run.memory_gib, Some(2.0));
     assert_eq!(job.run.precision, Precision::Mixed);
     assert_eq!(job.write.superelement, here.join("x.supel"));
@@ -242,7 +242,7 @@ fn flags_override_keys_of_the_job() {
         "/other/K.mtx",
     ]);
     assert_eq!(changed.reduction.method, Method::CraigBampton);
-    assert_eq!(changed.reduction.modes, Some(ModeSelection::Count { count: 7 }));
+    assert_eq!(changed.reduction.modes, Some(ModeSelection::Count { count: 7 }.into()));
     let names: Vec<&str> = changed.interfaces.iter().map(|interface| interface.name.as_str()).collect();
     assert_eq!(names, ["hub", "pin"]);
     assert_eq!(changed.model.stiffness, Path::new("/other/K.mtx"));

@@ -62,6 +62,7 @@ fn metadata_of_every_kind_follow_the_schema() {
     let mut coordinates = vec![mode(None), mode(Some(1e-6)), Coordinate::InertiaRelief { index: 0 }];
     coordinates.push(Coordinate::InterfaceRow { row: 7 });
     coordinates.push(Coordinate::ResidualVector { load: 0 });
+    coordinates.push(Coordinate::ExpansionMode { column: 2 });
     coordinates.push(Coordinate::ElasticMode { mode: 0, frequency_hz: 1.0, error_bar_hz: None });
     coordinates.extend(Direction::ALL.map(|direction| Coordinate::Interface { node: 0, direction }));
     document["coordinates"] = serde_json::to_value(coordinates).unwrap();

@@ -172,6 +172,11 @@ pub enum Coordinate {
         /// Number of the rigid-body mode whose inertia loads it answers, from 0.
         index: usize,
     },
+    /// Amplitude of a mode-accelerated expansion mode: the static answer to the inertia forces of a mode that a file gave.
+    ExpansionMode {
+        /// Column of the file, from 0.
+        column: usize,
+    },
     /// Amplitude of a residual vector, the static answer to a load.
     ResidualVector {
         /// Number of the load among `load_names`, from 0.

@@ -37,7 +37,7 @@ use supel_runtime::{Coordinate, Superelement, Verdict};
 use super::spectrum::{Pencil, Spectrum};
 use crate::dense::{self, NOISE_FACTOR};
 use crate::error::Result;
-use crate::job::{Boundary, Method};
+use crate::job::{Boundary, Method, ModeOrigin};
 
 /// How far λ of the reduced matrices may be from the one that the file states for the shape to count as exact.
 const SAME_EIGENVALUE: f64 = 1e-6;
@@ -107,8 +107,14 @@ fn kept(superelement: &Superelement) -> Result<(Boundary, f64), String> {
     let name = metadata.method.name();
     let method =
         Method::of_file(metadata.method).ok_or_else(|| format!("its method, {name}, is not one of this program"))?;
-    if !method.has_modes() {
-        return Err(format!("{name} keeps no modes, and its file does not say where those that it leaves out begin"));
+    match method.modes() {
+        ModeOrigin::Computed => {}
+        ModeOrigin::File => return Err("its modes come from a file, which may leave out any others".to_owned()),
+        ModeOrigin::None => {
+            return Err(format!(
+                "{name} keeps no modes, and its file does not say where those that it leaves out begin"
+            ));
+        }
     }
     if !metadata.validity.unloaded.is_empty() {
         return Err("it was reduced for loads on some of its interface dofs alone".to_owned());

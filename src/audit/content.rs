@@ -160,6 +160,7 @@ pub(super) fn coordinate_name(superelement: &Superelement, coordinate: usize) ->
         Some(Coordinate::InterfaceRow { row }) => format!("row {}", row + 1),
         Some(Coordinate::RigidBodyMode { index }) => format!("rigid-body mode {}", index + 1),
         Some(Coordinate::InertiaRelief { index }) => format!("inertia relief {}", index + 1),
+        Some(Coordinate::ExpansionMode { column }) => format!("expansion mode {}", column + 1),
         Some(Coordinate::ResidualVector { load }) => format!("residual vector of {}", metadata.load_names[*load]),
         Some(Coordinate::ElasticMode { mode, .. } | Coordinate::FixedInterfaceMode { mode, .. }) => {
             format!("mode {}", mode + 1)

@@ -78,7 +78,7 @@ mod tests {
         assert_eq!(differences(&one, &moved).expect("names in UTF-8"), Differences::default());
         let mut other = one.clone();
         other.interfaces[0].name = "foot".to_owned();
-        other.reduction.modes = Some(crate::job::ModeSelection::UpTo { up_to_hz: 100.0 });
+        other.reduction.modes = Some(crate::job::ModeSelection::UpTo { up_to_hz: 100.0 }.into());
         other.reduction.eigensolver = crate::job::Eigensolver::Arpack;
         other.model.nodes = Some("mesh.med".into());
         let found = differences(&one, &other).expect("names in UTF-8");

@@ -10,7 +10,7 @@ use super::mass::is_of_a_body;
 use super::record;
 use super::rigid_motion::is_nearly_unit;
 use super::version::{applied, is_of_this_version};
-use crate::job::{Boundary, Job, Method, ModeSelection, NodeSelection};
+use crate::job::{Boundary, Job, Method, ModeOrigin, ModeSelection, NodeSelection};
 use crate::verification::check::{Check, Limits};
 
 /// Method, units, interfaces, axes, band and recovery are those of the job kept in the file.
@@ -240,6 +240,12 @@ fn of_method(content: &Content<'_>, method: Method) -> Vec<&'static str> {
         Coordinate::ResidualVector { load } => Some(*load),
         _ => None,
     });
+    let expansion = numbers(|coordinate| match coordinate {
+        Coordinate::ExpansionMode { column } => Some(*column),
+        _ => None,
+    });
+    let is_expanded = method.modes() == ModeOrigin::File || expansion.is_empty();
+    expect(is_expanded && expansion == (0..expansion.len()).collect::<Vec<_>>(), "expansion modes");
     let asks = |job: &Job| -> Vec<usize> {
         (0..job.loads.len()).filter(|load| job.loads[*load].residual && !is_modal).collect()
     };

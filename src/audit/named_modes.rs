@@ -95,10 +95,17 @@ fn rounding_of_amplitudes(content: &Content<'_>, amplitudes: MatRef<'_, f64>) ->
     (0..n).map(of_column).collect()
 }
 
-/// M-03: without an interface the named columns are rigid-body modes and modes, whose inertia is known: M̂ = Cᵀ [M_F 0; 0 I] C.
+/// M-03: without an interface the named columns are rigid-body modes and modes, whose inertia is known: M̂ = Cᵀ [M_F 0; 0 I] C. Static
+/// answers, to loads or to the inertia of the modes of a file, have an inertia that the file does not tell.
 pub(super) fn mixing(content: &Content<'_>) -> Option<Check> {
     let mixing = content.superelement.tensors().mixing.as_ref().filter(|_| content.n_b == 0)?;
     let coordinates = &content.superelement.metadata().coordinates;
+    let is_answer = |coordinate: &Coordinate| {
+        matches!(coordinate, Coordinate::ExpansionMode { .. } | Coordinate::ResidualVector { .. })
+    };
+    if coordinates.iter().any(is_answer) {
+        return None;
+    }
     let inertia = |i: usize, j: usize| match (&coordinates[i], &coordinates[j]) {
         (Coordinate::RigidBodyMode { index: a }, Coordinate::RigidBodyMode { index: b }) => {
             if *a.max(b) < content.n_rigid() { content.m_f[(*a, *b)] } else { f64::NAN }

@@ -1,7 +1,7 @@
 //! What could not be judged, and which fields no comparison confirms.
 
 use serde::Serialize;
-use supel_runtime::{RigidBodyModes, Superelement};
+use supel_runtime::{Method, RigidBodyModes, Superelement};
 
 use super::content::Content;
 
@@ -37,7 +37,7 @@ const fn unvouched(field: &'static str, reason: &'static str) -> Unvouched {
 const NOT_AT_HAND: &str = "names things of a model that is not at hand";
 
 /// Fields that the file alone cannot confirm.
-const ALONE: [Unvouched; 27] = [
+const ALONE: [Unvouched; 28] = [
     unvouched("generator", "a file has no other sign of who made it"),
     unvouched("units", "the job kept in it is the only other place, and may be changed too"),
     unvouched("interface_nodes[].name", "the job kept in it is the only other place, and may be changed too"),
@@ -51,6 +51,7 @@ const ALONE: [Unvouched; 27] = [
         "coordinates[].error_bar_hz",
         "comes from the digits and terms of K and M; only the largest is tied to M-09",
     ),
+    unvouched("dropped", "how many modes their file had is known from that file only"),
     unvouched("dropped[].column", "a column that was left out is in no matrix"),
     unvouched("dropped[].reason", "words for people"),
     unvouched("model.n_dofs", NOT_AT_HAND),
@@ -108,6 +109,7 @@ pub(super) fn fields(superelement: &Superelement, compared: Compared) -> Vec<Unv
         "interface_nodes[].position" => is_algebraic && !metadata.interface_nodes.is_empty(),
         "coordinates[].row" => superelement.n_interface() > 0 && metadata.interface_nodes.is_empty(),
         "coordinates[].error_bar_hz" => !tensors.frequencies.is_empty(),
+        "dropped" => metadata.method == Method::ModeAcceleration,
         "dropped[].column" | "dropped[].reason" => !metadata.dropped.is_empty(),
         "model.rigid_body_modes" => metadata.interface_nodes.is_empty(),
         "mixing" => tensors.mixing.is_some(),

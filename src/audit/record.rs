@@ -9,7 +9,7 @@ use super::spectrum::condition;
 use super::version::applied;
 use crate::audit::flaw::flaw;
 use crate::error::Result;
-use crate::job::Certify;
+use crate::job::{Certify, Job};
 use crate::verification::catalogue::{CATALOGUE, Entry, Recorded, entry};
 use crate::verification::check::Check;
 
@@ -79,7 +79,7 @@ fn missing(content: &Content<'_>, checks: &[CheckSummary]) -> Vec<String> {
 
 /// How often a reduction like that of the file records a check at least.
 fn least(content: &Content<'_>, entry: &Entry) -> usize {
-    let certify = content.job.as_ref().map(|job| job.run.certify);
+    let certify = content.job.as_ref().map(Job::certified);
     match entry.recorded {
         Recorded::Always(count) => count,
         Recorded::WithInterface => usize::from(content.n_b > 0),

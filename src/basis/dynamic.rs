@@ -10,10 +10,10 @@ use crate::eigen::{Modes, mass_qr, rows_with_mass};
 use crate::factor::SolveOperator;
 use crate::job::Boundary;
 use crate::modes::Retained;
-use crate::partition::Partition;
+use crate::partition::{Expansion, Partition};
 use crate::rigid::RigidBodyModes;
 use crate::sparse::Leading;
-use crate::sparse::product;
+use crate::sparse::{absolute_energy, product};
 
 /// What a dynamic coordinate stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,6 +26,8 @@ pub enum DynamicCoordinate {
     FreeFree(usize),
     /// Fixed-interface normal mode k.
     FixedInterface(usize),
+    /// Mode-accelerated expansion mode k of a file.
+    Expansion(usize),
     /// Residual vector of load k of the job.
     ResidualVector(usize),
 }
@@ -80,9 +82,21 @@ pub fn inertia_relief_columns(
     // The modes of the file, not the orthonormal ones: a coordinate then answers to one named unit acceleration.
     let inertia = product(&partition.mass, rigid.modes.as_ref());
     let mut columns = inertia.as_ref().subrows(0, partition.n_internal).to_owned();
-    clear_unloaded(partition, rigid, columns.as_mut());
+    let terms = absolute_energy(&partition.mass, rigid.modes.as_ref());
+    clear_unloaded(partition, &terms, columns.as_mut());
     factor.solve_in_place(columns.as_mut());
     DynamicColumns { columns, coordinates: (0..rigid.count()).map(DynamicCoordinate::InertiaRelief).collect() }
+}
+
+/// Mode-accelerated expansion modes K_II⁻¹ (MV)_I (23) of a file. For eigenvectors these are X_I − Ψ_S X_B over ω², for rigid-body
+/// motions inertia-relief modes (37): whoever gives all modes of a method has its space.
+pub fn expansion_columns(partition: &Partition, factor: &dyn SolveOperator) -> DynamicColumns {
+    let Expansion { facts, inertia } = &partition.expansion;
+    let mut columns = inertia.as_ref().subrows(0, partition.n_internal).to_owned();
+    let terms: Vec<f64> = facts.iter().map(|facts| facts.terms).collect();
+    clear_unloaded(partition, &terms, columns.as_mut());
+    factor.solve_in_place(columns.as_mut());
+    DynamicColumns { columns, coordinates: (0..facts.len()).map(DynamicCoordinate::Expansion).collect() }
 }
 
 /// Mode-accelerated modes X_I − Ψ_S X_B (23); modes of the held interface, X_B = 0, stay as they are (38).

@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! Ψ_S   n_I × n_B   constraint modes −K_II⁻¹ K_IB, corrected so that they carry rigid-body motion exactly (24)
-//! Ψ_D   n_I × n_η   dynamic modes: inertia-relief modes (37), fixed-interface modes (38) or mode-accelerated ones (23);
-//!                   after them residual vectors of loads
+//! Ψ_D   n_I × n_η   dynamic modes: inertia-relief modes (37), fixed-interface modes (38) or mode-accelerated ones (23),
+//!                   computed or of a file; after them residual vectors of loads
 //! ```
 //! The reduction method decided which modes were chosen. From here on every method has this one form.
 
@@ -17,6 +17,6 @@ mod rounding;
 
 pub use basis::Basis;
 pub use dynamic::{DroppedColumn, DynamicCoordinate};
-pub use dynamic::{DynamicColumns, accelerated_columns, inertia_relief_columns, modal_columns};
+pub use dynamic::{DynamicColumns, accelerated_columns, expansion_columns, inertia_relief_columns, modal_columns};
 pub use residual_vectors::static_answers;
 pub use retained_columns::retained_columns;

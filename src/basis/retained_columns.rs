@@ -1,6 +1,6 @@
 //! The columns that retained modes make.
 
-use super::dynamic::{DynamicColumns, accelerated_columns, inertia_relief_columns, modal_columns};
+use super::dynamic::{DynamicColumns, accelerated_columns, expansion_columns, inertia_relief_columns, modal_columns};
 use crate::job::ReductionJob;
 use crate::modes::{Component, Retained};
 
@@ -11,7 +11,10 @@ pub fn retained_columns(component: Component<'_>, job: &ReductionJob, retained: 
     if component.is_modal() {
         return modal_columns(rigid, &retained.modes);
     }
-    let modes = accelerated_columns(partition, constraint, retained);
+    let mut modes = accelerated_columns(partition, constraint, retained);
+    if partition.expansion.count() > 0 {
+        modes = modes.followed_by(expansion_columns(partition, factor));
+    }
     match job.has_inertia_relief() {
         true => inertia_relief_columns(partition, factor, rigid).followed_by(modes),
         false => modes,

@@ -14,7 +14,6 @@ use crate::constraint::ConstraintModes;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::Modes;
 use crate::partition::Partition;
-use crate::rigid::RigidBodyModes;
 use crate::sparse::{absolute_energy, panels, product};
 
 /// Length a unit column must keep after the columns before it are taken out. Healthy bases keep 10⁻³ to 10⁻²; at 10⁻⁸
@@ -65,11 +64,10 @@ pub(super) fn clear_rounding(
     }
 }
 
-/// Sets inertial loads on the interior to zero that are rounding: Σ l_i² / M_ii at most (10 ε)² of |u|ᵀ|M||u|.
-pub(super) fn clear_unloaded(partition: &Partition, rigid: &RigidBodyModes, mut loads: MatMut<'_, f64>) {
+/// Sets inertial loads on the interior to zero that are rounding: Σ l_i² / M_ii at most (10 ε)² of `terms`, |u|ᵀ|M||u| of each motion.
+pub(super) fn clear_unloaded(partition: &Partition, terms: &[f64], mut loads: MatMut<'_, f64>) {
     let mass = partition.internal().mass.diagonal();
-    let terms = absolute_energy(&partition.mass, rigid.modes.as_ref());
-    for (j, terms) in terms.into_iter().enumerate() {
+    for (j, terms) in terms.iter().enumerate() {
         let load = dense::column_mut(loads.as_mut(), j);
         let of_dof = |(l, m): (&f64, &f64)| if *m > 0.0 { l * l / m } else { 0.0 };
         if load.iter().zip(&mass).map(of_dof).sum::<f64>() <= UNKNOWN * terms {

@@ -13,8 +13,8 @@ use crate::dofs::Direction;
 use crate::error::{Error, Result};
 use crate::export::Format;
 use crate::job::{
-    Coupling, Duplicates, FixedJob, InterfaceJob, Job, ModeSelection, ModelJob, NodeSelection, Origin, ReductionJob,
-    RunJob, WriteJob,
+    Coupling, Duplicates, FixedJob, InterfaceJob, Job, Method, ModeOrigin, ModeSelection, ModelJob, ModesJob,
+    NodeSelection, Origin, ReductionJob, RunJob, WriteJob,
 };
 
 /// One command, ready to run.
@@ -231,8 +231,8 @@ fn override_job(
     job.model.symmetric = model.symmetric.or(job.model.symmetric);
     job.model.drop_empty |= model.drop_empty;
     replace(&mut job.reduction.method, reduction.method);
-    job.reduction.modes = mode_selection(reduction).or(job.reduction.modes);
-    if reduction.method.is_some_and(|method| !method.has_modes()) && mode_selection(reduction).is_none() {
+    job.reduction.modes = modes(reduction).or(job.reduction.modes);
+    if reduction.method.is_some_and(|method| method.modes() == ModeOrigin::None) && modes(reduction).is_none() {
         // The modes of the job were meant for its own method.
         job.reduction.modes = None;
     }
@@ -280,8 +280,8 @@ fn put_by_name<T>(
 
 fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlags) -> Result<Job> {
     let (interfaces, fixed) = (interfaces(&model)?, fixed(&model)?);
-    let modes = mode_selection(reduction);
-    let are_modes_told = modes.is_some() || reduction.method.is_some_and(|method| !method.has_modes());
+    let modes = modes(reduction);
+    let are_modes_told = modes.is_some() || reduction.method.is_some_and(|method| method.modes() == ModeOrigin::None);
     let (Some(stiffness), Some(mass), Some(method), true, Some(superelement)) =
         (&model.stiffness, &model.mass, reduction.method, are_modes_told, &output.output)
     else {
@@ -289,7 +289,7 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
             ("--stiffness", model.stiffness.is_some()),
             ("--mass", model.mass.is_some()),
             ("--method", reduction.method.is_some()),
-            ("--up-to-hz or --modes", are_modes_told),
+            (flag_of_modes(reduction.method), are_modes_told),
             ("--output", output.output.is_some()),
         ];
         let missing = flags.into_iter().filter(|(_, is_given)| !is_given).map(|(flag, _)| flag);
@@ -333,9 +333,18 @@ fn replace<T>(value: &mut T, new: Option<T>) {
     }
 }
 
-fn mode_selection(reduction: &ReductionFlags) -> Option<ModeSelection> {
-    let up_to = reduction.up_to_hz.map(|up_to_hz| ModeSelection::UpTo { up_to_hz });
-    up_to.or(reduction.modes.map(|count| ModeSelection::Count { count }))
+fn modes(reduction: &ReductionFlags) -> Option<ModesJob> {
+    let up_to = reduction.up_to_hz.map(|up_to_hz| ModeSelection::UpTo { up_to_hz }.into());
+    let count = || reduction.modes.map(|count| ModeSelection::Count { count }.into());
+    up_to.or_else(count).or_else(|| reduction.modes_from.clone().map(|file| ModesJob::File { file }))
+}
+
+/// The flag that tells the modes of a method.
+fn flag_of_modes(method: Option<Method>) -> &'static str {
+    match method.map(Method::modes) {
+        Some(ModeOrigin::File) => "--modes-from",
+        Some(ModeOrigin::Computed | ModeOrigin::None) | None => "--up-to-hz or --modes",
+    }
 }
 
 /// The interfaces of the flags: the direct ones, then the rigid ones, each in the order typed.

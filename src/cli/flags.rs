@@ -92,7 +92,7 @@ pub(super) struct ModelFlags {
 }
 
 #[derive(Debug, Args)]
-#[command(next_help_heading = "Reduction", group = ArgGroup::new("how many").args(["up_to_hz", "modes"]))]
+#[command(next_help_heading = "Reduction", group = ArgGroup::new("how many").args(["up_to_hz", "modes", "modes_from"]))]
 pub(super) struct ReductionFlags {
     /// Reduction method
     #[arg(long, value_parser = values::<Method>())]
@@ -103,6 +103,9 @@ pub(super) struct ReductionFlags {
     /// Keep this many modes, extended to complete clusters
     #[arg(long, value_name = "N")]
     pub(super) modes: Option<usize>,
+    /// Take the modes of a file, with mode-acceleration: Matrix Market, .npy, or a dataset as in model.h5:/V
+    #[arg(long, value_name = "FILE")]
+    pub(super) modes_from: Option<PathBuf>,
     /// Add inertia-relief modes to the basis; herting and rubin have them anyway
     #[arg(long)]
     pub(super) inertia_relief: bool,

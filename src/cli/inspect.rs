@@ -68,6 +68,7 @@ fn document(superelement: &Superelement) -> Result<Value> {
             "n_reduced": superelement.n_coordinates(),
             "n_interface": superelement.n_interface(),
             "n_inertia_relief": count(|coordinate| matches!(coordinate, Coordinate::InertiaRelief { .. })),
+            "n_expansion_modes": count(|coordinate| matches!(coordinate, Coordinate::ExpansionMode { .. })),
             "n_residual_vectors": count(|coordinate| matches!(coordinate, Coordinate::ResidualVector { .. })),
             "n_modal": superelement.n_modal(),
             "n_rigid": superelement.n_rigid(),

@@ -55,7 +55,8 @@ pub(super) fn inputs(job: &Job, document: Option<&Path>) -> Vec<Named> {
     let quantities = job.write.quantities.iter();
     let quantities = quantities.flat_map(|rows| [("the quantities", &rows.matrix), ("their names", &rows.names)]);
     let quantities = quantities.map(|(role, path)| (role, path.clone()));
-    input::files(&job.model).into_iter().chain(loads).chain(quantities).chain(document).collect()
+    let modes = job.reduction.modes_file().map(|path| ("the modes", input::file_of(path)));
+    input::files(&job.model).into_iter().chain(loads).chain(modes).chain(quantities).chain(document).collect()
 }
 
 /// The outputs of a job in the order in which they get their names: the superelement, which the others tell about, last.

@@ -16,7 +16,6 @@ use super::unmet::unmet;
 use super::unverified::Unverified;
 use super::{memory, overwriting, process};
 use crate::error::{Error, Result};
-use crate::input::Cells;
 use crate::memory_forecast::Resources;
 use crate::outcome::Outcome;
 use crate::report::{JunitWarnings, Observer, Report, StageClock, html, junit, summary};
@@ -32,9 +31,7 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     refuse_unwritable(&own)?;
     let resources = Resources { memory_bytes: memory::available_bytes() };
     let rehearsed = match terminal.program {
-        Program::Supel => {
-            rehearsal::rehearse(&command.job.model, Cells::of(&command.job), resources.allowed(&command.job))?
-        }
+        Program::Supel => rehearsal::rehearse(&command.job, resources.allowed(&command.job))?,
         Program::Other => Rehearsed::Nothing,
     };
     if command.answer != Answer::Nothing {

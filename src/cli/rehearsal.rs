@@ -5,7 +5,7 @@
 //! file, and this process never opens it. Text is read by supel's own code and needs no rehearsal.
 
 use std::io::{BufRead, Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
@@ -15,7 +15,7 @@ use super::exit_code::ExitCode;
 use super::process;
 use crate::error::{Error, Result};
 use crate::input::{self, Allowance, Cells};
-use crate::job::ModelJob;
+use crate::job::{Job, ModelJob};
 
 /// The hidden subcommand of the child.
 pub(super) const SUBCOMMAND: &str = "rehearse-reading";
@@ -31,6 +31,7 @@ const LONGEST_PAUSE: Duration = Duration::from_millis(20);
 #[derive(Serialize, Deserialize)]
 struct Task {
     model: ModelJob,
+    modes: Option<PathBuf>,
     cells: Cells,
     memory_bytes: Option<u64>,
 }
@@ -56,7 +57,7 @@ impl Rehearsed {
     }
 }
 
-/// Reads the HDF5 files of a model in a child process, where there are any, in no more than `memory_bytes`; the cells of the mesh too
+/// Reads the HDF5 files of a job in a child process, where there are any, in no more than `memory_bytes`; the cells of the mesh too
 /// where this process will.
 ///
 /// An error that the child finds in a file is not passed on: this process finds the same one.
@@ -64,9 +65,10 @@ impl Rehearsed {
 /// # Errors
 /// [`Error::Hdf5Crash`], [`Error::Hdf5Time`], [`Error::OutOfMemory`] and [`Error::RehearsalKilled`] by how the child ended;
 /// [`Error::Rehearsal`] where it could not be started.
-pub(super) fn rehearse(model: &ModelJob, cells: Cells, memory_bytes: Option<u64>) -> Result<Rehearsed> {
-    let Some(path) = input::hdf5_file(model) else { return Ok(Rehearsed::Nothing) };
-    let task = Task { model: model.clone(), cells, memory_bytes };
+pub(super) fn rehearse(job: &Job, memory_bytes: Option<u64>) -> Result<Rehearsed> {
+    let Some(path) = input::hdf5_file(job) else { return Ok(Rehearsed::Nothing) };
+    let modes = job.reduction.modes_file().map(Path::to_owned);
+    let task = Task { model: job.model.clone(), modes, cells: Cells::of(job), memory_bytes };
     let failed = |source| Error::Rehearsal { source };
     let time = time_for(&path);
     let mut child = std::env::current_exe().and_then(|program| start(&program)).map_err(failed)?;
@@ -160,7 +162,8 @@ pub(super) fn read_from_stdin() -> Result<ExitCode> {
     input::start_hdf5()?;
     let mut stdout = std::io::stdout();
     stdout.write_all(STARTED).and_then(|()| stdout.flush()).map_err(failed)?;
-    match threads.install(|| input::read_hdf5_parts(&task.model, task.cells, &Allowance::of(task.memory_bytes))) {
+    let files = (&task.model, task.modes.as_deref());
+    match threads.install(|| input::read_hdf5_parts(files, task.cells, &Allowance::of(task.memory_bytes))) {
         Ok(()) => Ok(ExitCode::Done),
         Err(error @ Error::OutOfMemory { .. }) => Err(error),
         Err(_) => Ok(ExitCode::InputData),

@@ -14,7 +14,6 @@ use super::unmet::unmet;
 use super::{accompanying, memory, process, superelement_file};
 use crate::audit::{self, Audit};
 use crate::error::{Error, Result};
-use crate::input::Cells;
 use crate::job::{Holder, Job};
 use crate::memory_forecast::Resources;
 use crate::report::{Against, Reproduction, VerificationReport};
@@ -30,7 +29,7 @@ pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Te
     let resources = Resources { memory_bytes: memory::available_bytes() };
     let to_read = command.job.as_ref().or(rerun.as_ref());
     let rehearsed = match to_read.filter(|_| terminal.program == Program::Supel) {
-        Some(job) => rehearsal::rehearse(&job.model, Cells::of(job), resources.allowed(job))?,
+        Some(job) => rehearsal::rehearse(job, resources.allowed(job))?,
         None => Rehearsed::Nothing,
     };
     if command.answer != Answer::Nothing {

@@ -89,6 +89,11 @@ pub(super) fn column_words(column: Option<usize>) -> String {
     column.map_or_else(|| "the only column".to_owned(), |column| format!("column {column}"))
 }
 
+/// The place of a line in a file, where it has lines.
+pub(super) fn at_line(line: Option<u64>) -> String {
+    line.map_or_else(String::new, |line| format!(":{line}"))
+}
+
 /// The parts of a forecast, the largest first, and what makes that one smaller.
 pub(super) fn forecast(available: u64, [factors, matrices, vectors]: [u64; 3], in_single: Option<u64>) -> String {
     let mut parts = [

@@ -70,6 +70,7 @@ fn rows(superelement: &Superelement, labels: &[i64]) -> Vec<String> {
         Coordinate::InterfaceRow { row } => format!("row {row} (from zero) of the model"),
         Coordinate::RigidBodyMode { index } => format!("rigid-body mode {}", index + 1),
         Coordinate::InertiaRelief { index } => format!("inertia-relief mode {}", index + 1),
+        Coordinate::ExpansionMode { column } => format!("expansion mode {}", column + 1),
         Coordinate::ResidualVector { load } => format!("residual vector of load {}", metadata.load_names[load]),
         Coordinate::ElasticMode { mode, frequency_hz, .. } => format!("elastic mode {}, {frequency_hz} Hz", mode + 1),
         Coordinate::FixedInterfaceMode { mode, frequency_hz, .. } => {

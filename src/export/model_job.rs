@@ -129,7 +129,10 @@ fn directions(node: &InterfaceNode) -> String {
 fn reduction(superelement: &Superelement) -> String {
     let metadata = superelement.metadata();
     // Modes that were left out because others span them are found again, as far as there are coordinates for them.
-    let n_named = metadata.named_columns().filter(|coordinate| coordinate.mode().is_some()).count();
+    let is_mode = |coordinate: &&Coordinate| {
+        coordinate.mode().is_some() || matches!(coordinate, Coordinate::ExpansionMode { .. })
+    };
+    let n_named = metadata.named_columns().filter(is_mode).count();
     let n_still = match metadata.method {
         Method::Herting | Method::Rubin | Method::Macneal => superelement.n_rigid(),
         Method::CraigBampton | Method::ModeAcceleration | Method::Guyan => superelement.n_interface(),

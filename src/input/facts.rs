@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Digits, Input, InputNote, LoadColumn, MatrixInput, PatchFaces, QuantityRows};
+use super::{Digits, Input, InputNote, LoadColumn, MatrixInput, ModeColumns, PatchFaces, QuantityRows};
 use crate::error::Warning;
 use crate::job::LoadJob;
 
@@ -16,6 +16,8 @@ pub struct InputFacts {
     pub files: BTreeMap<&'static str, String>,
     /// Digests of the files of loads by the name of the load.
     pub loads: BTreeMap<String, String>,
+    /// Digest of the file of the modes, where the job names one.
+    pub modes: Option<String>,
     /// Remarks of the readers that are not warnings.
     pub notes: Vec<String>,
     /// Faces of the patches whose origin is the mean of their nodes, as far as the mesh tells.
@@ -47,6 +49,7 @@ impl InputFacts {
             matrices: [facts(&input.stiffness), facts(&input.mass)],
             files: input.digests.clone(),
             loads: BTreeMap::new(),
+            modes: None,
             faces: Vec::new(),
             notes: input.notes.iter().filter(|note| note.warning_code().is_none()).map(ToString::to_string).collect(),
             warnings: input.notes.iter().filter_map(warning).collect(),
@@ -69,11 +72,19 @@ impl InputFacts {
         self
     }
 
+    /// These facts with the digest of the file of the modes.
+    #[must_use]
+    pub fn with_modes(self, modes: Option<&ModeColumns>) -> Self {
+        Self { modes: modes.map(|modes| modes.digest.clone()), ..self }
+    }
+
     /// BLAKE3 of every file by its role, as the superelement keeps them.
     pub fn digests(&self) -> BTreeMap<String, &str> {
         let [stiffness, mass] = &self.matrices;
         let matrices = [("stiffness", stiffness.digest.as_str()), ("mass", mass.digest.as_str())];
         let files = self.files.iter().map(|(role, digest)| (*role, digest.as_str()));
+        let modes = self.modes.iter().map(|digest| ("modes", digest.as_str()));
+        let files = files.chain(modes);
         let loads = self.loads.iter().map(|(name, digest)| (format!("load {name}"), digest.as_str()));
         matrices.into_iter().chain(files).map(|(role, digest)| (role.to_owned(), digest)).chain(loads).collect()
     }

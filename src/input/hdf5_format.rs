@@ -39,6 +39,43 @@ pub(super) fn split_group(path: &Path) -> (PathBuf, Option<String>) {
     (path.to_owned(), None)
 }
 
+/// The modes in a dataset of an HDF5 file, for matrices of `n_rows` rows.
+///
+/// # Errors
+/// Those of [`super::mode_columns`]; [`Error::FeatureMissing`] where the program is built without the library.
+#[cfg_attr(not(feature = "hdf5"), expect(unused_variables, reason = "nothing is read"))]
+pub(super) fn mode_columns(
+    path: &Path,
+    dataset: Option<&str>,
+    n_rows: usize,
+    allowance: &Allowance,
+) -> Result<Vec<Vec<f64>>> {
+    #[cfg(feature = "hdf5")]
+    return hdf5::mode_columns(path, dataset, n_rows, allowance);
+    #[cfg(not(feature = "hdf5"))]
+    return Err(Error::FeatureMissing { path: path.to_owned(), feature: "hdf5" });
+}
+
+/// Whether the modes of a job are in an HDF5 file.
+pub(super) fn has_modes(path: &Path) -> bool {
+    FileStart::of(&split_group(path).0).is_ok_and(|start| start.is_hdf5())
+}
+
+/// Reads the modes of a job where they are in an HDF5 file, and discards them.
+///
+/// # Errors
+/// A file that cannot be read or has no such dataset.
+#[cfg_attr(not(feature = "hdf5"), expect(unused_variables, reason = "nothing is read"))]
+pub(super) fn rehearse_modes(path: &Path, allowance: &Allowance) -> Result<()> {
+    #[cfg(feature = "hdf5")]
+    if has_modes(path)
+        && let (file, Some(dataset)) = split_group(path)
+    {
+        return hdf5::rehearse_dataset(&file, &dataset, allowance);
+    }
+    Ok(())
+}
+
 fn sureness(start: &FileStart<'_>, extensions: &[&str]) -> Sureness {
     match () {
         () if start.is_hdf5() => Sureness::Certain,

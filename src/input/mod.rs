@@ -21,9 +21,12 @@ pub mod hdf5;
 mod hdf5_format;
 mod load_file;
 mod matrix_market;
+mod mode_matrix;
 mod model_files;
+mod modes_file;
 mod node_table;
 mod note;
+mod npy;
 mod patch;
 mod patch_faces;
 mod quantity_files;
@@ -40,8 +43,10 @@ pub use digits::{Digits, DigitsBy, digits_of};
 pub use facts::{InputFacts, MatrixFacts};
 pub use load_file::{LoadColumn, WantedColumn, load_column};
 pub use model_files::{
-    Input, files, hdf5_file, job_quantities, load_columns, read, read_hdf5_parts, read_within, start_hdf5,
+    Input, expansion_columns, file_of, files, hdf5_file, job_quantities, load_columns, read, read_hdf5_parts,
+    read_within, start_hdf5,
 };
+pub use modes_file::{ModeColumns, mode_columns};
 pub use note::InputNote;
 pub use patch::{Faces, Patch, PatchFaces, Patches};
 pub use patch_faces::{Cells, looks_at_faces, patch_faces};

@@ -6,14 +6,15 @@ use std::path::{Path, PathBuf};
 use super::allowance::Allowance;
 use super::blocks::LastLine;
 use super::format::{DirectionBase, MatrixSource, OrderSource, ReadMatrix};
-use super::hdf5_format::split_group;
+use super::hdf5_format::{self, split_group};
 use super::load_file::{LoadColumn, WantedColumn, load_column};
+use super::modes_file::{ModeColumns, mode_columns};
 use super::patch::Patches;
 use super::quantity_files::{QuantityRows, quantity_rows};
 use super::{Cells, InputNote, MatrixInput, MatrixRole, dof_map, empty_rows, formats};
 use crate::dofs::{DofMap, FileRows, Nodes};
 use crate::error::{Error, Result};
-use crate::job::{Duplicates, LoadJob, LoadPattern, ModelJob, QuantitiesJob};
+use crate::job::{Duplicates, Job, LoadJob, LoadPattern, ModelJob, QuantitiesJob, ReductionJob};
 use crate::regular_file::{digest, unchanged};
 use crate::sparse::SparseMatrix;
 use crate::sparse::Triangle;
@@ -106,6 +107,19 @@ pub fn load_columns(loads: &[LoadJob], input: &Input) -> Result<Vec<Option<LoadC
     loads.iter().map(of_load).collect()
 }
 
+/// The modes of the file of a job, where it has one.
+///
+/// # Errors
+/// Those of [`mode_columns`].
+pub fn expansion_columns(
+    reduction: &ReductionJob,
+    input: &Input,
+    allowance: &Allowance,
+) -> Result<Option<ModeColumns>> {
+    let n_rows = input.stiffness.matrix.rows() + input.rows.n_dropped();
+    reduction.modes_file().map(|path| mode_columns(path, n_rows, allowance)).transpose()
+}
+
 /// The rows of quantities of a job, where it asks for some.
 ///
 /// # Errors
@@ -129,6 +143,11 @@ pub fn start_hdf5() -> Result<()> {
     Ok(())
 }
 
+/// The file of a path that may name a place in it, as `model.h5:/V` does.
+pub fn file_of(path: &Path) -> PathBuf {
+    split_group(path).0
+}
+
 /// Every file of a model with what it is, those that its files refer to among them. Files that cannot be read are listed all the same.
 pub fn files(model: &ModelJob) -> Vec<(&'static str, PathBuf)> {
     let matrix = |path: &Path| split_group(path).0;
@@ -142,19 +161,22 @@ pub fn files(model: &ModelJob) -> Vec<(&'static str, PathBuf)> {
     files
 }
 
-/// The first file of a model that the HDF5 library reads, where one is.
-pub fn hdf5_file(model: &ModelJob) -> Option<PathBuf> {
+/// The first file of a job that the HDF5 library reads, where one is.
+pub fn hdf5_file(job: &Job) -> Option<PathBuf> {
+    let model = &job.model;
+    let modes = job.reduction.modes_file().filter(|path| hdf5_format::has_modes(path)).map(|path| split_group(path).0);
     let matrices = [&model.stiffness, &model.mass].into_iter().map(|path| split_group(path).0);
     let matrices = matrices.filter(|file| formats::of_matrix(file).is_ok_and(|format| format.is_parsed_in_c()));
     let nodes = model.nodes.iter().filter(|file| formats::of_nodes(file).is_ok_and(|format| format.is_parsed_in_c()));
-    matrices.chain(nodes.cloned()).next()
+    matrices.chain(nodes.cloned()).chain(modes).next()
 }
 
-/// Reads the files of a model that need the HDF5 library, and discards what was read.
+/// Reads the files of a job that need the HDF5 library, those of its model and of its modes, and discards what was read.
 ///
 /// # Errors
 /// A file that cannot be read or whose content is wrong.
-pub fn read_hdf5_parts(model: &ModelJob, cells: Cells, allowance: &Allowance) -> Result<()> {
+pub fn read_hdf5_parts((model, modes): (&ModelJob, Option<&Path>), cells: Cells, allowance: &Allowance) -> Result<()> {
+    modes.map_or(Ok(()), |path| hdf5_format::rehearse_modes(path, allowance))?;
     for role in [MatrixRole::Stiffness, MatrixRole::Mass] {
         let source = matrix_source(model, role, allowance);
         if formats::of_matrix(&source.file)?.is_parsed_in_c() {

@@ -10,7 +10,7 @@ use std::path::Path;
 use supel_runtime::Quantity;
 
 use super::allowance::{Allowance, Claim};
-use super::rectangular::{Content, Layout, Lines};
+use super::rectangular::{Content, RectangularFile};
 use super::table::{Table, open_first_line};
 use crate::error::{Error, Result};
 use crate::job::QuantitiesJob;
@@ -42,8 +42,8 @@ pub struct QuantityRows {
 pub fn quantity_rows(job: &QuantitiesJob, n_rows: usize, allowance: &Allowance) -> Result<QuantityRows> {
     let of_names = unchanged(&job.names, || Ok((names(&job.names, allowance)?, digest(&job.names)?)));
     let (names, of_names) = of_names?;
-    let size = [names.len() as u64, n_rows as u64];
-    let (entries, of_matrix) = unchanged(&job.matrix, || matrix(&job.matrix, size, &allowance.claim(&job.matrix)))?;
+    let content = Content::Quantities { n_names: names.len(), n_rows };
+    let (entries, of_matrix) = unchanged(&job.matrix, || matrix(&job.matrix, content, &allowance.claim(&job.matrix)))?;
     Ok(QuantityRows { names, entries, digests: [of_matrix, of_names] })
 }
 
@@ -80,42 +80,17 @@ fn names(path: &Path, allowance: &Allowance) -> Result<Vec<Quantity>> {
 
 type Entries = Vec<(u32, u32, f64)>;
 
-fn matrix(path: &Path, size: [u64; 2], claim: &Claim<'_>) -> Result<(Entries, String)> {
-    let mut lines = Lines::open(path, Content::Quantities)?;
-    let layout = lines.banner()?;
-    let (expected, numbers) = lines.sizes(layout)?;
-    let (found, declared) = match (layout, numbers.as_deref()) {
-        (Layout::Array, Some([rows, columns])) => ([*rows, *columns], rows.checked_mul(*columns)),
-        (Layout::Coordinate, Some([rows, columns, entries])) => ([*rows, *columns], Some(*entries)),
-        _ => return Err(lines.format_error(expected)),
-    };
-    if found != size {
-        let ([rows, columns], [n_names, n]) = (found, size);
-        return Err(Error::QuantitySize { path: path.to_owned(), rows, columns, n_names, n });
-    }
-    let declared = declared.ok_or_else(|| lines.format_error(expected))?;
-    let (mut entries, mut n_read) = (Vec::new(), 0u64);
-    while lines.advance()? {
-        if n_read == declared {
-            return Err(Error::EntriesSurplus { path: path.to_owned(), line: lines.line, declared });
-        }
-        let (row, column, value) = match layout {
-            Layout::Array => {
-                let at = [n_read % size[0], n_read / size[0]];
-                (at[0], at[1], lines.value(at, 0)?)
-            }
-            Layout::Coordinate => lines.entry(size)?,
-        };
-        if value != 0.0 {
+fn matrix(path: &Path, content: Content<'_>, claim: &Claim<'_>) -> Result<(Entries, String)> {
+    let file = RectangularFile::open(path, content)?;
+    let mut entries = Vec::new();
+    let digest = file.read(|entry| {
+        if entry.value != 0.0 {
             if entries.len().is_multiple_of(PER_CLAIM) {
                 claim.add(ENTRY * PER_CLAIM as u64)?;
             }
-            entries.push((row as u32, column as u32, value));
+            entries.push((entry.row as u32, entry.column as u32, entry.value));
         }
-        n_read += 1;
-    }
-    if n_read < declared {
-        return Err(Error::EntryCount { path: path.to_owned(), declared, found: n_read });
-    }
-    Ok((entries, lines.digest()))
+        Ok(())
+    })?;
+    Ok((entries, digest))
 }

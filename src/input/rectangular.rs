@@ -1,9 +1,9 @@
-//! The lines of a rectangular matrix in Matrix Market form: loads, or rows of quantities.
+//! Rectangular matrices in Matrix Market form: loads and modes in columns, quantities in rows.
 //!
-//! `array` files list every value, column by column; `coordinate` files list `row column value`.
+//! `array` files list every value, column by column; `coordinate` files list `row column value`, and values at one place are added up.
 
 use std::io::{BufRead, BufReader, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::banner::{excerpt, is_comment};
 use super::entries::number;
@@ -15,45 +15,138 @@ const MAX_LINE_BYTES: u64 = 1 << 12;
 
 const BANNERS: &str = "`%%MatrixMarket matrix array real general` or `%%MatrixMarket matrix coordinate real general`";
 
-/// How a file lists its values.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Layout {
-    Array,
-    Coordinate,
+/// What a file is read for, and which size that asks of it.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Content<'a> {
+    /// The load of this name, of a value for each row of the matrices.
+    Load { load: &'a str, n_rows: usize },
+    /// The modes of a reduction, of a value for each row of the matrices.
+    Modes { n_rows: usize },
+    /// A row for each name of a quantity, a column for each row of the matrices.
+    Quantities { n_names: usize, n_rows: usize },
 }
 
-/// What a file is read for.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Content {
-    Load,
-    Quantities,
-}
-
-impl Content {
+impl Content<'_> {
     fn expected(self) -> &'static str {
         match self {
-            Self::Load => "a load in Matrix Market form",
-            Self::Quantities => "rows of quantities in Matrix Market form",
+            Self::Load { .. } => "a load in Matrix Market form",
+            Self::Modes { .. } => "modes in Matrix Market form",
+            Self::Quantities { .. } => "rows of quantities in Matrix Market form",
+        }
+    }
+
+    /// The error of a line that is none of the format.
+    fn format_error(self, path: PathBuf, line: u64, (found, expected): (String, &'static str)) -> Error {
+        match self {
+            Self::Load { .. } => Error::LoadFormat { path, line, found, expected },
+            Self::Modes { .. } => Error::ModesFormat { path, line: Some(line), found: format!("`{found}`"), expected },
+            Self::Quantities { .. } => Error::QuantityFormat { path, line, found, expected },
+        }
+    }
+
+    /// Refuses rows and columns of a file that do not fit the matrices or the names.
+    fn refuse_other_sizes(self, path: PathBuf, [rows, columns]: [u64; 2]) -> Result<()> {
+        match self {
+            Self::Load { load, n_rows: n } if rows != n as u64 => {
+                Err(Error::LoadRows { path, load: load.to_owned(), found: rows, n })
+            }
+            Self::Modes { n_rows: n } if rows != n as u64 => Err(Error::ModesRows { path, found: rows, n }),
+            Self::Quantities { n_names, n_rows } if [rows, columns] != [n_names as u64, n_rows as u64] => {
+                Err(Error::QuantitySize { path, rows, columns, n_names: n_names as u64, n: n_rows as u64 })
+            }
+            Self::Load { .. } | Self::Modes { .. } | Self::Quantities { .. } => Ok(()),
         }
     }
 }
 
+/// A number of a file with its row and column, both from zero.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Entry {
+    pub(super) row: usize,
+    pub(super) column: u64,
+    pub(super) value: f64,
+}
+
+/// A file whose head has been read.
+pub(super) struct RectangularFile<'a> {
+    lines: Lines<'a>,
+    layout: Layout,
+    n_rows: u64,
+    /// Columns that the size line says.
+    pub(super) n_columns: u64,
+    n_entries: u64,
+}
+
+/// How a file lists its values.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Layout {
+    Array,
+    Coordinate,
+}
+
+impl<'a> RectangularFile<'a> {
+    /// Opens a file, plain or gzipped, and reads its banner and its size line.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is no rectangular matrix in Matrix Market form, or has another size than its content asks.
+    pub(super) fn open(path: &'a Path, content: Content<'a>) -> Result<Self> {
+        let mut lines = Lines::open(path, content)?;
+        let layout = lines.banner()?;
+        let (expected, numbers) = lines.sizes(layout)?;
+        let (n_rows, n_columns, declared) = match (layout, numbers.as_deref()) {
+            (Layout::Array, Some([rows, columns])) => (*rows, *columns, rows.checked_mul(*columns)),
+            (Layout::Coordinate, Some([rows, columns, entries])) => (*rows, *columns, Some(*entries)),
+            _ => return Err(lines.format_error(expected)),
+        };
+        content.refuse_other_sizes(lines.path(), [n_rows, n_columns])?;
+        let n_entries = declared.ok_or_else(|| lines.format_error(expected))?;
+        Ok(Self { lines, layout, n_rows, n_columns, n_entries })
+    }
+
+    /// Hands every entry to `take`, and gives the BLAKE3 digest of the file.
+    ///
+    /// # Errors
+    /// A line that is no entry, entries that are missing or too many; those of `take`.
+    pub(super) fn read(mut self, mut take: impl FnMut(Entry) -> Result<()>) -> Result<String> {
+        let mut n_read = 0u64;
+        while self.lines.advance()? {
+            if n_read == self.n_entries {
+                let (path, line) = (self.lines.path(), self.lines.line);
+                return Err(Error::EntriesSurplus { path, line, declared: self.n_entries });
+            }
+            let (row, column, value) = match self.layout {
+                Layout::Array => {
+                    let at = [n_read % self.n_rows, n_read / self.n_rows];
+                    (at[0], at[1], self.lines.value(at, 0)?)
+                }
+                Layout::Coordinate => self.lines.entry([self.n_rows, self.n_columns])?,
+            };
+            take(Entry { row: row as usize, column, value })?;
+            n_read += 1;
+        }
+        if n_read < self.n_entries {
+            return Err(Error::EntryCount { path: self.lines.path(), declared: self.n_entries, found: n_read });
+        }
+        Ok(self.lines.source.get_ref().digest())
+    }
+}
+
 /// The lines of a text file that hold data.
-pub(super) struct Lines<'a> {
-    content: Content,
+struct Lines<'a> {
+    content: Content<'a>,
     file: &'a Path,
     source: BufReader<Source>,
     /// Number of the line that was read last, from 1.
-    pub(super) line: u64,
+    line: u64,
     bytes: Vec<u8>,
 }
 
 impl<'a> Lines<'a> {
-    pub(super) fn open(file: &'a Path, content: Content) -> Result<Self> {
+    fn open(file: &'a Path, content: Content<'a>) -> Result<Self> {
         Ok(Self { content, file, source: BufReader::new(Source::open(file)?), line: 0, bytes: Vec::new() })
     }
 
-    pub(super) fn path(&self) -> std::path::PathBuf {
+    fn path(&self) -> PathBuf {
         self.file.to_owned()
     }
 
@@ -69,13 +162,8 @@ impl<'a> Lines<'a> {
         Ok(n_read > 0)
     }
 
-    /// BLAKE3 of the file's bytes, once all of it was read.
-    pub(super) fn digest(&self) -> String {
-        self.source.get_ref().digest()
-    }
-
     /// Reads the banner.
-    pub(super) fn banner(&mut self) -> Result<Layout> {
+    fn banner(&mut self) -> Result<Layout> {
         let is_there = self.advance_to_banner()?;
         let text = if is_there { self.text().to_ascii_lowercase() } else { String::new() };
         let words: Vec<&str> = text.split_ascii_whitespace().collect();
@@ -88,7 +176,7 @@ impl<'a> Lines<'a> {
     }
 
     /// Reads the size line: what it should be, and its numbers where they are whole.
-    pub(super) fn sizes(&mut self, layout: Layout) -> Result<(&'static str, Option<Vec<u64>>)> {
+    fn sizes(&mut self, layout: Layout) -> Result<(&'static str, Option<Vec<u64>>)> {
         let expected = match layout {
             Layout::Array => "a size line of two whole numbers, `rows columns`",
             Layout::Coordinate => "a size line of three whole numbers, `rows columns entries`",
@@ -101,7 +189,7 @@ impl<'a> Lines<'a> {
     }
 
     /// Goes to the next line with data; false at the end of the file.
-    pub(super) fn advance(&mut self) -> Result<bool> {
+    fn advance(&mut self) -> Result<bool> {
         while self.next_line()? {
             let text = self.bytes.trim_ascii();
             if !text.is_empty() && !is_comment(text) {
@@ -127,20 +215,16 @@ impl<'a> Lines<'a> {
         String::from_utf8_lossy(text.trim_ascii())
     }
 
-    pub(super) fn format_error(&self, expected: &'static str) -> Error {
+    fn format_error(&self, expected: &'static str) -> Error {
         let found = match self.bytes.trim_ascii() {
             b"" => "end of file".to_owned(),
             text => excerpt(text),
         };
-        let (path, line) = (self.path(), self.line);
-        match self.content {
-            Content::Load => Error::LoadFormat { path, line, found, expected },
-            Content::Quantities => Error::QuantityFormat { path, line, found, expected },
-        }
+        self.content.format_error(self.path(), self.line, (found, expected))
     }
 
     /// `row column value` with indices up to `sizes`, which are returned from zero.
-    pub(super) fn entry(&self, sizes: [u64; 2]) -> Result<(u64, u64, f64)> {
+    fn entry(&self, sizes: [u64; 2]) -> Result<(u64, u64, f64)> {
         let row = self.index(0, "row", sizes[0])?;
         let column = self.index(1, "column", sizes[1])?;
         Ok((row, column, self.value([row, column], 2)?))
@@ -169,7 +253,7 @@ impl<'a> Lines<'a> {
     }
 
     /// The number in the last field of the line, the entry at a place.
-    pub(super) fn value(&self, [row, column]: [u64; 2], at: usize) -> Result<f64> {
+    fn value(&self, [row, column]: [u64; 2], at: usize) -> Result<f64> {
         let (path, line, text) = (self.path(), self.line, self.field(at));
         if !self.field(at + 1).is_empty() {
             return Err(Error::EntryExcess { path, line, found: excerpt(self.field(at + 1)) });

@@ -47,7 +47,9 @@ impl Job {
         let files = [Some(&model.stiffness), Some(&model.mass), model.dofs.as_ref(), model.nodes.as_ref()];
         let of_loads = self.loads.iter().map(|load| load.file.as_ref());
         let of_quantities = self.write.quantities.iter().flat_map(|rows| [Some(&rows.matrix), Some(&rows.names)]);
-        files.into_iter().chain(of_loads).chain(of_quantities).flatten().all(|path| is_there(&folder.join(path)))
+        let modes = self.reduction.modes_file().is_none_or(|path| is_there(&folder.join(path)));
+        let mut named = files.into_iter().chain(of_loads).chain(of_quantities).flatten();
+        modes && named.all(|path| is_there(&folder.join(path)))
     }
 }
 

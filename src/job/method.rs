@@ -16,6 +16,19 @@ pub enum Method {
     Rubin,
     /// Constraint modes alone: exact in statics, without modes.
     Guyan,
+    /// Constraint modes and the mode-accelerated modes of a file, measured or any others.
+    ModeAcceleration,
+}
+
+/// Where the modes of a method come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ModeOrigin {
+    /// They are computed here.
+    Computed,
+    /// A file of the job has them.
+    File,
+    /// The method has none.
+    None,
 }
 
 /// The boundary condition modes are computed under.
@@ -35,6 +48,7 @@ impl Method {
             Self::Herting => supel_runtime::Method::Herting,
             Self::Rubin => supel_runtime::Method::Rubin,
             Self::Guyan => supel_runtime::Method::Guyan,
+            Self::ModeAcceleration => supel_runtime::Method::ModeAcceleration,
         }
     }
 
@@ -53,17 +67,21 @@ impl Method {
         Self::value_variants().iter().copied().find(|known| known.in_file() == method)
     }
 
-    /// The boundary whose modes it keeps.
+    /// The boundary whose modes it keeps. Modes of a file may have any; none is computed next to them, with the interface held.
     pub fn boundary(self) -> Boundary {
         match self {
-            Self::CraigBampton | Self::Guyan => Boundary::FixedInterface,
+            Self::CraigBampton | Self::Guyan | Self::ModeAcceleration => Boundary::FixedInterface,
             Self::Herting | Self::Rubin => Boundary::FreeInterface,
         }
     }
 
-    /// Whether it keeps any modes.
-    pub fn has_modes(self) -> bool {
-        self != Self::Guyan
+    /// Where its modes come from.
+    pub fn modes(self) -> ModeOrigin {
+        match self {
+            Self::CraigBampton | Self::Herting | Self::Rubin => ModeOrigin::Computed,
+            Self::ModeAcceleration => ModeOrigin::File,
+            Self::Guyan => ModeOrigin::None,
+        }
     }
 
     /// Whether inertia-relief modes are part of it; of other methods the job may ask for them.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::location::Holder;
-use super::types::Job;
+use super::types::{Certify, Job, ModesJob};
 use super::{document, validation};
 use crate::error::{Error, Result};
 
@@ -51,6 +51,14 @@ impl Job {
         self.fixed.iter().enumerate().map(|(index, fixed)| fixed.assumption(index)).collect()
     }
 
+    /// How completeness of the computed modes is certified: not at all where a file has the modes, which may leave out any others.
+    pub fn certified(&self) -> Certify {
+        match self.reduction.modes_file() {
+            Some(_) => Certify::None,
+            None => self.run.certify,
+        }
+    }
+
     /// This job with paths relative to `folder` made absolute, their folders without `..` and links: the superelement keeps the way
     /// from its own folder to the inputs, which is counted in names of folders.
     ///
@@ -75,11 +83,16 @@ impl Job {
         let (model, write) = (&mut self.model, &mut self.write);
         let quantities = write.quantities.as_mut().map(|quantities| (&mut quantities.matrix, &mut quantities.names));
         let (matrix, names) = quantities.unzip();
+        let modes = match &mut self.reduction.modes {
+            Some(ModesJob::File { file }) => Some(file),
+            Some(ModesJob::Computed(_)) | None => None,
+        };
         let paths = [
             ("model.stiffness", Some(&mut model.stiffness)),
             ("model.mass", Some(&mut model.mass)),
             ("model.dofs", model.dofs.as_mut()),
             ("model.nodes", model.nodes.as_mut()),
+            ("reduction.modes.file", modes),
             ("write.quantities.matrix", matrix),
             ("write.quantities.names", names),
             ("write.superelement", Some(&mut write.superelement)),

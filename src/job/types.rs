@@ -9,7 +9,7 @@ use crate::sparse::Triangle;
 use clap::ValueEnum;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::fixed::FixedJob;
 use super::interface::InterfaceJob;
@@ -151,13 +151,18 @@ pub struct Expectation {
     "if" = { "properties": { "method": { "const": "guyan" } } },
     "then" = { "not": { "required": ["modes"] } },
     "else" = { "required": ["modes"] },
+    "allOf" = [{
+        "if": { "properties": { "method": { "const": "mode-acceleration" } } },
+        "then": { "properties": { "modes": { "required": ["file"] } } },
+        "else": { "properties": { "modes": { "not": { "required": ["file"] } } } },
+    }],
 ))]
 pub struct ReductionJob {
     /// The method.
     pub method: Method,
-    /// How many elastic modes; Guyan's method keeps none, every other one needs it.
+    /// How many elastic modes, or the file that has them with mode acceleration; Guyan's method keeps none, every other one needs it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub modes: Option<ModeSelection>,
+    pub modes: Option<ModesJob>,
     /// Whether inertia-relief modes join the basis: the answers to unit accelerations of the free component, which the methods of free
     /// modes have anyway.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -171,18 +176,46 @@ pub struct ReductionJob {
 impl ReductionJob {
     /// A method with its modes, found by Lanczos.
     pub fn new(method: Method, modes: ModeSelection) -> Self {
-        Self { method, modes: Some(modes), inertia_relief: false, eigensolver: Eigensolver::default() }
+        Self { method, modes: Some(modes.into()), inertia_relief: false, eigensolver: Eigensolver::default() }
     }
 
-    /// The modes that are kept: none, where the method has none.
+    /// The modes that are computed: none, where the method has none or a file has them.
     pub fn wanted(&self) -> ModeSelection {
-        self.modes.unwrap_or(ModeSelection::Count { count: 0 })
+        match self.modes {
+            Some(ModesJob::Computed(selection)) => selection,
+            Some(ModesJob::File { .. }) | None => ModeSelection::Count { count: 0 },
+        }
+    }
+
+    /// The file of the modes, where one has them.
+    pub fn modes_file(&self) -> Option<&Path> {
+        match &self.modes {
+            Some(ModesJob::File { file }) => Some(file),
+            Some(ModesJob::Computed(_)) | None => None,
+        }
     }
 
     /// Whether inertia-relief modes are part of the basis.
     pub fn has_inertia_relief(&self) -> bool {
         self.inertia_relief || self.method.has_inertia_relief()
     }
+}
+
+/// The modes of a reduction.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+#[schemars(deny_unknown_fields)]
+pub enum ModesJob {
+    /// They are computed.
+    Computed(ModeSelection),
+    /// `{ file = "modes.mtx" }`: a file has them.
+    File {
+        /// Matrix Market, NumPy (`.npy`), or a dataset in an HDF5 file as in `model.h5:/V`: a mode in each column, a value for every row of
+        /// the matrices. Frequencies are not needed.
+        #[schemars(length(min = 1))]
+        #[schemars(extend("x-role" = "place-of-one"))]
+        file: PathBuf,
+    },
 }
 
 /// How many elastic modes are kept.
@@ -203,8 +236,14 @@ pub enum ModeSelection {
     },
 }
 
+impl From<ModeSelection> for ModesJob {
+    fn from(selection: ModeSelection) -> Self {
+        Self::Computed(selection)
+    }
+}
+
 // A derived untagged enum would answer every mistake with "did not match any variant".
-impl<'de> Deserialize<'de> for ModeSelection {
+impl<'de> Deserialize<'de> for ModesJob {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
         ModeTable::deserialize(deserializer)?.try_into().map_err(serde::de::Error::custom)
     }
@@ -217,16 +256,20 @@ struct ModeTable {
     #[serde(default, deserialize_with = "super::whole::size")]
     count: Option<usize>,
     up_to_hz: Option<f64>,
+    file: Option<PathBuf>,
 }
 
-impl TryFrom<ModeTable> for ModeSelection {
+impl TryFrom<ModeTable> for ModesJob {
     type Error = &'static str;
 
     fn try_from(table: ModeTable) -> std::result::Result<Self, Self::Error> {
         match table {
-            ModeTable { count: Some(count), up_to_hz: None } => Ok(Self::Count { count }),
-            ModeTable { count: None, up_to_hz: Some(up_to_hz) } => Ok(Self::UpTo { up_to_hz }),
-            _ => Err("expected exactly one of `count` and `up_to_hz`"),
+            ModeTable { count: Some(count), up_to_hz: None, file: None } => Ok(ModeSelection::Count { count }.into()),
+            ModeTable { count: None, up_to_hz: Some(up_to_hz), file: None } => {
+                Ok(ModeSelection::UpTo { up_to_hz }.into())
+            }
+            ModeTable { count: None, up_to_hz: None, file: Some(file) } => Ok(Self::File { file }),
+            _ => Err("expected exactly one of `count`, `up_to_hz` and `file`"),
         }
     }
 }

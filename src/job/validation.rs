@@ -4,10 +4,11 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::interface::{Coupling, InterfaceJob, Origin, Weights};
+use super::method::ModeOrigin;
 use super::node_selection::NodeSelection;
 use super::ranges::{self, positive, size};
 use super::selection;
-use super::types::{Job, ModeSelection, ReductionJob};
+use super::types::{Job, ModeSelection, ModesJob, ReductionJob};
 use crate::dofs::Direction;
 use crate::error::{Error, Result, Selector};
 
@@ -37,16 +38,23 @@ pub(super) fn validate(job: &Job) -> Result<()> {
 
 fn reduction(job: &ReductionJob) -> Result<()> {
     let method = job.method.key();
-    match job.modes {
-        None if job.method.has_modes() => Err(Error::JobModes {
-            found: "missing",
-            expected: format!("expected how many modes {method} keeps: {{ count = 40 }} or {{ up_to_hz = 1000 }}"),
-        }),
-        Some(_) if !job.method.has_modes() => Err(Error::JobModes {
-            found: "given",
-            expected: format!("{method} keeps no modes: remove the key or use craig-bampton"),
-        }),
-        Some(ModeSelection::UpTo { up_to_hz }) => size("reduction.modes.up_to_hz", up_to_hz),
+    let computed = format!("expected how many modes {method} keeps: {{ count = 40 }} or {{ up_to_hz = 1000 }}");
+    let of_file = format!("expected the file of the modes that {method} takes: {{ file = \"modes.mtx\" }}");
+    let refuse = |found, expected| Err(Error::JobModes { found, expected });
+    match (job.method.modes(), &job.modes) {
+        (ModeOrigin::Computed, None) => refuse("missing", computed),
+        (ModeOrigin::Computed, Some(ModesJob::File { .. })) => refuse("a file", computed),
+        (ModeOrigin::File, None) => refuse("missing", of_file),
+        (ModeOrigin::File, Some(ModesJob::Computed(_))) => refuse("without a file", of_file),
+        (ModeOrigin::None, Some(_)) => {
+            refuse("given", format!("{method} keeps no modes: remove the key or use craig-bampton"))
+        }
+        (ModeOrigin::File, Some(ModesJob::File { file })) if file.as_os_str().is_empty() => {
+            Err(Error::JobEmpty { key: "reduction.modes.file".to_owned(), expected: "the name of a file" })
+        }
+        (ModeOrigin::Computed, Some(ModesJob::Computed(ModeSelection::UpTo { up_to_hz }))) => {
+            size("reduction.modes.up_to_hz", *up_to_hz)
+        }
         _ => Ok(()),
     }
 }

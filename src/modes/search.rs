@@ -38,9 +38,12 @@ impl<'a> Search<'a> {
     /// Prepares the search: looks at the signs of the spectrum and counts the modes of a band.
     ///
     /// # Errors
-    /// The stiffness has negative eigenvalues; no memory for the count.
+    /// The stiffness has negative eigenvalues; no memory for the count; [`Error::ModesUnheld`].
     pub fn new(component: Component<'a>, job: &ReductionJob) -> Result<Self> {
         indefinite::refuse(component)?;
+        if component.is_modal() && component.partition.expansion.count() > 0 {
+            return Err(Error::ModesUnheld);
+        }
         let boundary = if component.is_modal() { Boundary::FreeInterface } else { job.method.boundary() };
         let problem = BoundaryProblem { component, boundary };
         let wanted = mode_wish(job.wanted(), component.partition);

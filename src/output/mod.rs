@@ -4,6 +4,7 @@
 //! that named modes are mass-normalised in the user's units.
 
 mod both;
+mod expansion;
 mod recovery;
 mod report;
 mod results;

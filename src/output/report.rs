@@ -1,7 +1,7 @@
 //! The body of the report from the results of the stages.
 
 use super::results::Results;
-use super::{rigid_body, soft_rotation, warnings};
+use super::{expansion, rigid_body, soft_rotation, warnings};
 use crate::basis::DynamicCoordinate;
 use crate::eigen::CLUSTER_GAP;
 use crate::error::Warning;
@@ -91,14 +91,17 @@ fn reduction(results: &Results<'_>) -> ReductionReport {
     let n_rigid_body = basis.coordinates.iter().filter(is_rigid).count();
     let is_residual = |c: &&DynamicCoordinate| matches!(c, DynamicCoordinate::ResidualVector(_));
     let n_residual_vectors = basis.coordinates.iter().filter(is_residual).count();
+    let is_expansion = |c: &&DynamicCoordinate| matches!(c, DynamicCoordinate::Expansion(_));
+    let n_expansion_modes = basis.coordinates.iter().filter(is_expansion).count();
     ReductionReport {
         method: results.job.reduction.method,
         eigensolver: results.job.reduction.eigensolver,
         interfaces: interfaces(results),
         n_interface: evidence.partition.n_interface(),
         n_inertia_relief,
-        n_modes: basis.n_dynamic() - n_inertia_relief - n_rigid_body - n_residual_vectors,
+        n_modes: basis.n_dynamic() - n_inertia_relief - n_rigid_body - n_expansion_modes - n_residual_vectors,
         n_reduced: basis.n_reduced(),
+        expansion: expansion::report(results),
         loads: loads(results),
         dropped: basis
             .dropped
@@ -110,6 +113,7 @@ fn reduction(results: &Results<'_>) -> ReductionReport {
                     DynamicCoordinate::FreeFree(mode) | DynamicCoordinate::FixedInterface(mode) => {
                         format!("mode {}", mode + 1)
                     }
+                    DynamicCoordinate::Expansion(mode) => format!("expansion mode {}", mode + 1),
                     DynamicCoordinate::ResidualVector(load) => {
                         format!("residual vector of {}", evidence.partition.loads.facts[load].name)
                     }
@@ -275,6 +279,7 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
     warnings.extend(warnings::mixed_precision(results));
     warnings.extend(rigid_body::expectation_unchecked(results));
     warnings.extend(number_of_modes(results));
+    warnings.extend(expansion::not_followed(results));
     if let Some(certificate) = evidence.certificate.filter(|certificate| certificate.doubt() > 1.0) {
         warnings.push(Warning {
             code: "W-COUNT-LIKELY",
@@ -354,7 +359,12 @@ fn trust_intervals(results: &Results<'_>) -> Vec<TrustInterval> {
 }
 
 fn completeness(results: &Results<'_>) -> Completeness {
+    let of_file = results.evidence.partition.expansion.count() > 0;
     match (results.evidence.certificate, results.job.run.certify) {
+        (None, _) if of_file => Completeness::NotCertified {
+            reason: "they come from a file, which may leave out any others; a count knows computed modes only"
+                .to_owned(),
+        },
         (Some(certificate), _) => Completeness::SturmCount {
             below_hz: results.evidence.partition.scaling.hertz(certificate.count.sigma),
             n_counted: certificate.n_counted,

@@ -10,7 +10,7 @@ use super::recovery::{quantities, recovery};
 use super::results::Results;
 use crate::basis::DynamicCoordinate;
 use crate::error::{Error, Result, json_value};
-use crate::job::{Job, ModeSelection};
+use crate::job::{Job, ModeSelection, ModesJob};
 use crate::partition::DofOrigin;
 use crate::verification::check::{Check, Verdict};
 
@@ -100,11 +100,12 @@ fn mixing(results: &Results<'_>) -> Option<Mat<f64>> {
     let scaling = evidence.partition.scaling;
     let mixing = evidence.basis.mixing_of_kept();
     // A named shape is mass-normalised in the user's units like the stored ones; an inertia-relief mode K_II⁻¹(MU)_I
-    // carries the unit of M over that of K, a residual vector that of its load over that of K.
+    // carries the unit of M over that of K, and so does an expansion mode; a residual vector that of its load over that of K.
     let named_unit = |coordinate: DynamicCoordinate| match coordinate {
         DynamicCoordinate::RigidBody(_) => 1.0,
         DynamicCoordinate::InertiaRelief(_) => 1.0 / scaling.eigenvalue_unit(),
         DynamicCoordinate::FreeFree(_) | DynamicCoordinate::FixedInterface(_) => scaling.shape_unit(),
+        DynamicCoordinate::Expansion(mode) => evidence.partition.expansion.facts[mode].unit / scaling.eigenvalue_unit(),
         DynamicCoordinate::ResidualVector(load) => evidence.partition.loads.facts[load].unit / scaling.stiffness_unit(),
     };
     let unit: Vec<f64> = evidence.basis.coordinates.iter().map(|c| scaling.shape_unit() / named_unit(*c)).collect();
@@ -195,6 +196,7 @@ fn dynamic_coordinate(results: &Results<'_>, tensors: &Tensors, coordinate: Dyna
     match coordinate {
         DynamicCoordinate::RigidBody(index) => Coordinate::RigidBodyMode { index },
         DynamicCoordinate::InertiaRelief(index) => Coordinate::InertiaRelief { index },
+        DynamicCoordinate::Expansion(column) => Coordinate::ExpansionMode { column },
         DynamicCoordinate::ResidualVector(load) => Coordinate::ResidualVector { load },
         DynamicCoordinate::FreeFree(mode) => {
             Coordinate::ElasticMode { mode, frequency_hz: frequency(mode), error_bar_hz: bar(mode) }
@@ -224,6 +226,9 @@ fn job_document(job: &Job) -> Result<serde_json::Value> {
     job.model.dofs.as_mut().map(relative);
     job.model.nodes.as_mut().map(relative);
     job.loads.iter_mut().filter_map(|load| load.file.as_mut()).for_each(relative);
+    if let Some(ModesJob::File { file }) = &mut job.reduction.modes {
+        relative(file);
+    }
     if let Some(quantities) = &mut job.write.quantities {
         relative(&mut quantities.matrix);
         relative(&mut quantities.names);

@@ -13,6 +13,7 @@ mod average_patch;
 mod congruence;
 mod direct_nodes;
 mod distortions;
+mod expansion;
 mod faces;
 mod fitted;
 mod gravity;
@@ -39,6 +40,7 @@ mod sites;
 mod transformation;
 mod transformation_row;
 
+pub use expansion::{Expansion, ExpansionFacts, RowModes, expansion_modes};
 pub use faces::with_faces;
 pub use fitted::Fit;
 pub use gravity::Gravity;

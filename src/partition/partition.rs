@@ -13,6 +13,7 @@ use crate::sparse::Pencil;
 use crate::sparse::Precision;
 use crate::sparse::{Leading, SparseMatrix};
 
+use super::expansion::Expansion;
 use super::gravity::Gravity;
 use super::held::Held;
 use super::interface::RecoveredRows;
@@ -48,6 +49,8 @@ pub struct Partition {
     pub gravity: Option<Gravity>,
     /// Loads that the superelement carries by name; none unless the caller adds them.
     pub loads: Loads,
+    /// Expansion modes of a file; none unless the caller adds them.
+    pub expansion: Expansion,
     /// Rows of the model whose displacements the superelement recovers; none unless the caller adds them.
     pub recovered: RecoveredRows,
     /// Quantities that the superelement gives; none unless the caller adds them.
@@ -135,6 +138,7 @@ impl Partition {
             held,
             gravity,
             loads: Loads::none(n_internal + n_interface),
+            expansion: Expansion::none(n_internal + n_interface),
             recovered: RecoveredRows::default(),
             quantities: Quantities::default(),
             scaling: model.scaling,

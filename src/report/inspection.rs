@@ -134,6 +134,7 @@ fn column(column: &Coordinate, load_names: &[String]) -> String {
         Coordinate::InterfaceRow { row } => format!("row {row}"),
         Coordinate::RigidBodyMode { index } => format!("rigid-body mode {}", index + 1),
         Coordinate::InertiaRelief { index } => format!("inertia relief {}", index + 1),
+        Coordinate::ExpansionMode { column } => format!("expansion mode {}", column + 1),
         Coordinate::ResidualVector { load } => {
             format!("residual vector of {}", load_names.get(*load).map_or("no load", String::as_str))
         }

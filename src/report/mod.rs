@@ -5,6 +5,7 @@
 
 mod assembly;
 mod conclusion;
+mod expansion;
 mod html;
 mod inspection;
 mod json;
@@ -13,6 +14,7 @@ mod load;
 pub(crate) mod mode_table;
 pub(crate) mod page;
 mod printable;
+mod reduction;
 mod rigid_body;
 mod stages;
 pub(crate) mod summary;
@@ -28,14 +30,14 @@ use serde::Serialize;
 
 use crate::error::Warning;
 use crate::input::Digits;
-use crate::job::{Coupling, Eigensolver, Method};
 use crate::number;
-use crate::partition::{Fit, HeldSelection};
+use crate::partition::HeldSelection;
 use crate::rigid::RigidSource;
 use crate::verification::check::{Check, Verdict};
 use crate::verification::preservation::Preservation;
 
 pub use assembly::ModesReport;
+pub use expansion::{ExpansionReport, ExpansionRow};
 pub use html::{escaped, html};
 pub use inspection::inspection;
 pub use junit::{JunitWarnings, junit};
@@ -43,6 +45,10 @@ pub use load::{LoadReport, ResidualVector};
 pub use page::Paint;
 use printable::json_text;
 pub(crate) use printable::{printable, value_text};
+pub use reduction::{
+    DroppedCoordinate, FacesReport, InterfacePosition, InterfaceReport, ModeKind, ModeRow, PositionOrigin,
+    ReductionReport,
+};
 pub use rigid_body::{EffectiveMass, Grounding, MassRoute, RigidBodyEvidence};
 pub use stages::{Observer, StageClock, StageTime};
 pub use summary::summary;
@@ -165,143 +171,6 @@ pub struct RigidBodyModes {
     pub count: usize,
     /// From coordinates or from K.
     pub source: RigidSource,
-}
-
-/// The reduction and its modes.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ReductionReport {
-    /// The method.
-    pub method: Method,
-    /// The eigensolver.
-    pub eigensolver: Eigensolver,
-    /// Interface nodes in the order of the reduced coordinates.
-    pub interfaces: Vec<InterfaceReport>,
-    /// Interface degrees of freedom n_B.
-    pub n_interface: usize,
-    /// Inertia-relief modes kept.
-    pub n_inertia_relief: usize,
-    /// Elastic modes kept.
-    pub n_modes: usize,
-    /// Order of the reduced matrices.
-    pub n_reduced: usize,
-    /// Loads that the superelement carries by name; absent where there are none.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub loads: Vec<LoadReport>,
-    /// Coordinates that were left out because others span them.
-    pub dropped: Vec<DroppedCoordinate>,
-    /// The elastic modes in ascending order.
-    pub modes: Vec<ModeRow>,
-}
-
-impl ReductionReport {
-    /// Residual vectors kept.
-    pub fn n_residual_vectors(&self) -> usize {
-        self.loads.iter().filter(|load| load.residual_vector == ResidualVector::Kept).count()
-    }
-
-    /// Coordinates that are none of the interface, of inertia relief, of an elastic mode or of a load: rigid-body motions of a
-    /// component without an interface to carry them.
-    pub fn n_rigid_body(&self) -> usize {
-        let others = self.n_interface + self.n_inertia_relief + self.n_modes + self.n_residual_vectors();
-        self.n_reduced.saturating_sub(others)
-    }
-}
-
-/// One interface of the superelement.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct InterfaceReport {
-    /// Its name in the job.
-    pub name: String,
-    /// How the nodes couple.
-    pub coupling: Coupling,
-    /// Nodes of the model that belong to it.
-    pub n_nodes: usize,
-    /// Degrees of freedom of it.
-    pub n_dofs: usize,
-    /// Its nodes in the superelement; none where coordinates are unknown.
-    pub at: Vec<InterfacePosition>,
-}
-
-/// Where a node of an interface is, in the units of the model.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct InterfacePosition {
-    /// Label of the node of the model, where it is one.
-    pub node: Option<i64>,
-    /// Its place.
-    pub position: [f64; 3],
-    /// Where that comes from.
-    pub origin: PositionOrigin,
-    /// The faces of a patch whose place is the mean of its nodes, where the mesh has faces.
-    pub faces: Option<FacesReport>,
-    /// Why these faces are not known although the mesh has cells.
-    pub faces_unknown: Option<String>,
-    /// The cylinder or the sphere whose axis or centre it is.
-    pub fit: Option<Fit>,
-}
-
-/// The faces all of whose nodes belong to a patch.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct FacesReport {
-    /// How many.
-    pub count: usize,
-    /// Their area-weighted centroid, in the units of the model.
-    pub centroid: [f64; 3],
-    /// From the place of the interface node to that centroid.
-    pub distance: f64,
-}
-
-/// Where the place of an interface node comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum PositionOrigin {
-    /// It is a node of the model.
-    Node,
-    /// The mean of the nodes of a patch, each counted once: no centroid of its faces.
-    MeanOfNodes,
-    /// The area-weighted centroid of the faces of a patch.
-    CentroidOfFaces,
-    /// The axis of a cylinder fitted to the nodes of a patch, in the middle of their extent.
-    Hole,
-    /// The centre of a sphere fitted to the nodes of a patch.
-    Sphere,
-    /// The job says it.
-    Job,
-}
-
-/// A coordinate that was left out.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct DroppedCoordinate {
-    /// What it was: `mode 7`, `inertia relief 2`.
-    pub coordinate: String,
-    /// Why, with the number that decided.
-    pub reason: String,
-}
-
-/// One elastic mode.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct ModeRow {
-    /// Number of the mode, from one.
-    pub index: usize,
-    /// Natural frequency.
-    pub frequency_hz: f64,
-    /// The true frequency lies within plus or minus this.
-    pub error_bar_hz: f64,
-    /// Backward error of the eigenpair (M-01).
-    pub backward_error: f64,
-    /// Under which boundary the mode was computed.
-    pub kind: ModeKind,
-    /// An interval that is proved to hold an eigenvalue, where `--certify full` asked for it.
-    pub enclosure_hz: Option<[f64; 2]>,
-}
-
-/// Under which boundary a mode was computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum ModeKind {
-    /// Interface free: elastic modes of the component as it is.
-    FreeInterface,
-    /// Interface held: fixed-interface normal modes.
-    FixedInterface,
 }
 
 /// Whether every mode of the band is known to have been found.

@@ -1,8 +1,8 @@
 //! The words and figures that the summary and the page have in common.
 
 use super::{
-    FacesReport, InterfacePosition, InterfaceReport, LoadReport, ModeKind, ModelReport, PositionOrigin,
-    ReductionReport, ResidualVector,
+    ExpansionReport, FacesReport, InterfacePosition, InterfaceReport, LoadReport, ModeKind, ModelReport,
+    PositionOrigin, ReductionReport, ResidualVector,
 };
 use crate::job::Eigensolver;
 use crate::number::{self, counted};
@@ -54,12 +54,35 @@ pub(super) fn coordinates(reduction: &ReductionReport) -> Vec<String> {
             parts.push(format!("{} {what}", number::count(n as u64)));
         }
     }
-    parts.push(counted(reduction.n_modes, "elastic mode", "elastic modes"));
+    parts.push(match &reduction.expansion {
+        Some(expansion) => counted(expansion.n_kept(), "expansion mode", "expansion modes"),
+        None => counted(reduction.n_modes, "elastic mode", "elastic modes"),
+    });
     let n_residual_vectors = reduction.n_residual_vectors();
     if n_residual_vectors > 0 {
         parts.push(counted(n_residual_vectors, "residual vector", "residual vectors"));
     }
     parts
+}
+
+/// The modes of a file: how many, what the reduced model makes of them, and what of them nothing follows.
+pub(super) fn expansion(expansion: &ExpansionReport) -> Vec<String> {
+    /// Less than this is rounding of coordinates and of the file.
+    const SHOWN: f64 = 1e-6;
+    let mut lines = vec![counted(expansion.modes.len(), "mode of a file", "modes of a file")];
+    if let (Some(first), Some(last)) = (expansion.reduced_hz.first(), expansion.reduced_hz.last()) {
+        lines[0] += &format!(
+            " · reduced model with its interface free: {} Hz to {} Hz, upper bounds of the full one's",
+            number::quantity(*first, 6),
+            number::quantity(*last, 6)
+        );
+    }
+    let lost = expansion.modes.iter().filter(|mode| mode.not_followed > SHOWN);
+    lines.extend(lost.map(|mode| {
+        let share = number::scientific(mode.not_followed, 2);
+        format!("mode {}: held dofs and rigid patches cannot follow {share} of it", mode.index)
+    }));
+    lines
 }
 
 /// The loads by name: what each is, its total force, and how much of its static answer the reduced model lacks.

@@ -70,6 +70,7 @@ pub(super) fn coordinate_name(evidence: &Evidence<'_>, coordinate: usize) -> Str
         Some(Some(DynamicCoordinate::FreeFree(mode) | DynamicCoordinate::FixedInterface(mode))) => {
             format!("mode {}", mode + 1)
         }
+        Some(Some(DynamicCoordinate::Expansion(mode))) => format!("expansion mode {}", mode + 1),
         Some(Some(DynamicCoordinate::ResidualVector(load))) => {
             format!("residual vector of {}", evidence.partition.loads.facts[load].name)
         }

@@ -20,6 +20,8 @@ pub struct Findings {
     pub rigid_body: RigidBody,
     /// The first elastic eigenvalue, where one is known.
     pub first_elastic: Option<f64>,
+    /// λ of the reduced model with its interface free, ascending, without its zero modes.
+    pub elastic: Vec<f64>,
     /// What the basis lacks of the static answer to each load of the job, where that is known.
     pub load_lacking: Option<Vec<f64>>,
 }
@@ -91,5 +93,11 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     checks.push(reduced::definiteness(evidence, &spectrum));
     let load_lacking = named_loads::lacking(evidence);
     checks.extend(named_loads::checks(evidence, load_lacking.as_deref(), condition));
-    Ok(Findings { checks, rigid_body, first_elastic: spectrum.first_elastic(), load_lacking })
+    Ok(Findings {
+        checks,
+        rigid_body,
+        first_elastic: spectrum.first_elastic(),
+        elastic: spectrum.elastic().to_vec(),
+        load_lacking,
+    })
 }

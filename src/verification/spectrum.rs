@@ -126,6 +126,11 @@ impl Spectrum {
         &self.free[..self.zero_shapes.ncols()]
     }
 
+    /// All other eigenvalues.
+    pub(super) fn elastic(&self) -> &[f64] {
+        &self.free[self.zero_shapes.ncols()..]
+    }
+
     /// The scale of the first elastic eigenvalue.
     pub(super) fn first_elastic(&self) -> Option<f64> {
         self.scale(self.n_soft)

@@ -56,6 +56,10 @@ fn jobs() -> Vec<Value> {
             json!("group:SKIN"),
         ),
     ];
+    let hub = json!([{ "name": "hub", "nodes": "group:HUB" }]);
+    let mut of_file = job(hub, json!({ "file": "V.mtx" }), json!([4, 6]));
+    of_file["reduction"]["method"] = "mode-acceleration".into();
+    jobs.push(of_file);
     jobs.extend(regions.map(|region| {
         let hub = json!([{ "name": "hub", "nodes": { "within": region }, "coupling": "rigid", "origin": [0.25, 1.25, 2.25] }]);
         job(hub, json!({ "count": 5 }), json!({ "within": { "sphere": { "center": [0.25, 1.25, 2.25], "radius": 0.25 } } }))

@@ -107,7 +107,7 @@ fn every_key_of_a_toml_job_is_read() {
     let rim = Region::Cylinder { from: [0.0; 3], to: [0.0, 0.0, 1.0], radius: 5.0, inner_radius: 0.0 };
     assert_eq!(job.interfaces[2].nodes, NodeSelection::Region { within: rim });
     assert_eq!(job.reduction.method, Method::Herting);
-    assert_eq!(job.reduction.modes, Some(ModeSelection::UpTo { up_to_hz: 1000.0 }));
+    assert_eq!(job.reduction.modes, Some(ModeSelection::UpTo { up_to_hz: 1000.0 }.into()));
     assert_eq!(job.run.memory_gib, Some(4.0));
     let recovery = job.write.recovery.expect("a recovery");
     assert_eq!((recovery.nodes.group_name(), recovery.precision), (Some("SKIN"), Precision::Single));
@@ -182,10 +182,10 @@ fn values_of_the_wrong_kind_are_located() {
     };
     let at_28 = |to: &str| wrong("{ up_to_hz = 1000 }", to);
     insta::assert_snapshot!(wrong("mass      = \"model.h5:/M\"", ""), @"job.toml:2: `model.mass` is missing");
-    insta::assert_snapshot!(wrong("\"herting\"", "\"hurting\""), @r#"job.toml:27: `reduction.method` is "hurting" – expected "craig-bampton", "herting", "rubin" or "guyan""#);
-    insta::assert_snapshot!(at_28("{ up_to_hz = 1000, count = 4 }"), @"job.toml:28: `reduction.modes` has `count` and `up_to_hz` – expected exactly one of `count` and `up_to_hz`");
-    insta::assert_snapshot!(at_28("{ }"), @"job.toml:28: `reduction.modes` is empty – expected exactly one of `count` and `up_to_hz`");
-    insta::assert_snapshot!(at_28("3"), @"job.toml:28: `reduction.modes` is 3 – expected a table with keys of count, up_to_hz");
+    insta::assert_snapshot!(wrong("\"herting\"", "\"hurting\""), @r#"job.toml:27: `reduction.method` is "hurting" – expected "craig-bampton", "herting", "rubin", "guyan" or "mode-acceleration""#);
+    insta::assert_snapshot!(at_28("{ up_to_hz = 1000, count = 4 }"), @"job.toml:28: `reduction.modes` has `count` and `up_to_hz` – expected exactly one of `count`, `up_to_hz` and `file`");
+    insta::assert_snapshot!(at_28("{ }"), @"job.toml:28: `reduction.modes` is empty – expected exactly one of `count`, `up_to_hz` and `file`");
+    insta::assert_snapshot!(at_28("3"), @"job.toml:28: `reduction.modes` is 3 – expected a table with keys of count, file, up_to_hz");
     insta::assert_snapshot!(at_28("{ count = 3.5 }"), @"job.toml:28: `reduction.modes.count` is 3.5 – expected a whole number, zero or more");
     insta::assert_snapshot!(at_28("{ count = -4 }"), @"job.toml:28: `reduction.modes.count` is -4 – expected a whole number, zero or more");
     insta::assert_snapshot!(at_28("{ count = 99999999999999999999 }"), @"job.toml:28: `reduction.modes.count` is 99999999999999999999 – expected a whole number, zero or more");
@@ -201,7 +201,7 @@ fn values_of_the_wrong_kind_are_located() {
     insta::assert_snapshot!(wrong("{ ratio = 0.02 }", "0.02"), @"job.toml:34: `scene.damping` is 0.02 – expected a table with keys of ratio");
     insta::assert_snapshot!(wrong("[0, 500]", "[0]"), @"job.toml:32: `scene.band_hz` is a list of 1 – expected a list of 2");
     insta::assert_snapshot!(wrong("[write]", "[write"), @"job.toml:40: this is no TOML: unclosed table, expected `]`");
-    insta::assert_snapshot!(at_28("[3, 4]"), @"job.toml:28: `reduction.modes` is a list – expected a table with keys of count, up_to_hz");
+    insta::assert_snapshot!(at_28("[3, 4]"), @"job.toml:28: `reduction.modes` is a list – expected a table with keys of count, file, up_to_hz");
     insta::assert_snapshot!(wrong("12.5]", "12.5, 0]"), @r#"job.toml:14: `interface[0].origin` is a list of 4 – expected "centroid", "area", "hole", "sphere" or a list of 3"#);
     insta::assert_snapshot!(wrong("\"none\"", "{ none = {} }"), @r#"job.toml:37: `run.certify` is a table – expected "none", "count" or "full""#);
     insta::assert_snapshot!(message(&with("/model/dofs", Value::Null)), @"job.json: `model.dofs` is null – expected a value, or the key left out");
@@ -217,7 +217,7 @@ fn values_of_the_wrong_kind_are_located() {
 fn whole_numbers_may_be_written_with_a_point() {
     let with_point = FULL.replace("up_to_hz = 1000", "count = 3.0").replace("[412, 413]", "[412.0, 4.13e2]");
     let job = Job::parse(&with_point, Path::new("job.toml")).expect("a job");
-    assert_eq!(job.reduction.modes, Some(ModeSelection::Count { count: 3 }));
+    assert_eq!(job.reduction.modes, Some(ModeSelection::Count { count: 3 }.into()));
     assert_eq!(job.interfaces[1].nodes, NodeSelection::Labels(vec![412, 413]));
     let rows = read(&with("/interface/0/nodes", json!({ "rows": [0.0, 2.0] }))).expect("a job");
     assert_eq!(rows.interfaces[0].nodes, NodeSelection::Rows { rows: vec![0, 2] });
@@ -581,6 +581,19 @@ fn loads() -> Vec<Value> {
     ]
 }
 
+/// The small job with modes of a file, for a method that takes them and for others.
+fn modes_of_a_file() -> Vec<Value> {
+    let method = |modes: Value| with("/reduction", json!({ "method": "mode-acceleration", "modes": modes }));
+    vec![
+        method(json!({ "file": "modes.mtx" })),
+        method(json!({ "file": "" })),
+        method(json!({ "file": "modes.mtx", "count": 3 })),
+        method(json!({ "count": 3 })),
+        with("/reduction", json!({ "method": "mode-acceleration" })),
+        with("/reduction/modes", json!({ "file": "modes.mtx" })),
+    ]
+}
+
 /// The small job with nodes to be recovered, some of them allowed and some not.
 fn recoveries() -> Vec<Value> {
     vec![
@@ -665,7 +678,8 @@ fn every_key_is_described() {
 fn schema_and_program_agree() {
     let schema = schema();
     let mut n_accepted = 0;
-    for case in changed_jobs().into_iter().chain(recoveries()).chain(fixed()).chain(loads()) {
+    let cases = changed_jobs().into_iter().chain(recoveries()).chain(fixed()).chain(loads());
+    for case in cases.chain(modes_of_a_file()) {
         let found = read(&case);
         assert_eq!(schema.is_valid(&case), found.is_ok(), "{case}: {:?}", found.err().map(|error| error.to_string()));
         n_accepted += usize::from(found.is_ok());

@@ -61,9 +61,9 @@ pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedo
     for columns in groups(&projected.named, freedom.groups) {
         let slots: Vec<usize> = (0..n_eta).filter(|slot| columns.contains(&freedom.kept[*slot])).collect();
         match projected.named[columns[0]] {
-            named @ (Named::Relief(_) | Named::Residual(_)) => {
+            named @ (Named::Relief(_) | Named::Expansion(_) | Named::Residual(_)) => {
                 let n = columns.len();
-                // The load of a residual vector leaves nothing of it free.
+                // The load of a residual vector leaves nothing of it free, nor do the inertia forces of a given mode.
                 let relief = freedom.relief.clone().filter(|_| matches!(named, Named::Relief(_)));
                 let all = relief.unwrap_or_else(|| Mat::identity(n, n));
                 let numbers: Vec<usize> = slots.iter().map(|slot| freedom.kept[*slot] - columns[0]).collect();
@@ -118,8 +118,9 @@ fn groups(named: &[Named], of_modes: &[Range<usize>]) -> Vec<Vec<usize>> {
     let relief = places(&|named| matches!(named, Named::Relief(_)));
     let modes =
         of_modes.iter().map(|group| places(&|named| matches!(named, Named::Mode(mode) if group.contains(mode))));
+    let expansion = places(&|named| matches!(named, Named::Expansion(_)));
     let residual = places(&|named| matches!(named, Named::Residual(_)));
-    [rigid, relief].into_iter().chain(modes).chain([residual]).filter(|group| !group.is_empty()).collect()
+    [rigid, relief].into_iter().chain(modes).chain([expansion, residual]).filter(|group| !group.is_empty()).collect()
 }
 
 /// What interface, gravity, rigid-body motion and recovered rows see of the columns made again, and of the named ones of the file;

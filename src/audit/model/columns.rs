@@ -3,8 +3,8 @@
 //! ```text
 //! P      n_B × p          motions of the interface: each dof, or random mixtures where there are too many
 //! Z      n' × p           [Ψ_S P; P], the interior in equilibrium, corrected so that it carries rigid-body motion (24)
-//! N      n_I × n_N        named columns: inertia relief K_II⁻¹(MU)_I (37), X_I − Ψ_S X_B (23), or the modes X_I (38), and residual
-//!                         vectors K_II⁻¹f_I
+//! N      n_I × n_N        named columns: inertia relief K_II⁻¹(MU)_I (37), X_I − Ψ_S X_B (23), or the modes X_I (38), those of a file
+//!                         K_II⁻¹(MV)_I (23), and residual vectors K_II⁻¹f_I
 //! W      n' × (p + n_N)   [Z N]
 //! ```
 //! A stored column is a combination of named ones, so that K̂ and M̂ are those of W but for that combination.
@@ -35,6 +35,8 @@ pub(super) enum Named {
     Relief(usize),
     /// An elastic mode.
     Mode(usize),
+    /// A mode-accelerated expansion mode of a file.
+    Expansion(usize),
     /// The residual vector of a load.
     Residual(usize),
 }
@@ -94,7 +96,8 @@ impl Columns {
         let relief = (0..n_relief).map(Named::Relief);
         let loads = partition.loads.facts.iter().enumerate().filter(|(_, load)| load.has_residual_vector);
         let residual = loads.map(|(load, _)| Named::Residual(load));
-        let named: Vec<Named> = relief.chain((0..n_modes).map(Named::Mode)).chain(residual).collect();
+        let expansion = (0..partition.expansion.count()).map(Named::Expansion);
+        let named: Vec<Named> = relief.chain((0..n_modes).map(Named::Mode)).chain(expansion).chain(residual).collect();
         let mut columns = Self {
             shapes: Mat::zeros(partition.n_dofs(), p + named.len()),
             energy_errors: vec![0.0; p + named.len()],
@@ -113,6 +116,7 @@ impl Columns {
         columns.residual = columns.take(0, statics);
         columns.relieve(&follower, motions.relieved);
         columns.add_turns(&follower, motions);
+        columns.answer_inertia(&follower, n_relief + n_modes);
         columns.answer_loads(&follower);
         match asked.boundary {
             Boundary::FreeInterface => columns.accelerate(&follower, (n_relief, asked)),
@@ -152,6 +156,13 @@ impl Columns {
         let momenta = product(&follower.partition.mass, relieved);
         let relief = follower.answer(momenta.as_ref().subrows(0, follower.partition.n_internal));
         self.take(self.n_probes(), relief);
+    }
+
+    /// N of the modes of a file, which begin at this named column.
+    fn answer_inertia(&mut self, follower: &Follower<'_>, first: usize) {
+        let inertia = follower.partition.expansion.inertia.as_ref().subrows(0, follower.partition.n_internal);
+        let answers = follower.answer(inertia);
+        self.take(self.n_probes() + first, answers);
     }
 
     /// What the interior answers to the loads of the job: N of residual vectors.

@@ -130,6 +130,7 @@ fn named(coordinate: &Coordinate, boundary: Boundary) -> Option<Named> {
     match (coordinate, boundary) {
         (Coordinate::RigidBodyMode { index }, _) => Some(Named::Rigid(*index)),
         (Coordinate::InertiaRelief { index }, _) => Some(Named::Relief(*index)),
+        (Coordinate::ExpansionMode { column }, _) => Some(Named::Expansion(*column)),
         (Coordinate::ResidualVector { load }, _) => Some(Named::Residual(*load)),
         (Coordinate::ElasticMode { mode, .. }, Boundary::FreeInterface)
         | (Coordinate::FixedInterfaceMode { mode, .. }, Boundary::FixedInterface) => Some(Named::Mode(*mode)),
@@ -142,10 +143,10 @@ pub(super) fn modal_coordinates(superelement: &Superelement, projected: &Project
     let metadata = superelement.metadata();
     let n_modes = superelement.tensors().frequencies.len();
     let is_mode = |named: &&Named| matches!(named, Named::Mode(_));
-    let is_residual = |named: &&Named| matches!(named, Named::Residual(_));
-    let motions = projected.named.iter().filter(|named| !is_mode(named) && !is_residual(named)).copied();
-    let residual = projected.named.iter().filter(is_residual).copied();
-    let expected: Vec<Named> = motions.chain((0..n_modes).map(Named::Mode)).chain(residual).collect();
+    let is_answer = |named: &&Named| matches!(named, Named::Expansion(_) | Named::Residual(_));
+    let motions = projected.named.iter().filter(|named| !is_mode(named) && !is_answer(named)).copied();
+    let answers = projected.named.iter().filter(is_answer).copied();
+    let expected: Vec<Named> = motions.chain((0..n_modes).map(Named::Mode)).chain(answers).collect();
     let kept = metadata.coordinates[superelement.n_interface()..].iter();
     let kept: Vec<Option<Named>> = kept.map(|coordinate| named(coordinate, boundary)).collect();
     let dropped: Vec<Option<Named>> = metadata.dropped.iter().map(|dropped| named(&dropped.column, boundary)).collect();

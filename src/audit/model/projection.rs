@@ -128,7 +128,7 @@ impl Projected {
         let at = self.n_probes() + column;
         match self.named[column] {
             Named::Mode(_) => self.mass.matrix[(at, at)].max(0.0).sqrt(),
-            Named::Rigid(_) | Named::Relief(_) | Named::Residual(_) => 1.0,
+            Named::Rigid(_) | Named::Relief(_) | Named::Expansion(_) | Named::Residual(_) => 1.0,
         }
     }
 

@@ -41,11 +41,13 @@ impl Scaled {
         let gravity = tensors.gravity.as_ref();
         let recovery = tensors.recovery.as_ref();
         // A named shape is mass-normalised in the user's units; an inertia-relief mode K_II⁻¹(MU)_I carries the unit of M over
-        // that of K, a residual vector that of its load.
+        // that of K, and so does an expansion mode; a residual vector that of its load.
         let load_unit = |load: usize| partition.loads.facts.get(load).map_or(1.0, |load| load.unit);
+        let mode_unit = |mode: usize| partition.expansion.facts.get(mode).map_or(1.0, |mode| mode.unit);
         let named = |coordinate: &Coordinate| match coordinate {
             Coordinate::RigidBodyMode { .. } => shape,
             Coordinate::InertiaRelief { .. } => shape * units.eigenvalue_unit(),
+            Coordinate::ExpansionMode { column } => shape * units.eigenvalue_unit() / mode_unit(*column),
             Coordinate::ResidualVector { load } => shape * units.stiffness_unit() / load_unit(*load),
             _ => 1.0,
         };

@@ -23,6 +23,7 @@ mod mesh;
 mod moab;
 mod moab_cells;
 mod moab_sets;
+mod modes;
 mod nodes;
 mod numbers;
 mod patch_cells;
@@ -33,6 +34,7 @@ mod xdmf_cells;
 mod xml_size;
 
 pub(crate) use file::start;
+pub(crate) use modes::{mode_columns, rehearse_dataset};
 pub use nodes::read_nodes;
 pub(crate) use nodes::{read_nodes_within, referenced_files};
 pub(crate) use patch_cells::read_faces;

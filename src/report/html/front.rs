@@ -56,7 +56,7 @@ pub(super) fn front(page: &mut Markup, body: &ReportBody) {
         ("Method", vec![method(&body.reduction)]),
         ("Interfaces", interfaces(&body.reduction)),
         ("Reduced to", vec![coordinates(&body.reduction)]),
-        ("Modes kept", vec![modes(&body.reduction)]),
+        ("Modes kept", modes(&body.reduction)),
         ("Loads by name", words::loads(&body.reduction)),
         ("Completeness", vec![sentence(&body.completeness.statement())]),
         ("Compared with full model", compared(body)),
@@ -142,7 +142,11 @@ fn matrix(matrix: &MatrixReport) -> String {
 }
 
 fn method(reduction: &ReductionReport) -> String {
-    format!("{}; modes by {}", reduction.method.name(), words::eigensolver(reduction.eigensolver))
+    let by = match reduction.expansion {
+        Some(_) => "modes of a file".to_owned(),
+        None => format!("modes by {}", words::eigensolver(reduction.eigensolver)),
+    };
+    format!("{}; {by}", reduction.method.name())
 }
 
 fn interfaces(reduction: &ReductionReport) -> Vec<String> {
@@ -160,8 +164,11 @@ fn coordinates(reduction: &ReductionReport) -> String {
     format!("{}: {parts}", counted(reduction.n_reduced, "coordinate", "coordinates"))
 }
 
-fn modes(reduction: &ReductionReport) -> String {
-    match (reduction.modes.first(), reduction.modes.last()) {
+fn modes(reduction: &ReductionReport) -> Vec<String> {
+    if let Some(expansion) = &reduction.expansion {
+        return words::expansion(expansion);
+    }
+    let line = match (reduction.modes.first(), reduction.modes.last()) {
         (Some(first), Some(last)) => format!(
             "{} {}, {} Hz to {} Hz",
             number::count(reduction.modes.len() as u64),
@@ -174,7 +181,8 @@ fn modes(reduction: &ReductionReport) -> String {
             quantity(last.frequency_hz, 6)
         ),
         _ => "none".to_owned(),
-    }
+    };
+    vec![line]
 }
 
 /// The band and the boundaries for which the reduced model was compared with the full one.

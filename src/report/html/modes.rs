@@ -18,7 +18,10 @@ pub(super) fn modes(page: &mut Markup, body: &ReportBody) {
     page.heading("How exact are they?");
     let (modes, preserved) = (&body.reduction.modes, &body.preservation.modes);
     if modes.is_empty() {
-        page.absent("No elastic mode was kept.");
+        page.absent(match body.reduction.expansion {
+            Some(_) => "The modes come from a file; no frequency of the full model was computed with them.",
+            None => "No elastic mode was kept.",
+        });
         return;
     }
     let worst_bar = modes.iter().map(|mode| mode.error_bar_hz / mode.frequency_hz).fold(0.0, f64::max);

@@ -120,6 +120,10 @@ fn reduced(page: &mut Page, reduction: &ReductionReport) {
     }
     let parts = words::coordinates(reduction);
     page.entry("coordinates", &format!("{} = {}", number::count(reduction.n_reduced as u64), parts.join(" + ")));
+    if let Some(expansion) = &reduction.expansion {
+        page.entry("modes", &format!("blake3 {}…", short(&expansion.digest)));
+        listing(page, "", &words::expansion(expansion));
+    }
     words::loads(reduction).iter().for_each(|load| page.entry("load", load));
     let dropped: Vec<String> =
         reduction.dropped.iter().map(|dropped| format!("{}: {}", dropped.coordinate, dropped.reason)).collect();

@@ -56,7 +56,7 @@ impl Plan {
             leave_out(DYNAMICS, "the component has no interface");
             (plan.supports, plan.response) = (Vec::new(), false);
         } else if plan.band_hz.is_none() {
-            leave_out(DYNAMICS, "no elastic mode is kept and the scene gives no band_hz");
+            leave_out(DYNAMICS, "no elastic mode is computed and the scene gives no band_hz");
             (plan.supports, plan.response) = (Vec::new(), false);
         }
         let cost = Cost::of(evidence, analysis);

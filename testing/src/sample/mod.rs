@@ -90,33 +90,12 @@ fn body() -> ReportBody {
         reduction: ReductionReport {
             method: Method::Herting,
             eigensolver: Eigensolver::Lanczos,
-            interfaces: vec![
-                InterfaceReport {
-                    name: "hub".to_owned(),
-                    coupling: Coupling::Rigid,
-                    n_nodes: 96,
-                    n_dofs: 6,
-                    at: vec![InterfacePosition {
-                        node: None,
-                        position: [0.25, 0.0, -1.5e-3],
-                        origin: PositionOrigin::MeanOfNodes,
-                        faces: Some(FacesReport { count: 80, centroid: [0.25, 3e-3, -5.5e-3], distance: 5e-3 }),
-                        faces_unknown: None,
-                        fit: None,
-                    }],
-                },
-                InterfaceReport {
-                    name: "foot".to_owned(),
-                    coupling: Coupling::Direct,
-                    n_nodes: 1,
-                    n_dofs: 3,
-                    at: Vec::new(),
-                },
-            ],
+            interfaces: interfaces(),
             n_interface: 9,
             n_inertia_relief: 6,
             n_modes: 50,
             n_reduced: 65,
+            expansion: None,
             loads: Vec::new(),
             dropped: Vec::new(),
             modes: (1..=50).map(row).collect(),
@@ -136,6 +115,26 @@ fn body() -> ReportBody {
         rigid_body: evidence::rigid_body(&model().mass_properties),
         preservation: evidence::preservation(),
     }
+}
+
+fn interfaces() -> Vec<InterfaceReport> {
+    vec![
+        InterfaceReport {
+            name: "hub".to_owned(),
+            coupling: Coupling::Rigid,
+            n_nodes: 96,
+            n_dofs: 6,
+            at: vec![InterfacePosition {
+                node: None,
+                position: [0.25, 0.0, -1.5e-3],
+                origin: PositionOrigin::MeanOfNodes,
+                faces: Some(FacesReport { count: 80, centroid: [0.25, 3e-3, -5.5e-3], distance: 5e-3 }),
+                faces_unknown: None,
+                fit: None,
+            }],
+        },
+        InterfaceReport { name: "foot".to_owned(), coupling: Coupling::Direct, n_nodes: 1, n_dofs: 3, at: Vec::new() },
+    ]
 }
 
 fn model() -> ModelReport {

@@ -122,6 +122,20 @@ fn loaded() -> Subject {
     Subject::of("loads", place, &text(&(FILES.to_owned() + MESH), &interfaces, reduction, write))
 }
 
+/// A solid with the modes of a file, of which the last is the first one again.
+fn expanded() -> Subject {
+    let model = steel_brick();
+    let place = Place::with(&model);
+    let mut modes = format!("%%MatrixMarket matrix array real general\n{} 4\n", model.n);
+    for phase in [0.3, 1.1, 2.3, 0.3] {
+        (0..model.n).for_each(|row| modes += &format!("{:.17e}\n", (phase + 1.7 * phase * row as f64).sin()));
+    }
+    place.write("modes.mtx", modes.as_bytes());
+    let interfaces = patch("foot", "[1, 11, 31, 41]", "direct");
+    let reduction = "method = \"mode-acceleration\"\nmodes = { file = \"modes.mtx\" }";
+    Subject::of("modes of a file", place, &text(&(FILES.to_owned() + MESH), &interfaces, reduction, ""))
+}
+
 /// A solid without interface: its own modes.
 fn modal() -> Subject {
     let place = Place::with(&steel_brick());
@@ -150,6 +164,7 @@ pub(super) fn subjects() -> Vec<Subject> {
         rows("rows, free", Ends::Free, "herting"),
         rows("rows, held", Ends::Fixed, "craig-bampton"),
         loaded(),
+        expanded(),
         modal(),
         massless(),
     ];

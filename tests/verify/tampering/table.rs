@@ -9,10 +9,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde_json::Value;
 use supel::audit::{self, Audit, Reference};
 use supel::input;
-use supel::input::InputFacts;
+use supel::input::{Allowance, InputFacts};
 use supel::job::Job;
 use supel::model::Model;
-use supel::partition::{Loads, Partition, Quantities, loads, quantities, recovered_rows};
+use supel::partition::{Expansion, Loads, Partition, Quantities, expansion_modes, loads, quantities, recovered_rows};
 use supel::verification::check::Verdict;
 use supel_models::fnv1a;
 use supel_runtime::Superelement;
@@ -110,14 +110,19 @@ impl Known {
         let job = subject.job();
         let read = input::read(&job.model).expect("files");
         let columns = input::load_columns(&job.loads, &read).expect("files");
-        let rows =
-            input::job_quantities(job.write.quantities.as_ref(), &read, &input::Allowance::of(None)).expect("files");
-        let facts = InputFacts::of(&read).with_loads(&job.loads, &columns).with_quantities(rows.as_ref());
+        let modes = input::expansion_columns(&job.reduction, &read, &Allowance::of(None)).expect("files");
+        let rows = input::job_quantities(job.write.quantities.as_ref(), &read, &Allowance::of(None)).expect("files");
+        let facts = InputFacts::of(&read).with_loads(&job.loads, &columns).with_modes(modes.as_ref());
+        let facts = facts.with_quantities(rows.as_ref());
         let model = Model::new(read).expect("a model");
         let recovered = recovered_rows(&model, job.write.recovery.as_ref()).expect("nodes");
         let of_job = quantities(&model, rows).expect("rows");
         let row_loads = loads(&model, &job.loads, &columns).expect("nodes");
+        let modes = modes.map(|modes| expansion_modes(&model, &modes).expect("modes"));
         let mut partition = Partition::new(model, &job.interfaces).expect("interfaces");
+        if let Some(modes) = modes {
+            partition.expansion = Expansion::carried(&modes, &partition.transformation).expect("modes that move");
+        }
         partition.loads = Loads::carried(row_loads, &partition.transformation).expect("dofs that move");
         partition.recovered = recovered;
         partition.quantities = Quantities::carried(of_job, &partition.transformation);

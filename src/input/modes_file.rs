@@ -1,0 +1,71 @@
+//! Expansion modes of a file: one in each column, a value for every row of the matrices.
+//!
+//! Matrix Market (`array` or `coordinate`), NumPy (`.npy`) and datasets of HDF5 files are told apart by their content.
+
+use std::path::Path;
+
+use super::Allowance;
+use super::allowance::Claim;
+use super::file_start::FileStart;
+use super::hdf5_format::{self, split_group};
+use super::mode_matrix::{NUMBER, checked_count};
+use super::npy;
+use super::rectangular::{Content, RectangularFile};
+use crate::error::{Error, Result};
+use crate::regular_file::{digest, unchanged};
+
+/// The modes of a file.
+#[derive(Clone, Debug)]
+pub struct ModeColumns {
+    /// For each mode a value for every row of the files, in the units of the file.
+    pub columns: Vec<Vec<f64>>,
+    /// BLAKE3 digest of the file's bytes, lower-case hexadecimal.
+    pub digest: String,
+}
+
+/// Reads the modes of a file, for matrices of `n_rows` rows in their files, in the memory that is allowed.
+///
+/// # Errors
+/// A file that cannot be read or has no modes; [`Error::ModesRows`] and [`Error::ModesColumns`] where it has another size;
+/// [`Error::MemoryRead`]; [`Error::Changed`] where it is written meanwhile.
+pub fn mode_columns(path: &Path, n_rows: usize, allowance: &Allowance) -> Result<ModeColumns> {
+    let (file, dataset) = split_group(path);
+    unchanged(&file, || {
+        let start = FileStart::of(&file)?;
+        if start.is_hdf5() {
+            let columns = hdf5_format::mode_columns(&file, dataset.as_deref(), n_rows, allowance)?;
+            return Ok(ModeColumns { columns, digest: digest(&file)? });
+        }
+        let claim = allowance.claim(&file);
+        if npy::is_array(&start.head) {
+            let columns = npy::columns(&file, n_rows, &claim)?;
+            return Ok(ModeColumns { columns, digest: digest(&file)? });
+        }
+        in_text(&file, n_rows, &claim)
+    })
+}
+
+fn in_text(path: &Path, n_rows: usize, claim: &Claim<'_>) -> Result<ModeColumns> {
+    let file = RectangularFile::open(path, Content::Modes { n_rows })?;
+    let n_columns = checked_count(path, file.n_columns, n_rows)?;
+    // A column takes its memory when it gets its first value: a head may promise any number of them.
+    let mut columns: Vec<Vec<f64>> = Vec::new();
+    let digest = file.read(|entry| {
+        let column = entry.column as usize;
+        if column >= columns.len() {
+            columns.resize_with(column + 1, Vec::new);
+        }
+        let values = &mut columns[column];
+        if values.is_empty() {
+            claim.add(NUMBER * n_rows as u64)?;
+            values.resize(n_rows, 0.0);
+        }
+        values[entry.row] += entry.value;
+        Ok(())
+    })?;
+    columns.resize_with(n_columns, Vec::new);
+    match columns.iter().position(Vec::is_empty) {
+        Some(mode) => Err(Error::ModesNothing { mode: mode + 1, found: "zero everywhere" }),
+        None => Ok(ModeColumns { columns, digest }),
+    }
+}
