@@ -52,8 +52,9 @@ impl Sweep<'_> {
             }
             Some(6) => {}
             // The standard library allocates the handle of a thread past the program's allocator and ends the process where that fails:
-            // one allocation of some fifty bytes for each thread, from memory that any program has left. Nothing is written then.
-            None if err.starts_with("memory allocation of ") && err.contains("failed") && is_of_thread(err) => {
+            // one allocation of some fifty bytes for each thread, from memory that any program has left. So does the C library where it
+            // notes what a thread has to clear at its end. Nothing is written then.
+            None if is_of_thread(err) => {
                 assert!(self.written.iter().all(|name| !self.place.path(name).exists()), "{what}: {err}");
                 return true;
             }
@@ -75,10 +76,14 @@ impl Sweep<'_> {
     }
 }
 
-/// Whether the size that was asked for is that of a thread's handle.
+/// Whether the memory was that of a thread: of its handle, which its size tells, or of what the C library clears at its end.
 fn is_of_thread(err: &str) -> bool {
     const LARGEST_HANDLE: usize = 64;
-    let size = err.trim_start_matches("memory allocation of ").split(' ').next().and_then(|size| size.parse().ok());
+    if err.starts_with("Fatal glibc error: failed to register TLS destructor: out of memory") {
+        return true;
+    }
+    let failed = err.strip_prefix("memory allocation of ").filter(|err| err.contains("failed"));
+    let size = failed.and_then(|err| err.split(' ').next()?.parse().ok());
     size.is_some_and(|size: usize| size <= LARGEST_HANDLE)
 }
 
