@@ -1902,7 +1902,7 @@ pub enum Error {
         selector: Selector,
         /// The group asked for.
         group: String,
-        /// Those there are.
+        /// The groups that there are.
         known: Vec<String>,
     },
     /// A selection finds no node.
@@ -2495,7 +2495,7 @@ pub enum Error {
         place: String,
         /// The direction that is not there.
         lacking: String,
-        /// Those that are.
+        /// The directions that are.
         dofs: String,
     },
     /// Every coordinate of an assembly is held.

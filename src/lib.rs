@@ -79,7 +79,7 @@
 //! factor · eigen
 //! job · input · model · partition · rigid · coordinates · constraint · modes · basis · reduction · rubin
 //! memory_forecast · verification · audit · assembly
-//! report · output · outcome · export · expansion · cli
+//! report · output · outcome · export · recovery · cli
 //! ```
 //!
 //! # Invariants
@@ -105,7 +105,6 @@ pub mod dense;
 pub mod dofs;
 pub mod eigen;
 pub mod error;
-pub mod expansion;
 pub mod export;
 pub mod factor;
 pub mod foreign_exit;
@@ -121,6 +120,7 @@ pub mod outcome;
 pub mod output;
 pub mod partition;
 pub mod random;
+pub mod recovery;
 pub mod reduction;
 mod regular_file;
 pub mod report;

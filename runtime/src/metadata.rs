@@ -208,6 +208,21 @@ impl Coordinate {
         matches!(self, Self::Interface { .. } | Self::InterfaceRow { .. })
     }
 
+    /// What the amplitude of a mode is called in messages, counted from one: `mode 3`, `residual vector of thrust`; none for an interface
+    /// coordinate. `load_names` are those of the file.
+    pub fn mode_name(&self, load_names: &[String]) -> Option<String> {
+        Some(match self {
+            Self::Interface { .. } | Self::InterfaceRow { .. } => return None,
+            Self::RigidBodyMode { index } => format!("rigid-body mode {}", index + 1),
+            Self::InertiaRelief { index } => format!("inertia relief {}", index + 1),
+            Self::ExpansionMode { column } => format!("expansion mode {}", column + 1),
+            Self::ResidualVector { load } => {
+                format!("residual vector of {}", load_names.get(*load).map_or("no load", String::as_str))
+            }
+            Self::ElasticMode { mode, .. } | Self::FixedInterfaceMode { mode, .. } => format!("mode {}", mode + 1),
+        })
+    }
+
     /// Number of the mode and its frequency in Hz, for a coordinate that has them.
     pub fn mode(&self) -> Option<(usize, f64)> {
         match *self {

@@ -71,13 +71,7 @@ impl Component {
                 format!("{}.{direction}", metadata.interface_nodes[*node].name)
             }
             Coordinate::InterfaceRow { row } => format!("rows:{row}"),
-            Coordinate::RigidBodyMode { index } => format!("rigid-body mode {}", index + 1),
-            Coordinate::InertiaRelief { index } => format!("inertia relief {}", index + 1),
-            Coordinate::ExpansionMode { column } => format!("expansion mode {}", column + 1),
-            Coordinate::ResidualVector { load } => format!("residual vector {}", metadata.load_names[*load]),
-            Coordinate::ElasticMode { mode, .. } | Coordinate::FixedInterfaceMode { mode, .. } => {
-                format!("mode {}", mode + 1)
-            }
+            mode => mode.mode_name(&metadata.load_names).unwrap_or_default(),
         };
         format!("{}.{of_component}", self.name)
     }

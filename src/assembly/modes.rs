@@ -85,7 +85,7 @@ impl Assembly {
     pub fn modes(&self, wanted: Wanted) -> Result<AssemblyModes> {
         let assembled = self.assembled()?;
         let pencil = &assembled.pencil;
-        let Some(spectrum) = pencil.spectrum()? else {
+        let Some(spectrum) = pencil.spectrum(None)? else {
             let at = emptiest(pencil.stiffness.as_ref(), pencil.mass.as_ref())?;
             return Err(Error::AssemblySingular { at: self.name_of(at) });
         };
@@ -210,11 +210,7 @@ fn lower_bounds(assembled: &Assembled, omitted: &[OmittedOf<'_>], upper: &Spectr
     }
     let end = omitted.iter().map(|omitted| omitted.hz).fold(f64::INFINITY, f64::min);
     // What is taken off the mass may leave coordinates nothing but rounding, which tells no first eigenvalue.
-    let sprung = sprung(pencil, &g, &kappa);
-    let sprung = match upper.first_elastic() {
-        Some(first) => sprung.spectrum_from(first)?,
-        None => sprung.spectrum()?,
-    };
+    let sprung = sprung(pencil, &g, &kappa).spectrum(upper.first_elastic())?;
     let lower = |j: usize| match &sprung {
         Some(found) => found.lambda.get(j).map_or(end, |lambda| hertz(lambda - found.rounding[j]).min(end)),
         // Rounding decides; zero is a bound in any case.

@@ -215,7 +215,7 @@ fn stated_spectrum(
     let noise = NOISE_FACTOR * f64::EPSILON;
     let rounding = Mat::from_fn(k.nrows(), k.ncols(), |i, j| noise * k[(i, j)].abs());
     let pencil = Pencil { stiffness: k.to_owned(), mass: m.to_owned(), rigid, rounding };
-    let Some(spectrum) = pencil.spectrum()? else { return Ok(Err(OTHER_FREQUENCIES)) };
+    let Some(spectrum) = pencil.spectrum(None)? else { return Ok(Err(OTHER_FREQUENCIES)) };
     let stated: Vec<f64> = superelement.tensors().frequencies.iter().map(|omega| omega * omega).collect();
     let is_found = |(j, stated): (usize, &f64)| {
         let found = spectrum.lambda.get(j);

@@ -46,29 +46,14 @@ pub(super) struct Spectrum {
 impl Pencil {
     /// Its elastic eigenpairs with finite eigenvalues; none where a motion has neither stiffness nor mass.
     ///
-    /// # Errors
-    /// [`crate::error::Error::DenseEigen`].
-    pub(super) fn spectrum(&self) -> Result<Option<Spectrum>> {
-        let momenta = dense::product(self.mass.as_ref(), self.rigid.as_ref());
-        // What is left of the mass of a coordinate that rigid-body motion moves alone is rounding, and no measure of anything.
-        let left = |i: usize| {
-            let taken: f64 = (0..momenta.ncols()).map(|j| momenta[(i, j)].powi(2)).sum();
-            let left = self.mass[(i, i)] - taken;
-            if left > NOISE_FACTOR * f64::EPSILON * taken { left } else { 0.0 }
-        };
-        let n = self.mass.nrows();
-        let diagonal = Mat::from_fn(n, n, |i, j| if i == j { left(i) } else { 0.0 });
-        let alpha = force::lowest_ratio(self.stiffness.as_ref(), diagonal.as_ref());
-        self.spectrum_from(alpha.unwrap_or(1.0))
-    }
-
-    /// The elastic eigenpairs by a first α that is known to be near the first of them.
+    /// The first α is `near`, an eigenvalue that is known to be near the first of them, or the lowest ratio of the diagonals.
     ///
     /// # Errors
-    /// As [`Self::spectrum`].
-    pub(super) fn spectrum_from(&self, mut alpha: f64) -> Result<Option<Spectrum>> {
+    /// [`crate::error::Error::DenseEigen`].
+    pub(super) fn spectrum(&self, near: Option<f64>) -> Result<Option<Spectrum>> {
         let (n, n_r) = (self.stiffness.nrows(), self.rigid.ncols());
         let momenta = dense::product(self.mass.as_ref(), self.rigid.as_ref());
+        let mut alpha = near.or_else(|| self.lowest_ratio(&momenta)).unwrap_or(1.0);
         let lifted = dense::product(momenta.as_ref(), momenta.transpose());
         let mass = Mat::from_fn(n, n, |i, j| self.mass[(i, j)] - 0.5 * (lifted[(i, j)] + lifted[(j, i)]));
         let mut best = None;
@@ -89,6 +74,17 @@ impl Pencil {
             }
         }
         Ok(best)
+    }
+
+    /// The lowest ratio of the diagonals of K and of the mass that rigid-body motion leaves.
+    fn lowest_ratio(&self, momenta: &Mat<f64>) -> Option<f64> {
+        // What is left of the mass of a coordinate that rigid-body motion moves alone is rounding, and no measure of anything.
+        let left = |i: usize| {
+            let taken: f64 = (0..momenta.ncols()).map(|j| momenta[(i, j)].powi(2)).sum();
+            let left = self.mass[(i, i)] - taken;
+            if left > NOISE_FACTOR * f64::EPSILON * taken { left } else { 0.0 }
+        };
+        force::lowest_ratio_of((0..self.mass.nrows()).map(|i| (self.stiffness[(i, i)], left(i))))
     }
 
     /// Columns freed of rigid-body motion, at unit modal mass, with their Rayleigh quotients.

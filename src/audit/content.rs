@@ -158,13 +158,7 @@ pub(super) fn coordinate_name(superelement: &Superelement, coordinate: usize) ->
             format!("{name} {}", format!("{direction:?}").to_lowercase())
         }
         Some(Coordinate::InterfaceRow { row }) => format!("row {}", row + 1),
-        Some(Coordinate::RigidBodyMode { index }) => format!("rigid-body mode {}", index + 1),
-        Some(Coordinate::InertiaRelief { index }) => format!("inertia relief {}", index + 1),
-        Some(Coordinate::ExpansionMode { column }) => format!("expansion mode {}", column + 1),
-        Some(Coordinate::ResidualVector { load }) => format!("residual vector of {}", metadata.load_names[*load]),
-        Some(Coordinate::ElasticMode { mode, .. } | Coordinate::FixedInterfaceMode { mode, .. }) => {
-            format!("mode {}", mode + 1)
-        }
+        Some(mode) => mode.mode_name(&metadata.load_names).unwrap_or_default(),
         None => "no coordinate".to_owned(),
     }
 }

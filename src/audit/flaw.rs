@@ -3,7 +3,7 @@
 use crate::verification::check::{Check, Limits};
 
 /// A check that counts flaws.
-pub(super) fn flaw(name: &'static str, equation: &'static str, flaws: &[String]) -> Check {
+pub(crate) fn flaw(name: &'static str, equation: &'static str, flaws: &[String]) -> Check {
     Check {
         id: "M-26",
         name,

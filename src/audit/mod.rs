@@ -34,6 +34,7 @@ use crate::verification::check::{Check, Verdict};
 use content::Content;
 use notes::Compared;
 
+pub(crate) use flaw::flaw;
 pub use model::Reference;
 pub use notes::Unvouched;
 pub(crate) use pencil::eigenpairs;

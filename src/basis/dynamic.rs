@@ -10,7 +10,7 @@ use crate::eigen::{Modes, mass_qr, rows_with_mass};
 use crate::factor::SolveOperator;
 use crate::job::Boundary;
 use crate::modes::Retained;
-use crate::partition::{Expansion, Partition};
+use crate::partition::{Expansion, LoadFacts, Partition};
 use crate::rigid::RigidBodyModes;
 use crate::sparse::Leading;
 use crate::sparse::{absolute_energy, product};
@@ -30,6 +30,19 @@ pub enum DynamicCoordinate {
     Expansion(usize),
     /// Residual vector of load k of the job.
     ResidualVector(usize),
+}
+
+impl DynamicCoordinate {
+    /// What it is called, counted from one: `mode 3`, `residual vector of thrust`. `loads` are those of the job.
+    pub fn name(self, loads: &[LoadFacts]) -> String {
+        match self {
+            Self::RigidBody(index) => format!("rigid-body mode {}", index + 1),
+            Self::InertiaRelief(index) => format!("inertia relief {}", index + 1),
+            Self::FreeFree(mode) | Self::FixedInterface(mode) => format!("mode {}", mode + 1),
+            Self::Expansion(mode) => format!("expansion mode {}", mode + 1),
+            Self::ResidualVector(load) => format!("residual vector of {}", loads[load].name),
+        }
+    }
 }
 
 /// A column that was left out.

@@ -9,9 +9,10 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use supel_runtime::Superelement;
 
+use crate::audit::flaw;
 use crate::linked;
 use crate::regular_file;
-use crate::verification::check::{Check, Limits};
+use crate::verification::check::Check;
 
 /// More than the report of any run takes.
 const MAX_BYTES: u64 = 1 << 28;
@@ -25,16 +26,10 @@ pub(super) fn check(file: &Path, superelement: &Superelement, digest: &str) -> O
         Some(recorded) => Some(format!("{name} is of a file with BLAKE3 {recorded}")),
         None => Some(format!("{name} is of a run that wrote no superelement")),
     };
-    Some(Check {
-        id: "M-26",
-        name: "report in its folder names this file",
-        equation: "1 where the report carries another digest, else 0",
-        value: if difference.is_some() { 1.0 } else { 0.0 },
-        limits: Limits::default(),
-        // The file itself is as good as it was.
-        fail_above: Check::NEVER,
-        worst: difference,
-    })
+    let (name, equation) =
+        ("report in its folder names this file", "1 where the report carries another digest, else 0");
+    // The file itself is as good as it was.
+    Some(Check { fail_above: Check::NEVER, ..flaw(name, equation, difference.as_slice()) })
 }
 
 /// Where the report of a run stands if it was not moved: under the name that the job kept in the file gives it, next to the file itself,

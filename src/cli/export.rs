@@ -11,17 +11,16 @@ use super::exit_code::ExitCode;
 use super::outputs::{Outputs, abandoned};
 use super::overwriting::OwnFiles;
 use super::superelement_file;
-use super::unverified::Unverified;
+use super::unverified::refusal;
 use crate::error::{Error, Result};
 use crate::export::{ExportedFile, Names};
 use crate::number;
 use crate::report::{printable, value_text};
 
 pub(super) fn run(command: &ExportCommand, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
-    let (superelement, bytes) = superelement_file::read(&command.file)?;
-    drop(bytes);
+    let (superelement, _) = superelement_file::read(&command.file)?;
     let verdict = superelement.metadata().verification.verdict;
-    let is_refused = verdict == Verdict::Fail && command.unverified == Unverified::Refused;
+    let is_refused = command.unverified.refuses(verdict);
     let files = if is_refused { Vec::new() } else { files(command, &superelement)? };
     let own = OwnFiles::of(
         &[("the superelement", command.file.clone())],
@@ -38,9 +37,7 @@ pub(super) fn run(command: &ExportCommand, terminal: &mut Terminal<'_>) -> Resul
     terminal.answer(&answer);
     complaints.iter().for_each(|complaint| terminal.complain(complaint));
     if is_refused {
-        let file = command.file.display();
-        let advice = "see `supel inspect`, or export it anyway with --allow-unverified";
-        terminal.complain(&format!("supel: {file}: not exported: a check failed when it was made – {advice}"));
+        terminal.complain(&refusal(&command.file, "not exported", "export"));
     }
     Ok(if verdict == Verdict::Fail { ExitCode::CheckFailed } else { ExitCode::Done })
 }

@@ -12,7 +12,7 @@ use super::exit_code::ExitCode;
 use super::superelement_file;
 use super::verify::job_of_file;
 use crate::error::{Error, Result, json_value};
-use crate::expansion::coordinate_names;
+use crate::recovery::coordinate_names;
 use crate::report::{inspection, value_text};
 use crate::rubin::{Herting, Rubin};
 

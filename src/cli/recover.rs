@@ -10,22 +10,19 @@ use super::outputs::{Outputs, abandoned, writer};
 use super::overwriting::{Named, OwnFiles};
 use super::recover_command::RecoverCommand;
 use super::superelement_file;
-use super::unverified::Unverified;
+use super::unverified::refusal;
 use crate::error::{Error, Result};
-use crate::expansion::{
+use crate::number;
+use crate::recovery::{
     Displacements, InterfaceLoads, Order, Quantities, Sheet, SheetOutput, States, coordinate_names, fill,
 };
-use crate::number;
 use crate::report::printable;
 
 pub(super) fn run(command: &RecoverCommand, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
-    let (superelement, bytes) = superelement_file::read(&command.file)?;
-    drop(bytes);
+    let (superelement, _) = superelement_file::read(&command.file)?;
     let verdict = superelement.metadata().verification.verdict;
-    if verdict == Verdict::Fail && command.unverified == Unverified::Refused {
-        let file = command.file.display();
-        let advice = "see `supel inspect`, or use it anyway with --allow-unverified";
-        terminal.complain(&format!("supel: {file}: nothing recovered: a check failed when it was made – {advice}"));
+    if command.unverified.refuses(verdict) {
+        terminal.complain(&refusal(&command.file, "nothing recovered", "use"));
         return Ok(ExitCode::CheckFailed);
     }
     let sheets = sheets(command, &superelement)?;
@@ -59,12 +56,8 @@ fn sheets<'a>(command: &'a RecoverCommand, superelement: &'a Superelement) -> Re
 }
 
 fn motion<'a>(path: &'a Path, file: &Path, superelement: &'a Superelement) -> Result<Asked<'a>> {
-    let recovery = superelement.tensors().recovery.as_ref().ok_or_else(|| Error::NoRecovery {
-        path: file.to_owned(),
-        missing: "recovered nodes",
-        wanted: "--output",
-        key: "write.recovery",
-    })?;
+    let recovery = superelement.tensors().recovery.as_ref();
+    let recovery = recovery.ok_or_else(|| lacking(file, "recovered nodes", "--output", "write.recovery"))?;
     let rows = number::counted(recovery.dofs().len() as u64, "degree of freedom", "degrees of freedom");
     let digits = match recovery.precision() {
         Precision::Double => "",
@@ -75,30 +68,32 @@ fn motion<'a>(path: &'a Path, file: &Path, superelement: &'a Superelement) -> Re
 }
 
 fn quantities<'a>(path: &'a Path, file: &Path, superelement: &'a Superelement) -> Result<Asked<'a>> {
-    let rows = superelement.tensors().quantities.as_ref().ok_or_else(|| Error::NoRecovery {
-        path: file.to_owned(),
-        missing: "quantities",
-        wanted: "--quantities",
-        key: "write.quantities",
-    })?;
+    let rows = superelement.tensors().quantities.as_ref();
+    let rows = rows.ok_or_else(|| lacking(file, "quantities", "--quantities", "write.quantities"))?;
     let content = number::counted(rows.rows() as u64, "quantity", "quantities");
     let sheet = Box::new(Quantities::new(&superelement.metadata().quantities, rows));
     Ok(Asked { flag: "--quantities", path, content, sheet })
 }
 
 fn loads<'a>(path: &'a Path, command: &RecoverCommand, superelement: &'a Superelement) -> Result<Asked<'a>> {
-    let lacking = |missing, wanted, key| Error::NoRecovery { path: command.file.clone(), missing, wanted, key };
     if superelement.n_interface() == 0 {
-        return Err(lacking("interface", "--loads", "[[interface]]"));
+        return Err(lacking(&command.file, "interface", "--loads", "[[interface]]"));
     }
     let sheet = InterfaceLoads::new(superelement);
     let sheet = match (&command.gravity, &superelement.tensors().gravity) {
         (None, _) => sheet,
         (Some(field), Some(of_file)) => sheet.with_gravity(of_file, field),
-        (Some(_), None) => return Err(lacking("loads of gravity", "--gravity", "model.dofs and model.nodes")),
+        (Some(_), None) => {
+            return Err(lacking(&command.file, "loads of gravity", "--gravity", "model.dofs and model.nodes"));
+        }
     };
     let inertia = if command.states.path(Order::Acceleration).is_some() { "" } else { ", without those of inertia," };
     Ok(Asked { flag: "--loads", path, content: format!("loads on the interface{inertia}"), sheet: Box::new(sheet) })
+}
+
+/// What the file lacks for what a flag wants, and the key of the job that writes it.
+fn lacking(file: &Path, missing: &'static str, wanted: &'static str, key: &'static str) -> Error {
+    Error::NoRecovery { path: file.to_owned(), missing, wanted, key }
 }
 
 fn inputs(command: &RecoverCommand) -> Vec<Named> {

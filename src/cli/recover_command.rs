@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use super::flags::RecoverFlags;
 use super::unverified::Unverified;
 use crate::error::{Error, Result};
-use crate::expansion::StateFiles;
 use crate::job::ends_in;
+use crate::recovery::StateFiles;
 
 /// Expand states of a simulation.
 #[derive(Debug)]
@@ -38,7 +38,7 @@ impl RecoverCommand {
             quantities,
             loads,
             gravity: gravity.as_deref().map(acceleration_of).transpose()?,
-            unverified: if allow_unverified { Unverified::Written } else { Unverified::Refused },
+            unverified: Unverified::of_flag(allow_unverified),
         })
     }
 }

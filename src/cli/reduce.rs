@@ -15,11 +15,12 @@ use super::rehearsal::{self, Rehearsed};
 use super::unmet::unmet;
 use super::unverified::Unverified;
 use super::{memory, overwriting, process};
+use crate::audit::flaw;
 use crate::error::{Error, Result};
 use crate::memory_forecast::Resources;
 use crate::outcome::Outcome;
 use crate::report::{JunitWarnings, Observer, Report, StageClock, html, junit, summary};
-use crate::verification::check::{Check, Limits, Verdict};
+use crate::verification::check::{Check, Verdict};
 
 pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
     let (job, document) = (&command.job, command.document.as_deref());
@@ -117,15 +118,7 @@ fn file_check(written: &Path, superelement: &Superelement) -> Check {
         Ok(_) => Some("its content differs from what was computed".to_owned()),
         Err(error) => Some(error.to_string()),
     };
-    Check {
-        id: "M-26",
-        name: "file read back",
-        equation: "1 where the written file is not the superelement, else 0",
-        value: if difference.is_some() { 1.0 } else { 0.0 },
-        limits: Limits::default(),
-        fail_above: 0.0,
-        worst: difference,
-    }
+    flaw("file read back", "1 where the written file is not the superelement, else 0", difference.as_slice())
 }
 
 /// What the exit code and the folder do not say by themselves.

@@ -13,7 +13,7 @@ use super::format::{ExportedFile, Format};
 use super::model_job::job;
 use super::names::Names;
 use crate::error::Result;
-use crate::report::printable;
+use crate::report::{field, printable};
 
 /// Matrix Market files, tables and a job.
 #[derive(Debug)]
@@ -65,17 +65,14 @@ impl Format for MatrixMarket {
 /// What each row is, for people.
 fn rows(superelement: &Superelement, labels: &[i64]) -> Vec<String> {
     let metadata = superelement.metadata();
-    let of_coordinate = |coordinate: &Coordinate| match *coordinate {
-        Coordinate::Interface { node, direction } => format!("node {} {direction}", labels[node]),
+    let of_coordinate = |coordinate: &Coordinate| match coordinate {
+        Coordinate::Interface { node, direction } => format!("node {} {direction}", labels[*node]),
         Coordinate::InterfaceRow { row } => format!("row {row} (from zero) of the model"),
-        Coordinate::RigidBodyMode { index } => format!("rigid-body mode {}", index + 1),
-        Coordinate::InertiaRelief { index } => format!("inertia-relief mode {}", index + 1),
-        Coordinate::ExpansionMode { column } => format!("expansion mode {}", column + 1),
-        Coordinate::ResidualVector { load } => format!("residual vector of load {}", metadata.load_names[load]),
         Coordinate::ElasticMode { mode, frequency_hz, .. } => format!("elastic mode {}, {frequency_hz} Hz", mode + 1),
         Coordinate::FixedInterfaceMode { mode, frequency_hz, .. } => {
             format!("fixed-interface mode {}, {frequency_hz} Hz", mode + 1)
         }
+        mode => mode.mode_name(&metadata.load_names).unwrap_or_default(),
     };
     metadata.coordinates.iter().map(of_coordinate).collect()
 }
@@ -135,10 +132,8 @@ fn dof_map(rows: impl Iterator<Item = (Option<i64>, String)>) -> String {
     text
 }
 
-/// Names and units in quotation marks.
 fn quantity_table(quantities: &[Quantity]) -> String {
-    let quoted = |text: &str| printable(text).replace('"', "\"\"");
-    let row = |quantity: &Quantity| format!("\"{}\",\"{}\"\n", quoted(&quantity.name), quoted(&quantity.unit));
+    let row = |quantity: &Quantity| format!("{},{}\n", field(&quantity.name), field(&quantity.unit));
     std::iter::once("name,unit\n".to_owned()).chain(quantities.iter().map(row)).collect()
 }
 
@@ -152,8 +147,7 @@ fn node_table(nodes: &[InterfaceNode], labels: &[i64]) -> String {
     for (index, label) in labels.iter().enumerate() {
         let Some((_, names)) = of_label.get(label).filter(|(first, _)| *first == index) else { continue };
         let [x, y, z] = nodes[index].position.map(number);
-        let names = printable(&names.join(" + ")).replace('"', "\"\"");
-        let _ = writeln!(text, "{label},{x},{y},{z},\"{names}\"");
+        let _ = writeln!(text, "{label},{x},{y},{z},{}", field(&names.join(" + ")));
     }
     text
 }

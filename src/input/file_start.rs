@@ -17,7 +17,7 @@ pub(super) struct FileStart<'a> {
 
 impl<'a> FileStart<'a> {
     /// # Errors
-    /// Those of opening and reading the file.
+    /// The errors of opening and reading the file.
     pub(super) fn of(path: &'a Path) -> Result<Self> {
         let mut head = Vec::new();
         let read = regular_file::open(path)?.take(HEAD).read_to_end(&mut head);

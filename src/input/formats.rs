@@ -29,7 +29,7 @@ pub(super) fn of_matrix(file: &Path) -> Result<&'static dyn MatrixFormat> {
 /// The format of nodes.
 ///
 /// # Errors
-/// Those of [`of_matrix`].
+/// The errors of [`of_matrix`].
 pub(super) fn of_nodes(file: &Path) -> Result<&'static dyn NodeFormat> {
     surest(&NODES, |format| *format, file, Wanted::Table).copied()
 }
@@ -37,7 +37,7 @@ pub(super) fn of_nodes(file: &Path) -> Result<&'static dyn NodeFormat> {
 /// The format of a dof map.
 ///
 /// # Errors
-/// Those of [`of_matrix`].
+/// The errors of [`of_matrix`].
 pub(super) fn of_dof_map(file: &Path) -> Result<&'static dyn DofMapFormat> {
     surest(&DOF_MAPS, |format| *format, file, Wanted::Table).copied()
 }

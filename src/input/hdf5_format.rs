@@ -42,7 +42,7 @@ pub(super) fn split_group(path: &Path) -> (PathBuf, Option<String>) {
 /// The modes in a dataset of an HDF5 file, for matrices of `n_rows` rows.
 ///
 /// # Errors
-/// Those of [`super::mode_columns`]; [`Error::FeatureMissing`] where the program is built without the library.
+/// The errors of [`super::mode_columns`]; [`Error::FeatureMissing`] where the program is built without the library.
 #[cfg_attr(not(feature = "hdf5"), expect(unused_variables, reason = "nothing is read"))]
 pub(super) fn mode_columns(
     path: &Path,

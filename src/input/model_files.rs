@@ -39,6 +39,13 @@ pub struct Input {
     pub notes: Vec<InputNote>,
 }
 
+impl Input {
+    /// Rows of the matrices in their files, those that were dropped included.
+    pub fn n_file_rows(&self) -> usize {
+        self.stiffness.matrix.rows() + self.rows.n_dropped()
+    }
+}
+
 /// Reads the files of a model, K and M at the same time, whatever memory that takes.
 ///
 /// # Errors
@@ -97,7 +104,7 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
 /// # Errors
 /// What [`load_column`](super::load_column) refuses; [`Error::LoadKeys`].
 pub fn load_columns(loads: &[LoadJob], input: &Input) -> Result<Vec<Option<LoadColumn>>> {
-    let n_rows = input.stiffness.matrix.rows() + input.rows.n_dropped();
+    let n_rows = input.n_file_rows();
     let of_load = |load: &LoadJob| match load.pattern()? {
         LoadPattern::File(path, column) => {
             load_column(WantedColumn { path, load: &load.name, column, n_rows }).map(Some)
@@ -110,27 +117,25 @@ pub fn load_columns(loads: &[LoadJob], input: &Input) -> Result<Vec<Option<LoadC
 /// The modes of the file of a job, where it has one.
 ///
 /// # Errors
-/// Those of [`mode_columns`].
+/// The errors of [`mode_columns`].
 pub fn expansion_columns(
     reduction: &ReductionJob,
     input: &Input,
     allowance: &Allowance,
 ) -> Result<Option<ModeColumns>> {
-    let n_rows = input.stiffness.matrix.rows() + input.rows.n_dropped();
-    reduction.modes_file().map(|path| mode_columns(path, n_rows, allowance)).transpose()
+    reduction.modes_file().map(|path| mode_columns(path, input.n_file_rows(), allowance)).transpose()
 }
 
 /// The rows of quantities of a job, where it asks for some.
 ///
 /// # Errors
-/// Those of [`quantity_rows`](super::quantity_rows).
+/// The errors of [`quantity_rows`](super::quantity_rows).
 pub fn job_quantities(
     job: Option<&QuantitiesJob>,
     input: &Input,
     allowance: &Allowance,
 ) -> Result<Option<QuantityRows>> {
-    let n_rows = input.stiffness.matrix.rows() + input.rows.n_dropped();
-    job.map(|job| quantity_rows(job, n_rows, allowance)).transpose()
+    job.map(|job| quantity_rows(job, input.n_file_rows(), allowance)).transpose()
 }
 
 /// Starts the HDF5 library. A failure after that is the fault of a file.
@@ -150,8 +155,7 @@ pub fn file_of(path: &Path) -> PathBuf {
 
 /// Every file of a model with what it is, those that its files refer to among them. Files that cannot be read are listed all the same.
 pub fn files(model: &ModelJob) -> Vec<(&'static str, PathBuf)> {
-    let matrix = |path: &Path| split_group(path).0;
-    let mut files = vec![("the stiffness", matrix(&model.stiffness)), ("the mass", matrix(&model.mass))];
+    let mut files = vec![("the stiffness", file_of(&model.stiffness)), ("the mass", file_of(&model.mass))];
     files.extend(model.dofs.clone().map(|path| ("the dof map", path)));
     if let Some(nodes) = &model.nodes {
         files.push(("the nodes", nodes.clone()));
@@ -164,8 +168,8 @@ pub fn files(model: &ModelJob) -> Vec<(&'static str, PathBuf)> {
 /// The first file of a job that the HDF5 library reads, where one is.
 pub fn hdf5_file(job: &Job) -> Option<PathBuf> {
     let model = &job.model;
-    let modes = job.reduction.modes_file().filter(|path| hdf5_format::has_modes(path)).map(|path| split_group(path).0);
-    let matrices = [&model.stiffness, &model.mass].into_iter().map(|path| split_group(path).0);
+    let modes = job.reduction.modes_file().filter(|path| hdf5_format::has_modes(path)).map(file_of);
+    let matrices = [&model.stiffness, &model.mass].into_iter().map(|path| file_of(path));
     let matrices = matrices.filter(|file| formats::of_matrix(file).is_ok_and(|format| format.is_parsed_in_c()));
     let nodes = model.nodes.iter().filter(|file| formats::of_nodes(file).is_ok_and(|format| format.is_parsed_in_c()));
     matrices.chain(nodes.cloned()).chain(modes).next()

@@ -25,7 +25,7 @@ impl Job {
     ///
     /// # Errors
     ///
-    /// Those of [`Job::resolve`].
+    /// The errors of [`Job::resolve`].
     pub fn located(self, path: &Path, holder: Holder) -> Result<(Self, Option<String>)> {
         let named = linked::named_folder(path);
         let Some(own) = linked::own_folder(path) else { return Ok((self.resolve(named)?, None)) };

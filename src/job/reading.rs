@@ -21,7 +21,7 @@ impl Job {
     ///
     /// # Errors
     ///
-    /// Those of [`Job::read`].
+    /// The errors of [`Job::read`].
     pub fn read_and_remark(path: &Path) -> Result<(Self, Option<String>)> {
         let job = Self::parse(&document::text_of(path)?, path)?;
         job.validate()?;

@@ -107,17 +107,7 @@ fn reduction(results: &Results<'_>) -> ReductionReport {
             .dropped
             .iter()
             .map(|column| DroppedCoordinate {
-                coordinate: match column.coordinate {
-                    DynamicCoordinate::RigidBody(index) => format!("rigid-body mode {}", index + 1),
-                    DynamicCoordinate::InertiaRelief(index) => format!("inertia relief {}", index + 1),
-                    DynamicCoordinate::FreeFree(mode) | DynamicCoordinate::FixedInterface(mode) => {
-                        format!("mode {}", mode + 1)
-                    }
-                    DynamicCoordinate::Expansion(mode) => format!("expansion mode {}", mode + 1),
-                    DynamicCoordinate::ResidualVector(load) => {
-                        format!("residual vector of {}", evidence.partition.loads.facts[load].name)
-                    }
-                },
+                coordinate: column.coordinate.name(&evidence.partition.loads.facts),
                 reason: format!("depends on the columns before it ({:.1e} of its length is left)", column.remaining),
             })
             .collect(),

@@ -47,13 +47,13 @@ pub(super) enum Rows {
 }
 
 impl Rows {
-    /// All of them.
+    /// The rows, whatever they are of.
     pub(super) fn all(&self) -> &[usize] {
         let (Self::Own(rows) | Self::Patch(rows) | Self::Average { rows, .. }) = self;
         rows
     }
 
-    /// Those of a patch; none of the node's own.
+    /// The rows of a patch; none where they are the node's own.
     pub(super) fn of_patch(&self) -> Option<&[usize]> {
         if matches!(self, Self::Own(_)) { None } else { Some(self.all()) }
     }

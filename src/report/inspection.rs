@@ -132,15 +132,7 @@ fn column(column: &Coordinate, load_names: &[String]) -> String {
     match column {
         Coordinate::Interface { node, .. } => format!("interface node {node}"),
         Coordinate::InterfaceRow { row } => format!("row {row}"),
-        Coordinate::RigidBodyMode { index } => format!("rigid-body mode {}", index + 1),
-        Coordinate::InertiaRelief { index } => format!("inertia relief {}", index + 1),
-        Coordinate::ExpansionMode { column } => format!("expansion mode {}", column + 1),
-        Coordinate::ResidualVector { load } => {
-            format!("residual vector of {}", load_names.get(*load).map_or("no load", String::as_str))
-        }
-        Coordinate::ElasticMode { mode, .. } | Coordinate::FixedInterfaceMode { mode, .. } => {
-            format!("mode {}", mode + 1)
-        }
+        mode => mode.mode_name(load_names).unwrap_or_default(),
     }
 }
 

@@ -44,7 +44,7 @@ pub use junit::{JunitWarnings, junit};
 pub use load::{LoadReport, ResidualVector};
 pub use page::Paint;
 use printable::json_text;
-pub(crate) use printable::{printable, value_text};
+pub(crate) use printable::{field, is_plain_field, printable, value_text};
 pub use reduction::{
     DroppedCoordinate, FacesReport, InterfacePosition, InterfaceReport, ModeKind, ModeRow, PositionOrigin,
     ReductionReport,

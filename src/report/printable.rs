@@ -28,6 +28,17 @@ pub(crate) fn printable(text: &str) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
+/// A name as a field of a table, printable: in quotation marks where a table would take it for something else.
+pub(crate) fn field(name: &str) -> Cow<'_, str> {
+    let name = printable(name);
+    if is_plain_field(&name) { name } else { Cow::Owned(format!("\"{}\"", name.replace('"', "\"\""))) }
+}
+
+/// Whether a table takes a printable name for what it is: not for several columns, a comment or a text in quotation marks.
+pub(crate) fn is_plain_field(name: &str) -> bool {
+    !name.contains([',', ';', '\t', '"', '#', '%']) && name.trim() == name
+}
+
 /// A JSON document, indented and with a line end; what JSON leaves as it is but [`printable`] does not is escaped the way of JSON, which
 /// changes no value. `what` is what an error calls it.
 ///

@@ -2,7 +2,7 @@
 
 use faer::Mat;
 
-use crate::basis::{Basis, DynamicCoordinate};
+use crate::basis::Basis;
 use crate::constraint::ConstraintModes;
 use crate::dense;
 use crate::eigen::Equilibrated;
@@ -65,15 +65,7 @@ pub(super) fn coordinate_name(evidence: &Evidence<'_>, coordinate: usize) -> Str
     match coordinate.checked_sub(n_b).map(|slot| evidence.basis.coordinates.get(slot).copied()) {
         Some(None) => format!("coordinate {}", coordinate + 1),
         None => evidence.partition.name_of(evidence.partition.n_internal + coordinate),
-        Some(Some(DynamicCoordinate::RigidBody(index))) => format!("rigid-body mode {}", index + 1),
-        Some(Some(DynamicCoordinate::InertiaRelief(index))) => format!("inertia relief {}", index + 1),
-        Some(Some(DynamicCoordinate::FreeFree(mode) | DynamicCoordinate::FixedInterface(mode))) => {
-            format!("mode {}", mode + 1)
-        }
-        Some(Some(DynamicCoordinate::Expansion(mode))) => format!("expansion mode {}", mode + 1),
-        Some(Some(DynamicCoordinate::ResidualVector(load))) => {
-            format!("residual vector of {}", evidence.partition.loads.facts[load].name)
-        }
+        Some(Some(dynamic)) => dynamic.name(&evidence.partition.loads.facts),
     }
 }
 

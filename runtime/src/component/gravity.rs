@@ -18,7 +18,7 @@ use super::modal_component::ModalComponent;
 use super::projection::Projector;
 use super::rows::{add_by_place, subtract_frame_rows};
 use super::weight::{Weight, on_frame};
-use super::workspace::{Scratch, Workspace, check_finite};
+use super::workspace::{Scratch, Workspace, check_finite, check_result};
 use crate::motion::{
     Vector3, Vector6, cross, dot, join, split, times_3, times_6, transposed_times_3, transposed_times_6,
 };
@@ -73,10 +73,7 @@ impl ModalComponent {
         stiffness: &mut [f64],
     ) -> Result<(), EvaluationError> {
         let r = self.n_coordinates();
-        if stiffness.len() != r * r {
-            let (what, found, expected) = ("entries of the result", stiffness.len(), r * r);
-            return Err(EvaluationError::WrongLength { what, found, expected });
-        }
+        check_result(stiffness.len(), r * r)?;
         let load = self.gravity_load(g, workspace)?;
         self.frame_rows_of_gravity(&load, workspace);
         let of_frame = times_6(&dense::transposed(&workspace.s), &load.on_frame);

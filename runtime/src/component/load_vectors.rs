@@ -22,7 +22,7 @@ use super::error::EvaluationError;
 use super::modal_component::ModalComponent;
 use super::projection::Projector;
 use super::rows::{add_by_place, subtract_frame_rows};
-use super::workspace::{Scratch, Workspace, check_finite};
+use super::workspace::{Scratch, Workspace, check_finite, check_result};
 use crate::motion::{Vector6, times_6, transposed_times_6};
 
 impl ModalComponent {
@@ -67,10 +67,7 @@ impl ModalComponent {
         stiffness: &mut [f64],
     ) -> Result<(), EvaluationError> {
         let r = self.n_coordinates();
-        if stiffness.len() != r * r {
-            let (what, found, expected) = ("entries of the result", stiffness.len(), r * r);
-            return Err(EvaluationError::WrongLength { what, found, expected });
-        }
+        check_result(stiffness.len(), r * r)?;
         let on_frame = self.project_load_vector(load, amplitude, workspace)?;
         let y = times_6(&dense::transposed(&workspace.s), &on_frame);
         let Workspace { nodes, q, product, scratch, .. } = workspace;

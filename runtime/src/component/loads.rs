@@ -3,7 +3,7 @@
 use super::error::EvaluationError;
 use super::floating_frame::check_motions;
 use super::modal_component::ModalComponent;
-use super::workspace::check_finite;
+use super::workspace::{check_finite, check_result};
 use crate::metadata::InterfaceDof;
 use crate::motion::{
     Matrix3, Matrix6, Motion, Vector3, Vector6, ZERO_3, blocks, force_to_origin, join, multiply_3, skew,
@@ -96,9 +96,7 @@ impl ModalComponent {
         if load.node >= self.n_nodes() {
             return Err(EvaluationError::UnknownNode { node: load.node, n_nodes: self.n_nodes() });
         }
-        if found != expected {
-            return Err(EvaluationError::WrongLength { what: "entries of the result", found, expected });
-        }
+        check_result(found, expected)?;
         for (what, values) in [("force", &load.force), ("moment", &load.moment)] {
             if let Some(index) = values.iter().position(|value| !value.is_finite()) {
                 return Err(EvaluationError::NotFinite { what, index });

@@ -114,6 +114,12 @@ impl Results {
     }
 }
 
+/// Fails unless a result has as many entries as it takes.
+pub(super) fn check_result(found: usize, expected: usize) -> Result<(), EvaluationError> {
+    let what = "entries of the result";
+    if found == expected { Ok(()) } else { Err(EvaluationError::WrongLength { what, found, expected }) }
+}
+
 pub(super) fn check_finite<const N: usize>(each: [(&'static str, &[f64]); N]) -> Result<(), EvaluationError> {
     match each.into_iter().find(|(_, values)| !all_finite(values)) {
         Some((what, _)) => Err(EvaluationError::Overflow { what }),

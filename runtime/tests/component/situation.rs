@@ -168,6 +168,21 @@ pub(crate) fn central_difference(step: f64, f: impl Fn(f64) -> Vec<f64>) -> Vec<
     f(step).iter().zip(f(-step)).map(|(ahead, behind)| (ahead - behind) / (2.0 * step)).collect()
 }
 
+/// −∂f/∂U of forces in the configuration (r × r, row by row), by central differences, added to a matrix of ones.
+pub(crate) fn one_minus_derivative(
+    step: f64,
+    situation: &Situation,
+    forces: impl Fn(&Situation) -> Vec<f64>,
+) -> Vec<f64> {
+    let r = situation.velocities.len();
+    let mut sum = vec![1.0; r * r];
+    for (j, unit) in units(r).iter().enumerate() {
+        let column = central_difference(step, |s| forces(&situation.moved(s, unit)));
+        column.iter().enumerate().for_each(|(i, value)| sum[i * r + j] -= value);
+    }
+    sum
+}
+
 /// The gradient of a scalar of the configuration, by central differences.
 pub(crate) fn gradient(step: f64, situation: &Situation, energy: impl Fn(&Situation) -> f64) -> Vec<f64> {
     let each = units(situation.velocities.len());

@@ -13,10 +13,10 @@ use std::fmt::Write;
 use supel_runtime::{Coordinate, Direction, Matrix, Superelement};
 
 use super::displacements::times;
-use super::quantities::field;
 use super::sheet::{Sheet, end_row};
 use super::state::{Order, State};
 use crate::model::Site;
+use crate::report::field;
 
 /// Names of the components of a resultant, in the order of the directions.
 const COMPONENTS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];

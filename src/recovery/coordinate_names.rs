@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use supel_runtime::{Coordinate, InterfaceNode, Superelement};
 
-use crate::report::printable;
+use crate::report::{is_plain_field, printable};
 
 /// A name for each reduced coordinate, in their order, all different and none in need of quotation marks: `foot.ux` for an interface of one
 /// node, `foot.17.ux` for one of several, `rows:4` for a row of a model without nodes (from zero), `eta.1` for a modal amplitude.
@@ -27,7 +27,7 @@ pub fn coordinate_names(superelement: &Superelement) -> Vec<String> {
         .collect();
     let mut n_alike: HashMap<&str, usize> = HashMap::new();
     names.iter().for_each(|name| *n_alike.entry(name).or_default() += 1);
-    let is_plain = |name: &String| n_alike[name.as_str()] == 1 && !needs_quotation(name);
+    let is_plain = |name: &String| n_alike[name.as_str()] == 1 && is_plain_field(name) && printable(name) == *name;
     names
         .iter()
         .enumerate()
@@ -43,9 +43,4 @@ pub(super) fn node_name(nodes: &[InterfaceNode], index: usize) -> String {
         Some(label) if !is_alone => format!("{}.{label}", node.name),
         _ => node.name.clone(),
     }
-}
-
-/// Whether a table takes a name for something else: several columns, a comment, blanks around it.
-fn needs_quotation(name: &str) -> bool {
-    name.contains([',', ';', '\t', '"', '#', '%']) || name.trim() != name || printable(name) != name
 }

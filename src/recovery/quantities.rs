@@ -7,7 +7,7 @@ use supel_runtime::{Matrix, Quantity};
 use super::displacements::times;
 use super::sheet::{Sheet, end_row};
 use super::state::{Order, State};
-use crate::report::printable;
+use crate::report::field;
 
 /// Quantities of a file, a row for each.
 pub struct Quantities<'a> {
@@ -35,10 +35,4 @@ impl Sheet for Quantities<'_> {
         }
         Ok(())
     }
-}
-
-/// A name as a field of a table: in quotation marks where it has characters that tables use.
-pub(super) fn field(name: &str) -> String {
-    let name = printable(name);
-    if name.contains([',', '"']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.into_owned() }
 }

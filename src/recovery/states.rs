@@ -41,7 +41,7 @@ impl States {
     /// Opens the tables, for coordinates of these names.
     ///
     /// # Errors
-    /// Those of [`StateTable::open`] for each table.
+    /// The errors of [`StateTable::open`] for each table.
     pub fn open(files: &StateFiles, names: &[String]) -> Result<Self> {
         let displacement = StateTable::open(&files.displacement, names)?;
         let mut state = State::default();

@@ -33,7 +33,7 @@ pub struct SheetOutput<'a> {
 /// Fills all sheets with all states, and says how many these are. Memory holds one state and its rows at a time.
 ///
 /// # Errors
-/// Those of [`States::advance`]; [`Error::StateRange`] where a result overflows; [`Error::Write`].
+/// The errors of [`States::advance`]; [`Error::StateRange`] where a result overflows; [`Error::Write`].
 pub fn fill(states: &mut States, outputs: &mut [SheetOutput<'_>]) -> Result<u64> {
     let (orders, has_times) = (states.orders(), states.has_times());
     let table = states.path().to_owned();
