@@ -59,5 +59,5 @@ pub fn compared(model: Model, held: &[Direction], tied: &HashSet<i64>) -> Result
     findings.extend(matches!(fit, CoordinateFit::Unknown).then_some(Finding::MotionsUncounted));
     findings.extend(doubt::not_held(&motions, held));
     findings.extend(mass::by_direction(&motions, &nodes, &doubts));
-    Ok(Model { fit, findings, ..model })
+    Ok(Model { fit, is_unsupported: doubts.is_empty(), findings, ..model })
 }

@@ -10,7 +10,7 @@ use crate::sparse::{product, product_and_terms};
 pub(super) struct Motions<'a> {
     pub(super) model: &'a Model,
     pub(super) sites: &'a [Option<Site>],
-    /// Those that have a node.
+    /// The bodies that have a node.
     pub(super) bodies: Vec<Body>,
     /// C, n × 6.
     pub(super) centred: Mat<f64>,

@@ -45,9 +45,9 @@ const LEAST_NODES: usize = 4;
 
 /// Nodes whose neighbours in M are others than in K.
 struct Apart {
-    /// Those that share less than half of them.
+    /// The nodes that share less than half of their neighbours.
     nodes: Vec<u32>,
-    /// All of them, where the counts of neighbours prove that M is that of the mesh of K in another order.
+    /// All nodes apart, where the counts of neighbours prove that M is that of the mesh of K in another order.
     moved: Vec<u32>,
     n_nodes: usize,
 }

@@ -51,6 +51,8 @@ pub struct Model {
     pub bodies: Bodies,
     /// How coordinates and dof map fit K; unknown until [`crate::coordinates::compared`] has looked.
     pub fit: CoordinateFit,
+    /// Whether the coordinates show that nothing holds it, so that no support took rows out of the matrices.
+    pub is_unsupported: bool,
     /// What was found and mended, in the order it was found.
     pub findings: Vec<Finding>,
 }
@@ -119,8 +121,8 @@ impl Model {
             || Bodies::of(&stiffness, &node_of_row(stiffness.rows(), dofs.as_deref())),
         );
         is_definite?;
-        let (nodes, fit) = (input.nodes, CoordinateFit::Unknown);
-        Ok(Self { stiffness, mass, scaling, precision, dofs, nodes, rows, bodies, fit, findings })
+        let (nodes, fit, is_unsupported) = (input.nodes, CoordinateFit::Unknown, false);
+        Ok(Self { stiffness, mass, scaling, precision, dofs, nodes, rows, bodies, fit, is_unsupported, findings })
     }
 
     /// What the rows are called in messages.

@@ -17,6 +17,8 @@ pub struct Weight {
     pub motions: Option<Mat<f64>>,
     /// Whether every node has all translations or none, so that no direction lacks mass that others have.
     pub has_whole_nodes: bool,
+    /// Whether no support took mass out of the matrices before they were read.
+    pub is_whole: bool,
 }
 
 impl Model {
@@ -43,6 +45,7 @@ impl Model {
             *n_translations.entry(dof.node).or_default() += 1;
         }
         let has_whole_nodes = n_translations.values().all(|count| *count == 3);
-        Some(Weight { translations, motions: sites.is_some().then_some(masses), has_whole_nodes })
+        let (motions, is_whole) = (sites.is_some().then_some(masses), self.is_unsupported);
+        Some(Weight { translations, motions, has_whole_nodes, is_whole })
     }
 }

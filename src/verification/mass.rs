@@ -91,7 +91,8 @@ pub(crate) fn of_held_body(partition: &Partition) -> Option<Check> {
 /// M-16 against what the job expects.
 ///
 /// A free body is compared by its rigid-body motions. The mass of any other model is that of the translations of its map, and
-/// its centre that of its coordinates; supports take the rows of held dofs out of M, so that a held model may lack a part.
+/// its centre that of its coordinates. Supports of the model take the rows of held dofs out of M, so that such a model may lack a part;
+/// those of the job leave the whole known.
 pub(super) fn expected(evidence: &Evidence<'_>) -> Option<Check> {
     compared(evidence.expect?, Known::of(evidence)?, evidence.partition.scaling.mass_unit())
 }
@@ -135,7 +136,7 @@ fn compared(expect: &Expectation, known: Known, unit: f64) -> Option<Check> {
     if mass_error.is_none() && shift.is_none() {
         return None;
     }
-    let may_lack_rows = !known.is_free && expect.mass.is_none_or(|expected| mass < expected);
+    let may_lack_rows = !known.is_whole && expect.mass.is_none_or(|expected| mass < expected);
     let centre = known.place.map_or_else(String::new, |Place { centre, gyration }| {
         // Rounding compared with the component's size is shown as zero.
         let shown = |value: f64| quantity(if value.abs() < 1e-12 * gyration { 0.0 } else { value }, 6);
@@ -173,8 +174,8 @@ const TAKEN_OUT: f64 = 0.5;
 struct Known {
     mass: f64,
     place: Option<Place>,
-    /// Whether it is one free body, so that no support took out a row.
-    is_free: bool,
+    /// Whether no support took out a row.
+    is_whole: bool,
 }
 
 #[derive(Clone, Copy)]
@@ -191,7 +192,7 @@ impl Known {
         if rigid.is_classical && partition.held.count() == 0 {
             let m_f = evidence.reduction.rigid_body_mass.as_ref();
             let mass = (m_f[(0, 0)] + m_f[(1, 1)] + m_f[(2, 2)]) / 3.0;
-            return Some(Self { mass, place: Some(Place::of(m_f, mass)), is_free: true });
+            return Some(Self { mass, place: Some(Place::of(m_f, mass)), is_whole: true });
         }
         Self::by_weight(partition)
     }
@@ -202,7 +203,7 @@ impl Known {
         // A support may take out the rows of one direction and not of another.
         let mass = weight.translations.into_iter().fold(0.0, f64::max);
         let place = weight.motions.as_ref().map(|m_f| Place::of(m_f.as_ref(), mass));
-        Some(Self { mass, place, is_free: false })
+        Some(Self { mass, place, is_whole: weight.is_whole })
     }
 }
 

@@ -113,6 +113,33 @@ fn expected_mass_of_a_held_component_is_compared() {
     }
 }
 
+/// Of a component that the job itself holds the whole mass is known: 1.5 times too much is no part that supports took.
+#[test]
+fn expected_mass_of_what_the_job_holds_is_the_whole() {
+    let whole = 7850.0 * 1.2 * 0.55 * 0.31;
+    let held = "nodes = [14, 20]\n[[fixed]]\nname = \"wall\"\nnodes = [1, 7, 22, 28]";
+    let of = |mass: f64| by_job(&block(), &format!("expect = {{ mass = {mass} }}"), held);
+    let (place, ended) = of(whole);
+    assert_eq!(ended.code, ExitCode::Done, "{}{}", ended.out, ended.err);
+    let (verdict, worst) = expected(&place).expect("a check");
+    assert!(verdict == "pass" && !worst.contains("supports"), "{verdict}: {worst}");
+    for mass in [1.5 * whole, 1.02 * whole, whole / 1.5] {
+        let (place, ended) = of(mass);
+        assert_eq!(ended.code, ExitCode::CheckFailed, "{mass}: {}{}", ended.out, ended.err);
+        assert_eq!(expected(&place).expect("a check").0, "fail");
+        // So does the check of a file by a job that expects it.
+        let job = std::fs::read_to_string(place.path("job.toml")).expect("a job");
+        place.write("right.toml", job.replace(&format!("mass = {mass}"), &format!("mass = {whole}")).as_bytes());
+        let made = supel(&["reduce", &place.text("right.toml"), "--quiet"]);
+        assert_eq!(made.code, ExitCode::Done, "{}{}", made.out, made.err);
+        let verified = supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml"), "--json"]);
+        let document: serde_json::Value = serde_json::from_str(&verified.out).expect("JSON");
+        let mut checks = document["checks"].as_array().expect("checks").iter();
+        let check = checks.find(|check| check["name"] == "mass and centre are those expected").expect("the check");
+        assert_eq!(check["verdict"], "fail", "{mass}");
+    }
+}
+
 /// The mass needs the dof map, the centre the coordinates as well: what cannot be compared is told, the rest is compared.
 #[test]
 fn expectations_without_coordinates_are_compared_in_part() {
