@@ -45,9 +45,6 @@ const LOOK_AT: usize = 12;
 /// Eigenvalues up to this multiple of one that is rounding are rounding of the same size, and what their modes are is left to
 /// it: each may carry as much as any other.
 const ALIKE: f64 = 10.0;
-/// Share of the highest of the lowest modes below which an eigenvalue is rounding: some fifty ε. A matrix that was projected
-/// itself carries the rounding of terms that have cancelled and that its own entries do not show.
-const PROJECTED: f64 = 1e-14;
 
 /// Factors K − σM of a modal problem with a shift suited to it.
 ///
@@ -104,16 +101,13 @@ pub(crate) fn first_shift(problem: ModalProblem<'_>) -> f64 {
     -FIRST_SHIFT.max(ROUNDINGS_OF_DATA * rounding.relative) * median_ratio(problem)
 }
 
-/// Leading modes that are zero: by themselves, as rounding of modes they mix with, or as rounding of a matrix that was projected.
+/// Leading modes that are zero: by themselves, or as rounding of modes they mix with.
 fn n_zero(lowest: &Modes) -> usize {
-    let rounding = PROJECTED * lowest.lambda.last().copied().unwrap_or(0.0);
     let pairs = || lowest.lambda.iter().zip(&lowest.errors);
     let is_zero = |(lambda, error): &(&f64, &ModeError)| {
         let alike = pairs().filter(|(other, _)| other.abs() <= ALIKE * lambda.abs());
         let floor = alike.fold(error.rounding_floor, |floor, (_, error)| floor.max(error.rounding_floor));
-        zero::is_zero(**lambda, error.zero_level)
-            || zero::is_zero(**lambda, zero::level(0.0, 0.0, floor))
-            || **lambda <= rounding.max(0.0)
+        zero::is_zero(**lambda, error.zero_level) || zero::is_zero(**lambda, zero::level(0.0, 0.0, floor))
     };
     pairs().take_while(is_zero).count()
 }

@@ -2,6 +2,7 @@
 
 use supel::cli::ExitCode;
 use supel_models::model::Assembler;
+use supel_models::springs::springs;
 use supel_models::transform::{grounded, join, translated};
 use supel_models::{Ends, Inertia, Material, Model, Section, brick, frame, spring};
 
@@ -176,6 +177,28 @@ fn frequencies_a_million_times_apart() {
         let ended = place.reduce(&place.model_flags(), &rest);
         assert_eq!(ended.code, ExitCode::Done, "{method}:\n{}{}", ended.out, ended.err);
         passes(&place, method);
+    }
+}
+
+/// A heavy mass on a soft spring to the ground, with light ones in between: the highest frequency is 10⁹ times the lowest, which is
+/// known to nine digits all the same and is no rigid-body motion.
+#[test]
+fn softly_held_masses_next_to_light_ones() {
+    let chain = springs(&[1e-3, 1e6, 1e-3, 3.0], &[(3, 1e3)], &[(0, 1, 1e6), (1, 2, 1e8), (2, 3, 1e6)]);
+    let place = Place::with(&chain);
+    // Three springs in series under the heavy mass; the others add 3e-6 of it to what moves at most.
+    let series = 1.0 / (1e-8 + 1e-6 + 1e-3);
+    let expected = (series / 1e6_f64).sqrt() / std::f64::consts::TAU;
+    for method in ["craig-bampton", "herting"] {
+        let flags = format!("--interface b=rows:0 --method {method} --modes 2");
+        place.reduce(&place.matrix_flags(), &flags).expect(ExitCode::Done);
+        passes(&place, method);
+        let superelement = place.superelement("x.supel");
+        assert_eq!(superelement.tensors().rigid_body_modes.cols(), 0, "{method}");
+        let modes = supel(&["modes", &place.text("x.supel"), "--json"]);
+        let document: serde_json::Value = serde_json::from_str(&modes.out).expect("JSON");
+        let found = document["modes"][0]["frequency_hz"].as_f64().expect("a frequency");
+        assert!((found / expected - 1.0).abs() < 3e-6, "{method}: {found} instead of {expected}");
     }
 }
 
