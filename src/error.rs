@@ -18,8 +18,8 @@ use supel_runtime::FileError;
 
 use code::catalogued;
 use words::{
-    At, BY_ROWS, FEW_DIGITS, Offered, STATE_DIGITS, STATE_EXACT, Suggested, at_line, column_words, forecast, groups,
-    listed, not_text, place, quoted,
+    At, BY_ROWS, FEW_DIGITS, OFF_THE_AXIS, Offered, ROWS_THAT_MOVE, SIX_DOFS, STATE_DIGITS, STATE_EXACT, Suggested,
+    at_line, column_words, forecast, groups, listed, not_text, place, quoted,
 };
 
 use crate::number::{bytes, count, counted, quantity, typed};
@@ -2124,9 +2124,9 @@ pub enum Error {
     /// The interface leaves a rigid-body motion free, as far as the digits of the stiffness tell.
     #[entry("E-INTERFACE-RANK", ModelPhysics, "add interface nodes off the axis named, or give them rotations")]
     #[error(
-        "the interface can react only {rank} of the {}{motion} – expected all – add \
-        interface nodes off that axis or give the nodes rotations{}",
-        counted(*n_rigid, "rigid-body motion", "rigid-body motions"), if *has_few_digits { FEW_DIGITS } else { "" }
+        "the interface can react only {rank} of the {}{motion} – expected all – {}{}",
+        counted(*n_rigid, "rigid-body motion", "rigid-body motions"),
+        if *has_coordinates { OFF_THE_AXIS } else { ROWS_THAT_MOVE }, if *has_few_digits { FEW_DIGITS } else { "" }
     )]
     InterfaceRank {
         /// Motions it reacts.
@@ -2135,6 +2135,8 @@ pub enum Error {
         n_rigid: usize,
         /// The free motion in words.
         motion: String,
+        /// Whether coordinates are known, so that the motion has an axis.
+        has_coordinates: bool,
         /// Whether the stiffness has few digits, which may be all that is wrong.
         has_few_digits: bool,
     },
@@ -2487,8 +2489,9 @@ pub enum Error {
     /// A mass is put on a node that has no dof to carry it.
     #[entry("E-POINT-MASS", ModelPhysics, "put it on a node with these dofs, as those of rigid interfaces have")]
     #[error(
-        "{place} cannot carry the mass – found dofs `{dofs}` – expected {lacking} among them – put the mass on a node \
-        with six dofs, as rigid interfaces have"
+        "{place} cannot carry the mass – found {} – expected {lacking} among them – {}",
+        if dofs.is_empty() { "rows without directions".to_owned() } else { format!("dofs `{dofs}`") },
+        if dofs.is_empty() { "give the model of the component a dof map" } else { SIX_DOFS }
     )]
     PointMassDofs {
         /// The node.

@@ -97,7 +97,12 @@ pub(super) fn untested(motions: &Motions<'_>, doubts: &[Doubt]) -> Option<Findin
     let n_rows: usize = held().map(|doubt| motions.bodies[doubt.body].rows.len()).sum();
     let n_touched: usize = held().map(|doubt| doubt.n_touched).sum();
     let is_untested = n_touched as f64 > NEARLY_ALL * n_rows as f64;
-    is_untested.then_some(Finding::CoordinatesUntested { n_touched, n_rows })
+    let of_body = |doubt: &Doubt| {
+        let body = &motions.bodies[doubt.body];
+        (0..FIRST_ROTATION).map(|motion| motions.residual(body, &body.rows, motion)).fold(0.0, f64::max)
+    };
+    let largest = held().map(of_body).fold(0.0, f64::max);
+    is_untested.then_some(Finding::CoordinatesUntested { n_touched, n_rows, largest })
 }
 
 /// The rotations that the job says to be held and that no row answers with a force.

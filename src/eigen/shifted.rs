@@ -101,13 +101,16 @@ pub(crate) fn first_shift(problem: ModalProblem<'_>) -> f64 {
     -FIRST_SHIFT.max(ROUNDINGS_OF_DATA * rounding.relative) * median_ratio(problem)
 }
 
-/// Leading modes that are zero: by themselves, or as rounding of modes they mix with.
+/// Leading modes that are zero: by themselves, or as rounding of modes they mix with. Negative ones are no elastic ones;
+/// [`refuse_negative`] judges them.
 fn n_zero(lowest: &Modes) -> usize {
     let pairs = || lowest.lambda.iter().zip(&lowest.errors);
     let is_zero = |(lambda, error): &(&f64, &ModeError)| {
         let alike = pairs().filter(|(other, _)| other.abs() <= ALIKE * lambda.abs());
         let floor = alike.fold(error.rounding_floor, |floor, (_, error)| floor.max(error.rounding_floor));
-        zero::is_zero(**lambda, error.zero_level) || zero::is_zero(**lambda, zero::level(0.0, 0.0, floor))
+        **lambda <= 0.0
+            || zero::is_zero(**lambda, error.zero_level)
+            || zero::is_zero(**lambda, zero::level(0.0, 0.0, floor))
     };
     pairs().take_while(is_zero).count()
 }

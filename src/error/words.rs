@@ -20,6 +20,14 @@ pub(super) const STATE_DIGITS: &str = "if its numbers have fewer digits than the
 pub(super) const FEW_DIGITS: &str =
     ", or say model.stiffness_digits = 17 in the job if the numbers of the stiffness are exact";
 
+/// What to do where a rigid-body motion about a known axis leaves the interface at rest.
+pub(super) const OFF_THE_AXIS: &str = "add interface nodes off that axis or give the nodes rotations";
+/// What to do where it is a motion of rows.
+pub(super) const ROWS_THAT_MOVE: &str =
+    "add rows to the interface that these motions move; nodes in the job would name them";
+/// What to do where a node lacks a direction of a mass.
+pub(super) const SIX_DOFS: &str = "put the mass on a node with six dofs, as rigid interfaces have";
+
 /// `:12` after a path, where the line is known.
 pub(super) struct At(pub(super) Option<usize>);
 

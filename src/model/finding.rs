@@ -9,6 +9,9 @@ pub const ASYMMETRY_WARN: f64 = 1e-12;
 /// millimetres and soft joints come to 10⁸ of each other. Smaller ones are named by the digits they take, once there are modes.
 pub(super) const PENALTY: f64 = 1e10;
 
+/// Share of their terms up to which forces may be the rounding of a matrix of six digits and more.
+const LIKE_ROUNDING: f64 = 1e-5;
+
 /// Something the checks found that is not an error.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Finding {
@@ -69,6 +72,8 @@ pub enum Finding {
         n_touched: usize,
         /// Rows of the bodies that supports touch.
         n_rows: usize,
+        /// The largest of these forces, relative to the terms that it is the sum of.
+        largest: f64,
     },
     /// The motions without energy of a held model cannot be counted, so that nothing confirms the coordinates at its supports.
     MotionsUncounted,
@@ -159,13 +164,21 @@ impl std::fmt::Display for Finding {
                     lacks.join(", ")
                 )
             }
-            Self::CoordinatesUntested { n_touched, n_rows } => {
+            Self::CoordinatesUntested { n_touched, n_rows, largest } => {
                 write!(
                     f,
                     "translations make forces at {n_touched} of {}: supports that touch so many rows leave too few to \
                      compare the coordinates and the dof map with; check that rows and map are in one order",
                     counted(*n_rows, "row", "rows")
-                )
+                )?;
+                if *largest <= LIKE_ROUNDING {
+                    write!(
+                        f,
+                        "; the forces are {largest:.0e} of their terms at most, as rounding leaves of a K that has fewer \
+                         digits than its numbers show: state `stiffness_digits` then"
+                    )?;
+                }
+                Ok(())
             }
             Self::MotionsUncounted => f.write_str(
                 "K is too badly conditioned to count its motions without energy: nothing confirms the coordinates where supports are; \

@@ -64,6 +64,16 @@ fn names_that_are_not_there_are_refused_with_a_suggestion() {
     assert!(assembly.joints.is_empty() && assembly.held.is_empty() && assembly.loaded.is_empty());
 }
 
+/// Rows have no directions in which a mass could act.
+#[test]
+fn a_mass_on_rows_asks_for_a_dof_map() {
+    let bare = Model { dofs: Vec::new(), ..beams(&line()[..7]) };
+    let mut assembly = assembly(reduced("left", &bare, &format!("--interface r=rows:0,1,2,3,4,5 {METHOD}")), right());
+    let error = assembly.load("left.rows:0", PointMass { mass: 1.0, inertia: [0.0; 3] }).expect_err("no direction");
+    assert!(matches!(error, Error::PointMassDofs { .. }), "{error}");
+    assert_says(&error, &["found rows without directions", "give the model of the component a dof map"]);
+}
+
 #[test]
 fn one_name_for_two_components_is_refused() {
     let error = Assembly::new(vec![left(), left()]).expect_err("one name");

@@ -94,6 +94,21 @@ fn supports_at_every_node_leave_coordinates_untested() {
     let (place, ended) = by_job(&model, "", FOOT);
     assert_eq!(ended.code, ExitCode::Done, "{}{}", ended.out, ended.err);
     assert_eq!(warnings(&place), ["W-COORD-UNTESTED"]);
+    assert!(!ended.out.contains("stiffness_digits"), "{}", ended.out);
+}
+
+/// Single precision in other units looks like doubles, and rounding like supports everywhere.
+#[test]
+fn rounding_that_the_digits_do_not_show_is_told_by_its_size() {
+    let mut model = block();
+    let inches = |value: f64| f64::from(value as f32) * 175.126835;
+    model.stiffness.iter_mut().for_each(|entry| entry.2 = inches(entry.2));
+    let (place, ended) = by_job(&model, "", FOOT);
+    if ended.code == ExitCode::Done {
+        assert_eq!(warnings(&place), ["W-COORD-UNTESTED"], "{}", ended.out);
+    }
+    let said = format!("{}{}", ended.out, ended.err);
+    assert!(said.contains("state `stiffness_digits` then"), "{said}");
 }
 
 #[test]

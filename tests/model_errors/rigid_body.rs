@@ -218,6 +218,7 @@ fn rank_without_coordinates() {
     let (partition, rigid) = rigid_of(&anonymous, &[rows("pin", &[0, 1, 2])]).expect("zero modes");
     let error = refusal(rigid::interface_rank(&partition, &rigid));
     assert!(matches!(&error, Error::InterfaceRank { rank: 3, n_rigid: 6, motion, .. } if motion.is_empty()), "{error}");
+    assert_says(&error, ErrorClass::ModelPhysics, &["add rows to the interface that these motions move"]);
 }
 
 /// The point and the direction in `rotation about the axis through (x, y, z) along (a, b, c)`.
