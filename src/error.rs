@@ -2033,8 +2033,8 @@ pub enum Error {
     /// The nodes of a patch do not determine the cylinder or the sphere that its origin is taken from.
     #[entry("E-ORIGIN-FIT", InputData, "check which nodes the patch has, or give the origin as [x, y, z]")]
     #[error(
-        "interface {interface:?}: its origin is that of a {shape} fitted to its nodes – found {found} – expected nodes of one \
-        {shape}, none farther off than 0.05 of the radius – check which nodes the patch has, or give the origin as [x, y, z]"
+        "interface {interface:?}: its origin or its axes are those of a {shape} fitted to its nodes – found {found} – expected nodes of \
+        one {shape}, none farther off than 0.05 of the radius – check which nodes the patch has, or give them as numbers"
     )]
     OriginNotFitted {
         /// The interface.
@@ -2043,6 +2043,20 @@ pub enum Error {
         shape: &'static str,
         /// What was found, in words.
         found: String,
+    },
+    /// The directions that give the axes of an interface node are parallel.
+    #[entry("E-AXES", InputData, "give x in another direction than z")]
+    #[error(
+        "interface {interface:?}: `axes` has z along {z:?} and x along {x:?}, which are parallel – expected two directions – give x in \
+        another direction"
+    )]
+    AxesParallel {
+        /// The interface.
+        interface: String,
+        /// The direction of z.
+        z: [f64; 3],
+        /// The direction of x.
+        x: [f64; 3],
     },
     /// The faces of a patch decide its origin or its weights, and they are not known.
     #[entry("E-PATCH-FACES", InputData, "give a mesh whose cells have faces in the patch, or do without \"area\"")]
@@ -2446,21 +2460,6 @@ pub enum Error {
         b: String,
         /// The node without a partner.
         node: String,
-    },
-    /// Nodes that are joined have different axes.
-    #[entry("E-JOIN-FRAME", ModelPhysics, "reduce both components in one frame")]
-    #[error(
-        "{a} and {b} cannot be joined – found their axes turned by {} degrees against each other – expected the same \
-        axes – reduce both components in one frame",
-        quantity(*degrees, 4)
-    )]
-    JoinFrame {
-        /// The first node.
-        a: String,
-        /// The second.
-        b: String,
-        /// The angle.
-        degrees: f64,
     },
     /// Nodes that are joined have no direction in common.
     #[entry("E-JOIN-DOFS", ModelPhysics, "join nodes of the same kind: nodes with nodes, rows with rows")]

@@ -25,7 +25,7 @@ mod whole;
 pub use crate::eigen::Eigensolver;
 pub use document::Notation;
 pub use fixed::FixedJob;
-pub use interface::{Coupling, InterfaceJob, Origin, Weights};
+pub use interface::{Axes, AxesGiven, Coupling, InterfaceJob, Origin, Weights};
 pub use load::{LoadJob, LoadPattern, RotationJob};
 pub use location::Holder;
 pub use method::{Boundary, Method, ModeOrigin};

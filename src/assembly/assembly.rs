@@ -7,13 +7,14 @@ use serde::Serialize;
 use supel_runtime::Direction;
 
 use super::component::Component;
-use super::joint::{Pair, pairs};
+use super::joint::{Pair, pairs, turned};
 use super::place::Place;
 use super::rigid::{Ties, rigid_motions};
 use super::selection::Selector;
 use super::spectrum::Pencil;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::error::{Error, Result};
+use crate::number::quantity;
 
 /// Components joined at nodes.
 #[derive(Clone, Debug)]
@@ -110,7 +111,7 @@ impl Assembly {
     ///
     /// # Errors
     /// [`Error::AssemblyName`], [`Error::JoinedTwice`] and those of the comparison of the two: [`Error::JoinUnits`], [`Error::JoinNodes`],
-    /// [`Error::JoinPosition`], [`Error::JoinFrame`], [`Error::JoinDofs`].
+    /// [`Error::JoinPosition`], [`Error::JoinDofs`].
     pub fn join(&mut self, a: &str, b: &str) -> Result<()> {
         let [of_a, of_b] = [self.places("--join", a)?, self.places("--join", b)?];
         let pairs = pairs(&self.components, (&of_a, &of_b), (a, b))?;
@@ -137,11 +138,16 @@ impl Assembly {
         Ok(())
     }
 
-    /// Says which directions of joined nodes stay free and which positions nobody knows.
+    /// Says which directions of joined nodes stay free, which positions nobody knows and which axes differ.
     fn note_pairs(&mut self, pairs: &[Pair]) {
         let Some(Pair { a, b, dofs, distance }) = pairs.first() else { return };
         if distance.is_none() {
             self.notes.push(format!("{} and {} have no positions that could be compared", a.name, b.name));
+        }
+        // Matrices are in the axes of the model, whatever those of a node are.
+        if let Some(degrees) = turned(a, b) {
+            let (a, b, degrees) = (&a.name, &b.name, quantity(degrees, 4));
+            self.notes.push(format!("the axes of {a} and {b} are turned by {degrees} degrees against each other"));
         }
         for (one, other) in [(a, b), (b, a)] {
             let is_free =

@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 const SAME_PLACE: f64 = 1e-6;
 /// Rounding of a coordinate in single precision, which some meshes have.
 const SINGLE_PRECISION: f64 = 1.2e-7;
-/// How far entries of two frames may differ: rotations from seven printed digits pass.
+/// How far entries of two frames may differ: rotations from seven printed digits are one.
 const SAME_FRAME: f64 = 1e-6;
 
 /// Two places that become one.
@@ -25,7 +25,7 @@ pub(super) struct Pair {
 /// The pairs of two interfaces: of one node each, of nodes at the same places, of rows in their order.
 ///
 /// # Errors
-/// [`Error::JoinUnits`], [`Error::JoinNodes`], [`Error::JoinPosition`], [`Error::JoinFrame`], [`Error::JoinDofs`].
+/// [`Error::JoinUnits`], [`Error::JoinNodes`], [`Error::JoinPosition`], [`Error::JoinDofs`].
 pub(super) fn pairs(components: &[Component], (a, b): (&[Place], &[Place]), names: (&str, &str)) -> Result<Vec<Pair>> {
     let [of_a, of_b] = [a, b].map(|places| &components[places[0].component]);
     same_units(of_a, of_b)?;
@@ -89,12 +89,6 @@ fn tolerance((a, b): (&Component, &Component), places: (&[Place], &[Place])) -> 
 
 /// The coordinates of the directions that both have.
 fn common_dofs(a: &Place, b: &Place) -> Result<Vec<[usize; 2]>> {
-    if let (Some(of_a), Some(of_b)) = (a.frame, b.frame) {
-        let difference = of_a.as_flattened().iter().zip(of_b.as_flattened()).map(|(a, b)| (a - b).abs());
-        if difference.fold(0.0, f64::max) > SAME_FRAME {
-            return Err(Error::JoinFrame { a: a.name.clone(), b: b.name.clone(), degrees: angle(&of_a, &of_b) });
-        }
-    }
     let common = a.dofs.iter().filter_map(|(direction, of_a)| Some([*of_a, b.coordinate(*direction)?]));
     let common: Vec<[usize; 2]> = common.collect();
     if common.is_empty() {
@@ -102,6 +96,13 @@ fn common_dofs(a: &Place, b: &Place) -> Result<Vec<[usize; 2]>> {
         return Err(Error::JoinDofs { a: a.name.clone(), b: b.name.clone(), dofs });
     }
     Ok(common)
+}
+
+/// By how many degrees the axes of two nodes are turned against each other; none where they are the same or nobody knows them.
+pub(super) fn turned(a: &Place, b: &Place) -> Option<f64> {
+    let (of_a, of_b) = a.frame.zip(b.frame)?;
+    let difference = of_a.as_flattened().iter().zip(of_b.as_flattened()).map(|(a, b)| (a - b).abs());
+    (difference.fold(0.0, f64::max) > SAME_FRAME).then(|| angle(&of_a, &of_b))
 }
 
 /// By how many degrees one frame is turned against another: 1 + 2 cos φ is the trace of AᵀB.

@@ -10,7 +10,8 @@ use super::mass::is_of_a_body;
 use super::record;
 use super::rigid_motion::is_nearly_unit;
 use super::version::{applied, is_of_this_version};
-use crate::job::{Boundary, Job, Method, ModeOrigin, ModeSelection, NodeSelection};
+use crate::job::{Axes, Boundary, Job, Method, ModeOrigin, ModeSelection, NodeSelection};
+use crate::partition::{Frame, OF_THE_MODEL, axes_of_job};
 use crate::verification::check::{Check, Limits};
 
 /// Method, units, interfaces, axes, band and recovery are those of the job kept in the file.
@@ -20,13 +21,23 @@ pub(super) fn agrees(content: &Content<'_>) -> Check {
     if let Some(job) = &content.job {
         flaws.extend(by_job(content, job).iter().map(ToString::to_string));
     }
-    // No job turns the axes of an interface node, and the matrices are in the inertial frame whatever the axes.
-    let inertial = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    if tensors.interface_frames.iter().any(|frame| *frame != inertial) {
+    let nodes = content.superelement.metadata().interface_nodes.iter();
+    if nodes.zip(&tensors.interface_frames).any(|(node, frame)| has_other_axes(content.job.as_ref(), &node.name, frame))
+    {
         flaws.push("turned axes of interface nodes".to_owned());
     }
     flaws.extend(applied(content.superelement, made_by_none(content)));
     flaw("file is what its job asks for", "number of differences to the job kept in the file", &flaws)
+}
+
+/// Whether the axes of an interface node are others than the job gives. No matrix depends on them, and those of a hole are in the mesh.
+fn has_other_axes(job: Option<&Job>, interface: &str, found: &Frame) -> bool {
+    let asked = job.and_then(|job| job.interfaces.iter().find(|asked| asked.name == interface)?.axes.as_ref());
+    match asked {
+        Some(Axes::Hole) => false,
+        Some(Axes::Given(given)) => axes_of_job(given).is_none_or(|asked| asked != *found),
+        None => *found != OF_THE_MODEL,
+    }
 }
 
 /// What no reduction by this version makes, and other programs and versions may.

@@ -37,7 +37,7 @@ const fn unvouched(field: &'static str, reason: &'static str) -> Unvouched {
 const NOT_AT_HAND: &str = "names things of a model that is not at hand";
 
 /// Fields that the file alone cannot confirm.
-const ALONE: [Unvouched; 28] = [
+const ALONE: [Unvouched; 29] = [
     unvouched("generator", "a file has no other sign of who made it"),
     unvouched("units", "the job kept in it is the only other place, and may be changed too"),
     unvouched("interface_nodes[].name", "the job kept in it is the only other place, and may be changed too"),
@@ -46,6 +46,7 @@ const ALONE: [Unvouched; 28] = [
         "interface_nodes[].position",
         "the rigid-body modes are the only other place; algebraic ones have no positions",
     ),
+    unvouched("interface_frames", "axes along a hole are those of a mesh that is not at hand"),
     unvouched("coordinates[].row", NOT_AT_HAND),
     unvouched(
         "coordinates[].error_bar_hz",
@@ -107,6 +108,7 @@ pub(super) fn fields(superelement: &Superelement, compared: Compared) -> Vec<Unv
         "units" => metadata.units.is_some(),
         "interface_nodes[].label" => metadata.interface_nodes.iter().any(|node| node.label.is_some()),
         "interface_nodes[].position" => is_algebraic && !metadata.interface_nodes.is_empty(),
+        "interface_frames" => metadata.job["interface"].as_array().is_some_and(|all| all.iter().any(is_along_hole)),
         "coordinates[].row" => superelement.n_interface() > 0 && metadata.interface_nodes.is_empty(),
         "coordinates[].error_bar_hz" => !tensors.frequencies.is_empty(),
         "dropped" => metadata.method == Method::ModeAcceleration,
@@ -123,6 +125,11 @@ pub(super) fn fields(superelement: &Superelement, compared: Compared) -> Vec<Unv
         _ => true,
     };
     list.iter().filter(is_there).copied().collect()
+}
+
+/// Whether an interface of a kept job has axes along a hole.
+fn is_along_hole(interface: &serde_json::Value) -> bool {
+    interface["axes"] == "hole"
 }
 
 /// What a superelement was compared with.

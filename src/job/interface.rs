@@ -26,6 +26,9 @@ pub struct InterfaceJob {
     /// Weights of the nodes in the mean of an `average` coupling; uniform if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weights: Option<Weights>,
+    /// Axes of the interface nodes, for clients; those of the model if left out. No matrix depends on them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axes: Option<Axes>,
     /// Directions that belong to the interface; for `direct`, those of the six that the nodes have.
     #[schemars(length(min = 1), extend("uniqueItems" = true))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -100,6 +103,29 @@ pub enum Weights {
     Area,
     /// One positive number for each node, in the order of the list of nodes.
     Given(#[schemars(length(min = 1), extend("items" = { "type": "number", "exclusiveMinimum": 0 }))] Vec<f64>),
+}
+
+/// The axes of an interface node.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "expected \"hole\" or the directions { z = [x, y, z], x = [x, y, z] }")]
+pub enum Axes {
+    /// `"hole"`: z along the axis of a cylinder fitted to the patch's nodes, x along what it leaves of the axis of the model that it
+    /// leaves most of.
+    #[serde(with = "hole")]
+    #[schemars(schema_with = "hole::schema")]
+    Hole,
+    /// By two directions.
+    Given(AxesGiven),
+}
+
+/// Axes by two directions of any length, in the frame of the model.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AxesGiven {
+    /// The direction of z.
+    pub z: [f64; 3],
+    /// The direction of x, of which the part perpendicular to z counts.
+    pub x: [f64; 3],
 }
 
 /// A word as a unit variant of an untagged enum.

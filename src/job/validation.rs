@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::interface::{Coupling, InterfaceJob, Origin, Weights};
+use super::interface::{Axes, AxesGiven, Coupling, InterfaceJob, Origin, Weights};
 use super::method::ModeOrigin;
 use super::node_selection::NodeSelection;
 use super::ranges::{self, positive, size};
@@ -96,6 +96,7 @@ fn interfaces(interfaces: &[InterfaceJob]) -> Result<()> {
         selection::validate(&interface.selection(), &place)?;
         selection::directions(&interface.selection(), &place)?;
         coupling(interface, &place)?;
+        axes(interface, &place)?;
         weights(interface, &place)?;
         earlier.clone().try_for_each(|other| overlap(other, interface))?;
     }
@@ -122,6 +123,27 @@ fn coupling(interface: &InterfaceJob, place: &str) -> Result<()> {
         }
         Origin::Point(point) => ranges::point(&format!("{place}.origin"), point),
         Origin::Centroid | Origin::Area | Origin::Hole | Origin::Sphere => Ok(()),
+    }
+}
+
+fn axes(interface: &InterfaceJob, place: &str) -> Result<()> {
+    let conflict = |situation, remedy| {
+        let selector = Selector::Interface(interface.name.clone());
+        Err(Error::InterfaceConflict { selector, key: "axes".to_owned(), situation, remedy })
+    };
+    match &interface.axes {
+        None => Ok(()),
+        Some(_) if matches!(interface.nodes, NodeSelection::Rows { .. }) => {
+            conflict("rows, which have no axes", ", or give nodes")
+        }
+        Some(Axes::Hole) if !interface.coupling.is_patch() => {
+            conflict("a direct coupling, whose nodes have no hole", ", or set coupling = \"rigid\"")
+        }
+        Some(Axes::Hole) => Ok(()),
+        Some(Axes::Given(AxesGiven { z, x })) => {
+            ranges::direction(&format!("{place}.axes.z"), z)?;
+            ranges::direction(&format!("{place}.axes.x"), x)
+        }
     }
 }
 

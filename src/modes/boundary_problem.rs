@@ -273,6 +273,7 @@ mod tests {
             coupling: Coupling::Direct,
             origin: Origin::Centroid,
             weights: None,
+            axes: None,
             dofs: None,
         };
         Partition::new(Model::new(input).expect("sound"), &[ends]).expect("sound")

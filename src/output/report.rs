@@ -148,7 +148,15 @@ fn interfaces(results: &Results<'_>) -> Vec<InterfaceReport> {
         let faces = |position| faces((node, position), origin, &results.input.faces);
         let at = node.position.map(|position| {
             let (faces, faces_unknown) = faces(position);
-            InterfacePosition { node: node.label, position, origin, faces, faces_unknown, fit: node.fit }
+            InterfacePosition {
+                node: node.label,
+                position,
+                origin,
+                faces,
+                faces_unknown,
+                fit: node.fit,
+                axes: node.axes,
+            }
         });
         match rows.last_mut().filter(|row| row.name == node.name) {
             Some(row) => {

@@ -11,7 +11,7 @@ use super::results::Results;
 use crate::basis::DynamicCoordinate;
 use crate::error::{Error, Result, json_value};
 use crate::job::{Job, ModeSelection, ModesJob};
-use crate::partition::DofOrigin;
+use crate::partition::{DofOrigin, Frame, OF_THE_MODEL};
 use crate::verification::check::{Check, Verdict};
 
 /// Puts the units back and names every coordinate.
@@ -59,7 +59,7 @@ fn tensors(results: &Results<'_>) -> Tensors {
         rigid_body_modes: matrix(amplitudes(&reduction.rigid_body_modes).as_ref()),
         rigid_body_mass: matrix(rigid_body_mass.as_ref()),
         interface_positions: nodes.iter().map(|node| node.position).collect(),
-        interface_frames: vec![[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]; nodes.len()],
+        interface_frames: frames(results, nodes.len()),
         frequencies: frequencies(results),
         mixing: mixing(results).as_ref().map(|mixing| matrix(mixing.as_ref())),
         gravity: reduction.gravity.as_ref().map(|gravity| matrix(rows(gravity, scaling.mass_unit()).as_ref())),
@@ -113,6 +113,12 @@ fn mixing(results: &Results<'_>) -> Option<Mat<f64>> {
 }
 
 /// Interface nodes of the file: those whose position is known. Without coordinates the interface is bare rows.
+/// The axes of the nodes that have positions.
+fn frames(results: &Results<'_>, n_nodes: usize) -> Vec<Frame> {
+    let nodes = results.evidence.partition.interface.iter().take(n_nodes);
+    nodes.map(|node| node.axes.unwrap_or(OF_THE_MODEL)).collect()
+}
+
 fn named_nodes(results: &Results<'_>) -> Vec<file::InterfaceNode> {
     let interface = &results.evidence.partition.interface;
     let named = interface.iter().map(|node| {

@@ -117,6 +117,7 @@ fn from_rows(model: &Model, catalogue: &NodeCatalogue, job: &InterfaceJob, rows:
         label: None,
         position: None,
         fit: None,
+        axes: None,
         directions: Vec::new(),
         coupling: Coupling::Direct,
         n_nodes: rows.len(),

@@ -1,5 +1,6 @@
 //! The nodes of the superelement's interface and the rows of the model that they stand for.
 
+use super::axes::Frame;
 use super::fitted::Fit;
 use crate::dofs::Direction;
 use crate::job::Coupling;
@@ -15,6 +16,8 @@ pub struct InterfaceNode {
     pub position: Option<[f64; 3]>,
     /// What its position was fitted from, where it was.
     pub fit: Option<Fit>,
+    /// Its axes; none where they are those of the model.
+    pub axes: Option<Frame>,
     /// Its directions, in the order of the interface dofs; empty where the model has no dof map.
     pub directions: Vec<Direction>,
     /// How it couples to the model.

@@ -10,6 +10,7 @@
 //! The internal dofs are put into a fill-reducing order once, here, so that no later stage permutes a vector.
 
 mod average_patch;
+mod axes;
 mod congruence;
 mod direct_nodes;
 mod distortions;
@@ -40,6 +41,8 @@ mod sites;
 mod transformation;
 mod transformation_row;
 
+pub use axes::Frame;
+pub(crate) use axes::{OF_THE_MODEL, of_job as axes_of_job};
 pub use expansion::{Expansion, ExpansionFacts, RowModes, expansion_modes};
 pub use faces::with_faces;
 pub use fitted::Fit;

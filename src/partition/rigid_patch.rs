@@ -1,5 +1,6 @@
 //! Rigid coupling: a patch of nodes moves with one node of six degrees of freedom as a rigid body.
 
+use super::axes;
 use super::interface_node::{InterfaceNode, Resolved, Rows};
 use super::node_catalogue::NodeCatalogue;
 use super::placement;
@@ -38,6 +39,7 @@ pub(super) fn interface_node(catalogue: &NodeCatalogue, job: &InterfaceJob, labe
         label: None,
         position: Some(position),
         fit,
+        axes: axes::of_nodes(job, Some(&points))?,
         directions,
         coupling: job.coupling,
         n_nodes: labels.len(),

@@ -6,7 +6,7 @@ use super::expansion::ExpansionReport;
 use super::load::{LoadReport, ResidualVector};
 use crate::eigen::Eigensolver;
 use crate::job::{Coupling, Method};
-use crate::partition::Fit;
+use crate::partition::{Fit, Frame};
 
 /// The reduction and its modes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -82,6 +82,8 @@ pub struct InterfacePosition {
     pub faces_unknown: Option<String>,
     /// The cylinder or the sphere whose axis or centre it is.
     pub fit: Option<Fit>,
+    /// Rotation matrix whose columns are its axes; none where they are those of the model.
+    pub axes: Option<Frame>,
 }
 
 /// The faces all of whose nodes belong to a patch.

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::job::Eigensolver;
 use crate::number::{self, counted};
-use crate::partition::{Fit, HeldSelection};
+use crate::partition::{Fit, Frame, HeldSelection};
 use crate::verification::check::{ActiveLimit, Check, Verdict};
 
 pub(super) fn eigensolver(eigensolver: Eigensolver) -> &'static str {
@@ -180,11 +180,19 @@ pub(super) fn positions(interface: &InterfaceReport) -> Option<String> {
             PositionOrigin::Job => format!("{place}, as the job says"),
         }
     };
+    let axes = |at: &InterfacePosition| at.axes.map(|axes| format!("; {}", turned(&axes))).unwrap_or_default();
+    let place = |at: &InterfacePosition| place(at) + &axes(at);
     let mut places: Vec<String> = interface.at.iter().take(SHOWN).map(place).collect();
     if interface.at.len() > SHOWN {
         places.push(format!("… and {} more in the report", interface.at.len() - SHOWN));
     }
     (!places.is_empty()).then(|| format!("at {}", places.join(", ")))
+}
+
+/// Where the axes of a node point.
+fn turned(axes: &Frame) -> String {
+    let shown = |column: usize| axes.map(|row| number::quantity(row[column], 4)).join(", ");
+    format!("its x along ({}), z along ({})", shown(0), shown(2))
 }
 
 /// The radius of a fitted surface, and how far nodes are from it.

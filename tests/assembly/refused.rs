@@ -109,15 +109,17 @@ fn nodes_at_different_places_are_refused_within_a_millionth_of_the_component() {
 }
 
 #[test]
-fn other_axes_and_other_units_are_refused() {
+fn other_axes_are_told_and_other_units_refused() {
     let (left, right) = (left(), right());
     let turned = altered(&right, |tensors, _| {
         tensors.interface_frames[0] = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
     });
-    let error = assembly(left.clone(), turned.expect("a component")).join("left.middle", "right.middle");
-    let error = error.expect_err("turned");
-    assert!(matches!(error, Error::JoinFrame { .. }), "{error}");
-    assert_says(&error, &["turned by 90 degrees"]);
+    let mut joined = assembly(left.clone(), turned.expect("a component"));
+    joined.join("left.middle", "right.middle").expect("matrices in the axes of the model");
+    assert_eq!(joined.notes, ["the axes of left.middle and right.middle are turned by 90 degrees against each other"]);
+    let mut plain = assembly(left.clone(), right.clone());
+    plain.join("left.middle", "right.middle").expect("one place");
+    assert_eq!(all_modes(&joined), all_modes(&plain), "axes are a label");
     let with_units = |component: &Component, units: Option<&str>| {
         altered(component, |_, metadata| metadata.units = units.map(str::to_owned)).expect("a component")
     };

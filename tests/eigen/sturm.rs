@@ -14,6 +14,7 @@ fn interface(nodes: NodeSelection) -> InterfaceJob {
         coupling: Coupling::Direct,
         origin: Origin::Centroid,
         weights: None,
+        axes: None,
         dofs: None,
     }
 }

@@ -1,6 +1,7 @@
 //! The whole way, from files on disk to files on disk, through the command line.
 
 mod alike;
+mod axes;
 mod failures;
 mod few_digits;
 mod fixed_point;

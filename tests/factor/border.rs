@@ -46,6 +46,7 @@ fn partition(matrix: &SparseMatrix, mass: impl Fn(usize) -> f64, interface: &[us
         coupling: Coupling::Direct,
         origin: Origin::Centroid,
         weights: None,
+        axes: None,
         dofs: None,
     };
     Partition::new(Model::new(input).expect("a model"), &[interface]).expect("a partition")

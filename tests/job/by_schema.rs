@@ -41,7 +41,7 @@ fn jobs() -> Vec<Value> {
             },
         })
     };
-    let labels = json!([{ "name": "hub", "nodes": [7, 8], "coupling": "direct", "dofs": ["ux", "rz"] }]);
+    let labels = json!([{ "name": "hub", "nodes": [7, 8], "coupling": "direct", "dofs": ["ux", "rz"], "axes": { "z": [0.25, 1.25, 2.25], "x": [1.5, 0.5, 0.25] } }]);
     let mut jobs = vec![
         job(labels, json!({ "count": 5 }), json!([4, 6])),
         job(json!([{ "name": "hub", "nodes": { "rows": [3, 5] } }]), json!({ "up_to_hz": 100.5 }), json!("group:SKIN")),
@@ -51,7 +51,7 @@ fn jobs() -> Vec<Value> {
             json!("group:SKIN"),
         ),
         job(
-            json!([{ "name": "hub", "nodes": "group:HUB", "coupling": "rigid", "origin": "centroid" }]),
+            json!([{ "name": "hub", "nodes": "group:HUB", "coupling": "rigid", "origin": "centroid", "axes": "hole" }]),
             json!({ "count": 5 }),
             json!("group:SKIN"),
         ),

@@ -171,7 +171,7 @@ fn origin_of_a_hole_and_of_a_sphere() {
         // Four bolt holes lie on no cylinder and on no sphere.
         let error = refused(&bracket, &[InterfaceJob { origin, ..rigid_group("BASE") }]);
         assert!(matches!(&error, Error::OriginNotFitted { shape: found, .. } if *found == shape), "{error}");
-        assert_says(&error, ErrorClass::InputData, &["BASE", shape, "give the origin as [x, y, z]"]);
+        assert_says(&error, ErrorClass::InputData, &["BASE", shape, "or give them as numbers"]);
     }
 }
 

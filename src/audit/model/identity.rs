@@ -15,7 +15,7 @@ use crate::eigen::rows_with_mass;
 use crate::error::Result;
 use crate::input::InputFacts;
 use crate::job::{Boundary, Job};
-use crate::partition::{DofOrigin, InterfaceNode, Partition, ReducedDof};
+use crate::partition::{DofOrigin, Frame, InterfaceNode, OF_THE_MODEL, Partition, ReducedDof};
 use crate::verification::check::{Check, Limits};
 
 /// M-26: digests of the inputs. Other files may hold the same matrices, which the other checks tell.
@@ -54,7 +54,7 @@ pub(super) fn interface(superelement: &Superelement, partition: &Partition) -> C
     Check {
         id: "M-26",
         name: "interface is that of the job",
-        equation: "number of interface coordinates at another node, position or direction",
+        equation: "number of interface coordinates at another node, position, direction or axes",
         value: n_different as f64,
         limits: Limits::default(),
         fail_above: 0.0,
@@ -63,12 +63,12 @@ pub(super) fn interface(superelement: &Superelement, partition: &Partition) -> C
 }
 
 fn stored(superelement: &Superelement) -> Vec<String> {
-    let metadata = superelement.metadata();
+    let (metadata, frames) = (superelement.metadata(), &superelement.tensors().interface_frames);
     let of = |coordinate: &Coordinate| match *coordinate {
-        Coordinate::Interface { node, direction } => {
-            let node = &metadata.interface_nodes[node];
+        Coordinate::Interface { node: node_index, direction } => {
+            let node = &metadata.interface_nodes[node_index];
             let direction = format!("{direction:?}").to_lowercase();
-            Some(described(&node.name, node.label, &direction, node.position))
+            Some(described(&node.name, node.label, &direction, node.position) + &turned(frames[node_index]))
         }
         Coordinate::InterfaceRow { row } => Some(format!("row {}", row + 1)),
         _ => None,
@@ -89,10 +89,16 @@ fn rows_asked(partition: &Partition) -> Vec<String> {
 fn nodes_asked(partition: &Partition) -> Vec<String> {
     let of = |node: &InterfaceNode| -> Vec<String> {
         let position = node.position.unwrap_or_default();
-        let name = |direction: &Direction| described(&node.name, node.label, &direction.to_string(), position);
+        let axes = turned(node.axes.unwrap_or(OF_THE_MODEL));
+        let name = |direction: &Direction| described(&node.name, node.label, &direction.to_string(), position) + &axes;
         node.directions.iter().map(name).collect()
     };
     partition.interface.iter().flat_map(of).collect()
+}
+
+/// The axes of a node in words, where they are not those of the model.
+fn turned(frame: Frame) -> String {
+    if frame == OF_THE_MODEL { String::new() } else { format!(" with the axes {frame:?}") }
 }
 
 fn described(name: &str, label: Option<i64>, direction: &str, position: [f64; 3]) -> String {

@@ -87,7 +87,15 @@ pub fn rows(name: &str, rows: &[usize]) -> InterfaceJob {
 
 /// An interface with the centroid as origin and all dofs.
 pub fn interface(name: &str, nodes: NodeSelection, coupling: Coupling) -> InterfaceJob {
-    InterfaceJob { name: name.to_owned(), nodes, coupling, origin: Origin::Centroid, weights: None, dofs: None }
+    InterfaceJob {
+        name: name.to_owned(),
+        nodes,
+        coupling,
+        origin: Origin::Centroid,
+        weights: None,
+        axes: None,
+        dofs: None,
+    }
 }
 
 /// Everything the stages handed on.

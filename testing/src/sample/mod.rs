@@ -131,6 +131,7 @@ fn interfaces() -> Vec<InterfaceReport> {
                 faces: Some(FacesReport { count: 80, centroid: [0.25, 3e-3, -5.5e-3], distance: 5e-3 }),
                 faces_unknown: None,
                 fit: None,
+                axes: None,
             }],
         },
         InterfaceReport { name: "foot".to_owned(), coupling: Coupling::Direct, n_nodes: 1, n_dofs: 3, at: Vec::new() },

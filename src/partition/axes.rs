@@ -1,0 +1,73 @@
+//! The axes of an interface node: a label for clients, on which no matrix depends.
+
+use super::fitted;
+use crate::error::{Error, Result, Selector};
+use crate::job::{Axes, AxesGiven, InterfaceJob};
+
+/// A rotation matrix whose columns are the axes.
+pub type Frame = [[f64; 3]; 3];
+
+/// The axes of the model.
+pub(crate) const OF_THE_MODEL: Frame = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// Sine of the angle between two directions below which they are one: coordinates of six digits tell no less.
+const PARALLEL: f64 = 1e-6;
+
+/// The axes of the nodes of an interface, which are at `points`; none where they are those of the model.
+///
+/// # Errors
+/// [`Error::AxesParallel`]; [`Error::OriginNotFitted`] where the nodes determine no cylinder; [`Error::InterfaceConflict`] where nodes have no
+/// coordinates.
+pub(super) fn of_nodes(job: &InterfaceJob, points: Option<&[[f64; 3]]>) -> Result<Option<Frame>> {
+    let (Some(axes), points) = (&job.axes, points) else { return Ok(None) };
+    let Some(points) = points else {
+        let (selector, key) = (Selector::Interface(job.name.clone()), "axes".to_owned());
+        let (situation, remedy) = ("nodes without coordinates", ", or give model.nodes");
+        return Err(Error::InterfaceConflict { selector, key, situation, remedy });
+    };
+    match axes {
+        Axes::Given(given) => of_job(given).map(Some).ok_or_else(|| Error::AxesParallel {
+            interface: job.name.clone(),
+            z: given.z,
+            x: given.x,
+        }),
+        Axes::Hole => {
+            let refused = |found| Error::OriginNotFitted { interface: job.name.clone(), shape: "cylinder", found };
+            let (_, fit) = fitted::hole(points).map_err(refused)?;
+            Ok(fit.axis.and_then(along))
+        }
+    }
+}
+
+/// The axes that a job gives by two directions; none where these are parallel.
+pub(crate) fn of_job(given: &AxesGiven) -> Option<Frame> {
+    right_handed(given.z, given.x)
+}
+
+/// Axes with z along a direction, and x along what it leaves of the axis of the model that it leaves most of.
+fn along(z: [f64; 3]) -> Option<Frame> {
+    let least = (0..3).min_by(|a, b| z[*a].abs().total_cmp(&z[*b].abs()))?;
+    right_handed(z, std::array::from_fn(|i| f64::from(u8::from(i == least))))
+}
+
+/// z, and the part of x that is perpendicular to it.
+fn right_handed(z: [f64; 3], x: [f64; 3]) -> Option<Frame> {
+    let (z, x) = (unit(z), unit(x));
+    let part: f64 = (0..3).map(|i| x[i] * z[i]).sum();
+    let across: [f64; 3] = std::array::from_fn(|i| x[i] - part * z[i]);
+    let size = across.iter().map(|value| value * value).sum::<f64>().sqrt();
+    if size.is_nan() || size <= PARALLEL {
+        return None;
+    }
+    let x = unit(across);
+    let y = [z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]];
+    // No negative zeros: axes that are written out look as they are meant.
+    Some(std::array::from_fn(|i| [x[i] + 0.0, y[i] + 0.0, z[i] + 0.0]))
+}
+
+/// A vector of length one, whatever the size of its components.
+fn unit(vector: [f64; 3]) -> [f64; 3] {
+    let largest = vector.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
+    let scaled = vector.map(|value| value / largest);
+    let length = scaled.iter().map(|value| value * value).sum::<f64>().sqrt();
+    scaled.map(|value| value / length)
+}
