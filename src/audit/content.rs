@@ -9,7 +9,7 @@ use crate::dense::{self, NOISE_FACTOR, unpacked};
 use crate::error::Result;
 use crate::job::{Boundary, Job};
 use crate::verification::check::Limits;
-use crate::verification::force;
+use crate::verification::elastic::elastic_scale;
 use crate::verification::limits::{self, Judged, Known, LARGEST_EXCUSE};
 
 /// A superelement with its matrices unpacked.
@@ -62,13 +62,14 @@ impl<'a> Content<'a> {
     pub(super) fn of(superelement: &'a Superelement, noise: Option<f64>) -> Result<Self> {
         let tensors = superelement.tensors();
         let (k, m) = (unpacked(&tensors.stiffness), unpacked(&tensors.mass));
-        let n_r = tensors.rigid_body_modes.cols();
+        let u = unpacked(&tensors.rigid_body_modes);
         let lambda: Vec<f64> = tensors.frequencies.iter().map(|omega| omega * omega).collect();
-        let first = first_elastic((k.as_ref(), m.as_ref()), n_r, lambda.iter().copied().find(|lambda| *lambda > 0.0))?;
+        let stated = lambda.iter().copied().find(|lambda| *lambda > 0.0);
+        let first = first_elastic((k.as_ref(), m.as_ref(), u.as_ref()), stated)?;
         let scale: Vec<f64> = (0..k.nrows()).map(|i| dense::power_of_two_root(k[(i, i)] + first * m[(i, i)])).collect();
         Ok(Self {
             superelement,
-            u: unpacked(&tensors.rigid_body_modes),
+            u,
             m_f: unpacked(&tensors.rigid_body_mass),
             n_b: superelement.n_interface(),
             boundary: boundary(superelement),
@@ -193,8 +194,11 @@ fn by_own_bars(superelement: &Superelement, first: f64) -> f64 {
 }
 
 /// The first eigenvalue of the reduced pencil beyond its rigid-body modes, with its interface free; `near` is one of its modes.
-fn first_elastic((k, m): (MatRef<'_, f64>, MatRef<'_, f64>), n_r: usize, near: Option<f64>) -> Result<f64> {
-    let Some(near) = near.or_else(|| force::lowest_ratio(k, m)) else { return Ok(1.0) };
+fn first_elastic(
+    (k, m, u): (MatRef<'_, f64>, MatRef<'_, f64>, MatRef<'_, f64>),
+    near: Option<f64>,
+) -> Result<f64> {
+    let Some(near) = near.map_or_else(|| elastic_scale((k, m, u)), |near| Ok(Some(near)))? else { return Ok(1.0) };
     let values = eigenvalues(k, m, near)?;
-    Ok(values.get(n_r).copied().filter(|value| *value > 0.0).unwrap_or(near))
+    Ok(values.get(u.ncols()).copied().filter(|value| *value > 0.0).unwrap_or(near))
 }
