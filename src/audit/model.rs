@@ -24,11 +24,13 @@ mod interior;
 mod motions;
 mod projection;
 mod scaled;
+mod solve_errors;
 
 use faer::Mat;
 use supel_runtime::Superelement;
 
 use super::Audit;
+use super::content::ModelNoise;
 use super::spectrum::condition_of;
 use crate::error::Result;
 use crate::factor::Analysis;
@@ -100,9 +102,9 @@ impl<'a> Reference<'a> {
         Ok(Self { job, facts, partition, motions, asked: asked.without_shapes(), projected, first, noise })
     }
 
-    /// What rounding and the digits of the data make of an energy, relative to that of the first elastic mode, as in a reduction.
-    pub(super) fn noise(&self) -> f64 {
-        self.noise
+    /// What rounding and the digits of the data make of a file of this reference.
+    pub(super) fn noise(&self) -> ModelNoise {
+        ModelNoise { energy: self.noise, answers: self.projected.error_of_answers() }
     }
 
     /// Compares a superelement with this reference.
