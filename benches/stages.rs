@@ -113,7 +113,7 @@ fn measure(criterion: &mut Criterion, family: Family, folder: &Path) {
     group.bench_function(id("Lanczos"), |b| b.iter(|| prepared.lowest_modes(component)));
     let retained = prepared.lowest_modes(component);
     let columns = retained_columns(component, &job.reduction, &retained);
-    let basis = Basis::new(&constraint, columns, partition.internal().mass);
+    let basis = Basis::new(&constraint, &columns, partition.internal().mass);
     group.bench_function(id("project"), |b| b.iter(|| Reduction::new(partition, &basis, rigid)));
 
     let outcome = supel::reduce(job, supel::memory_forecast::Resources::default(), &mut ()).expect("reduced");

@@ -184,7 +184,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     observer.stage("basis");
     let answers = basis::static_answers(component);
     let named = basis::retained_columns(component, &job.reduction, &retained).with_answers(component, answers.as_ref());
-    let basis = Basis::new(&constraint, named, partition.internal().mass).with_coordinates()?;
+    let basis = Basis::answering(component, &named).with_coordinates()?;
 
     observer.stage("projection");
     let reduction = Reduction::new(&partition, &basis, &rigid);

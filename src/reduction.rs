@@ -103,6 +103,11 @@ impl Reduction {
     pub fn n_reduced(&self) -> usize {
         self.stiffness.nrows()
     }
+
+    /// K̂, M̂ and the motions Û that K̂ lets pass.
+    pub(crate) fn pencil(&self) -> (MatRef<'_, f64>, MatRef<'_, f64>, MatRef<'_, f64>) {
+        (self.stiffness.as_ref(), self.mass.as_ref(), self.rigid_body_modes.as_ref())
+    }
 }
 
 /// ΨᵀAΨ, panel by panel.

@@ -24,6 +24,9 @@ use crate::job::ReductionJob;
 use crate::modes::Retained;
 use crate::reduction::Reduction;
 
+/// Steps that take rigid-body motion out of the static modes: each leaves rounding of what the one before it left.
+const REFINEMENTS: usize = 2;
+
 /// What Rubin's form is made from: a reduced model in Herting's coordinates q, of r = n_B + n_η.
 #[derive(Clone, Debug)]
 pub struct Herting {
@@ -130,7 +133,8 @@ pub struct Rubin {
     pub rigid_body_mass: Mat<f64>,
 }
 
-/// Rubin's form where the method of the job is Rubin's; none in a component without interface, which has its modes themselves.
+/// Rubin's form where the method of the job is Rubin's; none in a component without interface, which has its modes themselves, and none
+/// without an interior, where there is nothing to attach.
 ///
 /// # Errors
 /// What [`Rubin::new`] refuses.
@@ -140,8 +144,8 @@ pub fn rubin_where_asked(
     reduction: &Reduction,
     retained: &Retained,
 ) -> Result<Option<Rubin>> {
-    let has_interface = basis.constraint_modes.ncols() > 0;
-    let is_asked = job.method.has_attachment_modes() && has_interface;
+    let (n_internal, n_interface) = basis.constraint_modes.shape();
+    let is_asked = job.method.has_attachment_modes() && n_interface > 0 && n_internal > 0;
     is_asked.then(|| Rubin::new(Herting::of_reduction(basis, reduction, retained))).transpose()
 }
 
@@ -157,12 +161,16 @@ impl Rubin {
         let loads = dense::product(m.as_ref().subrows(n_b, r - n_b), u.as_ref());
         let inertia = dense::gram(relief.as_ref(), loads.as_ref());
         let momenta = dense::product(m.as_ref(), u.as_ref());
-        let mut z = solved(inertia, momenta.as_ref().subrows(0, n_b).transpose().to_owned())?;
-        z *= faer::Scale(-1.0);
-
         let mut statics = Mat::zeros(r, n_b);
         statics.as_mut().subrows_mut(0, n_b).copy_from(Mat::<f64>::identity(n_b, n_b));
-        statics.as_mut().subrows_mut(n_b, r - n_b).copy_from(dense::product(relief.as_ref(), z.as_ref()));
+        let mut z = Mat::zeros(u.ncols(), n_b);
+        // What a step leaves is rounding of the constraint modes and of relief modes, which cancel, and of the solve; the next takes it out.
+        for _ in 0..REFINEMENTS {
+            let left = dense::gram(momenta.as_ref(), statics.as_ref());
+            let step = solved(inertia.clone(), left)?;
+            z -= &step;
+            dense::add_product(statics.as_mut().subrows_mut(n_b, r - n_b), -1.0, relief.as_ref(), step.as_ref());
+        }
         let mut dynamics = modes;
         let x_b = dynamics.as_ref().subrows(0, n_b).to_owned();
         dense::add_product(dynamics.as_mut(), -1.0, statics.as_ref(), x_b.as_ref());

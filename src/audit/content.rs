@@ -9,7 +9,7 @@ use crate::dense::{self, NOISE_FACTOR, unpacked};
 use crate::error::Result;
 use crate::job::{Boundary, Job};
 use crate::verification::check::Limits;
-use crate::verification::force;
+use crate::verification::elastic::elastic_scale;
 use crate::verification::limits::{self, Judged, Known, LARGEST_EXCUSE};
 
 /// A superelement with its matrices unpacked.
@@ -40,11 +40,20 @@ pub(super) struct Content<'a> {
     pub(super) job: Option<Job>,
 }
 
+/// What rounding makes of a file, as the model tells.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ModelNoise {
+    /// In an energy, relative to the first elastic eigenvalue.
+    pub(super) energy: f64,
+    /// In a static answer of the interior, as a ratio of lengths in energy.
+    pub(super) answers: f64,
+}
+
 /// Rounding in an energy, by whose error bars it is known.
 #[derive(Clone, Copy, Debug)]
 enum Noise {
-    /// By the error bars of modes that were found anew.
-    OfModel(f64),
+    /// By the error bars of modes that were found anew, and by static answers that were.
+    OfModel(ModelNoise),
     /// By the error bars that the file states.
     OfFile(f64),
 }
@@ -52,23 +61,25 @@ enum Noise {
 impl Noise {
     fn size(self) -> f64 {
         match self {
-            Self::OfModel(noise) | Self::OfFile(noise) => noise,
+            Self::OfModel(noise) => noise.energy,
+            Self::OfFile(noise) => noise,
         }
     }
 }
 
 impl<'a> Content<'a> {
     /// The content of a file; without a model that tells the noise of its energies, the file's own error bars have to.
-    pub(super) fn of(superelement: &'a Superelement, noise: Option<f64>) -> Result<Self> {
+    pub(super) fn of(superelement: &'a Superelement, noise: Option<ModelNoise>) -> Result<Self> {
         let tensors = superelement.tensors();
         let (k, m) = (unpacked(&tensors.stiffness), unpacked(&tensors.mass));
-        let n_r = tensors.rigid_body_modes.cols();
+        let u = unpacked(&tensors.rigid_body_modes);
         let lambda: Vec<f64> = tensors.frequencies.iter().map(|omega| omega * omega).collect();
-        let first = first_elastic((k.as_ref(), m.as_ref()), n_r, lambda.iter().copied().find(|lambda| *lambda > 0.0))?;
+        let stated = lambda.iter().copied().find(|lambda| *lambda > 0.0);
+        let first = first_elastic((k.as_ref(), m.as_ref(), u.as_ref()), stated)?;
         let scale: Vec<f64> = (0..k.nrows()).map(|i| dense::power_of_two_root(k[(i, i)] + first * m[(i, i)])).collect();
         Ok(Self {
             superelement,
-            u: unpacked(&tensors.rigid_body_modes),
+            u,
             m_f: unpacked(&tensors.rigid_body_mass),
             n_b: superelement.n_interface(),
             boundary: boundary(superelement),
@@ -103,8 +114,16 @@ impl<'a> Content<'a> {
         let noise = self.noise.size() * self.first / eigenvalue;
         match self.noise {
             Noise::OfModel(_) => limits::of_energy(noise, 1.0),
-            Noise::OfFile(_) => limits::of_unexplained_energy(noise),
+            Noise::OfFile(_) => limits::of_unexplained_energy(noise.max(self.recorded_energy() / NOISE_FACTOR)),
         }
+    }
+
+    /// The limit on record of the energy of rigid-body motion, where it is more than practice asks: a file without modes has no bars that
+    /// would tell what the reduction knew.
+    fn recorded_energy(&self) -> f64 {
+        let checks = &self.superelement.metadata().verification.checks;
+        let limit = checks.iter().find(|check| check.id == "M-05").map_or(0.0, |check| check.limit);
+        if limit > NOISE_FACTOR * limits::ENERGY_ASKED { limit } else { 0.0 }
     }
 
     /// Limits of a force of rigid-body motion, in the scales of K̂ + λ₁M̂.
@@ -119,6 +138,20 @@ impl<'a> Content<'a> {
             }
             _ => judged,
         }
+    }
+
+    /// Limits of what a static answer leaves of its load, in K̂ and relative to its terms.
+    ///
+    /// An answer y of which a solve lacks e has ‖DK̂e‖ ≤ √λ_max(DK̂D) ‖e‖_K, and its terms have ‖D|K̂||y|‖ ≥ ‖y‖_K / √λ_max(DK̂D) or so:
+    /// the share that it lacks of its energy, as a length, is what is left of its load. The conditioning of the interior, which that comes
+    /// from, is not in the file; the limits of the checks that a reduction made of these answers are.
+    pub(super) fn answer_limits(&self, id: &str) -> Limits {
+        let of_answers = match self.noise {
+            Noise::OfModel(noise) => NOISE_FACTOR * noise.answers,
+            Noise::OfFile(_) => self.recorded_limit(id),
+        };
+        let Limits { engineering, arithmetic, data } = self.rounding_limits();
+        Limits { engineering, arithmetic: arithmetic.max(of_answers.min(LARGEST_EXCUSE)), data }
     }
 
     /// The largest limit on record of the checks of one identifier.
@@ -187,8 +220,8 @@ fn by_own_bars(superelement: &Superelement, first: f64) -> f64 {
 }
 
 /// The first eigenvalue of the reduced pencil beyond its rigid-body modes, with its interface free; `near` is one of its modes.
-fn first_elastic((k, m): (MatRef<'_, f64>, MatRef<'_, f64>), n_r: usize, near: Option<f64>) -> Result<f64> {
-    let Some(near) = near.or_else(|| force::lowest_ratio(k, m)) else { return Ok(1.0) };
+fn first_elastic((k, m, u): (MatRef<'_, f64>, MatRef<'_, f64>, MatRef<'_, f64>), near: Option<f64>) -> Result<f64> {
+    let Some(near) = near.map_or_else(|| elastic_scale((k, m, u)), |near| Ok(Some(near)))? else { return Ok(1.0) };
     let values = eigenvalues(k, m, near)?;
-    Ok(values.get(n_r).copied().filter(|value| *value > 0.0).unwrap_or(near))
+    Ok(values.get(u.ncols()).copied().filter(|value| *value > 0.0).unwrap_or(near))
 }

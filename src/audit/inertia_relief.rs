@@ -35,7 +35,7 @@ pub(super) fn identity(content: &Content<'_>) -> Option<Check> {
             worst = (error, Some(format!("inertia relief {}", index + 1)));
         }
     }
-    let limits = content.rounding_limits();
+    let limits = content.answer_limits("M-18");
     Some(Check {
         id: "M-18",
         name: "inertia relief answers unit accelerations",

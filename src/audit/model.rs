@@ -24,11 +24,13 @@ mod interior;
 mod motions;
 mod projection;
 mod scaled;
+mod solve_errors;
 
 use faer::Mat;
 use supel_runtime::Superelement;
 
 use super::Audit;
+use super::content::ModelNoise;
 use super::spectrum::condition_of;
 use crate::error::Result;
 use crate::factor::Analysis;
@@ -38,6 +40,7 @@ use crate::partition::Partition;
 use crate::rigid::{self, RigidBodyModes, RigidSource};
 use crate::verification;
 use crate::verification::check::{Check, Limits};
+use crate::verification::limits::energy_noise;
 
 use alignment::{Combination, Freedom, combination};
 use asked::AskedModes;
@@ -62,8 +65,8 @@ pub struct Reference<'a> {
     projected: Projected,
     /// The first elastic eigenvalue.
     first: f64,
-    /// What few digits make of the energy of rigid-body motion.
-    noise_of_digits: f64,
+    /// What rounding and the digits of the data make of an energy, relative to that of the first elastic mode.
+    noise: f64,
 }
 
 impl<'a> Reference<'a> {
@@ -95,13 +98,13 @@ impl<'a> Reference<'a> {
             }
         };
         let projected = Projected::new(partition, columns, unit);
-        let noise_of_digits = rigid::noise_of_digits(partition, &given);
-        Ok(Self { job, facts, partition, motions, asked: asked.without_shapes(), projected, first, noise_of_digits })
+        let noise = energy_noise((partition, &given), asked.known(), first);
+        Ok(Self { job, facts, partition, motions, asked: asked.without_shapes(), projected, first, noise })
     }
 
-    /// What rounding and the digits of the data make of an energy, relative to that of the first elastic mode.
-    pub(super) fn noise(&self) -> f64 {
-        self.asked.noise(self.first).max(self.noise_of_digits / self.first)
+    /// What rounding and the digits of the data make of a file of this reference.
+    pub(super) fn noise(&self) -> ModelNoise {
+        ModelNoise { energy: self.noise, answers: self.projected.error_of_answers() }
     }
 
     /// Compares a superelement with this reference.

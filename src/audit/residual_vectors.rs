@@ -39,7 +39,7 @@ pub(super) fn identity(content: &Content<'_>) -> Option<Check> {
             worst = (error, Some(metadata.load_names[load].clone()));
         }
     }
-    let limits = content.rounding_limits();
+    let limits = content.answer_limits("M-27");
     Some(Check {
         id: "M-27",
         name: "residual vectors answer their loads",

@@ -29,8 +29,17 @@ pub struct Basis {
 
 impl Basis {
     /// Puts constraint modes and dynamic columns together; dependent columns are left out by name.
-    pub fn new(constraint: &ConstraintModes, columns: DynamicColumns, internal_mass: Leading<'_>) -> Self {
-        let independent = dynamic::independent(columns, internal_mass);
+    pub fn new(constraint: &ConstraintModes, columns: &DynamicColumns, internal_mass: Leading<'_>) -> Self {
+        Self::keeping(constraint, columns, (internal_mass, &[]))
+    }
+
+    /// The basis with these of the named columns, whatever is left of their length.
+    pub(super) fn keeping(
+        constraint: &ConstraintModes,
+        columns: &DynamicColumns,
+        (internal_mass, asked): (Leading<'_>, &[usize]),
+    ) -> Self {
+        let independent = dynamic::independent(columns, internal_mass, asked);
         Self {
             constraint_modes: constraint.modes.clone(),
             dynamic_modes: independent.modes,

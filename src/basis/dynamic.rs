@@ -140,26 +140,26 @@ pub(super) struct Independent {
     pub(super) dropped: Vec<DroppedColumn>,
 }
 
-/// M_II-orthonormalises the columns in their order, leaving out those that depend on earlier ones.
+/// M_II-orthonormalises the columns in their order, leaving out those that depend on earlier ones, unless they are `asked` for.
 ///
 /// The order matters: a column is replaced by what it adds to the columns before it, so the low modes keep their shape.
-pub(super) fn independent(named: DynamicColumns, mass: Leading<'_>) -> Independent {
+pub(super) fn independent(named: &DynamicColumns, mass: Leading<'_>, asked: &[usize]) -> Independent {
     let n_rows = rows_with_mass(mass);
     // More columns than there are dimensions depend on each other, whatever rounding leaves of the last ones.
     match orthonormalised(named.columns.as_ref(), mass).filter(|(modes, _)| modes.ncols() <= n_rows) {
         Some((modes, mixing)) => {
             let kept = (0..modes.ncols()).collect();
-            Independent { modes, coordinates: named.coordinates, mixing, kept, dropped: Vec::new() }
+            Independent { modes, coordinates: named.coordinates.clone(), mixing, kept, dropped: Vec::new() }
         }
         None => {
-            let found = by_panels(&named, mass, INDEPENDENT);
+            let found = by_panels(named, mass, (INDEPENDENT, asked));
             let is_complete = found.kept.len() == n_rows;
             if !is_complete || found.least_share() > CLEARLY_INDEPENDENT[0] {
                 return found;
             }
-            let mut clearer = CLEARLY_INDEPENDENT.into_iter().map(|least| by_panels(&named, mass, least));
+            let mut clearer = CLEARLY_INDEPENDENT.into_iter().map(|least| by_panels(named, mass, (least, &[])));
             let clearest = clearer.find(|other| other.kept.len() == found.kept.len()).unwrap_or(found);
-            clearest.with_whole_mixing(&named, mass)
+            clearest.with_whole_mixing(named, mass)
         }
     }
 }
@@ -185,18 +185,23 @@ impl Independent {
     }
 }
 
-/// The independent columns where columns may depend on each other: those that keep more than `least` of their length, and no more than
-/// there are rows with mass, whatever rounding leaves of further ones.
-fn by_panels(named: &DynamicColumns, mass: Leading<'_>, least: f64) -> Independent {
+/// The independent columns where columns may depend on each other: those that keep more than `least` of their length or are asked for, and
+/// no more than there are rows with mass, whatever rounding leaves of further ones.
+fn by_panels(named: &DynamicColumns, mass: Leading<'_>, (least, asked): (f64, &[usize])) -> Independent {
     let (n, total, most) = (named.columns.nrows(), named.columns.ncols(), rows_with_mass(mass));
     let mut basis = Mat::zeros(n, total);
     let mut mixing = Mat::zeros(total, total);
     let (mut coordinates, mut kept, mut dropped) = (Vec::new(), Vec::new(), Vec::new());
-    for start in (0..total).step_by(PANEL) {
-        let width = PANEL.min(total - start);
+    let mut start = 0;
+    while start < total {
+        // A column that is asked for is a panel of its own, of which nothing is too little.
+        let is_asked = asked.contains(&start);
+        let rest = start + 1..total.min(start + PANEL);
+        let width = if is_asked { 1 } else { 1 + rest.take_while(|column| !asked.contains(column)).count() };
         let mut panel = named.columns.as_ref().subcols(start, width).to_owned();
         let lengths = scale_to_unit_mass(&mut panel, mass);
         let size = kept.len();
+        let least = if is_asked { 0.0 } else { least };
         let mut step = orthonormal_panel(basis.as_ref().subcols(0, size), panel, (mass, least));
         step.kept.truncate(most - size);
         for j in 0..width {
@@ -215,6 +220,7 @@ fn by_panels(named: &DynamicColumns, mass: Leading<'_>, least: f64) -> Independe
                 dropped.push(DroppedColumn { coordinate, remaining: step.remaining[j] });
             }
         }
+        start += width;
     }
     Independent {
         modes: basis.as_ref().subcols(0, kept.len()).to_owned(),
@@ -247,7 +253,8 @@ struct Step {
     remaining: Vec<f64>,
 }
 
-/// panel = basis · coefficients + block · coupling, twice over for orthogonality to rounding.
+/// panel = basis · coefficients + block · coupling, twice over for orthogonality to rounding, and once more where a column is kept of which
+/// rounding is the larger part.
 fn orthonormal_panel(basis: MatRef<'_, f64>, panel: Mat<f64>, (mass, independent): (Leading<'_>, f64)) -> Step {
     let width = panel.ncols();
     let mut block = panel.clone();
@@ -255,7 +262,7 @@ fn orthonormal_panel(basis: MatRef<'_, f64>, panel: Mat<f64>, (mass, independent
     let mut coupling: Mat<f64> = Mat::identity(width, width);
     let mut dependent = vec![false; width];
     let mut remaining = vec![0.0; width];
-    for pass in 0..2 {
+    for pass in 0..if independent > 0.0 { 2 } else { 3 } {
         let c = dense::gram(basis, product(mass, block.as_ref()).as_ref());
         dense::add_product(block.as_mut(), -1.0, basis, c.as_ref());
         dense::add_product(coefficients.as_mut(), 1.0, c.as_ref(), coupling.as_ref());

@@ -18,5 +18,6 @@ mod rounding;
 pub use basis::Basis;
 pub use dynamic::{DroppedColumn, DynamicCoordinate};
 pub use dynamic::{DynamicColumns, accelerated_columns, expansion_columns, inertia_relief_columns, modal_columns};
+pub(crate) use residual_vectors::ANSWERED;
 pub use residual_vectors::static_answers;
 pub use retained_columns::retained_columns;

@@ -7,13 +7,31 @@
 //! columns of Ψ_D the static answer of the reduced model is exact, whatever the boundary of its modes. Residual vectors come after the
 //! modes, so that these keep their shapes: a residual vector is replaced by what it adds to them, which is the residual flexibility
 //! of the load.
+//!
+//! What the other columns lack of an answer is an energy. Length in the mass does not tell it: what is left of y may be as short as rounding
+//! and as stiff as the highest mode. The reduced answer is the best in energy of all combinations of the columns, so that it lacks no more
+//! than the remainder of any of them:
+//!
+//! ```text
+//! y⊥ = y − Ψ_D Ψ_Dᵀ M_II y        ‖y − Ψ_D η‖_K ≤ ‖y⊥‖_K
+//! ```
+//! A residual vector is left out where y⊥ has no more than [`ANSWERED`] of the energy of y, as a ratio of lengths, or no more than its solve
+//! lacks. M-27 asks no more than that of the columns that are left.
 
-use faer::Mat;
+use faer::{Mat, MatRef};
 
+use super::basis::Basis;
 use super::dynamic::{DynamicColumns, DynamicCoordinate};
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
+use crate::eigen::rows_with_mass;
 use crate::factor::SolveOperator;
 use crate::modes::Component;
+use crate::sparse::{absolute_energy, product};
+
+/// ‖u − Ψ_D η‖_K / ‖u‖_K up to which columns answer a load: what M-27 asks of a load with a residual vector, kept or not.
+pub(crate) const ANSWERED: f64 = 1e-9;
+/// Share of a length, in the mass, that is rounding alone.
+const ROUNDING: f64 = NOISE_FACTOR * f64::EPSILON;
 
 /// y of every load of the job, n_I × n_l; none for a free component without interface, which nothing holds while it answers.
 pub fn static_answers(component: Component<'_>) -> Option<Mat<f64>> {
@@ -40,4 +58,63 @@ impl DynamicColumns {
             coordinates: asked.into_iter().map(DynamicCoordinate::ResidualVector).collect(),
         })
     }
+}
+
+impl Basis {
+    /// As [`Self::new`], but for residual vectors: one that the others miss in energy is kept, however little of its length is left.
+    pub fn answering(component: Component<'_>, columns: &DynamicColumns) -> Self {
+        let mass = component.partition.internal().mass;
+        let mut asked: Vec<usize> = Vec::new();
+        loop {
+            let basis = Self::keeping(component.constraint, columns, (mass, &asked));
+            let missed: Vec<usize> = missed_answers(component, columns, &basis)
+                .into_iter()
+                .filter(|column| !asked.contains(column))
+                .collect();
+            if missed.is_empty() {
+                return basis;
+            }
+            asked.extend(missed);
+        }
+    }
+}
+
+/// Numbers, among the named columns, of the residual vectors that were left out although the basis misses what they answer.
+fn missed_answers(component: Component<'_>, columns: &DynamicColumns, basis: &Basis) -> Vec<usize> {
+    let mass = component.partition.internal().mass;
+    // Columns that span the whole interior miss nothing that has mass, and no further one is orthogonal to them.
+    if basis.dropped.is_empty() || basis.n_dynamic() == rows_with_mass(mass) {
+        return Vec::new();
+    }
+    let is_missed = |column: &usize| match columns.coordinates[*column] {
+        DynamicCoordinate::ResidualVector(load) => {
+            let answer = columns.columns.as_ref().subcols(*column, 1);
+            is_missed(component, (load, answer), basis.dynamic_modes.as_ref())
+        }
+        _ => false,
+    };
+    (0..columns.coordinates.len()).filter(|column| !basis.kept.contains(column)).filter(is_missed).collect()
+}
+
+/// Whether what is left of the answer y to a load, without its parts along M-orthonormal columns, is more than its own error.
+fn is_missed(component: Component<'_>, (load, y): (usize, MatRef<'_, f64>), basis: MatRef<'_, f64>) -> bool {
+    let pencil = component.partition.internal();
+    let length = |x: MatRef<'_, f64>, image: MatRef<'_, f64>| {
+        dense::dot(dense::column(x, 0), dense::column(image, 0)).max(0.0).sqrt()
+    };
+    let in_mass = |x: MatRef<'_, f64>| length(x, product(pencil.mass, x).as_ref());
+    let in_energy = |x: MatRef<'_, f64>| length(x, product(pencil.stiffness, x).as_ref());
+    let mut left = y.to_owned();
+    for _ in 0..2 {
+        let parts = dense::gram(basis, product(pencil.mass, left.as_ref()).as_ref());
+        dense::add_product(left.as_mut(), -1.0, basis, parts.as_ref());
+    }
+    // What a solve lacks, K_II⁻¹ (f − K_II y), and the rounding of the entries.
+    let mut lacking = component.partition.loads.vectors.as_ref().get(0..y.nrows(), load..load + 1).to_owned();
+    lacking -= product(pencil.stiffness, y);
+    component.factor.solve_in_place(lacking.as_mut());
+    let rounding = f64::EPSILON * absolute_energy(pencil.stiffness, y)[0].sqrt();
+    let error = in_energy(lacking.as_ref()) + rounding;
+    in_energy(left.as_ref()) > (ANSWERED * in_energy(y)).max(NOISE_FACTOR * error)
+        && in_mass(left.as_ref()) > ROUNDING * in_mass(y)
 }

@@ -5,6 +5,7 @@ use faer::{Mat, MatRef};
 use super::check::{Check, Limits};
 use super::evidence::{Evidence, coordinate_name, coordinate_scales};
 use super::pencil::scaled_by;
+use crate::basis::DynamicCoordinate;
 use crate::dense;
 use crate::eigen::Equilibrated;
 use crate::error::Result;
@@ -72,7 +73,7 @@ pub(super) fn conditioning(evidence: &Evidence<'_>, internal: f64) -> Result<Vec
     checks.push(shown("condition of the reduced elastic stiffness", equation, (stiffness, softest)));
     if evidence.basis.n_dynamic() > 0 {
         let equation = "min |R_jj| / ‖R_j‖ of Ψ_D = named columns · R⁻¹";
-        checks.push(shown("least independent dynamic mode", equation, independence(evidence)));
+        checks.push(shown("least independent dynamic mode", equation, independence(evidence, Columns::All)));
     }
     Ok(checks)
 }
@@ -102,11 +103,24 @@ fn condition(
     Ok((ratio, softest.map(|i| coordinate_name(evidence, i))))
 }
 
+/// Which columns of Ψ_D are looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Columns {
+    /// Every one.
+    All,
+    /// Those that modes are put together from: residual vectors come after them.
+    BeforeResidualVectors,
+}
+
 /// The smallest share of its length that a column of Ψ_D keeps when the columns before it are taken out.
-pub(super) fn independence(evidence: &Evidence<'_>) -> (f64, Option<String>) {
+pub(super) fn independence(evidence: &Evidence<'_>, columns: Columns) -> (f64, Option<String>) {
     let basis = evidence.basis;
     let mut least = (1.0, None);
+    let is_residual = |slot: usize| matches!(basis.coordinates[slot], DynamicCoordinate::ResidualVector(_));
     for (slot, named) in basis.kept.iter().enumerate() {
+        if columns == Columns::BeforeResidualVectors && is_residual(slot) {
+            continue;
+        }
         let length = dense::norm(dense::column(basis.mixing.as_ref(), *named));
         let share = basis.mixing[(slot, *named)].abs() / length;
         // Below the limit, or NaN.

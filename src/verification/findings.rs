@@ -72,7 +72,7 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
         checks.push(rigid_motion::carried_by_interface(evidence));
     }
     checks.push(rigid_motion::null_space(evidence));
-    checks.push(rigid_motion::force(evidence, &spectrum));
+    checks.push(rigid_motion::force(evidence, &spectrum)?);
     checks.push(rigid_motion::zero_modes(evidence, &spectrum));
     checks.push(reduced::block_coupling(evidence, &terms));
     checks.push(reduced::pair_residual(evidence));

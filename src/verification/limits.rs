@@ -5,6 +5,8 @@
 
 use super::check::Limits;
 use crate::dense::NOISE_FACTOR;
+use crate::partition::Partition;
+use crate::rigid::{RigidBodyModes, noise_of_digits};
 
 /// Energy of a rigid-body motion relative to that of the first elastic mode that practice accepts: a rigid-body frequency of 10⁻⁴
 /// of the first elastic one.
@@ -55,6 +57,21 @@ pub(crate) struct Judged {
 /// The noise of energies relative to the first elastic one, by the bars of the frequencies known.
 pub(crate) fn noise(known: impl IntoIterator<Item = Known>, first: f64) -> f64 {
     known.into_iter().map(|known| known.lambda * known.relative_bar / first).fold(0.0, f64::max)
+}
+
+/// What rounding and the digits of the data make of an energy that should be zero, relative to the first elastic eigenvalue: by the bars
+/// of the modes known and by what few digits make of rigid-body motion itself, which the bars of modes with the interface held do not
+/// show. Without modes it comes from the moduli of its terms.
+pub(crate) fn energy_noise(
+    (partition, rigid): (&Partition, &RigidBodyModes),
+    known: impl IntoIterator<Item = Known>,
+    first: f64,
+) -> f64 {
+    let mut known = known.into_iter().peekable();
+    match known.peek() {
+        None => partition.cancellation * rigid.energy.noise / first,
+        Some(_) => noise(known, first).max(noise_of_digits(partition, rigid) / first),
+    }
 }
 
 /// How many of the lowest eigenvalues are those of rigid-body motion, or of motions of a body as a whole that cost energy and are free in

@@ -10,6 +10,7 @@ mod completeness;
 mod conditioning;
 mod directions;
 mod eigenpairs;
+pub(crate) mod elastic;
 mod enclosed;
 mod enclosure;
 mod evidence;

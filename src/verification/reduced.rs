@@ -3,7 +3,7 @@
 use faer::MatRef;
 
 use super::check::{Check, Limits};
-use super::conditioning::independence;
+use super::conditioning::{Columns, independence};
 use super::evidence::{Evidence, coordinate_name, data_noise, reduced_norms, share_of_data};
 use super::limits::{self, Judged};
 use super::rigid_motion::energy_limits;
@@ -121,7 +121,8 @@ pub(super) fn pair_residual(evidence: &Evidence<'_>) -> Check {
     }
     let zero = zero_level(evidence);
     // A mode that is nearly spanned by the columns before it is put together from what little it adds to them.
-    let dependence = reduction.n_reduced() as f64 * f64::EPSILON / independence(evidence).0;
+    let dependence =
+        reduction.n_reduced() as f64 * f64::EPSILON / independence(evidence, Columns::BeforeResidualVectors).0;
     let arithmetic = zero.arithmetic.max(dependence).max(repeated_rounding(modes)).max(coupling_rounding(modes));
     let limits = Limits { engineering: 1e-12, arithmetic, data: zero.data };
     Check {

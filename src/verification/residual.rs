@@ -56,13 +56,8 @@ impl<'a> Rows<'a> {
 
     /// max ω_i over the rows that have a residual, and the row it is reached at.
     pub(super) fn componentwise(&self, lambda: f64, x: &[f64], residual: &[f64], terms: &[f64]) -> (f64, usize) {
-        let d = &self.norms.scale;
-        let largest = x.iter().zip(d).fold(0.0f64, |max, (x, d)| max.max((x / d).abs()));
         let mut worst = (0.0, 0);
-        for (row, (r, terms)) in residual.iter().zip(terms).enumerate() {
-            let [k, m] = self.of_row[row];
-            let norm = (k + lambda.abs() * m) * largest / d[row];
-            let size = if *terms > AT_REST * norm { *terms } else { norm };
+        for (row, (r, size)) in residual.iter().zip(self.sizes(lambda, x, terms)).enumerate() {
             // A row without terms has no residual.
             let error = if *r == 0.0 { 0.0 } else { r.abs() / size };
             if dense::worse(error, worst.0) {
@@ -70,6 +65,18 @@ impl<'a> Rows<'a> {
             }
         }
         worst
+    }
+
+    /// What the residual of each row is relative to: its terms, or its norm where it is at rest.
+    pub(super) fn sizes(&self, lambda: f64, x: &[f64], terms: &[f64]) -> Vec<f64> {
+        let d = &self.norms.scale;
+        let largest = x.iter().zip(d).fold(0.0f64, |max, (x, d)| max.max((x / d).abs()));
+        let size = |(row, terms): (usize, &f64)| {
+            let [k, m] = self.of_row[row];
+            let norm = (k + lambda.abs() * m) * largest / d[row];
+            if *terms > AT_REST * norm { *terms } else { norm }
+        };
+        terms.iter().enumerate().map(size).collect()
     }
 }
 

@@ -1,6 +1,7 @@
 //! Rigid-body motion passes through the model, the basis and the reduced stiffness: M-05, M-11, M-12.
 
 use super::check::{Check, Limits};
+use super::elastic::elastic_scale;
 use super::evidence::{Evidence, coordinate_name, reduced_norms, rigid_name, share_of_data};
 use super::force;
 use super::grounding::{Grounding, Restraint};
@@ -9,7 +10,7 @@ use super::residual::Worst;
 use super::spectrum::{NOT_FREE, Spectrum, zero_level};
 use crate::constraint::rigid_error;
 use crate::dense::{self, NOISE_FACTOR};
-use crate::rigid::noise_of_digits;
+use crate::error::Result;
 
 /// M-05, energy. The value is shown and not judged where no elastic mode is known to compare it with.
 pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[Grounding]) -> Check {
@@ -41,15 +42,12 @@ pub(super) fn energy_limits(evidence: &Evidence<'_>, first: f64) -> Judged {
     limits::of_energy(energy_noise(evidence, first), share_of_data(evidence.partition))
 }
 
-/// What rounding makes of an energy, relative to the first elastic eigenvalue.
+/// What rounding makes of an energy, relative to the first elastic eigenvalue, by the modes of the reduction.
 fn energy_noise(evidence: &Evidence<'_>, first: f64) -> f64 {
     let modes = &evidence.retained.modes;
     let known = modes.lambda.iter().zip(&modes.errors);
     let known = known.map(|(lambda, error)| Known { lambda: *lambda, relative_bar: error.data_bar });
-    match modes.count() {
-        0 => evidence.partition.cancellation * evidence.rigid.energy.noise / first,
-        _ => limits::noise(known, first).max(noise_of_digits(evidence.partition, evidence.rigid) / first),
-    }
+    limits::energy_noise((evidence.partition, evidence.rigid), known, first)
 }
 
 /// M-05, residual.
@@ -142,15 +140,19 @@ pub(super) fn null_space(evidence: &Evidence<'_>) -> Check {
 }
 
 /// M-12, force, as the verification of the file measures it.
-pub(super) fn force(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check {
-    let (k, m) = (evidence.reduction.stiffness.as_ref(), evidence.reduction.mass.as_ref());
+///
+/// # Errors
+/// A dense eigenproblem that does not converge.
+pub(super) fn force(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result<Check> {
     let known = spectrum.first_elastic();
-    let first = known.or_else(|| force::lowest_ratio(k, m)).unwrap_or(1.0);
+    let first = match known {
+        Some(first) => first,
+        None => elastic_scale(evidence.reduction.pencil())?.unwrap_or(1.0),
+    };
     let noise = known.map_or(0.0, |first| energy_noise(evidence, first));
     let judged = limits::of_force(noise, share_of_data(evidence.partition));
-    let u = evidence.reduction.rigid_body_modes.as_ref();
     let name = |mode: usize, at: usize| format!("{}, {}", rigid_name(evidence, mode), coordinate_name(evidence, at));
-    force::of_rigid_motion((k, m, u), first, judged, &name)
+    Ok(force::of_rigid_motion(evidence.reduction.pencil(), first, judged, &name))
 }
 
 /// M-12, number of zero modes.

@@ -102,7 +102,7 @@ fn forces_of_correction<'a>(evidence: &Evidence<'a>) -> Result<(Mat<f64>, MatRef
 }
 
 /// [Ψ_S; I] G, n' × k.
-fn constraint_panel(evidence: &Evidence<'_>, g: MatRef<'_, f64>) -> Mat<f64> {
+pub(super) fn constraint_panel(evidence: &Evidence<'_>, g: MatRef<'_, f64>) -> Mat<f64> {
     let (n_i, n_b) = (evidence.partition.n_internal, evidence.partition.n_interface());
     let mut panel = Mat::zeros(n_i + n_b, g.ncols());
     let psi_s = evidence.basis.constraint_modes.as_ref();

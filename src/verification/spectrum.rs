@@ -3,6 +3,7 @@
 use faer::{Mat, MatRef};
 
 use super::check::Limits;
+use super::elastic::elastic_scale;
 use super::evidence::{Evidence, coordinate_scales, data_noise};
 use super::limits::{GROUNDED, n_nearly_free};
 use super::pencil::{Spectral, scaled_by, sharpen};
@@ -42,7 +43,10 @@ impl Spectrum {
     pub(super) fn of(evidence: &Evidence<'_>) -> Result<Self> {
         let (k, m) = (evidence.reduction.stiffness.as_ref(), evidence.reduction.mass.as_ref());
         let n_b = evidence.partition.n_interface();
-        let lambda = first_of_full(evidence, evidence.rigid.n_grey).unwrap_or(1.0);
+        let lambda = match first_of_full(evidence, evidence.rigid.n_grey) {
+            Some(lambda) => lambda,
+            None => elastic_scale(evidence.reduction.pencil())?.unwrap_or(1.0),
+        };
         let (_, vectors) = dense::symmetric_eigen(scaled_by(k, &coordinate_scales(evidence)).as_ref())?;
         let (masses, mass_vectors) = dense::symmetric_eigen(equilibrated(m, m).as_ref())?;
         let (k_held, n_pencil) = (with_massless_lifted(evidence), evidence.rigid.count() - evidence.rigid.n_massless);

@@ -35,7 +35,7 @@ pub fn with_evidence<T>(
     let search = Search::new(component, &job).expect("a stable component");
     let retained = Retained { modes: search.lowest(SEED).expect("modes"), boundary: search.problem.boundary };
     let basis =
-        Basis::new(&constraint, supel::basis::retained_columns(component, &job, &retained), partition.internal().mass);
+        Basis::new(&constraint, &supel::basis::retained_columns(component, &job, &retained), partition.internal().mass);
     let reduction = Reduction::new(&partition, &basis, &rigid);
     look(Evidence {
         partition: &partition,

@@ -43,7 +43,7 @@ fn built(method: Method, count: usize, seed: u64) -> Built {
     let found = search.lowest(seed).expect("converges");
     let retained = Retained { modes: found, boundary: search.problem.boundary };
     let basis =
-        Basis::new(&constraint, supel::basis::retained_columns(component, &job, &retained), partition.internal().mass);
+        Basis::new(&constraint, &supel::basis::retained_columns(component, &job, &retained), partition.internal().mass);
     let reduction = Reduction::new(&partition, &basis, &rigid);
     drop(factor);
     Built { reduction, retained, partition }

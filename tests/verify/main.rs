@@ -2,6 +2,7 @@
 
 mod degenerate;
 mod document;
+mod frames;
 mod healthy;
 mod model;
 mod reproduced;

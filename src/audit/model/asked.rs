@@ -18,6 +18,7 @@ use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
 use crate::sparse::{panels, product};
 use crate::verification::check::{Check, Limits};
+use crate::verification::limits::Known;
 
 /// Seed of the start vectors; another one than any the reduction uses.
 const SEED: u64 = 0x0dd5_eed5;
@@ -175,10 +176,10 @@ impl AskedModes {
         Self { modes, ..self }
     }
 
-    /// What rounding and the digits of the data make of an energy, relative to that of the first elastic mode, by the error bars.
-    pub(super) fn noise(&self, first: f64) -> f64 {
+    /// Its eigenvalues with their error bars.
+    pub(super) fn known(&self) -> impl Iterator<Item = Known> + '_ {
         let bars = self.modes.errors.iter().zip(&self.modes.lambda);
-        bars.map(|(error, lambda)| error.relative_bar * lambda / first).fold(0.0, f64::max)
+        bars.map(|(error, lambda)| Known { lambda: *lambda, relative_bar: error.relative_bar })
     }
 
     pub(super) fn lambda(&self) -> &[f64] {

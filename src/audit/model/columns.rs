@@ -13,13 +13,14 @@ use faer::{Mat, MatRef};
 
 use super::asked::AskedModes;
 use super::interior::{Answers, Interior, column_products};
+use super::solve_errors::{Gains, Lengths, Terms};
 use crate::constraint::left_inverse;
 use crate::dense;
 use crate::job::Boundary;
 use crate::partition::Partition;
 use crate::random::SplitMix64;
 use crate::rigid::{RigidBodyModes, RigidSource};
-use crate::sparse::product;
+use crate::sparse::{product, product_and_terms};
 
 /// Motions of the interface that are solved at most: more dofs than these are mixed at random.
 const MAX_PROBES: usize = 256;
@@ -53,6 +54,8 @@ pub(super) struct Columns {
     pub(super) energy_errors: Vec<f64>,
     /// Inertia of the error of each column: √(eᵀMe).
     pub(super) inertia_errors: Vec<f64>,
+    /// The largest displacement at a recovered row that errors of the solves make of each column.
+    pub(super) displacement_errors: Vec<f64>,
     /// The largest error of a static answer relative to itself.
     pub(super) residual: f64,
     /// √(f_Iᵀ K_II⁻¹ f_I) of each load of the job: what it makes of an error of unit energy. None without an interior to answer it.
@@ -102,6 +105,7 @@ impl Columns {
             shapes: Mat::zeros(partition.n_dofs(), p + named.len()),
             energy_errors: vec![0.0; p + named.len()],
             inertia_errors: vec![0.0; p + named.len()],
+            displacement_errors: vec![0.0; p + named.len()],
             residual: 0.0,
             load_norms: None,
             probes,
@@ -109,17 +113,17 @@ impl Columns {
         };
         columns.shapes.as_mut().subrows_mut(n_i, partition.n_interface()).subcols_mut(0, p).copy_from(&columns.probes);
         let Some(interior) = interior else { return columns };
-        let mut follower = Follower { partition, interior, carried: None };
+        let mut follower = Follower { partition, interior, carried: None, gains: Gains::new(partition) };
         let statics = follower.follow(columns.probes.as_ref());
-        follower.carried = Carried::of(&follower, motions.carried, statics.x.as_ref());
+        follower.carried = Carried::of(&mut follower, motions.carried, statics.x.as_ref());
         let statics = follower.carrying(statics, columns.probes.as_ref());
         columns.residual = columns.take(0, statics);
-        columns.relieve(&follower, motions.relieved);
-        columns.add_turns(&follower, motions);
-        columns.answer_inertia(&follower, n_relief + n_modes);
-        columns.answer_loads(&follower);
+        columns.relieve(&mut follower, motions.relieved);
+        columns.add_turns(&mut follower, motions);
+        columns.answer_inertia(&mut follower, n_relief + n_modes);
+        columns.answer_loads(&mut follower);
         match asked.boundary {
-            Boundary::FreeInterface => columns.accelerate(&follower, (n_relief, asked)),
+            Boundary::FreeInterface => columns.accelerate(&mut follower, (n_relief, asked)),
             Boundary::FixedInterface => {
                 let mut at = columns.shapes.as_mut().subrows_mut(0, n_i).subcols_mut(p + n_relief, n_modes);
                 at.copy_from(&asked.modes.shapes);
@@ -141,6 +145,7 @@ impl Columns {
             named: (0..n_r).map(Named::Rigid).chain((0..n_modes).map(Named::Mode)).collect(),
             energy_errors: (0..n_r + n_modes).map(|j| rounding(j) * omega(j)).collect(),
             inertia_errors: (0..n_r + n_modes).map(rounding).collect(),
+            displacement_errors: vec![0.0; n_r + n_modes],
             residual: 0.0,
             load_norms: None,
         }
@@ -152,23 +157,24 @@ impl Columns {
     }
 
     /// N of inertia relief.
-    fn relieve(&mut self, follower: &Follower<'_>, relieved: MatRef<'_, f64>) {
-        let momenta = product(&follower.partition.mass, relieved);
-        let relief = follower.answer(momenta.as_ref().subrows(0, follower.partition.n_internal));
+    fn relieve(&mut self, follower: &mut Follower<'_>, relieved: MatRef<'_, f64>) {
+        let n_i = follower.partition.n_internal;
+        let (momenta, terms) = product_and_terms(&follower.partition.mass, relieved);
+        let relief = follower.answer(momenta.as_ref().subrows(0, n_i), terms.as_ref().subrows(0, n_i));
         self.take(self.n_probes(), relief);
     }
 
     /// N of the modes of a file, which begin at this named column.
-    fn answer_inertia(&mut self, follower: &Follower<'_>, first: usize) {
+    fn answer_inertia(&mut self, follower: &mut Follower<'_>, first: usize) {
         let inertia = follower.partition.expansion.inertia.as_ref().subrows(0, follower.partition.n_internal);
-        let answers = follower.answer(inertia);
+        let answers = follower.answer(inertia, dense::absolute(inertia).as_ref());
         self.take(self.n_probes() + first, answers);
     }
 
     /// What the interior answers to the loads of the job: N of residual vectors.
-    fn answer_loads(&mut self, follower: &Follower<'_>) {
+    fn answer_loads(&mut self, follower: &mut Follower<'_>) {
         let loads = follower.partition.loads.vectors.as_ref().subrows(0, follower.partition.n_internal);
-        let answers = follower.answer(loads);
+        let answers = follower.answer(loads, dense::absolute(loads).as_ref());
         let energies = column_products(loads, answers.x.as_ref());
         self.load_norms = Some(energies.into_iter().map(|energy| energy.max(0.0).sqrt()).collect());
         for slot in 0..self.named.len() {
@@ -176,13 +182,14 @@ impl Columns {
             let (column, n_i) = (self.n_probes() + slot, answers.x.nrows());
             let mut shape = self.shapes.as_mut().subrows_mut(0, n_i).subcols_mut(column, 1);
             shape.copy_from(answers.x.as_ref().subcols(load, 1));
-            self.energy_errors[column] = answers.energy_errors[load];
-            self.inertia_errors[column] = answers.inertia_errors[load];
+            self.energy_errors[column] = answers.errors.energy[load];
+            self.inertia_errors[column] = answers.errors.inertia[load];
+            self.displacement_errors[column] = answers.errors.displacement[load];
         }
     }
 
     /// N of mode acceleration, after the columns of inertia relief.
-    fn accelerate(&mut self, follower: &Follower<'_>, (n_relief, asked): (usize, &AskedModes)) {
+    fn accelerate(&mut self, follower: &mut Follower<'_>, (n_relief, asked): (usize, &AskedModes)) {
         let (n_i, p) = (follower.partition.n_internal, self.n_probes());
         let (x_i, x_b) = asked.modes.shapes.as_ref().split_at_row(n_i);
         let mut accelerated = follower.follow(x_b);
@@ -195,8 +202,9 @@ impl Columns {
     fn take(&mut self, first: usize, answers: Motion) -> f64 {
         let (n_i, n) = (answers.x.nrows(), answers.x.ncols());
         self.shapes.as_mut().subrows_mut(0, n_i).subcols_mut(first, n).copy_from(&answers.x);
-        self.energy_errors[first..first + n].copy_from_slice(&answers.energy_errors);
-        self.inertia_errors[first..first + n].copy_from_slice(&answers.inertia_errors);
+        self.energy_errors[first..first + n].copy_from_slice(&answers.errors.energy);
+        self.inertia_errors[first..first + n].copy_from_slice(&answers.errors.inertia);
+        self.displacement_errors[first..first + n].copy_from_slice(&answers.errors.displacement);
         answers.residual
     }
 
@@ -219,13 +227,13 @@ impl Columns {
 
     /// What the elastic motion in zero modes found by iteration, K_II⁻¹(KQ)_I of length δ in the mass, adds to inertia relief: δ/λ in
     /// inertia and δ/√λ in energy, λ the first eigenvalue of the interior, for which the softest column stands.
-    fn add_turns(&mut self, follower: &Follower<'_>, motions: Motions<'_>) {
+    fn add_turns(&mut self, follower: &mut Follower<'_>, motions: Motions<'_>) {
         if motions.source == RigidSource::Geometric {
             return;
         }
         let (p, softest) = (self.n_probes(), self.softest(follower.partition));
         let forces = product(&follower.partition.stiffness, motions.relieved);
-        let elastic = follower.answer(forces.as_ref().subrows(0, follower.partition.n_internal)).x;
+        let elastic = follower.interior.solve(forces.as_ref().subrows(0, follower.partition.n_internal)).x;
         let squares =
             column_products(product(follower.partition.internal().mass, elastic.as_ref()).as_ref(), elastic.as_ref());
         for (slot, square) in squares.into_iter().enumerate() {
@@ -250,8 +258,7 @@ impl Columns {
 struct Motion {
     /// n_I × k.
     x: Mat<f64>,
-    energy_errors: Vec<f64>,
-    inertia_errors: Vec<f64>,
+    errors: Lengths,
     residual: f64,
 }
 
@@ -261,6 +268,8 @@ struct Follower<'a> {
     interior: &'a Interior<'a>,
     /// Where rigid-body motion is carried.
     carried: Option<Carried>,
+    /// What solves make of their roundings.
+    gains: Gains,
 }
 
 /// The correction (24) that makes constraint modes carry rigid-body motion.
@@ -269,15 +278,14 @@ struct Carried {
     defect: Mat<f64>,
     /// U_B⁺, n_r × n_B.
     lift: Mat<f64>,
-    /// Energy and inertia, as lengths, of what the reduction's own correction of each motion may be off by. It goes into all columns that
-    /// U_B⁺ takes a motion from.
-    errors: [Vec<f64>; 2],
+    /// What the correction of each motion may be off by, here and in the reduction. It goes into all columns that U_B⁺ takes a motion from.
+    errors: Lengths,
 }
 
 impl Carried {
     /// U_I − Ψ_S U_B is K_II⁻¹(KU)_I: where the digits of K do not let U pass, it is what the correction of (24) adds, and otherwise
     /// rounding. `statics` are Ψ_S P.
-    fn of(follower: &Follower<'_>, motions: &RigidBodyModes, statics: MatRef<'_, f64>) -> Option<Self> {
+    fn of(follower: &mut Follower<'_>, motions: &RigidBodyModes, statics: MatRef<'_, f64>) -> Option<Self> {
         let Follower { partition, interior, .. } = *follower;
         let (n_i, n_b) = (partition.n_internal, partition.n_interface());
         if motions.count() == 0 || n_b == 0 {
@@ -285,15 +293,16 @@ impl Carried {
         }
         let u = motions.orthonormal.as_ref();
         let u_b = u.subrows(n_i, n_b);
-        let defect = interior.solve(product(&partition.stiffness, u).as_ref().subrows(0, n_i)).x;
-        // What a solve by a factor lacks of Ψ_S U_B.
-        let mut errors = lengths(partition, &interior.lacking_of_direct(forces_of(partition, u_b).as_ref()));
+        let (forces, terms) = product_and_terms(&partition.stiffness, u);
+        let defect = interior.solve(forces.as_ref().subrows(0, n_i)).x;
+        // The reduction takes Ψ_S U_B from U_I: what its solves lack of that, and rounding of K U here, whose terms are the same.
+        let terms = Terms { x: u.subrows(0, n_i), loads: terms.as_ref().subrows(0, n_i) };
+        let mut errors = follower.gains.errors(partition, interior, terms);
         let lift = if statics.ncols() == n_b {
             left_inverse(partition, statics, u_b)
         } else {
             // Mixtures do not tell how far each dof moves the interior: another U_B⁺ puts the correction into other columns.
-            let all = lengths(partition, &defect);
-            errors.iter_mut().flatten().zip(all.into_iter().flatten()).for_each(|(error, all)| *error += all);
+            errors.add(&Lengths::of(partition, defect.as_ref()));
             left_inverse(partition, Mat::zeros(n_i, n_b).as_ref(), u_b)
         };
         Some(Self { defect, lift, errors })
@@ -302,47 +311,37 @@ impl Carried {
 
 impl Follower<'_> {
     /// Ψ_S X_B = −K_II⁻¹K_IB X_B + (U_I − K_II⁻¹K_IB U_B) U_B⁺ X_B.
-    fn follow(&self, x_b: MatRef<'_, f64>) -> Motion {
-        self.carrying(self.answer(forces_of(self.partition, x_b).as_ref()), x_b)
+    fn follow(&mut self, x_b: MatRef<'_, f64>) -> Motion {
+        let (forces, terms) = forces_of(self.partition, x_b);
+        let answers = self.answer(forces.as_ref(), terms.as_ref());
+        self.carrying(answers, x_b)
     }
 
     /// Answers −K_II⁻¹K_IB X_B with the correction, where there is one.
     fn carrying(&self, mut motion: Motion, x_b: MatRef<'_, f64>) -> Motion {
-        if let Some(Carried { defect, lift, errors: [energy, inertia] }) = &self.carried {
+        if let Some(Carried { defect, lift, errors }) = &self.carried {
             let shares = dense::product(lift.as_ref(), x_b);
             dense::add_product(motion.x.as_mut(), 1.0, defect.as_ref(), shares.as_ref());
-            for (errors, own) in [(&mut motion.energy_errors, energy), (&mut motion.inertia_errors, inertia)] {
-                let carried = dense::summed_sizes(own, shares.as_ref());
-                errors.iter_mut().zip(carried).for_each(|(error, carried)| *error += carried);
-            }
+            motion.errors.add(&errors.summed(shares.as_ref()));
         }
         motion
     }
 
-    /// K_II⁻¹ F.
-    fn answer(&self, loads: MatRef<'_, f64>) -> Motion {
-        let Answers { x, errors, direct, residual } = self.interior.solve(loads);
-        let [own, direct] = [&errors, &direct].map(|errors| lengths(self.partition, errors));
-        let both = |of: usize| own[of].iter().zip(&direct[of]).map(|(own, direct)| own + direct).collect();
-        Motion { energy_errors: both(0), inertia_errors: both(1), x, residual }
+    /// K_II⁻¹ F of loads that are sums of such terms, |F| at least.
+    fn answer(&mut self, loads: MatRef<'_, f64>, terms: MatRef<'_, f64>) -> Motion {
+        let Answers { x, errors, residual } = self.interior.solve(loads);
+        let mut errors = Lengths::of(self.partition, errors.as_ref());
+        errors.add(&self.gains.errors(self.partition, self.interior, Terms { x: x.as_ref(), loads: terms }));
+        Motion { x, errors, residual }
     }
 }
 
-/// −K_IB X_B.
-fn forces_of(partition: &Partition, x_b: MatRef<'_, f64>) -> Mat<f64> {
+/// −K_IB X_B and |K_IB||X_B|.
+fn forces_of(partition: &Partition, x_b: MatRef<'_, f64>) -> (Mat<f64>, Mat<f64>) {
     let n_i = partition.n_internal;
     let mut border = Mat::zeros(partition.n_dofs(), x_b.ncols());
     border.as_mut().subrows_mut(n_i, x_b.nrows()).copy_from(x_b);
-    let mut forces = product(&partition.stiffness, border.as_ref());
+    let (mut forces, terms) = product_and_terms(&partition.stiffness, border.as_ref());
     forces *= faer::Scale(-1.0);
-    forces.as_ref().subrows(0, n_i).to_owned()
-}
-
-/// √(eᵀK_II e) and √(eᵀM_II e) of motions of the interior.
-fn lengths(partition: &Partition, errors: &Mat<f64>) -> [Vec<f64>; 2] {
-    let pencil = partition.internal();
-    [pencil.stiffness, pencil.mass].map(|matrix| {
-        let squares = column_products(product(matrix, errors.as_ref()).as_ref(), errors.as_ref());
-        squares.into_iter().map(|square| square.max(0.0).sqrt()).collect()
-    })
+    (forces.as_ref().subrows(0, n_i).to_owned(), terms.as_ref().subrows(0, n_i).to_owned())
 }

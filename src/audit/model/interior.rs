@@ -24,6 +24,8 @@ const SHIFT: f64 = 1e-2;
 const MAX_STEPS: usize = 200;
 /// Residual, relative to the first, below which rounding is all that is left.
 const SOLVED: f64 = 1e-15;
+/// Residual at which a solution is known in size: the softest motion that the interface holds may have a millionth of it.
+const KNOWN_IN_SIZE: f64 = 1e-6;
 /// Steps without progress after which rounding is all that is left.
 const STALLED: usize = 4;
 
@@ -41,8 +43,6 @@ pub(super) struct Answers {
     pub(super) x: Mat<f64>,
     /// (K_II − σM_II)⁻¹ (f − K_II x), n_I × k: what x lacks, but for the share of σ.
     pub(super) errors: Mat<f64>,
-    /// What a solve by a factor lacks, n_I × k, measured on K_II − σM_II: that of the reduction is one and is not refined.
-    pub(super) direct: Mat<f64>,
     /// The largest energy of such an error relative to that of its solution, as a ratio of lengths.
     pub(super) residual: f64,
 }
@@ -62,10 +62,10 @@ impl<'a> Interior<'a> {
     pub(super) fn solve(&self, loads: MatRef<'_, f64>) -> Answers {
         let (n, k) = (loads.nrows(), loads.ncols());
         let nothing = || Mat::zeros(n, k);
-        let mut answers = Answers { x: nothing(), errors: nothing(), direct: nothing(), residual: 0.0 };
+        let mut answers = Answers { x: nothing(), errors: nothing(), residual: 0.0 };
         for columns in panels(k) {
             let f = loads.get(.., columns.clone());
-            let x = self.iterate(f);
+            let x = self.iterate(f, SOLVED);
             let mut left = product(self.pencil.stiffness, x.as_ref());
             left *= faer::Scale(-1.0);
             left += f;
@@ -73,24 +73,20 @@ impl<'a> Interior<'a> {
             let energy = column_products(f, x.as_ref());
             let of_errors = column_products(left.as_ref(), errors.as_ref());
             answers.residual = dense::worst([answers.residual, largest_ratio(&of_errors, &energy)]);
-            answers.direct.as_mut().get_mut(.., columns.clone()).copy_from(self.lacking_of_direct(f));
             answers.x.as_mut().get_mut(.., columns.clone()).copy_from(x);
             answers.errors.as_mut().get_mut(.., columns).copy_from(errors);
         }
         answers
     }
 
-    /// A⁻¹ (f − A y) of y = A⁻¹ f, A = K_II − σM_II.
-    pub(super) fn lacking_of_direct(&self, loads: MatRef<'_, f64>) -> Mat<f64> {
-        let y = self.precondition(&loads.to_owned());
-        let mut left = product(self.pencil.stiffness, y.as_ref());
-        let momenta = product(self.pencil.mass, y.as_ref());
-        for j in 0..left.ncols() {
-            dense::add_scaled(dense::column_mut(left.as_mut(), j), -self.sigma, dense::column(momenta.as_ref(), j));
+    /// K_II⁻¹ G as far as its size goes, panel by panel.
+    pub(super) fn known_in_size(&self, loads: MatRef<'_, f64>) -> Mat<f64> {
+        let mut x = Mat::zeros(loads.nrows(), loads.ncols());
+        for columns in panels(loads.ncols()) {
+            let solved = self.iterate(loads.get(.., columns.clone()), KNOWN_IN_SIZE);
+            x.as_mut().get_mut(.., columns).copy_from(solved);
         }
-        left *= faer::Scale(-1.0);
-        left += loads;
-        self.precondition(&left)
+        x
     }
 
     fn precondition(&self, r: &Mat<f64>) -> Mat<f64> {
@@ -99,7 +95,7 @@ impl<'a> Interior<'a> {
         z
     }
 
-    fn iterate(&self, loads: MatRef<'_, f64>) -> Mat<f64> {
+    fn iterate(&self, loads: MatRef<'_, f64>, solved: f64) -> Mat<f64> {
         let mut residual = loads.to_owned();
         let mut u = Mat::zeros(residual.nrows(), residual.ncols());
         let mut direction = self.precondition(&residual);
@@ -109,7 +105,7 @@ impl<'a> Interior<'a> {
             let worst = largest_ratio(&rho, &start);
             since_best = if worst < best { 0 } else { since_best + 1 };
             best = best.min(worst);
-            if worst <= SOLVED || since_best >= STALLED {
+            if worst <= solved || since_best >= STALLED {
                 break;
             }
             let force = product(self.pencil.stiffness, direction.as_ref());

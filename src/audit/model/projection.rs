@@ -70,8 +70,8 @@ impl Projected {
     /// Projects the matrices; `unit` are the unit motions, translations first, where the directions are known.
     pub(super) fn new(partition: &Partition, columns: Columns, unit: Option<MatRef<'_, f64>>) -> Self {
         let (shapes, n_probes) = (columns.shapes.as_ref(), columns.n_probes());
-        let stiffness = form(&partition.stiffness, shapes, columns.energy_errors);
-        let mass = form(&partition.mass, shapes, columns.inertia_errors);
+        let stiffness = form(&partition.stiffness, shapes, &columns.energy_errors);
+        let mass = form(&partition.mass, shapes, &columns.inertia_errors);
         let of_held = partition.gravity.as_ref().map(|gravity| (gravity.loads.clone(), gravity.mass));
         let gravity_weight = of_held.as_ref().filter(|(_, mass)| *mass > 0.0).map(|(_, mass)| 1.0 / mass.sqrt());
         let loads_of = |unit: MatRef<'_, f64>| {
@@ -89,7 +89,7 @@ impl Projected {
         let diagonal = crate::sparse::diagonal(&partition.mass);
         let quantities =
             partition.quantities.rows.iter().map(|row| quantity(row, shapes, (&mass, &diagonal))).collect();
-        let recovery = (!partition.recovered.rows.is_empty()).then(|| recovered(partition, shapes, (&mass, n_probes)));
+        let recovery = (!partition.recovered.rows.is_empty()).then(|| recovered(partition, &columns, &mass));
         let is_modal = columns.probes.ncols() == 0;
         let motions =
             unit.filter(|_| is_modal).map(|unit| dense::gram(product(&partition.mass, unit).as_ref(), shapes));
@@ -123,6 +123,17 @@ impl Projected {
         NOISE_FACTOR * self.mass.errors[at] / length
     }
 
+    /// The largest error of a column that is a static answer relative to itself, in energy.
+    pub(super) fn error_of_answers(&self) -> f64 {
+        let is_answer = |named: &Named| matches!(named, Named::Relief(_) | Named::Residual(_));
+        let share = |column: usize| {
+            let (at, energy) = (self.n_probes() + column, &self.stiffness.matrix);
+            let length = energy[(at, at)].max(0.0).sqrt();
+            if length > 0.0 { self.stiffness.errors[at] / length } else { 0.0 }
+        };
+        (0..self.named.len()).filter(|column| is_answer(&self.named[*column])).map(share).fold(0.0, f64::max)
+    }
+
     /// Length of a named column in the mass; that of the mode it is made of is one.
     pub(super) fn length(&self, column: usize) -> f64 {
         let at = self.n_probes() + column;
@@ -143,7 +154,7 @@ impl Projected {
 }
 
 /// wᵀAw, panel by panel.
-fn form(matrix: &SparseMatrix, shapes: MatRef<'_, f64>, errors: Vec<f64>) -> Form {
+fn form(matrix: &SparseMatrix, shapes: MatRef<'_, f64>, errors: &[f64]) -> Form {
     let q = shapes.ncols();
     let (mut projected, mut terms) = (Mat::zeros(q, q), Vec::with_capacity(q));
     for columns in panels(q) {
@@ -229,8 +240,9 @@ fn quantity(row: &[(u32, f64)], shapes: MatRef<'_, f64>, (mass, diagonal): (&For
     }
 }
 
-/// TW. What a column lacks is a motion of like columns: displacements for its inertia are as large as theirs.
-fn recovered(partition: &Partition, shapes: MatRef<'_, f64>, (mass, n_probes): (&Form, usize)) -> Rows {
+/// TW. What a column lacks is a motion of like columns: displacements for its inertia are as large as theirs. What solves lack is measured.
+fn recovered(partition: &Partition, columns: &Columns, mass: &Form) -> Rows {
+    let (shapes, n_probes) = (columns.shapes.as_ref(), columns.n_probes());
     let rows = Mat::from_fn(partition.recovered.rows.len(), shapes.ncols(), |i, j| {
         let entries = partition.transformation.rows[partition.recovered.rows[i].0].entries();
         entries.map(|(dof, factor)| factor * shapes[(dof as usize, j)]).sum()
@@ -241,7 +253,9 @@ fn recovered(partition: &Partition, shapes: MatRef<'_, f64>, (mass, n_probes): (
     for like in [0..n_probes, n_probes..shapes.ncols()] {
         let share = |j: usize| if length(j) > 0.0 { largest(j) / length(j) } else { 0.0 };
         let share = like.clone().map(share).fold(0.0, f64::max);
-        errors.extend(like.clone().map(|j| share * mass.errors[j] + f64::EPSILON * largest(j)));
+        errors.extend(
+            like.clone().map(|j| share * mass.errors[j] + columns.displacement_errors[j] + f64::EPSILON * largest(j)),
+        );
         sizes.extend(like.map(|j| share * length(j)));
     }
     Rows { rows, errors, sizes }

@@ -78,7 +78,7 @@ impl Compared {
             (self.report.modes, self.report.mac) = (preserved.modes, preserved.mac);
         }
         let (k, m) = (&evidence.reduction.stiffness, &evidence.reduction.mass);
-        let spectral = Spectral::of(k.as_ref(), m.as_ref(), shift(evidence));
+        let spectral = shift(evidence).and_then(|alpha| Spectral::of(k.as_ref(), m.as_ref(), alpha));
         let spectral = self.kept("highest reduced frequency", spectral)?;
         self.report.highest = spectral.and_then(|spectral| sizes::highest(evidence, &spectral));
         Ok(())

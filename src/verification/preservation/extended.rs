@@ -86,7 +86,7 @@ impl<'a> Extended<'a> {
             projected
         };
         let (stiffness, mass) = (project(&forces), project(&momenta));
-        let spectral = Spectral::of(stiffness.as_ref(), mass.as_ref(), shift(evidence))?;
+        let spectral = Spectral::of(stiffness.as_ref(), mass.as_ref(), shift(evidence)?)?;
         let scale = Equilibrated::of(partition.pencil()).scale;
         Ok(Self { evidence, factor, eta, basis, forces, momenta, stiffness, mass, spectral, scale, steps: 0 })
     }
@@ -226,7 +226,7 @@ impl<'a> Extended<'a> {
             dense::symmetrise(projected);
             *images = dense::side_by_side(images.as_ref(), image.as_ref());
         }
-        self.spectral = Spectral::of(self.stiffness.as_ref(), self.mass.as_ref(), shift(self.evidence))?;
+        self.spectral = Spectral::of(self.stiffness.as_ref(), self.mass.as_ref(), shift(self.evidence)?)?;
         Ok(true)
     }
 

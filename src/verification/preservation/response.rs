@@ -55,7 +55,7 @@ pub(super) fn compared(
     eta: f64,
 ) -> Result<Compared> {
     let reduction = evidence.reduction;
-    let reduced = Spectral::of(reduction.stiffness.as_ref(), reduction.mass.as_ref(), shift(evidence))?;
+    let reduced = Spectral::of(reduction.stiffness.as_ref(), reduction.mass.as_ref(), shift(evidence)?)?;
     let mut extended = Extended::new(evidence, factor, eta)?;
     let mut samples_hz = samples::first(evidence, &reduced, band_hz);
     let mut residuals = extended.settle(&samples_hz)?;

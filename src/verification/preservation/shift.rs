@@ -1,11 +1,17 @@
 //! The shift that spectral forms are accurate about.
 
+use crate::error::Result;
+use crate::verification::elastic::elastic_scale;
 use crate::verification::evidence::Evidence;
-use crate::verification::force::lowest_ratio;
 
 /// A shift near the lowest elastic eigenvalue, which spectral forms are accurate about.
-pub(super) fn shift(evidence: &Evidence<'_>) -> f64 {
-    let (k, m) = (evidence.reduction.stiffness.as_ref(), evidence.reduction.mass.as_ref());
-    let lowest = evidence.retained.modes.lambda.first().copied().or_else(|| lowest_ratio(k, m));
-    lowest.filter(|lowest| *lowest > 0.0 && lowest.is_finite()).unwrap_or(1.0)
+///
+/// # Errors
+/// A dense eigenproblem that does not converge.
+pub(super) fn shift(evidence: &Evidence<'_>) -> Result<f64> {
+    let lowest = match evidence.retained.modes.lambda.first() {
+        Some(lowest) => Some(*lowest),
+        None => elastic_scale(evidence.reduction.pencil())?,
+    };
+    Ok(lowest.filter(|lowest| *lowest > 0.0 && lowest.is_finite()).unwrap_or(1.0))
 }

@@ -55,7 +55,7 @@ fn size_error(
         }
     }
     let response_error_db = match response {
-        Some(full) => Some(full.worst_decibel(evidence, &Spectral::of(k, m, shift(evidence))?)),
+        Some(full) => Some(full.worst_decibel(evidence, &Spectral::of(k, m, shift(evidence)?)?)),
         None => None,
     };
     Ok(SizeError { n_modes, n_reduced: n, frequency_error, response_error_db })

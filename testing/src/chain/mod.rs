@@ -154,7 +154,7 @@ pub fn reduce(
     let job = ReductionJob::new(method, ModeSelection::Count { count });
     let named = retained_columns(component, &job, &retained);
     let modes = retained.modes;
-    let basis = Basis::new(&constraint, named.clone(), partition.internal().mass);
+    let basis = Basis::new(&constraint, &named, partition.internal().mass);
     let reduction = Reduction::new(&partition, &basis, &rigid);
     Ok(Chain { partition, rigid, constraint, modes, named, basis, reduction })
 }

@@ -176,7 +176,7 @@ fn c_09_dependent_columns_are_left_out_by_name() {
     coordinates.extend([coordinates[n - 1], coordinates[1]]);
     let basis = Basis::new(
         &reduced.constraint,
-        DynamicColumns { columns, coordinates: coordinates.clone() },
+        &DynamicColumns { columns, coordinates: coordinates.clone() },
         reduced.partition.internal().mass,
     );
     assert_eq!(basis.n_dynamic(), n);

@@ -1,0 +1,107 @@
+//! The first elastic eigenvalue of a reduced pencil by itself, where no mode tells it: the unit of energies for a reduction and for the
+//! verification of its file alike.
+//!
+//! ```text
+//! D = diag(1/√M̂_ii)          powers of two
+//! Z   r × (r − n_r)          orthonormal, Zᵀ D M̂ Û = 0
+//! Zᵀ M̂ Z y = θ Zᵀ K̂ Z y     λ₁ = 1 / max θ, each matrix scaled by D from both sides
+//! ```
+//! Coordinates do not tell it: where one interface node holds the component, K̂_ii of its dofs is what rounding left of a stiffness that
+//! cancels, and the ratio K̂_ii / M̂_ii is no eigenvalue of anything.
+
+use faer::{Mat, MatRef};
+
+use super::pencil::{Spectral, scaled_by};
+use crate::dense::{self, NOISE_FACTOR};
+use crate::error::Result;
+
+/// Share of the largest K̂_ii / M̂_ii up to which another is the rounding of what condensation took away: a body that one interface
+/// node holds has no stiffness there.
+const CONDENSED_AWAY: f64 = 1e-10;
+
+/// λ₁ of (K̂, M̂) beyond the rigid-body motions Û, r × n_r; none where K̂ lets other motions pass, or all.
+///
+/// # Errors
+/// A dense eigenproblem that does not converge.
+pub(crate) fn first_elastic((k, m, u): (MatRef<'_, f64>, MatRef<'_, f64>, MatRef<'_, f64>)) -> Result<Option<f64>> {
+    let r = k.nrows();
+    let scale: Vec<f64> = (0..r).map(|i| dense::power_of_two_root(m[(i, i)])).collect();
+    let (k, m) = (scaled_by(k, &scale), scaled_by(m, &scale));
+    let motions = Mat::from_fn(r, u.ncols(), |i, j| u[(i, j)] / scale[i]);
+    let taken = held_out(m.as_ref(), motions.as_ref());
+    let taken = dense::orthonormal(taken.as_ref(), Mat::<f64>::identity(r, r).as_ref())?;
+    let all = taken.qr().compute_Q();
+    let z = all.as_ref().subcols(taken.ncols(), r - taken.ncols());
+    let projected = |a: &Mat<f64>| {
+        let mut projected = dense::gram(z, dense::product(a.as_ref(), z).as_ref());
+        dense::symmetrise(&mut projected);
+        projected
+    };
+    let spectral = Spectral::if_definite(projected(&k).as_ref(), projected(&m).as_ref(), 0.0)?;
+    Ok(spectral.and_then(|spectral| spectral.eigenvalues().first().copied()))
+}
+
+/// What elastic motion is orthogonal to: the momenta of rigid-body motions, or of those without mass the motions themselves.
+fn held_out(m: MatRef<'_, f64>, motions: MatRef<'_, f64>) -> Mat<f64> {
+    let mut momenta = dense::product(m, motions);
+    let terms = dense::product(dense::absolute(m).as_ref(), dense::absolute(motions).as_ref());
+    let rounding = NOISE_FACTOR * m.nrows() as f64 * f64::EPSILON;
+    for j in 0..motions.ncols() {
+        let norm = |a: &Mat<f64>| dense::norm(dense::column(a.as_ref(), j));
+        if norm(&momenta) <= rounding * norm(&terms) {
+            momenta.as_mut().col_mut(j).copy_from(motions.col(j));
+        }
+    }
+    momenta
+}
+
+/// λ₁ where no mode tells it: by the pencil, or where that has no elastic motion by the ratios of its coordinates.
+///
+/// # Errors
+/// As [`first_elastic`].
+pub(crate) fn elastic_scale(parts: (MatRef<'_, f64>, MatRef<'_, f64>, MatRef<'_, f64>)) -> Result<Option<f64>> {
+    Ok(first_elastic(parts)?.or_else(|| lowest_ratio(parts.0, parts.1)))
+}
+
+/// The lowest K̂_ii / M̂_ii that is no rounding: what stands for the first elastic eigenvalue where there is none.
+pub(crate) fn lowest_ratio(k: MatRef<'_, f64>, m: MatRef<'_, f64>) -> Option<f64> {
+    lowest_ratio_of((0..k.nrows()).map(|i| (k[(i, i)], m[(i, i)])))
+}
+
+/// The lowest ratio of these stiffnesses and masses that is no rounding, as [`lowest_ratio`] finds it.
+pub(crate) fn lowest_ratio_of(diagonals: impl Iterator<Item = (f64, f64)> + Clone) -> Option<f64> {
+    let ratios = diagonals.filter(|(stiffness, mass)| *stiffness > 0.0 && *mass > 0.0).map(|(k, m)| k / m);
+    let largest = ratios.clone().reduce(f64::max)?;
+    ratios.filter(|ratio| *ratio > CONDENSED_AWAY * largest).reduce(f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Masses 2 and 1 on a unit spring, in the coordinates of the first of them and of the stretch, with 1e-9 of stiffness that rounding
+    /// left at the first.
+    #[test]
+    fn rounding_of_a_stiffness_that_cancels_is_no_eigenvalue() {
+        let mass = Mat::from_fn(2, 2, |i, j| [[3.0, 1.0], [1.0, 1.0]][i][j]);
+        let stiffness = Mat::from_fn(2, 2, |i, j| [[1e-9, 0.0], [0.0, 1.0]][i][j]);
+        let rigid = Mat::from_fn(2, 1, |i, _| if i == 0 { 1.0 } else { 0.0 });
+        let found = first_elastic((stiffness.as_ref(), mass.as_ref(), rigid.as_ref())).expect("numbers");
+        // Masses 2 and 1 on a unit spring: λ = 1/2 + 1. The shape is -1/3 and 1 over a mass of 2/3, so that rounding adds 1e-9/6.
+        let found = found.expect("an elastic motion");
+        assert!((found - 1.5).abs() < 1e-9, "{found}");
+        assert_eq!(lowest_ratio(stiffness.as_ref(), mass.as_ref()), Some(1e-9 / 3.0));
+    }
+
+    #[test]
+    fn a_pencil_of_rigid_motion_alone_has_none() {
+        let one = Mat::<f64>::identity(1, 1);
+        let nothing = Mat::<f64>::zeros(1, 1);
+        assert_eq!(first_elastic((nothing.as_ref(), one.as_ref(), one.as_ref())).expect("numbers"), None);
+        // A motion without mass is no elastic one either.
+        let (k, m) = (Mat::from_fn(2, 2, |i, j| f64::from(u8::from(i + j == 2))), Mat::<f64>::identity(2, 2));
+        let m = Mat::from_fn(2, 2, |i, j| if i == 0 { 0.0 } else { m[(i, j)] });
+        let u = Mat::from_fn(2, 1, |i, _| f64::from(u8::from(i == 0)));
+        assert_eq!(first_elastic((k.as_ref(), m.as_ref(), u.as_ref())).expect("numbers"), Some(1.0));
+    }
+}
