@@ -77,7 +77,7 @@
 //! ```text
 //! number · dofs · error · heap · foreign_exit · regular_file · linked · random · dense · sparse
 //! factor · eigen
-//! job · input · model · partition · rigid · coordinates · constraint · modes · basis · reduction · rubin
+//! job · input · model · partition · rigid · coordinates · constraint · modes · basis · reduction · rubin · damping
 //! memory_forecast · verification · audit · assembly
 //! report · output · outcome · export · expansion · cli
 //! ```
@@ -101,6 +101,7 @@ pub mod basis;
 pub mod cli;
 pub mod constraint;
 pub mod coordinates;
+pub mod damping;
 pub mod dense;
 pub mod dofs;
 pub mod eigen;
@@ -132,6 +133,7 @@ pub mod verification;
 use audit::{Audit, Reference};
 use basis::Basis;
 use constraint::Constrained;
+use damping::Damping;
 use error::Result;
 use input::{Allowance, InputFacts};
 use job::Job;
@@ -140,7 +142,7 @@ use model::Model;
 use modes::{Component, ModeSource, Retained, Search};
 use outcome::Outcome;
 use output::Results;
-use partition::{Expansion, Loads, Partition, Quantities};
+use partition::{CarriedMatrix, Expansion, Loads, Partition, Quantities};
 use random::SEED;
 use reduction::Reduction;
 use report::Observer;
@@ -170,6 +172,8 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let Constrained { modes: constraint, rigid, rank, loose } =
         constraint::constrained(&partition, &factor, rigid, rank)?;
 
+    damping::refuse_resistance(job, &partition, &rigid)?;
+
     observer.stage("modes");
     let component = Component::new(&partition, &analysis, &factor, &rigid, &constraint);
     let search = Search::new(component, &job.reduction)?;
@@ -190,6 +194,8 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let reduction = Reduction::new(&partition, &basis, &rigid);
     let rubin = rubin::rubin_where_asked(&job.reduction, &basis, &reduction, &retained)?;
 
+    let damping = Damping::of_reduction(job, &partition, &reduction)?;
+
     observer.stage("enclosures");
     let enclosures = verification::enclosures_where_asked(component, &retained, job.certified())?;
 
@@ -205,6 +211,8 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         reduction: &reduction,
         answers: answers.as_ref(),
         rubin: rubin.as_ref(),
+        damping: damping.as_ref(),
+        rigid_motion: job.rigid_motion(),
         certificate: certificate.as_ref(),
         enclosures: enclosures.as_ref(),
         expect: job.model.expect.as_ref(),
@@ -239,8 +247,9 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     let columns = input::load_columns(&job.loads, &read)?;
     let modes = input::expansion_columns(&job.reduction, &read, &allowance)?;
     let rows = input::job_quantities(job.write.quantities.as_ref(), &read, &allowance)?;
+    let matrices = input::further_matrices(job, &read, &allowance)?;
     let facts = InputFacts::of(&read).with_loads(&job.loads, &columns).with_modes(modes.as_ref());
-    let mut facts = facts.with_quantities(rows.as_ref());
+    let mut facts = facts.with_quantities(rows.as_ref()).with_matrices(&matrices);
 
     observer.stage("check");
     let model = Model::new(read)?;
@@ -254,6 +263,7 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     let loads = partition::loads(&model, &job.loads, &columns)?;
     let modes = modes.map(|modes| partition::expansion_modes(&model, &modes)).transpose()?;
     let quantities = partition::quantities(&model, rows)?;
+    let matrices = partition::further_matrices(&model, matrices)?;
     let patches = partition::patches(&model, &job.interfaces);
     facts.faces = input::patch_faces(&job.model, &patches, &allowance)?;
     let interfaces = partition::with_faces(&job.interfaces, &facts.faces)?;
@@ -263,6 +273,7 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     let mut partition = Partition::with_held(model, &interfaces, held)?;
     partition.recovered = recovered;
     partition.quantities = Quantities::carried(quantities, &partition.transformation);
+    partition.matrices = CarriedMatrix::carried(matrices, &partition.transformation)?;
     partition.loads = Loads::carried(loads, &partition.transformation)?;
     if let Some(modes) = modes {
         partition.expansion = Expansion::carried(&modes, &partition.transformation)?;

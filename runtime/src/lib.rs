@@ -24,7 +24,8 @@
 //! | `interface_positions` | k × 3 | nodes in the reference configuration |
 //! | `interface_frames` | k × 3 × 3 | rotation matrices; columns are the node's axes |
 //! | `frequencies` | n_modes | rad/s, ascending |
-//! | `damping` | r × r | optional |
+//! | `damping` | r × r | optional; skew parts are kept |
+//! | `matrices` | m × r × r | optional: further matrices, by name and kind in the metadata |
 //! | `mixing` | n_η × n_η | optional: stored dynamic modes = named modes · mixing |
 //! | `gravity` | r × 3 | optional: loads of a unit gravity field along x, y, z |
 //! | `load_vectors` | r × n_loads | optional |
@@ -155,7 +156,8 @@ pub use mass_properties::mass_properties;
 pub use matrix::Matrix;
 pub use metadata::{
     CheckSummary, Coordinate, Direction, DroppedColumn, Flag, Generator, InterfaceDof, InterfaceNode, MOTIONS,
-    MassProperties, Metadata, Method, ModelSummary, Quantity, RigidBodyModes, Validity, Verdict, Verification,
+    MassProperties, MatrixKind, Metadata, Method, ModelSummary, NamedMatrix, Quantity, RigidBodyModes, Symmetry,
+    Validity, Verdict, Verification,
 };
 pub use superelement::Superelement;
 pub use tensors::{Precision, RecoveredDof, Recovery, Tensors};

@@ -10,10 +10,9 @@
 
 use faer::{Mat, MatRef};
 
-use crate::audit::eigenpairs;
 use crate::dense::{self, NOISE_FACTOR};
+use crate::eigen::{eigenpairs, lowest_ratio};
 use crate::error::Result;
-use crate::verification::force;
 
 /// β over α: far enough from the elastic eigenvalues for what rounding leaves of the mass of R to stay below that of the others.
 const RIGID_STIFFNESS: f64 = 1e6;
@@ -58,7 +57,7 @@ impl Pencil {
         };
         let n = self.mass.nrows();
         let diagonal = Mat::from_fn(n, n, |i, j| if i == j { left(i) } else { 0.0 });
-        let alpha = force::lowest_ratio(self.stiffness.as_ref(), diagonal.as_ref());
+        let alpha = lowest_ratio(self.stiffness.as_ref(), diagonal.as_ref());
         self.spectrum_from(alpha.unwrap_or(1.0))
     }
 

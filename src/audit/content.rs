@@ -3,13 +3,12 @@
 use faer::{Mat, MatRef};
 use supel_runtime::{Coordinate, Superelement};
 
-use super::pencil::eigenvalues;
 use super::version::kept_job;
 use crate::dense::{self, NOISE_FACTOR, unpacked};
+use crate::eigen::{eigenvalues, lowest_ratio};
 use crate::error::Result;
 use crate::job::{Boundary, Job};
 use crate::verification::check::Limits;
-use crate::verification::force;
 use crate::verification::limits::{self, Judged, Known, LARGEST_EXCUSE};
 
 /// A superelement with its matrices unpacked.
@@ -121,6 +120,18 @@ impl<'a> Content<'a> {
         }
     }
 
+    /// Limits of a force of rigid-body motion in the damping: a reduction knows what the digits of its matrices leave, and its limit is on
+    /// record, before that of the energy.
+    pub(super) fn damping_force_limits(&self) -> Judged {
+        let recorded = self.superelement.metadata().verification.checks.iter().find(|check| check.id == "M-28");
+        let recorded = recorded.map_or(0.0, |check| check.limit);
+        let judged = self.force_limits();
+        if recorded <= judged.limits.value() {
+            return judged;
+        }
+        limits::of_unexplained_force(self.noise.size().max(recorded / NOISE_FACTOR))
+    }
+
     /// The largest limit on record of the checks of one identifier.
     fn recorded_limit(&self, id: &str) -> f64 {
         let checks = self.superelement.metadata().verification.checks.iter().filter(|check| check.id == id);
@@ -194,7 +205,7 @@ fn by_own_bars(superelement: &Superelement, first: f64) -> f64 {
 
 /// The first eigenvalue of the reduced pencil beyond its rigid-body modes, with its interface free; `near` is one of its modes.
 fn first_elastic((k, m): (MatRef<'_, f64>, MatRef<'_, f64>), n_r: usize, near: Option<f64>) -> Result<f64> {
-    let Some(near) = near.or_else(|| force::lowest_ratio(k, m)) else { return Ok(1.0) };
+    let Some(near) = near.or_else(|| lowest_ratio(k, m)) else { return Ok(1.0) };
     let values = eigenvalues(k, m, near)?;
     Ok(values.get(n_r).copied().filter(|value| *value > 0.0).unwrap_or(near))
 }

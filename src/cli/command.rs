@@ -308,6 +308,8 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
         interfaces,
         fixed,
         loads: Vec::new(),
+        matrices: Vec::new(),
+        damping: None,
         reduction: ReductionJob {
             method,
             modes,

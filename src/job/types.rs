@@ -11,9 +11,11 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize};
 use std::path::{Path, PathBuf};
 
+use super::damping::ComponentDampingJob;
 use super::fixed::FixedJob;
 use super::interface::InterfaceJob;
 use super::load::LoadJob;
+use super::matrix::MatrixJob;
 use super::method::Method;
 use super::quantities::QuantitiesJob;
 use super::ranges::{LARGEST, MAX_DIGITS, SMALLEST};
@@ -37,6 +39,12 @@ pub struct Job {
     /// Loads that the superelement carries by name.
     #[serde(default, rename = "load", skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<LoadJob>,
+    /// Further matrices that the superelement carries by name.
+    #[serde(default, rename = "matrix", skip_serializing_if = "Vec::is_empty")]
+    pub matrices: Vec<MatrixJob>,
+    /// Damping that the superelement carries.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damping: Option<ComponentDampingJob>,
     /// Method and modes.
     pub reduction: ReductionJob,
     /// What the simulation will ask of the component.

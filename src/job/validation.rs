@@ -18,6 +18,8 @@ pub(super) fn validate(job: &Job) -> Result<()> {
     reduction(&job.reduction)?;
     super::fixed::validate(&job.fixed)?;
     super::load::validate(&job.loads)?;
+    super::matrix::validate(&job.matrices)?;
+    job.damping.as_ref().map_or(Ok(()), super::damping::validate)?;
     if let Some(scene) = &job.scene {
         super::scene::validate(scene, &job.interfaces)?;
     }

@@ -11,17 +11,6 @@ use super::check::Check;
 use super::limits::Judged;
 use crate::dense;
 
-/// Share of the largest K̂_ii / M̂_ii up to which another is the rounding of what condensation took away: a body that one interface
-/// node holds has no stiffness there.
-const CONDENSED_AWAY: f64 = 1e-10;
-
-/// The lowest K̂_ii / M̂_ii that is no rounding: what stands for the first elastic eigenvalue where there is none.
-pub(crate) fn lowest_ratio(k: MatRef<'_, f64>, m: MatRef<'_, f64>) -> Option<f64> {
-    let ratios = || (0..k.nrows()).filter(|i| k[(*i, *i)] > 0.0 && m[(*i, *i)] > 0.0).map(|i| k[(i, i)] / m[(i, i)]);
-    let largest = ratios().reduce(f64::max)?;
-    ratios().filter(|ratio| *ratio > CONDENSED_AWAY * largest).reduce(f64::min)
-}
-
 /// M-12: the largest force of the motions Û; `name` says what a motion is called and where its force is largest.
 pub(crate) fn of_rigid_motion(
     (k, m, u): (MatRef<'_, f64>, MatRef<'_, f64>, MatRef<'_, f64>),

@@ -9,6 +9,7 @@ use super::residual::Worst;
 use super::spectrum::{NOT_FREE, Spectrum, zero_level};
 use crate::constraint::rigid_error;
 use crate::dense::{self, NOISE_FACTOR};
+use crate::eigen::lowest_ratio;
 use crate::rigid::noise_of_digits;
 
 /// M-05, energy. The value is shown and not judged where no elastic mode is known to compare it with.
@@ -144,13 +145,33 @@ pub(super) fn null_space(evidence: &Evidence<'_>) -> Check {
 /// M-12, force, as the verification of the file measures it.
 pub(super) fn force(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check {
     let (k, m) = (evidence.reduction.stiffness.as_ref(), evidence.reduction.mass.as_ref());
-    let known = spectrum.first_elastic();
-    let first = known.or_else(|| force::lowest_ratio(k, m)).unwrap_or(1.0);
-    let noise = known.map_or(0.0, |first| energy_noise(evidence, first));
-    let judged = limits::of_force(noise, share_of_data(evidence.partition));
+    let Disturbance { first, noise, share_of_data } = Disturbance::of(evidence, spectrum);
+    let judged = limits::of_force(noise, share_of_data);
     let u = evidence.reduction.rigid_body_modes.as_ref();
     let name = |mode: usize, at: usize| format!("{}, {}", rigid_name(evidence, mode), coordinate_name(evidence, at));
     force::of_rigid_motion((k, m, u), first, judged, &name)
+}
+
+/// What disturbs forces of rigid-body motion.
+pub(super) struct Disturbance {
+    /// The first elastic eigenvalue, that energies are compared with.
+    pub(super) first: f64,
+    /// Rounding in an energy, relative to the first elastic one.
+    pub(super) noise: f64,
+    /// The share of it that the digits of the data have.
+    pub(super) share_of_data: f64,
+}
+
+impl Disturbance {
+    pub(super) fn of(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Self {
+        let (k, m) = (evidence.reduction.stiffness.as_ref(), evidence.reduction.mass.as_ref());
+        let known = spectrum.first_elastic();
+        Self {
+            first: known.or_else(|| lowest_ratio(k, m)).unwrap_or(1.0),
+            noise: known.map_or(0.0, |first| energy_noise(evidence, first)),
+            share_of_data: share_of_data(evidence.partition),
+        }
+    }
 }
 
 /// M-12, number of zero modes.

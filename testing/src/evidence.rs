@@ -48,6 +48,8 @@ pub fn with_evidence<T>(
         reduction: &reduction,
         answers: None,
         rubin: None,
+        damping: None,
+        rigid_motion: supel::job::RigidMotionDamping::Refuse,
         certificate: None,
         enclosures: None,
         expect: None,

@@ -1,7 +1,7 @@
 //! The shift that spectral forms are accurate about.
 
+use crate::eigen::lowest_ratio;
 use crate::verification::evidence::Evidence;
-use crate::verification::force::lowest_ratio;
 
 /// A shift near the lowest elastic eigenvalue, which spectral forms are accurate about.
 pub(super) fn shift(evidence: &Evidence<'_>) -> f64 {
