@@ -132,8 +132,8 @@ pub mod verification;
 
 use audit::{Audit, Reference};
 use basis::Basis;
-use constraint::Constrained;
-use damping::Damping;
+use constraint::{Constrained, constrained};
+use damping::{Damping, refuse_resistance};
 use error::Result;
 use input::{Allowance, InputFacts};
 use job::Job;
@@ -162,17 +162,14 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     // The analysis reads the pattern of the matrices alone, so that it runs at the same time.
     let (rigid, analysis) = rayon::join(|| rigid::rigid_body_modes(&partition), || partition.analysis());
     let ((rigid, n_extra), analysis) = (rigid?, analysis?);
-    let rank = rigid::interface_rank(&partition, &rigid)?;
+    let rank = refuse_resistance(job, &partition, &rigid).and_then(|()| rigid::interface_rank(&partition, &rigid))?;
 
     observer.stage("factor");
     let storage = memory_forecast::storage_within_memory(&analysis, &partition, job, resources)?;
     let factor = constraint::interior_factor(&partition, &analysis, &rigid, storage)?;
 
     observer.stage("constraint modes");
-    let Constrained { modes: constraint, rigid, rank, loose } =
-        constraint::constrained(&partition, &factor, rigid, rank)?;
-
-    damping::refuse_resistance(job, &partition, &rigid)?;
+    let Constrained { modes: constraint, rigid, rank, loose } = constrained(&partition, &factor, rigid, rank)?;
 
     observer.stage("modes");
     let component = Component::new(&partition, &analysis, &factor, &rigid, &constraint);
@@ -212,7 +209,6 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         answers: answers.as_ref(),
         rubin: rubin.as_ref(),
         damping: damping.as_ref(),
-        rigid_motion: job.rigid_motion(),
         certificate: certificate.as_ref(),
         enclosures: enclosures.as_ref(),
         expect: job.model.expect.as_ref(),
@@ -222,8 +218,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     observer.stage("preservation");
     let preserved = verification::preservation(&evidence, &analysis, job)?;
 
-    let n_other_factors = n_extra + usize::from(search.edge().is_some());
-    let (superelement, report) = output::output(&Results {
+    let results = output::output(&Results {
         job,
         input: &facts,
         loose: &loose,
@@ -231,9 +226,9 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         findings: &findings,
         preserved: &preserved,
         analysis: &analysis,
-        n_other_factors,
-    })?;
-    Ok(Outcome { superelement, report })
+        n_other_factors: n_extra + usize::from(search.edge().is_some()),
+    });
+    results.map(|(superelement, report)| Outcome { superelement, report })
 }
 
 /// The first four stages, which every look at the full model begins with.

@@ -6,7 +6,7 @@ use supel_runtime::MatrixKind;
 use super::law::{Law, Reduced};
 use crate::dense;
 use crate::error::Result;
-use crate::job::Job;
+use crate::job::{Job, RigidMotionDamping};
 use crate::partition::Partition;
 use crate::reduction::{Reduction, UserUnits};
 
@@ -22,6 +22,8 @@ pub struct Damping {
     pub sizes: Mat<f64>,
     /// What rounding may make of an entry, relative to its size.
     pub rounding: f64,
+    /// Whether it may resist rigid-body motion.
+    pub rigid_motion: RigidMotionDamping,
 }
 
 impl Damping {
@@ -67,6 +69,7 @@ impl Damping {
         }
         // An eigenvalue is known to ε of the largest one, and its share in Ĉ with it.
         let rounding = dense::NOISE_FACTOR * r as f64 * f64::EPSILON * spread;
-        Ok(is_there.then(|| Self { matrix, sizes, rounding: rounding.min(LARGEST_ROUNDING) }))
+        let rounding = rounding.min(LARGEST_ROUNDING);
+        Ok(is_there.then(|| Self { matrix, sizes, rounding, rigid_motion: job.rigid_motion() }))
     }
 }

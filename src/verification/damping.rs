@@ -149,7 +149,7 @@ pub(super) fn of_reduction(evidence: &Evidence<'_>, disturbance: &Disturbance) -
     let share = if of_digits > disturbance.noise { 1.0 } else { disturbance.share_of_data };
     let judged = limits::of_force(of_digits.max(disturbance.noise), share);
     let name = |mode: usize, at: usize| format!("{}, {}", rigid_name(evidence, mode), coordinate_name(evidence, at));
-    checks(damped, (judged, evidence.rigid_motion), &name)
+    checks(damped, (judged, damping.rigid_motion), &name)
 }
 
 /// Σ ρ|Ψ|ᵀ(|C| + |Cᵀ|)|U| over the damping matrices, r × n_r, in the user's units: what their digits, to a share ρ, may make of forces.

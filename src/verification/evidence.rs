@@ -8,7 +8,7 @@ use crate::damping::Damping;
 use crate::dense;
 use crate::eigen::Equilibrated;
 use crate::factor::Cholesky;
-use crate::job::{Expectation, RigidMotionDamping};
+use crate::job::Expectation;
 use crate::modes::{Certificate, Retained};
 use crate::partition::Partition;
 use crate::reduction::Reduction;
@@ -46,8 +46,6 @@ pub struct Evidence<'a> {
     pub rubin: Option<&'a Rubin>,
     /// Ĉ, where the job asks for damping.
     pub damping: Option<&'a Damping>,
-    /// How the job lets damping resist rigid-body motion.
-    pub rigid_motion: RigidMotionDamping,
     /// The Sturm count, where one was asked for.
     pub certificate: Option<&'a Certificate>,
     /// The intervals that are proved to hold the modes, where they were asked for.

@@ -49,7 +49,6 @@ pub fn with_evidence<T>(
         answers: None,
         rubin: None,
         damping: None,
-        rigid_motion: supel::job::RigidMotionDamping::Refuse,
         certificate: None,
         enclosures: None,
         expect: None,

@@ -32,10 +32,7 @@ fn jobs() -> Vec<Value> {
                 { "name": "spin", "rotation": { "axis": [0.25, 1.25, 2.25], "through": [0.5, 1.5, 2.5] } },
             ],
             "matrix": [{ "name": "seal", "kind": "damping", "file": "C.mtx" }],
-            "damping": {
-                "rayleigh": { "mass": 0.25, "stiffness": 0.5, "mass_acts_on": "deformation" }, "modal": { "ratio": 0.25 },
-                "rigid_motion": "resist",
-            },
+            "damping": { "rayleigh": { "mass": 0.25, "stiffness": 0.5, "mass_acts_on": "deformation" }, "modal": { "ratio": 0.25 }, "rigid_motion": "resist" },
             "reduction": { "method": "herting", "modes": modes, "inertia_relief": true, "eigensolver": "arpack" },
             "scene": { "band_hz": [0.25, 500.5], "boundaries": ["free", "fix:hub", "mass:hub", "mass:hub=2.5"], "damping": { "ratio": 0.25 } },
             "run": { "certify": "full", "memory_gib": 4.5, "precision": "mixed" },
