@@ -1585,6 +1585,21 @@ pub enum Error {
         /// What was found, in words.
         found: &'static str,
     },
+    /// A mass cannot be added to a node.
+    #[entry(
+        "E-ADDED-MASS",
+        InputData,
+        "add it to a node that has dofs, with rotations where it has inertia or an offset: the node of a rigid element for instance"
+    )]
+    #[error("added mass at node {node} – found {found} – expected {expected}")]
+    AddedMass {
+        /// Label of the node.
+        node: i64,
+        /// What was found, in words.
+        found: String,
+        /// What it takes.
+        expected: &'static str,
+    },
     /// Two further matrices have one name.
     #[entry("E-MATRIX-NAME", Usage, "give each its own")]
     #[error("matrix `{name}` is defined twice – names must be unique – give each its own")]

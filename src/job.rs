@@ -3,6 +3,7 @@
 //! Flags can give what a single run needs. Paths are relative to the folder of the document; [`Job::resolve`]
 //! makes them absolute before any stage sees them. Unknown keys are errors.
 
+mod added_mass;
 mod damping;
 mod document;
 mod fixed;
@@ -25,6 +26,7 @@ mod validation;
 mod whole;
 
 pub use crate::eigen::Eigensolver;
+pub use added_mass::AddedMassJob;
 pub use damping::{ComponentDampingJob, MassActsOn, ModalDampingJob, RayleighJob, RigidMotionDamping};
 pub use document::Notation;
 pub use fixed::FixedJob;

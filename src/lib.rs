@@ -238,7 +238,7 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
 
     observer.stage("read");
     let allowance = Allowance::of(resources.allowed(job));
-    let read = input::read_within(&job.model, &allowance)?;
+    let mut read = input::read_within(&job.model, &allowance)?;
     let columns = input::load_columns(&job.loads, &read)?;
     let modes = input::expansion_columns(&job.reduction, &read, &allowance)?;
     let rows = input::job_quantities(job.write.quantities.as_ref(), &read, &allowance)?;
@@ -247,6 +247,7 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     let mut facts = facts.with_quantities(rows.as_ref()).with_matrices(&matrices);
 
     observer.stage("check");
+    facts.notes.extend(model::add_masses(&mut read, &job.added_masses)?);
     let model = Model::new(read)?;
 
     observer.stage("coordinates");

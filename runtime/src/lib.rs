@@ -136,6 +136,7 @@ mod elementary;
 mod encoding;
 mod error;
 mod file;
+mod further_matrix;
 mod mass_properties;
 mod matrix;
 mod metadata;
@@ -152,12 +153,12 @@ pub use disk::file_bytes;
 pub use document::FORMAT_VERSION;
 pub use error::{FileError, Result};
 pub use file::SealedBytes;
+pub use further_matrix::{MatrixKind, NamedMatrix, Symmetry};
 pub use mass_properties::mass_properties;
 pub use matrix::Matrix;
 pub use metadata::{
     CheckSummary, Coordinate, Direction, DroppedColumn, Flag, Generator, InterfaceDof, InterfaceNode, MOTIONS,
-    MassProperties, MatrixKind, Metadata, Method, ModelSummary, NamedMatrix, Quantity, RigidBodyModes, Symmetry,
-    Validity, Verdict, Verification,
+    MassProperties, Metadata, Method, ModelSummary, Quantity, RigidBodyModes, Validity, Verdict, Verification,
 };
 pub use superelement::Superelement;
 pub use tensors::{Precision, RecoveredDof, Recovery, Tensors};

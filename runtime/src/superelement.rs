@@ -1,8 +1,9 @@
 //! The superelement: a component reduced to its interface and a few modal amplitudes.
 
 use crate::error::Result;
+use crate::further_matrix::NamedMatrix;
 use crate::matrix::Matrix;
-use crate::metadata::{Metadata, NamedMatrix};
+use crate::metadata::Metadata;
 use crate::tensors::Tensors;
 use crate::validation;
 

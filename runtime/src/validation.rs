@@ -6,8 +6,9 @@ use alloc::vec::Vec;
 
 use crate::document::is_digest;
 use crate::error::{FileError, Result};
+use crate::further_matrix::Symmetry;
 use crate::matrix::Matrix;
-use crate::metadata::{Coordinate, InterfaceDof, Metadata, Symmetry};
+use crate::metadata::{Coordinate, InterfaceDof, Metadata};
 use crate::tensors::Tensors;
 
 /// How far RᵀR of an interface frame may be from the identity; a rotation from twelve printed digits passes.

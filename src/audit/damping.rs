@@ -53,8 +53,8 @@ fn sum(content: &Content<'_>, job: &Job, stored: &Mat<f64>) -> Result<Check> {
                 }
             }
         }
-        // The file has other modes or matrices than its job names.
-        Ok(None) | Err(Error::DampingModes { .. }) => worst = (f64::INFINITY, None),
+        // The file has other modes or matrices than its job names, or none of which damping can be made.
+        Ok(None) | Err(Error::DampingModes { .. } | Error::DenseEigen { .. }) => worst = (f64::INFINITY, None),
         Err(error) => return Err(error),
     }
     let limits = Limits { engineering: AGAIN, arithmetic: rounding, data: 0.0 };

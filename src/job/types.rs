@@ -11,6 +11,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize};
 use std::path::{Path, PathBuf};
 
+use super::added_mass::AddedMassJob;
 use super::damping::ComponentDampingJob;
 use super::fixed::FixedJob;
 use super::interface::InterfaceJob;
@@ -30,6 +31,9 @@ use crate::eigen::Eigensolver;
 pub struct Job {
     /// The finite element model.
     pub model: ModelJob,
+    /// Masses at nodes that the mass matrix does not have.
+    #[serde(default, rename = "added_mass", skip_serializing_if = "Vec::is_empty")]
+    pub added_masses: Vec<AddedMassJob>,
     /// The interface nodes, in the order of the reduced coordinates.
     #[serde(default, rename = "interface", skip_serializing_if = "Vec::is_empty")]
     pub interfaces: Vec<InterfaceJob>,

@@ -14,6 +14,7 @@ use crate::error::{Error, Result, Selector};
 
 pub(super) fn validate(job: &Job) -> Result<()> {
     model(job)?;
+    super::added_mass::validate(&job.added_masses)?;
     interfaces(&job.interfaces)?;
     reduction(&job.reduction)?;
     super::fixed::validate(&job.fixed)?;

@@ -4,6 +4,7 @@
 //! undone where results leave the tool, and frees every later stage from absolute numbers: a model in N, mm and t and
 //! the same model in other units give the same bits in between.
 
+mod added_mass;
 mod bodies;
 mod definite;
 mod finding;
@@ -21,6 +22,7 @@ use crate::error::{Error, Result};
 use crate::input::{Input, MatrixInput};
 use crate::sparse::{Precision, Rounding, SparseMatrix, diagonal};
 
+pub use added_mass::add_masses;
 pub use bodies::{Bodies, node_of_row};
 use finding::PENALTY;
 pub use finding::{ASYMMETRY_WARN, Finding};

@@ -1,5 +1,6 @@
 //! Further matrices and damping: projected, carried, checked, refused, against dense algebra of the full model.
 
+mod added;
 mod law;
 mod projected;
 mod refused;

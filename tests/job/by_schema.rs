@@ -31,6 +31,7 @@ fn jobs() -> Vec<Value> {
                 { "name": "pressure", "file": "f.mtx", "column": 3, "residual": false },
                 { "name": "spin", "rotation": { "axis": [0.25, 1.25, 2.25], "through": [0.5, 1.5, 2.5] } },
             ],
+            "added_mass": [{ "node": 7, "mass": 2.5, "inertia": [2.5, 3.5, 4.5, 0.25, 0.5, 0.75], "offset": [0.25, 1.25, 2.25] }],
             "matrix": [{ "name": "seal", "kind": "damping", "file": "C.mtx" }],
             "damping": { "rayleigh": { "mass": 0.25, "stiffness": 0.5, "mass_acts_on": "deformation" }, "modal": { "ratio": 0.25 }, "rigid_motion": "resist" },
             "reduction": { "method": "herting", "modes": modes, "inertia_relief": true, "eigensolver": "arpack" },

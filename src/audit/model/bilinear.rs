@@ -8,8 +8,6 @@
 
 use faer::{Mat, MatRef};
 
-use super::alignment::Combination;
-use super::projection::Form;
 use crate::dense;
 use crate::sparse::{SparseMatrix, panels, product_and_terms};
 
@@ -24,6 +22,17 @@ pub(super) struct Bilinear {
     pub(super) terms: Mat<f64>,
 }
 
+/// What is known of some columns.
+#[derive(Clone, Copy)]
+pub(super) struct Known<'a> {
+    /// √(wᵀMw).
+    pub(super) lengths: &'a [f64],
+    /// √(eᵀMe).
+    pub(super) errors: &'a [f64],
+    /// The diagonal of M.
+    pub(super) diagonal: &'a [f64],
+}
+
 /// A on one side of some columns.
 struct Side {
     /// √(Σ (A w_j)_k² / M_kk) over dofs with mass, of each column.
@@ -33,9 +42,9 @@ struct Side {
 }
 
 impl Bilinear {
-    /// WᵀAW of columns W whose errors are those of the form of M; `diagonal` is that of M.
-    pub(super) fn of(matrix: &SparseMatrix, shapes: MatRef<'_, f64>, (mass, diagonal): (&Form, &[f64])) -> Self {
-        let (n, q) = shapes.shape();
+    /// WᵀAW of columns W.
+    pub(super) fn of(matrix: &SparseMatrix, shapes: MatRef<'_, f64>, known: Known<'_>) -> Self {
+        let ((n, q), diagonal) = (shapes.shape(), known.diagonal);
         let sizes = dense::absolute(shapes);
         let massless = Mat::from_fn(n, q, |k, j| if diagonal[k] > 0.0 { 0.0 } else { sizes[(k, j)] });
         let (mut form, mut terms) = (Mat::zeros(q, q), Mat::zeros(q, q));
@@ -60,36 +69,20 @@ impl Bilinear {
             terms.as_mut().get_mut(.., columns).copy_from(dense::gram(sizes.as_ref(), of_terms.as_ref()));
         });
         let left = side(&matrix.transpose_view().to_csr(), &mut |_, _| {});
-        let errors = errors([&left, &right], mass, terms.as_ref());
+        let errors = errors([&left, &right], known, terms.as_ref());
         Self { matrix: form, errors, terms }
-    }
-
-    /// BᵀWᵀAWB: the form on combinations of the columns.
-    pub(super) fn combined(&self, combination: &Combination) -> Self {
-        let b = combination.columns.as_ref();
-        let both = |a: &Mat<f64>, left: MatRef<'_, f64>, right: MatRef<'_, f64>| {
-            dense::product(left.transpose(), dense::product(a.as_ref(), right).as_ref())
-        };
-        let size = dense::absolute(b);
-        let (size, amplified) = (size.as_ref(), combination.amplified.as_ref());
-        let of_rounding = both(&self.terms, amplified, size) + both(&self.terms, size, amplified);
-        Self {
-            matrix: both(&self.matrix, b, b),
-            errors: both(&self.errors, size, size) + of_rounding * faer::Scale(f64::EPSILON),
-            terms: both(&self.terms, size, size),
-        }
     }
 }
 
 /// |e_iᵀAw_j| + |w_iᵀAe_j| + |e_iᵀAe_j| + ε|w_i|ᵀ|A||w_j| of each entry.
-fn errors([left, right]: [&Side; 2], mass: &Form, terms: MatRef<'_, f64>) -> Mat<f64> {
-    let length = |j: usize| mass.matrix[(j, j)].max(0.0).sqrt();
-    let share = |j: usize| if length(j) > 0.0 { mass.errors[j] / length(j) } else { 0.0 };
+fn errors([left, right]: [&Side; 2], known: Known<'_>, terms: MatRef<'_, f64>) -> Mat<f64> {
+    let length = |j: usize| known.lengths[j];
+    let share = |j: usize| if length(j) > 0.0 { known.errors[j] / length(j) } else { 0.0 };
     let gain = |j: usize| if length(j) > 0.0 { right.norms[j] / length(j) } else { 0.0 };
     // What A makes of an error is like what it makes of a column.
     let largest = (0..terms.ncols()).map(gain).fold(0.0, f64::max);
     Mat::from_fn(terms.nrows(), terms.ncols(), |i, j| {
-        let (e_i, e_j) = (mass.errors[i], mass.errors[j]);
+        let (e_i, e_j) = (known.errors[i], known.errors[j]);
         let first = e_i * right.norms[j] + left.norms[i] * e_j;
         let massless = share(i) * right.massless[(i, j)] + share(j) * left.massless[(j, i)];
         first + massless + e_i * e_j * largest + f64::EPSILON * terms[(i, j)]

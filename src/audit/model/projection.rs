@@ -11,7 +11,7 @@
 
 use faer::{Mat, MatRef};
 
-use super::bilinear::Bilinear;
+use super::bilinear::{Bilinear, Known};
 use super::columns::{Columns, Named};
 use super::dependence::Dependence;
 use crate::dense::{self, NOISE_FACTOR};
@@ -92,8 +92,10 @@ impl Projected {
         let diagonal = crate::sparse::diagonal(&partition.mass);
         let quantities =
             partition.quantities.rows.iter().map(|row| quantity(row, shapes, (&mass, &diagonal))).collect();
+        let lengths: Vec<f64> = (0..shapes.ncols()).map(|j| mass.matrix[(j, j)].max(0.0).sqrt()).collect();
+        let known = Known { lengths: &lengths, errors: &mass.errors, diagonal: &diagonal };
         let further = partition.matrices.iter();
-        let matrices = further.map(|carried| Bilinear::of(&carried.matrix, shapes, (&mass, &diagonal))).collect();
+        let matrices = further.map(|carried| Bilinear::of(&carried.matrix, shapes, known)).collect();
         let recovery = (!partition.recovered.rows.is_empty()).then(|| recovered(partition, shapes, (&mass, n_probes)));
         let is_modal = columns.probes.ncols() == 0;
         let motions =
