@@ -169,6 +169,7 @@ fn is_about_two_keys(error: &Error) -> bool {
             | Error::InterfaceTwice { .. }
             | Error::FixedTwice { .. }
             | Error::LoadTwice { .. }
+            | Error::MatrixTwice { .. }
             | Error::WeightCount { .. }
     )
 }
