@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 use macro_rules_attribute::apply;
 use serde::Serialize;
-use supel_runtime::FileError;
+use supel_runtime::{FileError, MatrixKind};
 
 use code::catalogued;
 use words::{
@@ -237,7 +237,7 @@ pub enum Error {
     )]
     #[error(
         "{}:{line}: a Matrix Market flavour that is not read – found `{found}` – expected `coordinate real` or \
-        `coordinate integer`, each `symmetric` or `general`",
+        `coordinate integer`, each `symmetric` or `general`, or of a further matrix `skew-symmetric`",
         path.display()
     )]
     MatrixFlavour {
@@ -946,6 +946,23 @@ pub enum Error {
         /// Number of columns.
         n_cols: u64,
     },
+    /// A further matrix is not symmetric, and its layout does not say whether rows or columns are compressed.
+    #[entry(
+        "E-HDF5-ORIENTATION",
+        InputData,
+        "write it as MATLAB does (`MATLAB_sparse`, `jc`, `ir`, `data`), or as a Matrix Market file"
+    )]
+    #[error(
+        "{}:{group}: found a matrix that is not symmetric, in a layout that does not say whether rows or columns are compressed – \
+        expected a symmetric one, or the layout of MATLAB – write a Matrix Market file",
+        path.display()
+    )]
+    Hdf5Orientation {
+        /// The file.
+        path: PathBuf,
+        /// The group.
+        group: String,
+    },
     /// Row or column pointers do not rise from zero to the number of entries.
     #[entry("E-HDF5-POINTER", InputData, "write the matrix again")]
     #[error("{}:{dataset}: pointer {position} is {found} – expected {expected}", path.display())]
@@ -1567,6 +1584,106 @@ pub enum Error {
         load: String,
         /// What was found, in words.
         found: &'static str,
+    },
+    /// A mass cannot be added to a node.
+    #[entry(
+        "E-ADDED-MASS",
+        InputData,
+        "add it to a node that has dofs, with rotations where it has inertia or an offset: the node of a rigid element for instance"
+    )]
+    #[error("added mass at node {node} – found {found} – expected {expected}")]
+    AddedMass {
+        /// Label of the node.
+        node: i64,
+        /// What was found, in words.
+        found: String,
+        /// What it takes.
+        expected: &'static str,
+    },
+    /// Two further matrices have one name.
+    #[entry("E-MATRIX-NAME", Usage, "give each its own")]
+    #[error("matrix `{name}` is defined twice – names must be unique – give each its own")]
+    MatrixTwice {
+        /// The name.
+        name: String,
+    },
+    /// A further matrix has another size than stiffness and mass.
+    #[entry("E-MATRIX-ROWS", InputData, "export it from the model of stiffness and mass, in the order of their rows")]
+    #[error(
+        "{}: matrix `{matrix}` has {} – expected {n}, as stiffness and mass have – export it from the same model",
+        path.display(), counted(*found, "row", "rows")
+    )]
+    MatrixRows {
+        /// The file.
+        path: PathBuf,
+        /// Name of the matrix.
+        matrix: String,
+        /// Its rows.
+        found: usize,
+        /// Rows of stiffness and mass as they are in their files.
+        n: usize,
+    },
+    /// A further matrix is not what its kind demands: gyroscopic ones are skew, geometric stiffness is symmetric.
+    #[entry(
+        "E-MATRIX-KIND",
+        InputData,
+        "write one triangle under a banner that ends in `symmetric` or `skew-symmetric`, or say `kind = \"other\"`"
+    )]
+    #[error(
+        "{}: matrix `{matrix}` of kind {kind} – found {:e} at row {}, column {} and {:e} across the diagonal – expected {} to the \
+        last digit – write one triangle under a banner that says so, or say `kind = \"other\"`",
+        path.display(), values[0], place[0], place[1], values[1],
+        if *kind == MatrixKind::Gyroscopic { "opposite numbers" } else { "equal ones" }
+    )]
+    MatrixKind {
+        /// The file.
+        path: PathBuf,
+        /// Name of the matrix.
+        matrix: String,
+        /// What the job says it is.
+        kind: MatrixKind,
+        /// Row and column of the first such entry, from 1.
+        place: [usize; 2],
+        /// The entry, and the one across the diagonal.
+        values: [f64; 2],
+    },
+    /// A further matrix is zero on all that moves.
+    #[entry("E-MATRIX-NOTHING", InputData, "check that its file is the right one, or leave the matrix out")]
+    #[error("matrix `{matrix}` does nothing – found {found} – expected an entry on dofs that move – leave it out")]
+    MatrixNothing {
+        /// Name of the matrix.
+        matrix: String,
+        /// What was found, in words.
+        found: &'static str,
+    },
+    /// Damping resists motion of a free component as a whole.
+    #[entry(
+        "E-DAMPING-RIGID",
+        ModelPhysics,
+        "take out dampers to the ground, let the share of the mass act on the deformation (`damping.rayleigh.mass_acts_on`), or say \
+        `damping.rigid_motion = \"resist\"`"
+    )]
+    #[error(
+        "damping resists rigid-body motion of the free component – found {found} – expected none, because nothing inside a body resists \
+        its motion as a whole – {remedy}, or say `damping.rigid_motion = \"resist\"` where that is meant"
+    )]
+    DampingRigid {
+        /// What resists which motion, and where.
+        found: String,
+        /// What to do about it, in words.
+        remedy: &'static str,
+    },
+    /// Modal damping names more modes than the reduced component has.
+    #[entry("E-DAMPING-MODES", Usage, "leave the last ones out of `damping.modal.ratios`, or keep more modes")]
+    #[error(
+        "damping.modal.ratios names {} – found {n_modes} with the interface free – expected as many at most – leave the last ones out",
+        counted(*n_named, "elastic mode", "elastic modes")
+    )]
+    DampingModes {
+        /// How many the job names.
+        n_named: usize,
+        /// Elastic modes of the reduced component.
+        n_modes: usize,
     },
     /// A file of modes is none.
     #[entry(

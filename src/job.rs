@@ -3,11 +3,14 @@
 //! Flags can give what a single run needs. Paths are relative to the folder of the document; [`Job::resolve`]
 //! makes them absolute before any stage sees them. Unknown keys are errors.
 
+mod added_mass;
+mod damping;
 mod document;
 mod fixed;
 mod interface;
 mod load;
 mod location;
+mod matrix;
 mod method;
 mod node_selection;
 mod quantities;
@@ -23,11 +26,14 @@ mod validation;
 mod whole;
 
 pub use crate::eigen::Eigensolver;
+pub use added_mass::AddedMassJob;
+pub use damping::{ComponentDampingJob, MassActsOn, ModalDampingJob, RayleighJob, RigidMotionDamping};
 pub use document::Notation;
 pub use fixed::FixedJob;
 pub use interface::{Axes, AxesGiven, Coupling, InterfaceJob, Origin, Weights};
 pub use load::{LoadJob, LoadPattern, RotationJob};
 pub use location::Holder;
+pub use matrix::MatrixJob;
 pub use method::{Boundary, Method, ModeOrigin};
 pub use node_selection::{NodeSelection, Region};
 pub use quantities::QuantitiesJob;

@@ -77,7 +77,7 @@
 //! ```text
 //! number · dofs · error · heap · foreign_exit · regular_file · linked · random · dense · sparse
 //! factor · eigen
-//! job · input · model · partition · rigid · coordinates · constraint · modes · basis · reduction · rubin
+//! job · input · model · partition · rigid · coordinates · constraint · modes · basis · reduction · rubin · damping
 //! memory_forecast · verification · audit · assembly
 //! report · output · outcome · export · recovery · cli
 //! ```
@@ -101,6 +101,7 @@ pub mod basis;
 pub mod cli;
 pub mod constraint;
 pub mod coordinates;
+pub mod damping;
 pub mod dense;
 pub mod dofs;
 pub mod eigen;
@@ -131,7 +132,8 @@ pub mod verification;
 
 use audit::{Audit, Reference};
 use basis::Basis;
-use constraint::Constrained;
+use constraint::{Constrained, constrained};
+use damping::{Damping, refuse_resistance};
 use error::Result;
 use input::{Allowance, InputFacts};
 use job::Job;
@@ -140,7 +142,7 @@ use model::Model;
 use modes::{Component, ModeSource, Retained, Search};
 use outcome::Outcome;
 use output::Results;
-use partition::{Expansion, Loads, Partition, Quantities};
+use partition::{CarriedMatrix, Expansion, Loads, Partition, Quantities};
 use random::SEED;
 use reduction::Reduction;
 use report::Observer;
@@ -160,15 +162,14 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     // The analysis reads the pattern of the matrices alone, so that it runs at the same time.
     let (rigid, analysis) = rayon::join(|| rigid::rigid_body_modes(&partition), || partition.analysis());
     let ((rigid, n_extra), analysis) = (rigid?, analysis?);
-    let rank = rigid::interface_rank(&partition, &rigid)?;
+    let rank = refuse_resistance(job, &partition, &rigid).and_then(|()| rigid::interface_rank(&partition, &rigid))?;
 
     observer.stage("factor");
     let storage = memory_forecast::storage_within_memory(&analysis, &partition, job, resources)?;
     let factor = constraint::interior_factor(&partition, &analysis, &rigid, storage)?;
 
     observer.stage("constraint modes");
-    let Constrained { modes: constraint, rigid, rank, loose } =
-        constraint::constrained(&partition, &factor, rigid, rank)?;
+    let Constrained { modes: constraint, rigid, rank, loose } = constrained(&partition, &factor, rigid, rank)?;
 
     observer.stage("modes");
     let component = Component::new(&partition, &analysis, &factor, &rigid, &constraint);
@@ -190,6 +191,8 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let reduction = Reduction::new(&partition, &basis, &rigid);
     let rubin = rubin::rubin_where_asked(&job.reduction, &basis, &reduction, &retained)?;
 
+    let damping = Damping::of_reduction(job, &partition, &reduction)?;
+
     observer.stage("enclosures");
     let enclosures = verification::enclosures_where_asked(component, &retained, job.certified())?;
 
@@ -205,6 +208,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         reduction: &reduction,
         answers: answers.as_ref(),
         rubin: rubin.as_ref(),
+        damping: damping.as_ref(),
         certificate: certificate.as_ref(),
         enclosures: enclosures.as_ref(),
         expect: job.model.expect.as_ref(),
@@ -214,8 +218,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     observer.stage("preservation");
     let preserved = verification::preservation(&evidence, &analysis, job)?;
 
-    let n_other_factors = n_extra + usize::from(search.edge().is_some());
-    let (superelement, report) = output::output(&Results {
+    let results = output::output(&Results {
         job,
         input: &facts,
         loose: &loose,
@@ -223,9 +226,9 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         findings: &findings,
         preserved: &preserved,
         analysis: &analysis,
-        n_other_factors,
-    })?;
-    Ok(Outcome { superelement, report })
+        n_other_factors: n_extra + usize::from(search.edge().is_some()),
+    });
+    results.map(|(superelement, report)| Outcome { superelement, report })
 }
 
 /// The first four stages, which every look at the full model begins with.
@@ -235,14 +238,16 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
 
     observer.stage("read");
     let allowance = Allowance::of(resources.allowed(job));
-    let read = input::read_within(&job.model, &allowance)?;
+    let mut read = input::read_within(&job.model, &allowance)?;
     let columns = input::load_columns(&job.loads, &read)?;
     let modes = input::expansion_columns(&job.reduction, &read, &allowance)?;
     let rows = input::job_quantities(job.write.quantities.as_ref(), &read, &allowance)?;
+    let matrices = input::further_matrices(job, &read, &allowance)?;
     let facts = InputFacts::of(&read).with_loads(&job.loads, &columns).with_modes(modes.as_ref());
-    let mut facts = facts.with_quantities(rows.as_ref());
+    let mut facts = facts.with_quantities(rows.as_ref()).with_matrices(&matrices);
 
     observer.stage("check");
+    facts.notes.extend(model::add_masses(&mut read, &job.added_masses)?);
     let model = Model::new(read)?;
 
     observer.stage("coordinates");
@@ -254,6 +259,7 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     let loads = partition::loads(&model, &job.loads, &columns)?;
     let modes = modes.map(|modes| partition::expansion_modes(&model, &modes)).transpose()?;
     let quantities = partition::quantities(&model, rows)?;
+    let matrices = partition::further_matrices(&model, matrices)?;
     let patches = partition::patches(&model, &job.interfaces);
     facts.faces = input::patch_faces(&job.model, &patches, &allowance)?;
     let interfaces = partition::with_faces(&job.interfaces, &facts.faces)?;
@@ -263,6 +269,7 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     let mut partition = Partition::with_held(model, &interfaces, held)?;
     partition.recovered = recovered;
     partition.quantities = Quantities::carried(quantities, &partition.transformation);
+    partition.matrices = CarriedMatrix::carried(matrices, &partition.transformation)?;
     partition.loads = Loads::carried(loads, &partition.transformation)?;
     if let Some(modes) = modes {
         partition.expansion = Expansion::carried(&modes, &partition.transformation)?;

@@ -118,7 +118,8 @@ pub fn comparison_within_memory(partition: &Partition, job: &Job, resources: Res
     let Some(available) = resources.allowed(job) else { return Ok(()) };
     let analysis = Analysis::new(partition.pencil())?;
     let n = partition.n_dofs() as u64;
-    let entries = (partition.stiffness.nnz() + partition.mass.nnz()) as u64;
+    let further: usize = partition.matrices.iter().map(|carried| carried.matrix.nnz()).sum();
+    let entries = (partition.stiffness.nnz() + partition.mass.nnz() + further) as u64;
     let factors = analysis.factor_bytes(Storage::Double).saturating_mul(2).saturating_add(analysis.stack_bytes());
     let loads = partition.n_interface().min(MAX_LOADS) as u64;
     let vectors = COLUMNS_OF_A_LOAD * loads + COLUMNS_OF_A_MODE * n_modes as u64 + COLUMNS_OF_A_SEARCH;
@@ -169,7 +170,12 @@ impl Forecast {
         let recovery = COPIES
             * (partition.recovered.rows.len() + partition.quantities.rows.len()) as u64
             * (partition.n_interface() as u64 + n_modes);
-        Self { factors, matrices: n_copies * ENTRY_BYTES * entries, vectors: DOUBLE * (n * vectors + recovery) }
+        let further: u64 = partition.matrices.iter().map(|carried| carried.matrix.nnz() as u64).sum();
+        Self {
+            factors,
+            matrices: ENTRY_BYTES * (n_copies * entries + further),
+            vectors: DOUBLE * (n * vectors + recovery),
+        }
     }
 
     fn total(self) -> u64 {

@@ -13,10 +13,11 @@
 use std::ops::Range;
 
 use faer::{Mat, MatRef};
+use supel_runtime::Symmetry;
 
 use crate::basis::Basis;
 use crate::dense;
-use crate::partition::Partition;
+use crate::partition::{CarriedMatrix, Partition};
 use crate::rigid::RigidBodyModes;
 use crate::sparse::{SparseMatrix, absolute_energy, panels, product};
 
@@ -35,10 +36,25 @@ pub struct Reduction {
     pub gravity: Option<Mat<f64>>,
     /// ΨᵀF of the loads of the job, r × n_l, each column in its unit.
     pub loads: Mat<f64>,
+    /// ΨᵀAΨ of the further matrices of the job, r × r, each in its unit; symmetric or skew to the bit where A is.
+    pub matrices: Vec<Mat<f64>>,
     /// K̂_Bη as it was projected, before it was set to zero, n_B × n_η; rounding where K is exact.
     pub cleared: Mat<f64>,
     /// What projecting measured.
     pub measured: Projection,
+}
+
+/// Reduced matrices in the user's units.
+#[derive(Clone, Debug)]
+pub struct UserUnits {
+    /// K̂, r × r.
+    pub stiffness: Mat<f64>,
+    /// M̂, r × r.
+    pub mass: Mat<f64>,
+    /// Û, r × n_r.
+    pub rigid_body_modes: Mat<f64>,
+    /// ΨᵀAΨ of the further matrices, r × r each.
+    pub matrices: Vec<Mat<f64>>,
 }
 
 /// What was measured before it was mended.
@@ -94,8 +110,31 @@ impl Reduction {
             rigid_body_mass: rigid.rigid_body_mass(&partition.mass),
             gravity,
             loads: transpose_apply(basis, partition.loads.vectors.as_ref()),
+            matrices: partition.matrices.iter().map(|further| project_further(further, basis)).collect(),
             cleared,
             measured,
+        }
+    }
+
+    /// K̂, M̂, Û and the further matrices in the user's units.
+    pub fn in_user_units(&self, partition: &Partition) -> UserUnits {
+        let (scaling, n_b) = (partition.scaling, partition.n_interface());
+        let shape = scaling.shape_unit();
+        // A coordinate's unit: one for an interface dof, that of a mass-normalised shape for a modal amplitude.
+        let unit = |i: usize| if i < n_b { 1.0 } else { shape };
+        let both =
+            |a: &Mat<f64>, of: f64| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * of * unit(i) * unit(j));
+        // One product of both units, so that what is symmetric or skew stays so to the bit.
+        let further = |(a, carried): (&Mat<f64>, &CarriedMatrix)| {
+            Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * carried.facts.unit * (unit(i) * unit(j)))
+        };
+        // An amplitude is the smaller the larger its shape; those of rigid-body motion are not zero without an interface.
+        let u = &self.rigid_body_modes;
+        UserUnits {
+            stiffness: both(&self.stiffness, scaling.stiffness_unit()),
+            mass: both(&self.mass, scaling.mass_unit()),
+            rigid_body_modes: Mat::from_fn(u.nrows(), u.ncols(), |i, j| u[(i, j)] / unit(i)),
+            matrices: self.matrices.iter().zip(&partition.matrices).map(further).collect(),
         }
     }
 
@@ -117,6 +156,22 @@ fn project(matrix: &SparseMatrix, basis: &Basis) -> Mat<f64> {
     for columns in panels(r) {
         let image = product(matrix, panel_of(basis, columns.clone()).as_ref());
         projected.as_mut().get_mut(.., columns).copy_from(transpose_apply(basis, image.as_ref()));
+    }
+    projected
+}
+
+/// ΨᵀAΨ of a further matrix. What rounding leaves of its symmetry goes; a matrix that has none is left as it is.
+fn project_further(further: &CarriedMatrix, basis: &Basis) -> Mat<f64> {
+    let mut projected = project(&further.matrix, basis);
+    match further.facts.symmetry {
+        Some(Symmetry::Symmetric) => {
+            dense::symmetrise(&mut projected);
+        }
+        Some(Symmetry::Skew) => {
+            let r = projected.nrows();
+            projected = Mat::from_fn(r, r, |i, j| 0.5 * (projected[(i, j)] - projected[(j, i)]));
+        }
+        None => {}
     }
     projected
 }

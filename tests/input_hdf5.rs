@@ -870,3 +870,27 @@ fn corpus_med_groups_are_read_by_name() {
     let joint = read("JuliaFEM_joint.med");
     assert_eq!(joint.groups.len(), 6);
 }
+
+/// A further matrix keeps its entries where they are. Only the layout of MATLAB says which index is that of the rows: any other serves
+/// symmetric matrices.
+#[test]
+fn further_matrices_are_not_mirrored() {
+    let further = |path: &Path, group: &str| read_matrix(path, Some(group), MatrixRole::Further);
+    let (_folder, path) = file_with(|file| {
+        // Columns 0, 1, 2 with entries 5 at (1, 0) and 7 at (2, 1).
+        let matlab = file.create_group("C").unwrap();
+        put_attr(&matlab, "MATLAB_sparse", &[3_u64]);
+        put(&matlab, "jc", &[0_u64, 1, 2, 2]);
+        put(&matlab, "ir", &[1_u64, 2]);
+        put(&matlab, "data", &[5.0, 7.0]);
+        put_matrix(file, "one_side", &[0, 1, 2, 2], &[1, 2], &[5.0, 7.0]);
+        put_matrix(file, "both_sides", &[0, 1, 2, 2], &[1, 0], &[5.0, 5.0]);
+    });
+    let matrix = further(&path, "/C").unwrap().matrix;
+    let entries: Vec<_> = matrix.iter().map(|(value, at)| (at, *value)).collect();
+    assert_eq!(entries, [((1, 0), 5.0), ((2, 1), 7.0)]);
+    let error = further(&path, "/one_side").unwrap_err();
+    assert!(matches!(&error, Error::Hdf5Orientation { group, .. } if group == "/one_side"), "{error}");
+    assert_eq!(error.code(), "E-HDF5-ORIENTATION");
+    assert_eq!(further(&path, "/both_sides").unwrap().matrix.nnz(), 2);
+}

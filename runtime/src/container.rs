@@ -52,7 +52,7 @@ impl Dtype {
 /// Every tensor a superelement can have, in the order of the file.
 ///
 /// `recovery` comes last: in single precision it would leave what follows unaligned.
-pub(crate) const TENSORS: [&str; 15] = [
+pub(crate) const TENSORS: [&str; 16] = [
     "damping",
     "frequencies",
     "gravity",
@@ -60,6 +60,7 @@ pub(crate) const TENSORS: [&str; 15] = [
     "interface_positions",
     "load_vectors",
     "mass",
+    "matrices",
     "mixing",
     "quantities",
     "recovery_dofs",

@@ -31,6 +31,11 @@ fn encode_one(tensors: &Tensors, name: &'static str) -> Option<TensorToWrite> {
         "gravity" => matrix(tensors.gravity.as_ref()?),
         "load_vectors" => matrix(tensors.load_vectors.as_ref()?),
         "quantities" => matrix(tensors.quantities.as_ref()?),
+        "matrices" => {
+            let first = tensors.matrices.first()?;
+            let values: Vec<f64> = tensors.matrices.iter().flat_map(Matrix::as_slice).copied().collect();
+            doubles(vec![tensors.matrices.len(), first.rows(), first.cols()], &values)
+        }
         "frequencies" => doubles(vec![tensors.frequencies.len()], &tensors.frequencies),
         "interface_positions" => doubles(vec![nodes, 3], tensors.interface_positions.as_flattened()),
         "interface_frames" => doubles(vec![nodes, 3, 3], tensors.interface_frames.as_flattened().as_flattened()),
@@ -77,6 +82,7 @@ pub(crate) fn decode(raw: &RawTensors) -> Result<Tensors> {
         load_vectors: find(raw, "load_vectors").map(matrix).transpose()?,
         recovery: recovery(raw)?,
         quantities: find(raw, "quantities").map(matrix).transpose()?,
+        matrices: find(raw, "matrices").map(matrices).transpose()?.unwrap_or_default(),
     })
 }
 
@@ -111,6 +117,18 @@ fn vector(tensor: Named) -> Result<Vec<f64>> {
 fn matrix(tensor: Named) -> Result<Matrix> {
     let [rows, cols] = shape(tensor)?;
     Matrix::from_row_major(rows, cols, doubles(tensor)?.collect())
+}
+
+/// Matrices one after the other. Empty ones take no bytes, so that any number of them could be promised.
+fn matrices(tensor: Named) -> Result<Vec<Matrix>> {
+    let found @ [n, rows, cols] = shape(tensor)?;
+    if found.contains(&0) {
+        let expected = [n, rows, cols].map(|length| length.max(1)).to_vec();
+        return Err(FileError::WrongShape { tensor: tensor.0, found: found.to_vec(), expected });
+    }
+    let values: Vec<f64> = doubles(tensor)?.collect();
+    // Checked by the container: the values are as many as the shape says.
+    values.chunks_exact(rows * cols).map(|own| Matrix::from_row_major(rows, cols, own.to_vec())).collect()
 }
 
 fn positions(tensor: Named) -> Result<Vec<[f64; 3]>> {

@@ -409,6 +409,34 @@ pub enum FileError {
         /// Rows of the tensor.
         rows: usize,
     },
+    /// Number of named further matrices and of the matrices of the tensor differ.
+    #[error("{names} named matrices for {matrices} of `matrices`")]
+    MatrixNames {
+        /// Matrices in the metadata.
+        names: usize,
+        /// Matrices of the tensor.
+        matrices: usize,
+    },
+    /// A further matrix has no name, or that of another one.
+    #[error("further matrix {name:?}: no name, or that of another one")]
+    MatrixName {
+        /// The name.
+        name: String,
+    },
+    /// A matrix that its kind says to be skew is not.
+    #[error("matrix {name:?} is not skew: ({row}, {col}) is {upper:e}, ({col}, {row}) is {lower:e}")]
+    NotSkew {
+        /// Name of the matrix.
+        name: String,
+        /// Row of the upper entry.
+        row: usize,
+        /// Column of the upper entry.
+        col: usize,
+        /// Upper entry.
+        upper: f64,
+        /// Lower entry.
+        lower: f64,
+    },
     /// Only one of `recovery` and `recovery_dofs` is there, or positions without them.
     #[error("`recovery` and `recovery_dofs` belong together, and `recovery_positions` to both; `{missing}` is missing")]
     RecoveryIncomplete {

@@ -24,7 +24,8 @@
 //! | `interface_positions` | k × 3 | nodes in the reference configuration |
 //! | `interface_frames` | k × 3 × 3 | rotation matrices; columns are the node's axes |
 //! | `frequencies` | n_modes | rad/s, ascending |
-//! | `damping` | r × r | optional |
+//! | `damping` | r × r | optional; skew parts are kept |
+//! | `matrices` | m × r × r | optional: further matrices, by name and kind in the metadata |
 //! | `mixing` | n_η × n_η | optional: stored dynamic modes = named modes · mixing |
 //! | `gravity` | r × 3 | optional: loads of a unit gravity field along x, y, z |
 //! | `load_vectors` | r × n_loads | optional |
@@ -135,6 +136,7 @@ mod elementary;
 mod encoding;
 mod error;
 mod file;
+mod further_matrix;
 mod mass_properties;
 mod matrix;
 mod metadata;
@@ -151,6 +153,7 @@ pub use disk::file_bytes;
 pub use document::FORMAT_VERSION;
 pub use error::{FileError, Result};
 pub use file::SealedBytes;
+pub use further_matrix::{MatrixKind, NamedMatrix, Symmetry};
 pub use mass_properties::mass_properties;
 pub use matrix::Matrix;
 pub use metadata::{

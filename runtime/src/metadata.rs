@@ -6,6 +6,8 @@ use alloc::vec::Vec;
 
 use serde::{Deserialize, Serialize};
 
+use crate::further_matrix::NamedMatrix;
+
 /// The metadata document, without format version and digest, which writer and reader handle themselves.
 ///
 /// Its JSON form follows `schemas/superelement.schema.json`. Every number must be finite.
@@ -30,6 +32,9 @@ pub struct Metadata {
     /// What each row of the tensor `quantities` is. Absent from the file where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub quantities: Vec<Quantity>,
+    /// What each matrix of the tensor `matrices` is. Absent from the file where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub matrices: Vec<NamedMatrix>,
     /// What the superelement may be used for.
     pub validity: Validity,
     /// Properties that a client must know before it uses the matrices.

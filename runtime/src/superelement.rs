@@ -1,6 +1,8 @@
 //! The superelement: a component reduced to its interface and a few modal amplitudes.
 
 use crate::error::Result;
+use crate::further_matrix::NamedMatrix;
+use crate::matrix::Matrix;
 use crate::metadata::Metadata;
 use crate::tensors::Tensors;
 use crate::validation;
@@ -18,7 +20,7 @@ impl Superelement {
     /// # Errors
     ///
     /// The content variants of [`FileError`](crate::FileError): shapes that contradict the coordinates, values that are not finite, a
-    /// stiffness or mass matrix that is not symmetric to the bit, coordinates out of order, modes, positions or
+    /// stiffness or mass matrix that is not symmetric to the bit, a further matrix that is not what its kind demands, coordinates out of order, modes, positions or
     /// verdicts that metadata and tensors give differently.
     pub fn new(tensors: Tensors, metadata: Metadata) -> Result<Self> {
         validation::check(&tensors, &metadata)?;
@@ -33,6 +35,11 @@ impl Superelement {
     /// What they mean.
     pub fn metadata(&self) -> &Metadata {
         &self.metadata
+    }
+
+    /// The further matrices with what they are, in the order of the file.
+    pub fn further_matrices(&self) -> impl Iterator<Item = (&NamedMatrix, &Matrix)> {
+        self.metadata.matrices.iter().zip(&self.tensors.matrices)
     }
 
     /// Number of reduced coordinates r = n_B + n_η.

@@ -49,6 +49,8 @@ pub struct Tensors {
     pub recovery: Option<Recovery>,
     /// Rows R Ψ of quantities that follow from displacements, stresses for instance, m × r, named by `quantities` of the metadata.
     pub quantities: Option<Matrix>,
+    /// Further matrices ΨᵀAΨ, r × r each, named by `matrices` of the metadata. Skew parts are kept.
+    pub matrices: Vec<Matrix>,
 }
 
 /// Rows of the reduction basis Ψ: displacement inside the component = `rows` · reduced coordinates.

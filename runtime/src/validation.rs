@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 
 use crate::document::is_digest;
 use crate::error::{FileError, Result};
+use crate::further_matrix::Symmetry;
 use crate::matrix::Matrix;
 use crate::metadata::{Coordinate, InterfaceDof, Metadata};
 use crate::tensors::Tensors;
@@ -26,6 +27,7 @@ pub(crate) fn check(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
     check_validity(metadata)?;
     check_modes(tensors, metadata)?;
     check_residual_vectors(metadata)?;
+    check_matrices(tensors, metadata)?;
     for (name, digest) in &metadata.inputs {
         if !is_digest(digest) {
             return Err(FileError::InputDigest { name: name.clone() });
@@ -54,6 +56,7 @@ fn matrices(tensors: &Tensors) -> impl Iterator<Item = (&'static str, &Matrix)> 
     ]
     .into_iter()
     .filter_map(|(name, matrix)| Some((name, matrix?)))
+    .chain(tensors.matrices.iter().map(|matrix| ("matrices", matrix)))
 }
 
 fn check_shapes(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
@@ -89,7 +92,40 @@ fn check_shapes(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
         return Err(FileError::LoadNames { names, vectors });
     }
     let (names, rows) = (metadata.quantities.len(), tensors.quantities.as_ref().map_or(0, Matrix::rows));
-    if names == rows { Ok(()) } else { Err(FileError::QuantityNames { names, rows }) }
+    if names != rows {
+        return Err(FileError::QuantityNames { names, rows });
+    }
+    let (names, matrices) = (metadata.matrices.len(), tensors.matrices.len());
+    if names == matrices { Ok(()) } else { Err(FileError::MatrixNames { names, matrices }) }
+}
+
+/// Further matrices have names of their own, and are what their kind demands.
+fn check_matrices(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
+    let mut seen = alloc::collections::BTreeSet::new();
+    for (named, matrix) in metadata.matrices.iter().zip(&tensors.matrices) {
+        if named.name.trim().is_empty() || !seen.insert(&named.name) {
+            return Err(FileError::MatrixName { name: named.name.clone() });
+        }
+        match named.kind.symmetry() {
+            Some(Symmetry::Symmetric) => check_symmetry("matrices", matrix)?,
+            Some(Symmetry::Skew) => check_skew(&named.name, matrix)?,
+            None => {}
+        }
+    }
+    Ok(())
+}
+
+/// Opposite to the bit, but for the sign of zero.
+fn check_skew(name: &str, matrix: &Matrix) -> Result<()> {
+    for row in 0..matrix.rows() {
+        for col in row..matrix.cols() {
+            let (upper, lower) = (matrix[(row, col)], matrix[(col, row)]);
+            if upper != -lower {
+                return Err(FileError::NotSkew { name: name.to_owned(), row, col, upper, lower });
+            }
+        }
+    }
+    Ok(())
 }
 
 fn check_values(tensors: &Tensors) -> Result<()> {

@@ -4,8 +4,8 @@
 use supel_models::superelements::particle as sample;
 
 use supel_runtime::{
-    Coordinate, Direction, FileError, InterfaceDof, Matrix, Metadata, Precision, Recovery, Superelement, Tensors,
-    Verdict,
+    Coordinate, Direction, FileError, InterfaceDof, Matrix, MatrixKind, Metadata, NamedMatrix, Precision, Recovery,
+    Superelement, Tensors, Verdict,
 };
 
 fn refusal(change: impl FnOnce(&mut Tensors, &mut Metadata)) -> FileError {
@@ -243,6 +243,44 @@ fn names_and_rows_of_the_quantities() {
     tensors.quantities = Some(zeros(1, 9));
     let whole = Superelement::new(tensors, metadata).unwrap();
     assert_eq!(Superelement::from_bytes(&whole.to_bytes().unwrap().bytes).unwrap(), whole);
+}
+
+#[test]
+fn names_and_kinds_of_further_matrices() {
+    let named = |name: &str, kind| NamedMatrix { name: name.into(), kind };
+    let error = refusal(|_, metadata| metadata.matrices = vec![named("A", MatrixKind::Other)]);
+    assert_refused!(error, FileError::MatrixNames { names: 1, matrices: 0 });
+    let skew = Matrix::from_fn(9, 9, |i, j| i as f64 - j as f64);
+    let symmetric = Matrix::from_fn(9, 9, |i, j| (i + j) as f64);
+    let of_kind = |kind, matrix: &Matrix| {
+        let (mut tensors, mut metadata) = sample::complete_parts();
+        metadata.matrices = vec![named("A", kind)];
+        tensors.matrices = vec![matrix.clone()];
+        Superelement::new(tensors, metadata)
+    };
+    assert_refused!(
+        of_kind(MatrixKind::Gyroscopic, &symmetric).unwrap_err(),
+        FileError::NotSkew { row: 0, col: 1, .. }
+    );
+    let with_diagonal = Matrix::from_fn(9, 9, |i, j| if (i, j) == (2, 2) { 1.0 } else { skew[(i, j)] });
+    let error = of_kind(MatrixKind::Gyroscopic, &with_diagonal).unwrap_err();
+    assert_refused!(error, FileError::NotSkew { row: 2, col: 2, .. });
+    let error = of_kind(MatrixKind::GeometricStiffness, &skew).unwrap_err();
+    assert_refused!(error, FileError::NotSymmetric { tensor: "matrices", .. });
+    assert_refused!(of_kind(MatrixKind::Other, &zeros(9, 8)).unwrap_err(), FileError::WrongShape { .. });
+    let nan = Matrix::from_fn(9, 9, |_, _| f64::NAN);
+    assert_refused!(of_kind(MatrixKind::Damping, &nan).unwrap_err(), FileError::NotFinite { tensor: "matrices", .. });
+    let (mut tensors, mut metadata) = sample::complete_parts();
+    metadata.matrices = vec![named("A", MatrixKind::Gyroscopic), named("A", MatrixKind::Circulatory)];
+    tensors.matrices = vec![skew.clone(), symmetric.clone()];
+    let error = Superelement::new(tensors.clone(), metadata.clone()).unwrap_err();
+    assert_refused!(error, FileError::MatrixName { .. });
+    metadata.matrices[1].name = "B".into();
+    let whole = Superelement::new(tensors, metadata).unwrap();
+    let read = Superelement::from_bytes(&whole.to_bytes().unwrap().bytes).unwrap();
+    assert_eq!(read, whole);
+    let found: Vec<_> = read.further_matrices().map(|(named, matrix)| (named.name.as_str(), matrix)).collect();
+    assert_eq!(found, [("A", &skew), ("B", &symmetric)]);
 }
 
 #[test]

@@ -412,6 +412,19 @@ fn wrong_inner_dimension() {
     }
 }
 
+/// Matrices without entries take no bytes: any number of them could be promised.
+#[test]
+fn matrices_of_nothing() {
+    for shape in [json!([1_000_000_000_000_000_u64, 0, 9]), json!([0, 9, 9])] {
+        let error = refusal(|parts| {
+            let end = parts.data.len();
+            let entry = json!({ "dtype": "F64", "shape": shape, "data_offsets": [end, end] });
+            parts.entries.insert("matrices".into(), entry);
+        });
+        assert_refused!(error, FileError::WrongShape { tensor: "matrices", .. });
+    }
+}
+
 #[test]
 fn recovery_without_its_dofs() {
     let error = refusal(|parts| remove(parts, "recovery_dofs"));

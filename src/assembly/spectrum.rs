@@ -10,10 +10,9 @@
 
 use faer::{Mat, MatRef};
 
-use crate::audit::eigenpairs;
 use crate::dense::{self, NOISE_FACTOR};
+use crate::eigen::{eigenpairs, lowest_ratio_of};
 use crate::error::Result;
-use crate::verification::elastic;
 
 /// β over α: far enough from the elastic eigenvalues for what rounding leaves of the mass of R to stay below that of the others.
 const RIGID_STIFFNESS: f64 = 1e6;
@@ -84,7 +83,7 @@ impl Pencil {
             let left = self.mass[(i, i)] - taken;
             if left > NOISE_FACTOR * f64::EPSILON * taken { left } else { 0.0 }
         };
-        elastic::lowest_ratio_of((0..self.mass.nrows()).map(|i| (self.stiffness[(i, i)], left(i))))
+        lowest_ratio_of((0..self.mass.nrows()).map(|i| (self.stiffness[(i, i)], left(i))))
     }
 
     /// Columns freed of rigid-body motion, at unit modal mass, with their Rayleigh quotients.

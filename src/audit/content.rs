@@ -3,9 +3,9 @@
 use faer::{Mat, MatRef};
 use supel_runtime::{Coordinate, Superelement};
 
-use super::pencil::eigenvalues;
 use super::version::kept_job;
 use crate::dense::{self, NOISE_FACTOR, unpacked};
+use crate::eigen::eigenvalues;
 use crate::error::Result;
 use crate::job::{Boundary, Job};
 use crate::verification::check::Limits;
@@ -152,6 +152,18 @@ impl<'a> Content<'a> {
         };
         let Limits { engineering, arithmetic, data } = self.rounding_limits();
         Limits { engineering, arithmetic: arithmetic.max(of_answers.min(LARGEST_EXCUSE)), data }
+    }
+
+    /// Limits of a force of rigid-body motion in the damping: a reduction knows what the digits of its matrices leave, and its limit is on
+    /// record, before that of the energy.
+    pub(super) fn damping_force_limits(&self) -> Judged {
+        let recorded = self.superelement.metadata().verification.checks.iter().find(|check| check.id == "M-28");
+        let recorded = recorded.map_or(0.0, |check| check.limit);
+        let judged = self.force_limits();
+        if recorded <= judged.limits.value() {
+            return judged;
+        }
+        limits::of_unexplained_force(self.noise.size().max(recorded / NOISE_FACTOR))
     }
 
     /// The largest limit on record of the checks of one identifier.

@@ -46,7 +46,7 @@ fn made_by_none(content: &Content<'_>) -> Vec<String> {
     let assumptions = content.job.as_ref().map_or_else(Vec::new, Job::assumptions);
     let found = [
         (content.job.is_none(), "it is no job of the version that wrote it"),
-        (tensors.damping.is_some(), "damping"),
+        (tensors.damping.is_some() && !content.job.as_ref().is_some_and(Job::has_damping), "damping"),
         (!metadata.flags.is_empty(), "flags"),
         (metadata.validity.assumptions != assumptions, "assumptions about the simulation"),
         (!metadata.validity.unloaded.is_empty(), "unloaded directions"),
@@ -79,6 +79,9 @@ fn by_job(content: &Content<'_>, job: &Job) -> Vec<&'static str> {
     expect(metadata.validity.band_hz == band(content.superelement, job), "another band");
     expect(metadata.load_names.iter().eq(job.loads.iter().map(|load| &load.name)), "other loads");
     expect(tensors.quantities.is_some() == job.write.quantities.is_some(), "other quantities");
+    expect(tensors.damping.is_some() || !job.has_damping(), "no damping");
+    let matrices = metadata.matrices.iter().map(|matrix| (&matrix.name, matrix.kind));
+    expect(matrices.eq(job.matrices.iter().map(|matrix| (&matrix.name, matrix.kind))), "other matrices");
     let precision = job.write.recovery.as_ref().map(|recovery| recovery.precision);
     let recovery = tensors.recovery.as_ref();
     expect(recovery.map(supel_runtime::Recovery::precision) == precision, "another recovery");

@@ -9,6 +9,7 @@
 //! the interface nodes the rigid-body modes. The identifiers are those of the report.
 
 mod content;
+mod damping;
 mod flaw;
 mod inertia_relief;
 mod jobs;
@@ -17,7 +18,6 @@ mod mass;
 mod model;
 mod named_modes;
 mod notes;
-mod pencil;
 mod record;
 mod recovery;
 mod reproduction;
@@ -37,7 +37,6 @@ use notes::Compared;
 pub(crate) use flaw::flaw;
 pub use model::Reference;
 pub use notes::Unvouched;
-pub(crate) use pencil::eigenpairs;
 pub use record::rewritten;
 pub use reproduction::reproduced;
 pub(crate) use spectrum::negative_mass;
@@ -119,6 +118,7 @@ fn checked(content: &Content<'_>) -> Result<Audit> {
     audit.checks.push(spectrum::symmetry(content));
     audit.checks.push(spectrum::definiteness(content, &spectrum));
     audit.checks.extend(recovery::rigid_motion(content));
+    audit.checks.extend(damping::of_file(content)?);
     audit.checks.extend(rigid_motion::declaration(content));
     audit.checks.push(kept_job::accounts(content));
     audit.checks.push(record::verdicts(content));

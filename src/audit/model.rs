@@ -13,6 +13,7 @@
 mod alignment;
 mod asked;
 mod bars;
+mod bilinear;
 mod columns;
 mod combined;
 mod comparison;

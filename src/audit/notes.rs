@@ -1,7 +1,7 @@
 //! What could not be judged, and which fields no comparison confirms.
 
 use serde::Serialize;
-use supel_runtime::{Method, RigidBodyModes, Superelement};
+use supel_runtime::{MatrixKind, Method, RigidBodyModes, Superelement};
 
 use super::content::Content;
 
@@ -37,7 +37,7 @@ const fn unvouched(field: &'static str, reason: &'static str) -> Unvouched {
 const NOT_AT_HAND: &str = "names things of a model that is not at hand";
 
 /// Fields that the file alone cannot confirm.
-const ALONE: [Unvouched; 29] = [
+const ALONE: [Unvouched; 31] = [
     unvouched("generator", "a file has no other sign of who made it"),
     unvouched("units", "the job kept in it is the only other place, and may be changed too"),
     unvouched("interface_nodes[].name", "the job kept in it is the only other place, and may be changed too"),
@@ -81,6 +81,8 @@ const ALONE: [Unvouched; 29] = [
     ),
     unvouched("recovery_dofs", NOT_AT_HAND),
     unvouched("quantities", "names, units and rows of a recovery matrix that is not at hand"),
+    unvouched("matrices", "matrices of a model that is not at hand"),
+    unvouched("damping", "with its matrices, which are those of a model that is not at hand"),
     unvouched(
         "recovery_positions",
         "rows that move with them may be changed too; motions that are not six units tell none",
@@ -120,6 +122,8 @@ pub(super) fn fields(superelement: &Superelement, compared: Compared) -> Vec<Unv
         "load_vectors" => tensors.load_vectors.is_some(),
         "rigid_body_mass" => superelement.n_rigid() == 0,
         "quantities" => tensors.quantities.is_some(),
+        "matrices" => !tensors.matrices.is_empty(),
+        "damping" => metadata.matrices.iter().any(|matrix| matrix.kind == MatrixKind::Damping),
         "recovery" | "recovery_dofs" => tensors.recovery.is_some(),
         "recovery_positions" => tensors.recovery.as_ref().is_some_and(|recovery| recovery.positions().is_some()),
         _ => true,

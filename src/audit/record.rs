@@ -88,6 +88,7 @@ fn least(content: &Content<'_>, entry: &Entry) -> usize {
             let mut columns = content.superelement.metadata().named_columns();
             usize::from(columns.any(|coordinate| matches!(coordinate, Coordinate::ResidualVector { .. })))
         }
+        Recorded::WithDamping => usize::from(content.job.as_ref().is_some_and(Job::has_damping)),
         Recorded::Sometimes => 0,
     }
 }

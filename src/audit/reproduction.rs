@@ -65,6 +65,7 @@ fn tensors(one: &Tensors, other: &Tensors, parts: &mut Vec<String>) {
         load_vectors,
         recovery,
         quantities,
+        matrices: further,
     } = one;
     let mut note = |name: &str, differs: bool, size: Option<f64>| {
         if differs {
@@ -85,6 +86,7 @@ fn tensors(one: &Tensors, other: &Tensors, parts: &mut Vec<String>) {
     for (name, one, other) in matrices {
         note(name, one != other, one.zip(other).and_then(|(one, other)| distance(one, other)));
     }
+    note("matrices", *further != other.matrices, None);
     note("interface_positions", *interface_positions != other.interface_positions, None);
     note("interface_frames", *interface_frames != other.interface_frames, None);
     note("frequencies", *frequencies != other.frequencies, None);

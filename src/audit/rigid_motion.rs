@@ -140,7 +140,7 @@ pub(super) fn zero_modes(content: &Content<'_>) -> Result<Check> {
             Err(_) => is_independent = false,
         }
     }
-    let found = super::pencil::eigenpairs(lifted.as_ref(), content.m.as_ref(), content.first)?;
+    let found = crate::eigen::eigenpairs(lifted.as_ref(), content.m.as_ref(), content.first)?;
     let is_zero = |j: &usize| found.values[*j] <= zero_level(content, dense::column(found.vectors.as_ref(), *j));
     let n_more = (0..found.values.len()).filter(is_zero).count();
     let text = format!("{} zero modes, {n_r} rigid-body modes", n_r + n_more);

@@ -3,8 +3,8 @@
 use faer::{Mat, MatRef};
 
 use super::content::Content;
-use super::pencil::eigenvalues;
 use crate::dense;
+use crate::eigen::eigenvalues;
 use crate::error::Result;
 use crate::job::Boundary;
 use crate::verification::check::{Check, Limits};

@@ -295,6 +295,7 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
         let missing = flags.into_iter().filter(|(_, is_given)| !is_given).map(|(flag, _)| flag);
         return Err(Error::MissingFlags { flags: missing.collect() });
     };
+    let (inertia_relief, eigensolver) = (reduction.inertia_relief, reduction.eigensolver.unwrap_or_default());
     Ok(Job {
         model: ModelJob {
             stiffness: stiffness.clone(),
@@ -308,12 +309,10 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
         interfaces,
         fixed,
         loads: Vec::new(),
-        reduction: ReductionJob {
-            method,
-            modes,
-            inertia_relief: reduction.inertia_relief,
-            eigensolver: reduction.eigensolver.unwrap_or_default(),
-        },
+        matrices: Vec::new(),
+        added_masses: Vec::new(),
+        damping: None,
+        reduction: ReductionJob { method, modes, inertia_relief, eigensolver },
         scene: None,
         run: RunJob::default(),
         write: WriteJob {

@@ -55,8 +55,16 @@ pub(super) fn inputs(job: &Job, document: Option<&Path>) -> Vec<Named> {
     let quantities = job.write.quantities.iter();
     let quantities = quantities.flat_map(|rows| [("the quantities", &rows.matrix), ("their names", &rows.names)]);
     let quantities = quantities.map(|(role, path)| (role, path.clone()));
+    let matrices = job.matrices.iter().map(|matrix| ("a further matrix", input::file_of(&matrix.file)));
     let modes = job.reduction.modes_file().map(|path| ("the modes", input::file_of(path)));
-    input::files(&job.model).into_iter().chain(loads).chain(modes).chain(quantities).chain(document).collect()
+    input::files(&job.model)
+        .into_iter()
+        .chain(loads)
+        .chain(matrices)
+        .chain(modes)
+        .chain(quantities)
+        .chain(document)
+        .collect()
 }
 
 /// The outputs of a job in the order in which they get their names: the superelement, which the others tell about, last.

@@ -15,7 +15,7 @@ use super::exit_code::ExitCode;
 use super::process;
 use crate::error::{Error, Result};
 use crate::input::{self, Allowance, Cells};
-use crate::job::{Job, ModelJob};
+use crate::job::{Job, MatrixJob, ModelJob};
 
 /// The hidden subcommand of the child.
 pub(super) const SUBCOMMAND: &str = "rehearse-reading";
@@ -31,6 +31,7 @@ const LONGEST_PAUSE: Duration = Duration::from_millis(20);
 #[derive(Serialize, Deserialize)]
 struct Task {
     model: ModelJob,
+    matrices: Vec<MatrixJob>,
     modes: Option<PathBuf>,
     cells: Cells,
     memory_bytes: Option<u64>,
@@ -68,7 +69,8 @@ impl Rehearsed {
 pub(super) fn rehearse(job: &Job, memory_bytes: Option<u64>) -> Result<Rehearsed> {
     let Some(path) = input::hdf5_file(job) else { return Ok(Rehearsed::Nothing) };
     let modes = job.reduction.modes_file().map(Path::to_owned);
-    let task = Task { model: job.model.clone(), modes, cells: Cells::of(job), memory_bytes };
+    let task =
+        Task { model: job.model.clone(), matrices: job.matrices.clone(), modes, cells: Cells::of(job), memory_bytes };
     let failed = |source| Error::Rehearsal { source };
     let time = time_for(&path);
     let mut child = std::env::current_exe().and_then(|program| start(&program)).map_err(failed)?;
@@ -162,7 +164,7 @@ pub(super) fn read_from_stdin() -> Result<ExitCode> {
     input::start_hdf5()?;
     let mut stdout = std::io::stdout();
     stdout.write_all(STARTED).and_then(|()| stdout.flush()).map_err(failed)?;
-    let files = (&task.model, task.modes.as_deref());
+    let files = (&task.model, task.matrices.as_slice(), task.modes.as_deref());
     match threads.install(|| input::read_hdf5_parts(files, task.cells, &Allowance::of(task.memory_bytes))) {
         Ok(()) => Ok(ExitCode::Done),
         Err(error @ Error::OutOfMemory { .. }) => Err(error),

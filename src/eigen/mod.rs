@@ -12,6 +12,7 @@ mod arpack;
 mod block_width;
 mod cluster;
 mod columns;
+mod dense_pencil;
 mod elastic;
 mod equilibration;
 mod lanczos;
@@ -26,6 +27,7 @@ mod shifted;
 pub(crate) mod zero;
 
 pub use cluster::REPEATED_WITHIN;
+pub(crate) use dense_pencil::{eigenpairs, eigenvalues, lowest_ratio, lowest_ratio_of};
 pub(crate) use elastic::{CARRIES_NOTHING, judged, pairs_between, purified, settled_at};
 pub use elastic::{Eigensolver, ModeRequest, elastic_modes};
 pub use equilibration::Equilibrated;

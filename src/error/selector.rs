@@ -11,6 +11,8 @@ pub enum Selector {
     Fixed(String),
     /// A load by its name.
     Load(String),
+    /// A further matrix by its name.
+    Matrix(String),
     /// The nodes whose displacements are recovered.
     Recovery,
     /// The rows of the matrices on which quantities depend.
@@ -21,7 +23,7 @@ impl Selector {
     /// The name, or the key where there is none.
     pub fn name(&self) -> &str {
         match self {
-            Self::Interface(name) | Self::Fixed(name) | Self::Load(name) => name,
+            Self::Interface(name) | Self::Fixed(name) | Self::Load(name) | Self::Matrix(name) => name,
             Self::Recovery => "write.recovery",
             Self::Quantities => "write.quantities",
         }
@@ -34,6 +36,7 @@ impl fmt::Display for Selector {
             Self::Interface(name) => write!(f, "interface {name:?}"),
             Self::Fixed(name) => write!(f, "fixed {name:?}"),
             Self::Load(name) => write!(f, "load {name:?}"),
+            Self::Matrix(name) => write!(f, "matrix {name:?}"),
             Self::Recovery | Self::Quantities => f.write_str(self.name()),
         }
     }

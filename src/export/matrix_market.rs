@@ -7,7 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-use supel_runtime::{Coordinate, InterfaceNode, Matrix, Quantity, Superelement, Tensors};
+use supel_runtime::{Coordinate, InterfaceNode, Matrix, NamedMatrix, Quantity, Superelement, Tensors};
 
 use super::format::{ExportedFile, Format};
 use super::model_job::job;
@@ -29,18 +29,20 @@ impl Format for MatrixMarket {
         let nodes = &superelement.metadata().interface_nodes;
         let labels = labels(nodes);
         let rows = rows(superelement, &labels);
-        let Tensors { stiffness, mass, damping, gravity, load_vectors, recovery, quantities, .. } =
+        let Tensors { stiffness, mass, damping, gravity, load_vectors, recovery, quantities, matrices, .. } =
             superelement.tensors();
         let mut files = vec![
             file("stiffness.mtx", "stiffness", symmetric(stiffness, &rows)),
             file("mass.mtx", "mass", symmetric(mass, &rows)),
         ];
+        let further = side_by_side(matrices);
         let arrays = [
             ("damping.mtx", "damping", damping.as_ref()),
             ("gravity.mtx", "loads of a unit gravity field along x, y, z", gravity.as_ref()),
             ("loads.mtx", "load vectors", load_vectors.as_ref()),
             ("recovery.mtx", "recovery", recovery.as_ref().map(|recovery| recovery.rows())),
             ("quantities.mtx", "quantities", quantities.as_ref()),
+            ("matrices.mtx", "further matrices, next to each other", further.as_ref()),
         ];
         let arrays = arrays.into_iter().filter_map(|(ending, content, matrix)| Some((ending, content, matrix?)));
         files.extend(arrays.map(|(ending, content, matrix)| file(ending, content, array(matrix))));
@@ -51,6 +53,13 @@ impl Format for MatrixMarket {
         files.extend(quantities.as_ref().map(|_| {
             let text = quantity_table(&superelement.metadata().quantities);
             file("quantities.csv", "name and unit of each quantity", text)
+        }));
+        files.extend(further.as_ref().map(|_| {
+            file(
+                "matrices.csv",
+                "name and kind of each further matrix",
+                matrix_table(&superelement.metadata().matrices),
+            )
         }));
         if !nodes.is_empty() {
             files.push(file("dofs.csv", "node and direction of each row", dofs(superelement, &labels)));
@@ -130,6 +139,17 @@ fn dof_map(rows: impl Iterator<Item = (Option<i64>, String)>) -> String {
         let _ = writeln!(text, "{},{dof}", node.map_or_else(String::new, |node| node.to_string()));
     }
     text
+}
+
+/// Matrices of as many rows next to each other; none where there are none.
+pub(super) fn side_by_side(matrices: &[Matrix]) -> Option<Matrix> {
+    let (rows, cols) = (matrices.first()?.rows(), matrices.first()?.cols());
+    Some(Matrix::from_fn(rows, cols * matrices.len(), |i, j| matrices[j / cols][(i, j % cols)]))
+}
+
+fn matrix_table(matrices: &[NamedMatrix]) -> String {
+    let row = |matrix: &NamedMatrix| format!("{},{}\n", field(&matrix.name), matrix.kind);
+    std::iter::once("name,kind\n".to_owned()).chain(matrices.iter().map(row)).collect()
 }
 
 fn quantity_table(quantities: &[Quantity]) -> String {

@@ -2,6 +2,7 @@
 
 use supel_runtime::{Matrix, Recovery, Superelement, Tensors};
 
+use super::matrix_market::side_by_side;
 use crate::error::{Error, Result};
 
 /// A real matrix of an OUTPUT4 file.
@@ -30,7 +31,9 @@ pub(super) const LAST: f64 = std::f64::consts::SQRT_2;
 /// # Errors
 /// [`Error::ExportLabel`].
 pub(super) fn matrices(superelement: &Superelement) -> Result<Vec<Named>> {
-    let Tensors { stiffness, mass, damping, gravity, load_vectors, recovery, quantities, .. } = superelement.tensors();
+    let Tensors { stiffness, mass, damping, gravity, load_vectors, recovery, quantities, matrices, .. } =
+        superelement.tensors();
+    let further = side_by_side(matrices);
     let recovery_dofs = recovery.as_ref().map(recovery_dofs).transpose()?;
     let all = [
         ("KAA", Form::Symmetric, Some(stiffness)),
@@ -41,6 +44,7 @@ pub(super) fn matrices(superelement: &Superelement) -> Result<Vec<Named>> {
         ("RECOVERY", Form::Rectangular, recovery.as_ref().map(|recovery| recovery.rows())),
         ("RECDOFS", Form::Rectangular, recovery_dofs.as_ref()),
         ("OTM", Form::Rectangular, quantities.as_ref()),
+        ("FURTHER", Form::Rectangular, further.as_ref()),
     ];
     let named = all.into_iter().filter_map(|(name, form, matrix)| Some(Named { name, form, matrix: matrix?.clone() }));
     Ok(named.collect())

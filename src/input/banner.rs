@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::MatrixRole;
 use crate::error::{Error, Result};
 use crate::sparse::{Declared, MAX_ORDER};
 
@@ -29,14 +30,15 @@ pub(super) enum Head {
 /// Reads the head line by line.
 pub(super) struct HeadReader<'a> {
     path: &'a Path,
+    role: MatrixRole,
     n_lines: u64,
     banner: Option<Declared>,
 }
 
 impl<'a> HeadReader<'a> {
     /// At the first line of a file.
-    pub(super) fn new(path: &'a Path) -> Self {
-        Self { path, n_lines: 0, banner: None }
+    pub(super) fn new(path: &'a Path, role: MatrixRole) -> Self {
+        Self { path, role, n_lines: 0, banner: None }
     }
 
     /// Lines taken so far.
@@ -52,6 +54,11 @@ impl<'a> HeadReader<'a> {
             let head = match self.banner {
                 _ if trimmed.is_empty() => None,
                 Some(declared) => self.size_line(trimmed, declared)?,
+                // Bare triplets say neither their order nor what they are of a further matrix.
+                None if trimmed[0].is_ascii_digit() && self.role == MatrixRole::Further => {
+                    let (path, line) = (self.path.to_owned(), self.n_lines + 1);
+                    return Err(Error::MatrixBanner { path, line, found: excerpt(trimmed) });
+                }
                 None if trimmed[0].is_ascii_digit() => {
                     let first = whole_numbers(trimmed);
                     return Ok((taken, Some(Head::Headerless { first, line: self.n_lines + 1 })));
@@ -91,16 +98,21 @@ impl<'a> HeadReader<'a> {
         let ["%%matrixmarket", object, format, field, symmetry] = words[..] else {
             return Err(Error::MatrixBanner { path, line, found: excerpt(text.as_bytes()) });
         };
-        let supported: [(&str, &[&str]); 4] = [
-            (object, &["matrix"]),
-            (format, &["coordinate"]),
-            (field, &["real", "integer"]),
-            (symmetry, &["symmetric", "general"]),
-        ];
+        let symmetries: &[&str] = match self.role {
+            MatrixRole::Stiffness | MatrixRole::Mass => &["symmetric", "general"],
+            MatrixRole::Further => &["symmetric", "general", "skew-symmetric"],
+        };
+        let supported: [(&str, &[&str]); 4] =
+            [(object, &["matrix"]), (format, &["coordinate"]), (field, &["real", "integer"]), (symmetry, symmetries)];
         if let Some((found, _)) = supported.into_iter().find(|(found, known)| !known.contains(found)) {
             return Err(Error::MatrixFlavour { path, line, found: excerpt(found.as_bytes()) });
         }
-        Ok(Some(if symmetry == "symmetric" { Declared::Symmetric } else { Declared::General }))
+        Ok(Some(match (symmetry, self.role) {
+            ("symmetric", _) => Declared::Symmetric,
+            ("skew-symmetric", _) => Declared::Skew,
+            (_, MatrixRole::Further) => Declared::Whole,
+            _ => Declared::General,
+        }))
     }
 
     /// The size line, or `None` for a comment.

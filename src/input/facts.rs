@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Digits, Input, InputNote, LoadColumn, MatrixInput, ModeColumns, PatchFaces, QuantityRows};
+use super::{Digits, FurtherMatrix, Input, InputNote, LoadColumn, MatrixInput, ModeColumns, PatchFaces, QuantityRows};
 use crate::error::Warning;
 use crate::job::LoadJob;
 
@@ -16,6 +16,8 @@ pub struct InputFacts {
     pub files: BTreeMap<&'static str, String>,
     /// Digests of the files of loads by the name of the load.
     pub loads: BTreeMap<String, String>,
+    /// Digests of the files of further matrices by the name of the matrix.
+    pub further: BTreeMap<String, String>,
     /// Digest of the file of the modes, where the job names one.
     pub modes: Option<String>,
     /// Remarks of the readers that are not warnings.
@@ -49,6 +51,7 @@ impl InputFacts {
             matrices: [facts(&input.stiffness), facts(&input.mass)],
             files: input.digests.clone(),
             loads: BTreeMap::new(),
+            further: BTreeMap::new(),
             modes: None,
             faces: Vec::new(),
             notes: input.notes.iter().filter(|note| note.warning_code().is_none()).map(ToString::to_string).collect(),
@@ -72,6 +75,17 @@ impl InputFacts {
         self
     }
 
+    /// These facts with the digests of the files of further matrices, and what reading them needed.
+    #[must_use]
+    pub fn with_matrices(mut self, matrices: &[FurtherMatrix]) -> Self {
+        self.further = matrices.iter().map(|matrix| (matrix.name.clone(), matrix.input.digest.clone())).collect();
+        let repeated = matrices.iter().map(|matrix| &matrix.input).filter(|input| input.notes.n_duplicates > 0);
+        let note =
+            |input: &MatrixInput| InputNote::Duplicates { path: input.path.clone(), count: input.notes.n_duplicates };
+        self.notes.extend(repeated.map(note).map(|note| note.to_string()));
+        self
+    }
+
     /// These facts with the digest of the file of the modes.
     #[must_use]
     pub fn with_modes(self, modes: Option<&ModeColumns>) -> Self {
@@ -86,7 +100,9 @@ impl InputFacts {
         let modes = self.modes.iter().map(|digest| ("modes", digest.as_str()));
         let files = files.chain(modes);
         let loads = self.loads.iter().map(|(name, digest)| (format!("load {name}"), digest.as_str()));
-        matrices.into_iter().chain(files).map(|(role, digest)| (role.to_owned(), digest)).chain(loads).collect()
+        let further = self.further.iter().map(|(name, digest)| (format!("matrix {name}"), digest.as_str()));
+        let named = loads.chain(further);
+        matrices.into_iter().chain(files).map(|(role, digest)| (role.to_owned(), digest)).chain(named).collect()
     }
 }
 

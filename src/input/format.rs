@@ -40,7 +40,6 @@ pub(super) struct MatrixSource<'a> {
     /// The place in the file that the job states.
     #[cfg_attr(not(feature = "hdf5"), expect(dead_code, reason = "only HDF5 has places in a file"))]
     pub(super) group: Option<String>,
-    #[cfg_attr(not(feature = "hdf5"), expect(dead_code, reason = "only HDF5 has several matrices in a file"))]
     pub(super) role: MatrixRole,
     /// The triangle that the job asks for.
     pub(super) triangle: Option<Triangle>,

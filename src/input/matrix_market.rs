@@ -51,7 +51,7 @@ fn read_in_blocks(source: &MatrixSource<'_>, block_bytes: usize) -> Result<ReadM
     let path = source.file.as_path();
     let mut reading = Reading {
         path,
-        head_reader: HeadReader::new(path),
+        head_reader: HeadReader::new(path, source.role),
         head: None,
         entries: Gathering::new(),
         claim: source.allowance.claim(path),
@@ -115,7 +115,8 @@ impl Reading<'_> {
 
     /// Claims the entries so far and the matrix that will be made of them: both triangles where one is declared for both.
     fn claim_entries(&mut self) -> Result<()> {
-        let is_mirrored = matches!(self.head, Some(Head::Coordinate { declared: Declared::Symmetric, .. }));
+        let is_mirrored =
+            matches!(self.head, Some(Head::Coordinate { declared: Declared::Symmetric | Declared::Skew, .. }));
         let of_entry = TRIPLET_BYTES + if is_mirrored { 2 * ENTRY_BYTES } else { ENTRY_BYTES };
         self.claim.set(of_entry * self.entries.n_held() as u64)
     }

@@ -15,6 +15,7 @@ mod facts;
 mod file_start;
 mod format;
 mod formats;
+mod further_matrix;
 mod gathering;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
@@ -41,10 +42,11 @@ mod written;
 pub use allowance::Allowance;
 pub use digits::{Digits, DigitsBy, digits_of};
 pub use facts::{InputFacts, MatrixFacts};
+pub use further_matrix::FurtherMatrix;
 pub use load_file::{LoadColumn, WantedColumn, load_column};
 pub use model_files::{
-    Input, expansion_columns, file_of, files, hdf5_file, job_quantities, load_columns, read, read_hdf5_parts,
-    read_within, start_hdf5,
+    Input, expansion_columns, file_of, files, further_matrices, hdf5_file, job_quantities, load_columns, read,
+    read_hdf5_parts, read_within, start_hdf5,
 };
 pub use modes_file::{ModeColumns, mode_columns};
 pub use note::InputNote;
@@ -79,6 +81,8 @@ pub enum MatrixRole {
     Stiffness,
     /// The mass matrix M.
     Mass,
+    /// A further matrix, which may be neither symmetric nor skew.
+    Further,
 }
 
 impl MatrixRole {
@@ -87,6 +91,7 @@ impl MatrixRole {
         match self {
             Self::Stiffness => "stiffness",
             Self::Mass => "mass",
+            Self::Further => "further matrix",
         }
     }
 }

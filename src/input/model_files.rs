@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::allowance::Allowance;
 use super::blocks::LastLine;
 use super::format::{DirectionBase, MatrixSource, OrderSource, ReadMatrix};
+use super::further_matrix::FurtherMatrix;
 use super::hdf5_format::{self, split_group};
 use super::load_file::{LoadColumn, WantedColumn, load_column};
 use super::modes_file::{ModeColumns, mode_columns};
@@ -14,7 +15,7 @@ use super::quantity_files::{QuantityRows, quantity_rows};
 use super::{Cells, InputNote, MatrixInput, MatrixRole, dof_map, empty_rows, formats};
 use crate::dofs::{DofMap, FileRows, Nodes};
 use crate::error::{Error, Result};
-use crate::job::{Duplicates, Job, LoadJob, LoadPattern, ModelJob, QuantitiesJob, ReductionJob};
+use crate::job::{Duplicates, Job, LoadJob, LoadPattern, MatrixJob, ModelJob, QuantitiesJob, ReductionJob};
 use crate::regular_file::{digest, unchanged};
 use crate::sparse::SparseMatrix;
 use crate::sparse::Triangle;
@@ -126,6 +127,30 @@ pub fn expansion_columns(
     reduction.modes_file().map(|path| mode_columns(path, input.n_file_rows(), allowance)).transpose()
 }
 
+/// The further matrices of a job, for rows and columns of K and M as they are in their files.
+///
+/// # Errors
+/// The errors of [`FurtherMatrix::checked`] and of the readers of matrices; [`Error::MatrixRows`]; [`Error::Duplicates`] where the job refuses
+/// them.
+pub fn further_matrices(job: &Job, input: &Input, allowance: &Allowance) -> Result<Vec<FurtherMatrix>> {
+    let n_rows = input.n_file_rows();
+    let read = |matrix: &MatrixJob| {
+        let (input, _) = take_notes(read_matrix(&further_source(matrix, allowance))?, &mut Vec::new());
+        refuse_duplicates(&input, job.model.duplicates)?;
+        let n = input.matrix.rows();
+        if n != n_rows {
+            return Err(Error::MatrixRows { path: input.path, matrix: matrix.name.clone(), found: n, n: n_rows });
+        }
+        FurtherMatrix::checked(matrix, input)
+    };
+    job.matrices.iter().map(read).collect()
+}
+
+fn further_source<'a>(job: &MatrixJob, allowance: &'a Allowance) -> MatrixSource<'a> {
+    let (file, group) = split_group(&job.file);
+    MatrixSource { file, group, role: MatrixRole::Further, triangle: None, stated_digits: None, allowance }
+}
+
 /// The rows of quantities of a job, where it asks for some.
 ///
 /// # Errors
@@ -169,18 +194,30 @@ pub fn files(model: &ModelJob) -> Vec<(&'static str, PathBuf)> {
 pub fn hdf5_file(job: &Job) -> Option<PathBuf> {
     let model = &job.model;
     let modes = job.reduction.modes_file().filter(|path| hdf5_format::has_modes(path)).map(file_of);
-    let matrices = [&model.stiffness, &model.mass].into_iter().map(|path| file_of(path));
+    let further = job.matrices.iter().map(|matrix| &matrix.file);
+    let matrices = [&model.stiffness, &model.mass].into_iter().chain(further).map(|path| file_of(path));
     let matrices = matrices.filter(|file| formats::of_matrix(file).is_ok_and(|format| format.is_parsed_in_c()));
     let nodes = model.nodes.iter().filter(|file| formats::of_nodes(file).is_ok_and(|format| format.is_parsed_in_c()));
     matrices.chain(nodes.cloned()).chain(modes).next()
 }
 
-/// Reads the files of a job that need the HDF5 library, those of its model and of its modes, and discards what was read.
+/// Reads the files of a job that need the HDF5 library, those of its model, of its further matrices and of its modes, and discards what was
+/// read.
 ///
 /// # Errors
 /// A file that cannot be read or whose content is wrong.
-pub fn read_hdf5_parts((model, modes): (&ModelJob, Option<&Path>), cells: Cells, allowance: &Allowance) -> Result<()> {
+pub fn read_hdf5_parts(
+    (model, matrices, modes): (&ModelJob, &[MatrixJob], Option<&Path>),
+    cells: Cells,
+    allowance: &Allowance,
+) -> Result<()> {
     modes.map_or(Ok(()), |path| hdf5_format::rehearse_modes(path, allowance))?;
+    for matrix in matrices {
+        let source = further_source(matrix, allowance);
+        if formats::of_matrix(&source.file)?.is_parsed_in_c() {
+            read_matrix(&source)?;
+        }
+    }
     for role in [MatrixRole::Stiffness, MatrixRole::Mass] {
         let source = matrix_source(model, role, allowance);
         if formats::of_matrix(&source.file)?.is_parsed_in_c() {
@@ -202,7 +239,7 @@ pub fn read_hdf5_parts((model, modes): (&ModelJob, Option<&Path>), cells: Cells,
 fn matrix_source<'a>(model: &ModelJob, role: MatrixRole, allowance: &'a Allowance) -> MatrixSource<'a> {
     let (path, stated) = match role {
         MatrixRole::Stiffness => (&model.stiffness, model.stiffness_digits),
-        MatrixRole::Mass => (&model.mass, model.mass_digits),
+        MatrixRole::Mass | MatrixRole::Further => (&model.mass, model.mass_digits),
     };
     let (file, group) = split_group(path);
     // A job states 17 at most.

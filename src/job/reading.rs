@@ -2,6 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use supel_runtime::MatrixKind;
+
+use super::damping::{ComponentDampingJob, RigidMotionDamping};
 use super::location::Holder;
 use super::types::{Certify, Job, ModesJob};
 use super::{document, validation};
@@ -48,7 +51,21 @@ impl Job {
 
     /// What the job takes for granted of the simulation, one sentence each.
     pub fn assumptions(&self) -> Vec<String> {
-        self.fixed.iter().enumerate().map(|(index, fixed)| fixed.assumption(index)).collect()
+        let held = self.fixed.iter().enumerate().map(|(index, fixed)| fixed.assumption(index));
+        let resisted = (self.has_damping() && self.rigid_motion() == RigidMotionDamping::Resist)
+            .then(|| "damping may resist rigid-body motion of the component".to_owned());
+        held.chain(resisted).collect()
+    }
+
+    /// Whether the superelement has damping: that of matrices, or one that is made from the reduced ones.
+    pub fn has_damping(&self) -> bool {
+        let has_law = self.damping.as_ref().is_some_and(ComponentDampingJob::has_law);
+        has_law || self.matrices.iter().any(|matrix| matrix.kind == MatrixKind::Damping)
+    }
+
+    /// What becomes of damping that resists rigid-body motion.
+    pub fn rigid_motion(&self) -> RigidMotionDamping {
+        self.damping.as_ref().map_or_else(RigidMotionDamping::default, |damping| damping.rigid_motion)
     }
 
     /// How completeness of the computed modes is certified: not at all where a file has the modes, which may leave out any others.
@@ -101,7 +118,8 @@ impl Job {
             ("write.junit", write.junit.as_mut()),
         ];
         let of_loads = self.loads.iter_mut().map(|load| ("load.file", load.file.as_mut()));
-        paths.into_iter().chain(of_loads).filter_map(|(key, path)| Some((key, path?)))
+        let of_matrices = self.matrices.iter_mut().map(|matrix| ("matrix.file", Some(&mut matrix.file)));
+        paths.into_iter().chain(of_loads).chain(of_matrices).filter_map(|(key, path)| Some((key, path?)))
     }
 }
 

@@ -11,9 +11,12 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize};
 use std::path::{Path, PathBuf};
 
+use super::added_mass::AddedMassJob;
+use super::damping::ComponentDampingJob;
 use super::fixed::FixedJob;
 use super::interface::InterfaceJob;
 use super::load::LoadJob;
+use super::matrix::MatrixJob;
 use super::method::Method;
 use super::quantities::QuantitiesJob;
 use super::ranges::{LARGEST, MAX_DIGITS, SMALLEST};
@@ -28,6 +31,9 @@ use crate::eigen::Eigensolver;
 pub struct Job {
     /// The finite element model.
     pub model: ModelJob,
+    /// Masses at nodes that the mass matrix does not have.
+    #[serde(default, rename = "added_mass", skip_serializing_if = "Vec::is_empty")]
+    pub added_masses: Vec<AddedMassJob>,
     /// The interface nodes, in the order of the reduced coordinates.
     #[serde(default, rename = "interface", skip_serializing_if = "Vec::is_empty")]
     pub interfaces: Vec<InterfaceJob>,
@@ -37,6 +43,12 @@ pub struct Job {
     /// Loads that the superelement carries by name.
     #[serde(default, rename = "load", skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<LoadJob>,
+    /// Further matrices that the superelement carries by name.
+    #[serde(default, rename = "matrix", skip_serializing_if = "Vec::is_empty")]
+    pub matrices: Vec<MatrixJob>,
+    /// Damping that the superelement carries.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damping: Option<ComponentDampingJob>,
     /// Method and modes.
     pub reduction: ReductionJob,
     /// What the simulation will ask of the component.

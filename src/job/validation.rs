@@ -14,10 +14,13 @@ use crate::error::{Error, Result, Selector};
 
 pub(super) fn validate(job: &Job) -> Result<()> {
     model(job)?;
+    super::added_mass::validate(&job.added_masses)?;
     interfaces(&job.interfaces)?;
     reduction(&job.reduction)?;
     super::fixed::validate(&job.fixed)?;
     super::load::validate(&job.loads)?;
+    super::matrix::validate(&job.matrices)?;
+    job.damping.as_ref().map_or(Ok(()), super::damping::validate)?;
     if let Some(scene) = &job.scene {
         super::scene::validate(scene, &job.interfaces)?;
     }

@@ -55,6 +55,11 @@ pub(super) fn sizes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option
     wholes.map(|wholes| wholes.into_iter().map(not_negative).collect()).transpose()
 }
 
+/// A label.
+pub(super) fn label<'de, D: Deserializer<'de>>(deserializer: D) -> Result<i64, D::Error> {
+    Whole::deserialize(deserializer).map(|Whole(value)| value)
+}
+
 /// Labels.
 pub(super) fn labels<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<i64>, D::Error> {
     Ok(Vec::<Whole>::deserialize(deserializer)?.into_iter().map(|Whole(value)| value).collect())

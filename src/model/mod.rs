@@ -4,6 +4,7 @@
 //! undone where results leave the tool, and frees every later stage from absolute numbers: a model in N, mm and t and
 //! the same model in other units give the same bits in between.
 
+mod added_mass;
 mod bodies;
 mod definite;
 mod finding;
@@ -21,6 +22,7 @@ use crate::error::{Error, Result};
 use crate::input::{Input, MatrixInput};
 use crate::sparse::{Precision, Rounding, SparseMatrix, diagonal};
 
+pub use added_mass::add_masses;
 pub use bodies::{Bodies, node_of_row};
 use finding::PENALTY;
 pub use finding::{ASYMMETRY_WARN, Finding};
@@ -98,7 +100,7 @@ impl Model {
     pub fn new(input: Input) -> Result<Self> {
         refuse_same(&input.stiffness, &input.mass)?;
         let mut findings = Vec::new();
-        let read = [&input.stiffness, &input.mass].map(rounding);
+        let read = [&input.stiffness, &input.mass].map(rounding_of);
         let (dofs, rows) = (input.dofs, input.rows);
         let names = RowNames { rows: &rows, dofs: dofs.as_deref() };
         let (stiffness, mass) =
@@ -172,7 +174,7 @@ fn refuse_same(stiffness: &MatrixInput, mass: &MatrixInput) -> Result<()> {
 }
 
 /// What the entries of a matrix may be off by, in the units of its file.
-fn rounding(matrix: &MatrixInput) -> Rounding {
+pub(crate) fn rounding_of(matrix: &MatrixInput) -> Rounding {
     let n_parts = matrix.notes.most_repeated.max(1);
     let is_of_parts = n_parts > 1;
     let half_unit = |decimals: i32| 0.5 * 10f64.powi(-decimals) * n_parts as f64;

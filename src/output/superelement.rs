@@ -26,9 +26,11 @@ pub(super) fn superelement(results: &Results<'_>, verdict: Verdict) -> Result<Su
 fn refuse_out_of_range(tensors: &Tensors) -> Result<()> {
     let mixing = tensors.mixing.iter().map(|mixing| ("the inertia-relief modes in the units of the matrices", mixing));
     let matrices = [("the reduced stiffness", &tensors.stiffness), ("the reduced mass", &tensors.mass)];
+    let damping = tensors.damping.iter().map(|damping| ("the damping", damping));
+    let further = tensors.matrices.iter().map(|matrix| ("a further matrix in the units of its coordinates", matrix));
     let loads = tensors.load_vectors.iter().map(|loads| ("a load in the units of its coordinates", loads));
     let rows = tensors.quantities.iter().map(|rows| ("a quantity in the units of its rows", rows));
-    for (what, matrix) in matrices.into_iter().chain(mixing).chain(loads).chain(rows) {
+    for (what, matrix) in matrices.into_iter().chain(mixing).chain(loads).chain(rows).chain(further).chain(damping) {
         if matrix.as_slice().iter().any(|value| !value.is_finite()) {
             return Err(Error::UnitRange { what, exponent: f64::MAX_EXP });
         }
@@ -46,17 +48,15 @@ fn tensors(results: &Results<'_>) -> Tensors {
     let shape = scaling.shape_unit();
     // A coordinate's unit: one for an interface dof, that of a mass-normalised shape for a modal amplitude.
     let unit = |i: usize| if i < n_b { 1.0 } else { shape };
-    let both = |a: &Mat<f64>, of: f64| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * of * unit(i) * unit(j));
     let rows = |a: &Mat<f64>, of: f64| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * of * unit(i));
-    // An amplitude is the smaller the larger its shape; those of rigid-body motion are not zero without an interface.
-    let amplitudes = |a: &Mat<f64>| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] / unit(i));
+    let model = reduction.in_user_units(partition);
     let mut rigid_body_mass = reduction.rigid_body_mass.clone();
     rigid_body_mass *= faer::Scale(scaling.mass_unit());
     let nodes = named_nodes(results);
     Tensors {
-        stiffness: matrix(both(&reduction.stiffness, scaling.stiffness_unit()).as_ref()),
-        mass: matrix(both(&reduction.mass, scaling.mass_unit()).as_ref()),
-        rigid_body_modes: matrix(amplitudes(&reduction.rigid_body_modes).as_ref()),
+        stiffness: matrix(model.stiffness.as_ref()),
+        mass: matrix(model.mass.as_ref()),
+        rigid_body_modes: matrix(model.rigid_body_modes.as_ref()),
         rigid_body_mass: matrix(rigid_body_mass.as_ref()),
         interface_positions: nodes.iter().map(|node| node.position).collect(),
         interface_frames: frames(results, nodes.len()),
@@ -64,6 +64,8 @@ fn tensors(results: &Results<'_>) -> Tensors {
         mixing: mixing(results).as_ref().map(|mixing| matrix(mixing.as_ref())),
         gravity: reduction.gravity.as_ref().map(|gravity| matrix(rows(gravity, scaling.mass_unit()).as_ref())),
         load_vectors: load_vectors(results),
+        matrices: model.matrices.iter().map(|further| matrix(further.as_ref())).collect(),
+        damping: evidence.damping.map(|damping| matrix(damping.matrix.as_ref())),
         ..Tensors::default()
     }
 }
@@ -158,6 +160,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Resul
         dropped: dropped.collect(),
         load_names: evidence.partition.loads.facts.iter().map(|load| load.name.clone()).collect(),
         quantities: evidence.partition.quantities.names.clone(),
+        matrices: evidence.partition.matrices.iter().map(|carried| carried.facts.in_file()).collect(),
         validity: file::Validity {
             band_hz: band(results.job, tensors),
             assumptions: results.job.assumptions(),
@@ -232,6 +235,7 @@ fn job_document(job: &Job) -> Result<serde_json::Value> {
     job.model.dofs.as_mut().map(relative);
     job.model.nodes.as_mut().map(relative);
     job.loads.iter_mut().filter_map(|load| load.file.as_mut()).for_each(relative);
+    job.matrices.iter_mut().for_each(|matrix| relative(&mut matrix.file));
     if let Some(ModesJob::File { file }) = &mut job.reduction.modes {
         relative(file);
     }

@@ -1,4 +1,4 @@
-//! The congruence TᵀAT of a symmetric sparse matrix, row by row and in parallel.
+//! The congruence TᵀAT of a sparse matrix, row by row and in parallel; that of a symmetric one is symmetric to the bit.
 //!
 //! Rows are counted first and then written to their final place, so that no second copy of the result is needed.
 
@@ -17,18 +17,31 @@ const ROWS_PER_TASK: usize = 512;
 pub(super) fn congruence(matrix: &SparseMatrix, transformation: &Transformation) -> SparseMatrix {
     let n = transformation.dofs.len();
     let moved = Moved::by(transformation);
-    let rows = (0..n).into_par_iter().with_min_len(ROWS_PER_TASK);
-    let length = |row: &mut Row, dof: usize| {
-        moved.permuted_length(matrix, dof).unwrap_or_else(|| row.gather(matrix, &moved, dof).sums().count())
-    };
-    let lengths: Vec<usize> = rows.map_init(Row::default, length).collect();
-    let mut stored = filled(&lengths, Row::default, |row, dof, indices, values| {
-        let places = indices.iter_mut().zip(values);
-        let sums = row.gather(matrix, &moved, dof).sums();
-        sums.zip(places).for_each(|((col, sum), (index, value))| (*index, *value) = (col, sum));
-    });
+    let mut stored = rows(matrix, &moved);
     symmetrise(&mut stored, &moved);
     SparseMatrix::new((n, n), stored.pointers, stored.indices, stored.values)
+}
+
+/// TᵀAT, n' × n', of any A: sums at (i, j) and (j, i) are taken in different orders.
+pub(super) fn general_congruence(matrix: &SparseMatrix, transformation: &Transformation) -> SparseMatrix {
+    let n = transformation.dofs.len();
+    let RowStorage { pointers, indices, values } = rows(matrix, &Moved::by(transformation));
+    SparseMatrix::new((n, n), pointers, indices, values)
+}
+
+/// TᵀAT row by row.
+fn rows(matrix: &SparseMatrix, moved: &Moved<'_>) -> RowStorage {
+    let n = moved.transformation.dofs.len();
+    let dofs = (0..n).into_par_iter().with_min_len(ROWS_PER_TASK);
+    let length = |row: &mut Row, dof: usize| {
+        moved.permuted_length(matrix, dof).unwrap_or_else(|| row.gather(matrix, moved, dof).sums().count())
+    };
+    let lengths: Vec<usize> = dofs.map_init(Row::default, length).collect();
+    filled(&lengths, Row::default, |row, dof, indices, values| {
+        let places = indices.iter_mut().zip(values);
+        let sums = row.gather(matrix, moved, dof).sums();
+        sums.zip(places).for_each(|((col, sum), (index, value))| (*index, *value) = (col, sum));
+    })
 }
 
 /// The rows of A that move with each dof.

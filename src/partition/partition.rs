@@ -14,6 +14,7 @@ use crate::sparse::Precision;
 use crate::sparse::{Leading, SparseMatrix};
 
 use super::expansion::Expansion;
+use super::further_matrices::CarriedMatrix;
 use super::gravity::Gravity;
 use super::held::Held;
 use super::interface::RecoveredRows;
@@ -55,6 +56,8 @@ pub struct Partition {
     pub recovered: RecoveredRows,
     /// Quantities that the superelement gives; none unless the caller adds them.
     pub quantities: Quantities,
+    /// Further matrices of the job; none unless the caller adds them.
+    pub matrices: Vec<CarriedMatrix>,
     /// Powers of two taken out of K and M.
     pub scaling: Scaling,
     /// How well the entries of K and M of the model are known.
@@ -141,6 +144,7 @@ impl Partition {
             expansion: Expansion::none(n_internal + n_interface),
             recovered: RecoveredRows::default(),
             quantities: Quantities::default(),
+            matrices: Vec::new(),
             scaling: model.scaling,
             precision: model.precision,
             patches,

@@ -49,6 +49,9 @@ fn head(page: &mut Page, superelement: &Superelement, file_bytes: u64) {
     if !present.is_empty() {
         page.entry("also holds", &present.join(", "));
     }
+    for matrix in &metadata.matrices {
+        page.entry("matrix", &format!("{}, {}", matrix.name, matrix.kind));
+    }
     for (at, name) in metadata.load_names.iter().enumerate() {
         let is_its = |coordinate: &Coordinate| *coordinate == Coordinate::ResidualVector { load: at };
         let has_residual_vector = metadata.coordinates.iter().any(is_its);

@@ -52,10 +52,10 @@ impl Triplets {
 
     /// Assembles the n × n matrix: mirrors the triangle of a symmetric source, adds duplicates in the order of the
     /// file, sorts every row. A source declared general whose off-diagonal entries all lie on one side of the diagonal
-    /// is mirrored too, which the notes say. `path` names the source in errors.
+    /// is mirrored too, which the notes say; one declared whole is not. `path` names the source in errors.
     ///
     /// # Errors
-    /// [`Error::DoubleTriangle`] where a source declared symmetric has entries on both sides of the diagonal.
+    /// [`Error::DoubleTriangle`] where a source declared symmetric or skew has entries on both sides of the diagonal.
     ///
     /// # Panics
     /// Where the three lists differ in length or an index is not below n; readers check indices where they can still
@@ -70,11 +70,12 @@ impl Triplets {
         );
         let (lower, upper) = (self.first_where(|row, col| row > col), self.first_where(|row, col| row < col));
         let mirror = match (declared, lower, upper) {
-            (Declared::Symmetric, Some(lower), Some(upper)) => {
+            (Declared::Symmetric | Declared::Skew, Some(lower), Some(upper)) => {
                 return Err(Error::DoubleTriangle { path: path.to_owned(), lower, upper });
             }
-            (_, None, None) | (Declared::General, Some(_), Some(_)) => Mirror::Off,
-            _ => Mirror::On,
+            (_, None, None) | (Declared::General, Some(_), Some(_)) | (Declared::Whole, ..) => Mirror::Off,
+            (Declared::Skew, ..) => Mirror::Negated,
+            (Declared::General | Declared::Symmetric, ..) => Mirror::On,
         };
         let pointers = row_pointers(&self, n, mirror);
         let (mut indices, mut data) = scatter(&self, &pointers, mirror);
@@ -86,7 +87,7 @@ impl Triplets {
             (0, _) => 0,
             (_, Mirror::Off) => n_merged,
             // What is stored twice was given once.
-            (_, Mirror::On) => n_entries - (indices.len() + n_on_diagonal(&pointers, &indices)) / 2,
+            (_, Mirror::On | Mirror::Negated) => n_entries - (indices.len() + n_on_diagonal(&pointers, &indices)) / 2,
         };
         let mirrored = mirror == Mirror::On && declared == Declared::General;
         let notes = AssemblyNotes { n_duplicates, most_repeated, most_alike: None, mirrored };
@@ -105,6 +106,8 @@ impl Triplets {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Mirror {
     On,
+    /// With the opposite sign.
+    Negated,
     Off,
 }
 
@@ -115,7 +118,7 @@ fn row_pointers(triplets: &Triplets, n: usize, mirror: Mirror) -> Vec<usize> {
         let (row, col) = (row as usize, col as usize);
         assert!(row < n && col < n, "entry ({row}, {col}) in a matrix of order {n}");
         pointers[row + 1] += 1;
-        if mirror == Mirror::On && row != col {
+        if mirror != Mirror::Off && row != col {
             pointers[col + 1] += 1;
         }
     }
@@ -153,8 +156,8 @@ fn scatter(triplets: &Triplets, pointers: &[usize], mirror: Mirror) -> (Vec<u32>
         };
         for ((&row, &col), &value) in triplets.rows.iter().zip(&triplets.cols).zip(&triplets.values) {
             put(row, col, value);
-            if mirror == Mirror::On && row != col {
-                put(col, row, value);
+            if mirror != Mirror::Off && row != col {
+                put(col, row, if mirror == Mirror::Negated { -value } else { value });
             }
         }
     });

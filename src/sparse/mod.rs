@@ -39,10 +39,14 @@ pub(crate) const ROW_BYTES: u64 = 8;
 /// How a source declares its triplets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Declared {
-    /// Every entry is given.
+    /// Every entry is given, or one triangle that stands for both.
     General,
+    /// Every entry is given.
+    Whole,
     /// One triangle is given and stands for both.
     Symmetric,
+    /// One triangle is given, and the other is its mirror image with the opposite sign.
+    Skew,
 }
 
 /// Entries of a matrix in the order of their file: row, column, value, zero-based.

@@ -51,6 +51,8 @@ pub enum Recorded {
     WithCount,
     /// Where a load has a residual vector, kept or left out.
     WithResidualVector,
+    /// Where the job asks for damping.
+    WithDamping,
     /// Where there is something to measure it on.
     Sometimes,
 }
@@ -302,5 +304,13 @@ pub const CATALOGUE: &[Entry] = &[
         "Static answer to each load that the job names, its interface held, in both models. A residual vector makes it exact; without \
          one it depends on how many modes are kept.",
         "Leave `residual = true` of the load, or keep more modes. Against the job: the load of another model, or in other units.",
+    ),
+    line(
+        "M-28",
+        Proof::Measured,
+        Recorded::WithDamping,
+        "Damping does nothing to the component as a whole, and takes energy from every other motion. Against the job: damping and further \
+         matrices are those of the full model, skew parts included.",
+        "Look at the motion named: a damper to the ground, or damping in proportion to the mass. A fluid may drive a motion; nothing else does.",
     ),
 ];

@@ -13,11 +13,8 @@ use faer::{Mat, MatRef};
 
 use super::pencil::{Spectral, scaled_by};
 use crate::dense::{self, NOISE_FACTOR};
+use crate::eigen::lowest_ratio;
 use crate::error::Result;
-
-/// Share of the largest K̂_ii / M̂_ii up to which another is the rounding of what condensation took away: a body that one interface
-/// node holds has no stiffness there.
-const CONDENSED_AWAY: f64 = 1e-10;
 
 /// λ₁ of (K̂, M̂) beyond the rigid-body motions Û, r × n_r; none where K̂ lets other motions pass, or all.
 ///
@@ -61,18 +58,6 @@ fn held_out(m: MatRef<'_, f64>, motions: MatRef<'_, f64>) -> Mat<f64> {
 /// As [`first_elastic`].
 pub(crate) fn elastic_scale(parts: (MatRef<'_, f64>, MatRef<'_, f64>, MatRef<'_, f64>)) -> Result<Option<f64>> {
     Ok(first_elastic(parts)?.or_else(|| lowest_ratio(parts.0, parts.1)))
-}
-
-/// The lowest K̂_ii / M̂_ii that is no rounding: what stands for the first elastic eigenvalue where there is none.
-pub(crate) fn lowest_ratio(k: MatRef<'_, f64>, m: MatRef<'_, f64>) -> Option<f64> {
-    lowest_ratio_of((0..k.nrows()).map(|i| (k[(i, i)], m[(i, i)])))
-}
-
-/// The lowest ratio of these stiffnesses and masses that is no rounding, as [`lowest_ratio`] finds it.
-pub(crate) fn lowest_ratio_of(diagonals: impl Iterator<Item = (f64, f64)> + Clone) -> Option<f64> {
-    let ratios = diagonals.filter(|(stiffness, mass)| *stiffness > 0.0 && *mass > 0.0).map(|(k, m)| k / m);
-    let largest = ratios.clone().reduce(f64::max)?;
-    ratios.filter(|ratio| *ratio > CONDENSED_AWAY * largest).reduce(f64::min)
 }
 
 #[cfg(test)]

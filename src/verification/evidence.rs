@@ -4,6 +4,7 @@ use faer::Mat;
 
 use crate::basis::Basis;
 use crate::constraint::ConstraintModes;
+use crate::damping::Damping;
 use crate::dense;
 use crate::eigen::Equilibrated;
 use crate::factor::Cholesky;
@@ -43,6 +44,8 @@ pub struct Evidence<'a> {
     pub answers: Option<&'a Mat<f64>>,
     /// Rubin's form of the reduced matrices, where the method is his.
     pub rubin: Option<&'a Rubin>,
+    /// Ĉ, where the job asks for damping.
+    pub damping: Option<&'a Damping>,
     /// The Sturm count, where one was asked for.
     pub certificate: Option<&'a Certificate>,
     /// The intervals that are proved to hold the modes, where they were asked for.

@@ -6,8 +6,8 @@ use super::grounding::{self, Grounding};
 use super::loads::{self, EffectiveMasses};
 use super::rigid_body::{self, MassRoutes};
 use super::{
-    attachment, completeness, conditioning, eigenpairs, enclosed, mass, named_loads, reduced, rigid_motion, solves,
-    spectrum,
+    attachment, completeness, conditioning, damping, eigenpairs, enclosed, mass, named_loads, reduced, rigid_motion,
+    solves, spectrum,
 };
 use crate::error::Result;
 
@@ -93,6 +93,7 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     checks.push(reduced::definiteness(evidence, &spectrum));
     let load_lacking = named_loads::lacking(evidence);
     checks.extend(named_loads::checks(evidence, load_lacking.as_deref(), condition));
+    checks.extend(damping::of_reduction(evidence, &rigid_motion::Disturbance::of(evidence, &spectrum)?)?);
     Ok(Findings {
         checks,
         rigid_body,

@@ -8,6 +8,7 @@ pub mod catalogue;
 pub mod check;
 mod completeness;
 mod conditioning;
+pub(crate) mod damping;
 mod directions;
 mod eigenpairs;
 pub(crate) mod elastic;

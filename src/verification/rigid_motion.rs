@@ -144,15 +144,34 @@ pub(super) fn null_space(evidence: &Evidence<'_>) -> Check {
 /// # Errors
 /// A dense eigenproblem that does not converge.
 pub(super) fn force(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result<Check> {
-    let known = spectrum.first_elastic();
-    let first = match known {
-        Some(first) => first,
-        None => elastic_scale(evidence.reduction.pencil())?.unwrap_or(1.0),
-    };
-    let noise = known.map_or(0.0, |first| energy_noise(evidence, first));
-    let judged = limits::of_force(noise, share_of_data(evidence.partition));
+    let Disturbance { first, noise, share_of_data } = Disturbance::of(evidence, spectrum)?;
+    let judged = limits::of_force(noise, share_of_data);
     let name = |mode: usize, at: usize| format!("{}, {}", rigid_name(evidence, mode), coordinate_name(evidence, at));
     Ok(force::of_rigid_motion(evidence.reduction.pencil(), first, judged, &name))
+}
+
+/// What disturbs forces of rigid-body motion.
+pub(super) struct Disturbance {
+    /// The first elastic eigenvalue, that energies are compared with.
+    pub(super) first: f64,
+    /// Rounding in an energy, relative to the first elastic one.
+    pub(super) noise: f64,
+    /// The share of it that the digits of the data have.
+    pub(super) share_of_data: f64,
+}
+
+impl Disturbance {
+    /// # Errors
+    /// A dense eigenproblem that does not converge.
+    pub(super) fn of(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result<Self> {
+        let known = spectrum.first_elastic();
+        let first = match known {
+            Some(first) => first,
+            None => elastic_scale(evidence.reduction.pencil())?.unwrap_or(1.0),
+        };
+        let noise = known.map_or(0.0, |first| energy_noise(evidence, first));
+        Ok(Self { first, noise, share_of_data: share_of_data(evidence.partition) })
+    }
 }
 
 /// M-12, number of zero modes.

@@ -48,6 +48,7 @@ pub fn with_evidence<T>(
         reduction: &reduction,
         answers: None,
         rubin: None,
+        damping: None,
         certificate: None,
         enclosures: None,
         expect: None,

@@ -31,6 +31,9 @@ fn jobs() -> Vec<Value> {
                 { "name": "pressure", "file": "f.mtx", "column": 3, "residual": false },
                 { "name": "spin", "rotation": { "axis": [0.25, 1.25, 2.25], "through": [0.5, 1.5, 2.5] } },
             ],
+            "added_mass": [{ "node": 7, "mass": 2.5, "inertia": [2.5, 3.5, 4.5, 0.25, 0.5, 0.75], "offset": [0.25, 1.25, 2.25] }],
+            "matrix": [{ "name": "seal", "kind": "damping", "file": "C.mtx" }],
+            "damping": { "rayleigh": { "mass": 0.25, "stiffness": 0.5, "mass_acts_on": "deformation" }, "modal": { "ratio": 0.25 }, "rigid_motion": "resist" },
             "reduction": { "method": "herting", "modes": modes, "inertia_relief": true, "eigensolver": "arpack" },
             "scene": { "band_hz": [0.25, 500.5], "boundaries": ["free", "fix:hub", "mass:hub", "mass:hub=2.5"], "damping": { "ratio": 0.25 } },
             "run": { "certify": "full", "memory_gib": 4.5, "precision": "mixed" },
@@ -59,6 +62,8 @@ fn jobs() -> Vec<Value> {
     let hub = json!([{ "name": "hub", "nodes": "group:HUB" }]);
     let mut of_file = job(hub, json!({ "file": "V.mtx" }), json!([4, 6]));
     of_file["reduction"]["method"] = "mode-acceleration".into();
+    of_file["damping"]["modal"] = json!({ "ratios": [0.25, 0.5] });
+    jobs[1]["damping"]["modal"] = json!({ "table": [[10.5, 0.25]] });
     jobs.push(of_file);
     jobs.extend(regions.map(|region| {
         let hub = json!([{ "name": "hub", "nodes": { "within": region }, "coupling": "rigid", "origin": [0.25, 1.25, 2.25] }]);
@@ -164,6 +169,7 @@ fn is_about_two_keys(error: &Error) -> bool {
             | Error::InterfaceTwice { .. }
             | Error::FixedTwice { .. }
             | Error::LoadTwice { .. }
+            | Error::MatrixTwice { .. }
             | Error::WeightCount { .. }
     )
 }

@@ -207,7 +207,7 @@ fn values_of_the_wrong_kind_are_located() {
     insta::assert_snapshot!(message(&with("/model/dofs", Value::Null)), @"job.json: `model.dofs` is null – expected a value, or the key left out");
     insta::assert_snapshot!(message(&with("/model/dofs", 3.into())), @"job.json: `model.dofs` is 3 – expected a text");
     insta::assert_snapshot!(message(&with("/model/drop_empty", 1.into())), @"job.json: `model.drop_empty` is 1 – expected true or false");
-    insta::assert_snapshot!(message(&json!([1, 2])), @"job.json: the job is a list – expected a table with keys of fixed, interface, load, model, reduction, run, scene, write");
+    insta::assert_snapshot!(message(&json!([1, 2])), @"job.json: the job is a list – expected a table with keys of added_mass, damping, fixed, interface, load, matrix, model, reduction, run, scene, write");
     let error = Job::parse("{\n \"model\": }", Path::new("job.json")).expect_err("not JSON");
     assert_eq!(error.to_string(), "job.json:2: this is no JSON: expected value");
 }

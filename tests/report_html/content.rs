@@ -74,7 +74,7 @@ fn verdict_comes_first_and_counts_the_checks() {
     assert_eq!(failing.body.verdict(), Verdict::Fail);
     let failing = said(failing);
     let expected =
-        "✗ Not verified 21 of 27 checks passed; failed: M-03, M-12, M-21; past the limit: M-02, M-11, M-20; 1 warning.";
+        "✗ Not verified 22 of 28 checks passed; failed: M-03, M-12, M-21; past the limit: M-02, M-11, M-20; 1 warning.";
     assert!(failing.contains(expected), "{failing}");
     let mut incomplete = sample::passing_report();
     for (n_found, doubt, expected) in

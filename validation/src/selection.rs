@@ -50,6 +50,7 @@ pub fn selected(rich: &Superelement, modes: Modes) -> Result<Superelement> {
         // Ψ_S U_B = U_I: rigid-body motion has no amplitudes.
         rigid_body_modes: rows(&tensors.rigid_body_modes),
         damping: tensors.damping.as_ref().map(|damping| on_both_sides(damping, &transform)),
+        matrices: tensors.matrices.iter().map(|further| on_both_sides(further, &transform)).collect(),
         gravity: tensors.gravity.as_ref().map(|gravity| projected(gravity, &transform)),
         load_vectors: tensors.load_vectors.as_ref().map(|loads| projected(loads, &transform)),
         quantities: tensors.quantities.as_ref().map(|rows| on_the_right(rows, &transform)),

@@ -308,6 +308,7 @@ pub fn parts(stiffness: Matrix, mass: Matrix, positions: &[Vector3]) -> (Tensors
         dropped: Vec::new(),
         load_names: Vec::new(),
         quantities: Vec::new(),
+        matrices: Vec::new(),
         validity: Validity::default(),
         flags: Default::default(),
         model: ModelSummary { n_dofs: r as u64, rigid_body_modes: RigidBodyModes::Geometric, mass_properties: None },

@@ -157,6 +157,7 @@ fn bare_metadata(method: Method) -> Metadata {
         dropped: Vec::new(),
         load_names: Vec::new(),
         quantities: Vec::new(),
+        matrices: Vec::new(),
         validity: Validity::default(),
         flags: BTreeSet::new(),
         model: ModelSummary { n_dofs: 0, rigid_body_modes: RigidBodyModes::Algebraic, mass_properties: None },

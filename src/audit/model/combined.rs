@@ -1,6 +1,9 @@
 //! Projected forms on combinations of their columns.
 
+use faer::{Mat, MatRef};
+
 use super::alignment::Combination;
+use super::bilinear::Bilinear;
 use super::projection::{Form, Rows};
 use crate::dense::{self, summed_sizes};
 
@@ -21,6 +24,24 @@ impl Rows {
         let b = combination.columns.as_ref();
         let errors = with_rounding(&self.errors, &self.sizes, combination);
         Self { rows: dense::product(self.rows.as_ref(), b), errors, sizes: summed_sizes(&self.sizes, b) }
+    }
+}
+
+impl Bilinear {
+    /// BᵀWᵀAWB: the form on combinations of the columns.
+    pub(super) fn combined(&self, combination: &Combination) -> Self {
+        let b = combination.columns.as_ref();
+        let both = |a: &Mat<f64>, left: MatRef<'_, f64>, right: MatRef<'_, f64>| {
+            dense::product(left.transpose(), dense::product(a.as_ref(), right).as_ref())
+        };
+        let size = dense::absolute(b);
+        let (size, amplified) = (size.as_ref(), combination.amplified.as_ref());
+        let of_rounding = both(&self.terms, amplified, size) + both(&self.terms, size, amplified);
+        Self {
+            matrix: both(&self.matrix, b, b),
+            errors: both(&self.errors, size, size) + of_rounding * faer::Scale(f64::EPSILON),
+            terms: both(&self.terms, size, size),
+        }
     }
 }
 

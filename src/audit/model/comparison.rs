@@ -4,7 +4,8 @@ use faer::{Mat, MatRef};
 use supel_runtime::Superelement;
 
 use super::alignment::Combination;
-use super::entries::{Kind, compared, rows, statics};
+use super::bilinear::Bilinear;
+use super::entries::{self, Kind, compared, rows, statics};
 use super::projection::{Projected, Rows};
 use super::scaled::Scaled;
 use crate::audit::content::coordinate_name;
@@ -48,6 +49,7 @@ impl Comparison<'_> {
         }
         checks.extend(self.loads());
         checks.extend(self.quantities());
+        checks.extend(self.matrices());
         if let (Some(expected), Some(stored)) = (&projected.recovery, &file.recovery)
             && expected.rows.nrows() == stored.nrows()
         {
@@ -86,6 +88,18 @@ impl Comparison<'_> {
             rows(found.as_ref(), &expected.combined(&self.b), f64::EPSILON, (words, &at))
         };
         worst(self.projected.quantities.iter().zip(&self.file.quantities).enumerate().map(of_row))
+    }
+
+    /// M-28: the further matrices of the job, of which the worst is told.
+    fn matrices(&self) -> Option<Check> {
+        let names = &self.superelement.metadata().matrices;
+        let of_matrix = |(at, (expected, stored)): (usize, (&Bilinear, &Mat<f64>))| {
+            let name = |i: usize, j: usize| format!("{}, {} and {}", names[at].name, self.name_of(i), self.name_of(j));
+            // Rows are mixed first, then columns: the matrix comes back transposed twice.
+            let found = self.mixed(stored.as_ref());
+            entries::bilinear(found.as_ref().transpose(), &expected.combined(&self.b), &name)
+        };
+        worst(self.projected.matrices.iter().zip(&self.file.matrices).enumerate().map(of_matrix))
     }
 
     /// How many modal coordinates are compared.

@@ -10,6 +10,7 @@
 
 use faer::{Mat, MatRef};
 
+use super::bilinear::Bilinear;
 use super::projection::{Form, Rows};
 use crate::dense;
 use crate::error::Result;
@@ -165,6 +166,18 @@ pub(super) fn rows(
     }
     let at = name(worst.at.0, worst.at.1);
     check(words, &worst, at)
+}
+
+/// M-28: a further matrix against that of the columns made again, entry by entry.
+pub(super) fn bilinear(found: MatRef<'_, f64>, expected: &Bilinear, name: &dyn Fn(usize, usize) -> String) -> Check {
+    let mut worst = Worst::default();
+    for (i, j) in (0..found.ncols()).flat_map(|j| (0..found.nrows()).map(move |i| (i, j))) {
+        let difference = (found[(i, j)] - expected.matrix[(i, j)]).abs();
+        worst.take((i, j), (difference, BOTH * expected.errors[(i, j)], expected.terms[(i, j)]));
+    }
+    let words =
+        ("M-28", "further matrices are those of the full model", "max |ΨᵀAΨ − Â|_ij / (|Ψ|ᵀ|A||Ψ|)_ij, Ψ made again");
+    check(words, &worst, name(worst.at.0, worst.at.1))
 }
 
 /// M-17: what the interface needs to be moved, in every direction: a soft one is seen as well as stiff ones.

@@ -240,7 +240,9 @@ pub(super) fn statements(
     let is_of_a_body = motions.is_of_a_body() && partition.held.count() == 0;
     expect(metadata.model.mass_properties.is_some() == is_of_a_body, "mass properties");
     expect(tensors.gravity.is_some() == (motions.is_classical() || partition.gravity.is_some()), "gravity");
-    expect(tensors.damping.is_none(), "damping");
+    expect(tensors.damping.is_some() == job.has_damping(), "damping");
+    let matrices = partition.matrices.iter().map(|carried| carried.facts.in_file());
+    expect(metadata.matrices.iter().cloned().eq(matrices), "further matrices");
     let names = partition.loads.facts.iter().map(|load| &load.name);
     expect(metadata.load_names.iter().eq(names), "loads");
     expect(metadata.quantities == partition.quantities.names, "quantities");

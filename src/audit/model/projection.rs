@@ -11,6 +11,7 @@
 
 use faer::{Mat, MatRef};
 
+use super::bilinear::{Bilinear, Known};
 use super::columns::{Columns, Named};
 use super::dependence::Dependence;
 use crate::dense::{self, NOISE_FACTOR};
@@ -56,6 +57,8 @@ pub(super) struct Projected {
     pub(super) loads: Vec<Rows>,
     /// R T W of each quantity of the job, 1 × q.
     pub(super) quantities: Vec<Rows>,
+    /// WᵀAW of each further matrix of the job, in its unit.
+    pub(super) matrices: Vec<Bilinear>,
     /// TW, where rows are recovered.
     pub(super) recovery: Option<Rows>,
     /// (WᵀMU)ᵀ, n_r × q, U the unit motions; of a component without interface that has them.
@@ -89,6 +92,10 @@ impl Projected {
         let diagonal = crate::sparse::diagonal(&partition.mass);
         let quantities =
             partition.quantities.rows.iter().map(|row| quantity(row, shapes, (&mass, &diagonal))).collect();
+        let lengths: Vec<f64> = (0..shapes.ncols()).map(|j| mass.matrix[(j, j)].max(0.0).sqrt()).collect();
+        let known = Known { lengths: &lengths, errors: &mass.errors, diagonal: &diagonal };
+        let further = partition.matrices.iter();
+        let matrices = further.map(|carried| Bilinear::of(&carried.matrix, shapes, known)).collect();
         let recovery = (!partition.recovered.rows.is_empty()).then(|| recovered(partition, &columns, &mass));
         let is_modal = columns.probes.ncols() == 0;
         let motions =
@@ -104,6 +111,7 @@ impl Projected {
             gravity_weight,
             loads: named_loads,
             quantities,
+            matrices,
             recovery,
             motions,
             residual,

@@ -1,10 +1,10 @@
 //! The content of the file in the scaled units of the partition.
 
 use faer::Mat;
-use supel_runtime::{Coordinate, Precision, Superelement};
+use supel_runtime::{Coordinate, Matrix, Precision, Superelement};
 
 use crate::dense::unpacked;
-use crate::partition::Partition;
+use crate::partition::{CarriedMatrix, Partition};
 
 /// K̂, M̂, Û and all the rest as the stages of the model see them.
 pub(super) struct Scaled {
@@ -18,6 +18,8 @@ pub(super) struct Scaled {
     pub(super) loads: Vec<Mat<f64>>,
     /// R T Ψ, a matrix 1 × r for each row, where there are as many as in the job.
     pub(super) quantities: Vec<Mat<f64>>,
+    /// ΨᵀAΨ of each further matrix, where there are as many as in the job.
+    pub(super) matrices: Vec<Mat<f64>>,
     /// W, rows × r.
     pub(super) recovery: Option<Mat<f64>>,
     /// Relative rounding of the rows as they are kept.
@@ -64,6 +66,7 @@ impl Scaled {
             gravity: gravity.map(|g| Mat::from_fn(g.cols(), g.rows(), |i, j| g[(j, i)] / (units.mass_unit() * of(j)))),
             loads: loads_in_units(superelement, partition, &of),
             quantities: quantities_in_units(superelement, partition, &of),
+            matrices: matrices_in_units(superelement, partition, &of),
             recovery: recovery.map(|w| {
                 let w = w.rows();
                 Mat::from_fn(w.rows(), w.cols(), |i, j| w[(i, j)] / of(j))
@@ -112,4 +115,21 @@ fn quantities_in_units(
         return Vec::new();
     };
     (0..n_rows).map(|row| Mat::from_fn(1, rows.cols(), |_, j| rows[(row, j)] / of_coordinate(j))).collect()
+}
+
+/// The further matrices of a file in the units of those of a partition; none where there are not as many.
+fn matrices_in_units(
+    superelement: &Superelement,
+    partition: &Partition,
+    of_coordinate: &dyn Fn(usize) -> f64,
+) -> Vec<Mat<f64>> {
+    let stored = &superelement.tensors().matrices;
+    if stored.len() != partition.matrices.len() {
+        return Vec::new();
+    }
+    let of_matrix = |(matrix, carried): (&Matrix, &CarriedMatrix)| {
+        let unit = carried.facts.unit;
+        Mat::from_fn(matrix.rows(), matrix.cols(), |i, j| matrix[(i, j)] / unit / (of_coordinate(i) * of_coordinate(j)))
+    };
+    stored.iter().zip(&partition.matrices).map(of_matrix).collect()
 }

@@ -34,6 +34,11 @@ impl Convention {
         Ok(Some(if has("shape") { Self::ShapeAttribute("shape") } else { Self::ShapeDataset }))
     }
 
+    /// Whether a file of this convention says if rows or columns are compressed.
+    pub(super) fn tells_rows_from_columns(self) -> bool {
+        matches!(self, Self::Matlab)
+    }
+
     /// Reads the group, and the digits its values are stored with.
     pub(super) fn read(self, group: &Group<'_>) -> Result<(Compressed, u32)> {
         match self {
@@ -64,8 +69,8 @@ fn read_matlab(group: &Group<'_>) -> Result<(Compressed, u32)> {
     Ok((Compressed::new(Major::Columns, shape, pointers, indices, values, names), digits))
 }
 
-/// Whether rows or columns are compressed stands in a text that is not read (see [`attribute`]); the matrices wanted are
-/// symmetric, for which both are the same.
+/// Whether rows or columns are compressed stands in a text that is not read (see [`attribute`]); stiffness and mass are symmetric, for
+/// which both are the same, and of further matrices only symmetric ones are taken from such a file.
 fn read_compressed(group: &Group<'_>, stated: Option<Vec<u64>>) -> Result<(Compressed, u32)> {
     let pointers = group.dataset("indptr")?.integers()?;
     let n_major = pointers.len().saturating_sub(1) as u64;

@@ -221,6 +221,7 @@ fn metadata(interface_nodes: Vec<InterfaceNode>) -> Metadata {
         dropped: Vec::new(),
         load_names: Vec::new(),
         quantities: Vec::new(),
+        matrices: Vec::new(),
         validity: Validity::default(),
         flags: BTreeSet::new(),
         model: ModelSummary {

@@ -1,7 +1,8 @@
 //! Changes of tensors, and of several fields together by somebody who knows what they mean.
 
 use supel_runtime::{
-    Coordinate, Matrix, Metadata, Precision, RecoveredDof, Recovery, RigidBodyModes, Superelement, Tensors, Verdict,
+    Coordinate, Matrix, MatrixKind, Metadata, Precision, RecoveredDof, Recovery, RigidBodyModes, Superelement, Tensors,
+    Verdict,
 };
 
 /// One change; false where the superelement has nothing to change.
@@ -133,6 +134,9 @@ fn keep(tensors: &mut Tensors, metadata: &mut Metadata, kept: &[usize]) {
         let kept = of(recovery.rows(), &rows, kept);
         with_places_of(recovery, kept, recovery.dofs().to_vec(), recovery.precision())
     });
+    let square = |matrix: &Matrix| of(matrix, kept, kept);
+    tensors.damping = tensors.damping.as_ref().map(square);
+    tensors.matrices = tensors.matrices.iter().map(square).collect();
     tensors.quantities = tensors.quantities.as_ref().map(|rows| of(rows, &(0..rows.rows()).collect::<Vec<_>>(), kept));
     metadata.coordinates = kept.iter().map(|at| metadata.coordinates[*at].clone()).collect();
 }
@@ -552,6 +556,42 @@ pub(super) const ALTERATIONS: &[Alteration] = &[
             let dofs = recovery.dofs().to_vec();
             t.recovery = Recovery::new(recovery.rows().clone(), dofs, recovery.precision()).ok();
             true
+        },
+    },
+    Alteration {
+        field: "damping",
+        what: "an entry changed",
+        alter: |t, _| {
+            let Some(damping) = &mut t.damping else { return false };
+            largest_in(damping, 0..damping.rows(), 0..damping.cols()).is_some_and(|at| entry(damping, at, SLIGHTLY))
+        },
+    },
+    Alteration { field: "damping", what: "taken out", alter: |t, _| t.damping.take().is_some() },
+    Alteration {
+        field: "matrices",
+        what: "an entry of a damping matrix changed",
+        alter: |t, m| {
+            let found = m.matrices.iter().position(|matrix| matrix.kind == MatrixKind::Damping);
+            let Some(matrix) = found.map(|at| &mut t.matrices[at]) else { return false };
+            largest_in(matrix, 0..matrix.rows(), 0..matrix.cols()).is_some_and(|at| entry(matrix, at, SLIGHTLY))
+        },
+    },
+    Alteration {
+        field: "matrices",
+        what: "a skew matrix turned over",
+        alter: |t, m| {
+            let found = m.matrices.iter().position(|matrix| matrix.kind == MatrixKind::Gyroscopic);
+            let Some(matrix) = found.map(|at| &mut t.matrices[at]) else { return false };
+            *matrix = Matrix::from_fn(matrix.rows(), matrix.cols(), |i, j| matrix[(j, i)]);
+            true
+        },
+    },
+    Alteration {
+        field: "matrices",
+        what: "taken out, with their names",
+        alter: |t, m| {
+            m.matrices.clear();
+            !std::mem::take(&mut t.matrices).is_empty()
         },
     },
     Alteration {

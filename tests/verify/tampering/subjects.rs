@@ -122,6 +122,26 @@ fn loaded() -> Subject {
     Subject::of("loads", place, &text(&(FILES.to_owned() + MESH), &interfaces, reduction, write))
 }
 
+/// A solid with a skew matrix and a damping one, and damping of its modes.
+fn damped() -> Subject {
+    let model = steel_brick();
+    let place = Place::with(&model);
+    let n = model.n;
+    place.write(
+        "G.mtx",
+        format!("%%MatrixMarket matrix coordinate real skew-symmetric\n{n} {n} 2\n68 67 4\n41 2 3\n").as_bytes(),
+    );
+    // A damper between two nodes, and one that pushes across.
+    let damper = "67 67 9\n67 64 -9\n64 67 -9\n64 64 9\n37 37 5\n37 34 -5\n34 37 -5\n34 34 5\n37 67 2\n34 67 -2\n37 64 -2\n34 64 2\n";
+    place.write("C.mtx", format!("%%MatrixMarket matrix coordinate real general\n{n} {n} 12\n{damper}").as_bytes());
+    let interfaces = patch("foot", "[1, 11, 31, 41]", "direct")
+        + "[[matrix]]\nname = \"spin\"\nkind = \"gyroscopic\"\nfile = \"G.mtx\"\n"
+        + "[[matrix]]\nname = \"seal\"\nkind = \"damping\"\nfile = \"C.mtx\"\n"
+        + "[damping]\nmodal = { ratio = 0.01 }\n";
+    let reduction = "method = \"herting\"\nmodes = { count = 5 }";
+    Subject::of("damped", place, &text(&(FILES.to_owned() + MESH), &interfaces, reduction, ""))
+}
+
 /// A solid with the modes of a file, of which the last is the first one again.
 fn expanded() -> Subject {
     let model = steel_brick();
@@ -164,6 +184,7 @@ pub(super) fn subjects() -> Vec<Subject> {
         rows("rows, free", Ends::Free, "herting"),
         rows("rows, held", Ends::Fixed, "craig-bampton"),
         loaded(),
+        damped(),
         expanded(),
         modal(),
         massless(),

@@ -12,7 +12,10 @@ use supel::input;
 use supel::input::{Allowance, InputFacts};
 use supel::job::Job;
 use supel::model::Model;
-use supel::partition::{Expansion, Loads, Partition, Quantities, expansion_modes, loads, quantities, recovered_rows};
+use supel::partition::{
+    CarriedMatrix, Expansion, Loads, Partition, Quantities, expansion_modes, further_matrices, loads, quantities,
+    recovered_rows,
+};
 use supel::verification::check::Verdict;
 use supel_models::fnv1a;
 use supel_runtime::Superelement;
@@ -113,10 +116,12 @@ impl Known {
         let modes = input::expansion_columns(&job.reduction, &read, &Allowance::of(None)).expect("files");
         let rows = input::job_quantities(job.write.quantities.as_ref(), &read, &Allowance::of(None)).expect("files");
         let facts = InputFacts::of(&read).with_loads(&job.loads, &columns).with_modes(modes.as_ref());
-        let facts = facts.with_quantities(rows.as_ref());
+        let matrices = input::further_matrices(&job, &read, &Allowance::of(None)).expect("files");
+        let facts = facts.with_quantities(rows.as_ref()).with_matrices(&matrices);
         let model = Model::new(read).expect("a model");
         let recovered = recovered_rows(&model, job.write.recovery.as_ref()).expect("nodes");
         let of_job = quantities(&model, rows).expect("rows");
+        let matrices = further_matrices(&model, matrices).expect("rows");
         let row_loads = loads(&model, &job.loads, &columns).expect("nodes");
         let modes = modes.map(|modes| expansion_modes(&model, &modes).expect("modes"));
         let mut partition = Partition::new(model, &job.interfaces).expect("interfaces");
@@ -124,6 +129,7 @@ impl Known {
             partition.expansion = Expansion::carried(&modes, &partition.transformation).expect("modes that move");
         }
         partition.loads = Loads::carried(row_loads, &partition.transformation).expect("dofs that move");
+        partition.matrices = CarriedMatrix::carried(matrices, &partition.transformation).expect("dofs that move");
         partition.recovered = recovered;
         partition.quantities = Quantities::carried(of_job, &partition.transformation);
         Self { job, facts, partition }
@@ -276,9 +282,10 @@ fn tensor_names(superelement: &Superelement) -> BTreeSet<String> {
         load_vectors: _,
         recovery: _,
         quantities: _,
+        matrices: _,
     } = superelement.tensors();
     let names = "stiffness mass rigid_body_modes rigid_body_mass interface_positions interface_frames frequencies damping mixing \
-                 gravity load_vectors quantities recovery recovery_dofs recovery_positions";
+                 gravity load_vectors matrices quantities recovery recovery_dofs recovery_positions";
     names.split_whitespace().map(str::to_owned).collect()
 }
 

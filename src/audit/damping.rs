@@ -1,0 +1,70 @@
+//! Damping in the file against the rest of it: M-28.
+
+use faer::Mat;
+use supel_runtime::MatrixKind;
+
+use super::content::Content;
+use crate::damping::{Damping, Reduced};
+use crate::dense::{self, unpacked};
+use crate::error::{Error, Result};
+use crate::job::{Job, RigidMotionDamping};
+use crate::verification::check::{Check, Limits};
+use crate::verification::damping::{Damped, checks};
+
+/// M-28: what damping does, and that it is what the job kept in the file makes of the other matrices.
+///
+/// # Errors
+/// A dense eigenproblem that does not converge.
+pub(super) fn of_file(content: &Content<'_>) -> Result<Vec<Check>> {
+    let Some(stored) = content.superelement.tensors().damping.as_ref().map(unpacked) else { return Ok(Vec::new()) };
+    let damped = Damped {
+        damping: stored.as_ref(),
+        stiffness: content.k.as_ref(),
+        mass: content.m.as_ref(),
+        motions: content.u.as_ref(),
+        first: content.first,
+    };
+    let rigid_motion = content.job.as_ref().map_or(RigidMotionDamping::Refuse, Job::rigid_motion);
+    let name = |mode: usize, at: usize| format!("rigid-body mode {}, {}", mode + 1, content.name_of(at));
+    let mut all = checks(damped, (content.damping_force_limits(), rigid_motion), &name)?;
+    if let Some(job) = content.job.as_ref().filter(|job| job.has_damping()) {
+        all.push(sum(content, job, &stored)?);
+    }
+    Ok(all)
+}
+
+/// M-28: Ĉ is the sum of the damping matrices and of what the job makes of K̂ and M̂.
+fn sum(content: &Content<'_>, job: &Job, stored: &Mat<f64>) -> Result<Check> {
+    /// The sum is taken again in the same order.
+    const AGAIN: f64 = 1e-12;
+    let matrices = content.superelement.further_matrices();
+    let damping = matrices.filter(|(named, _)| named.kind == MatrixKind::Damping).map(|(_, matrix)| unpacked(matrix));
+    let damping: Vec<Mat<f64>> = damping.collect();
+    let reduced = Reduced { stiffness: content.k.as_ref(), mass: content.m.as_ref(), motions: content.u.as_ref() };
+    let (mut worst, mut rounding) = ((0.0, None), 0.0);
+    match Damping::of(job, reduced, &damping) {
+        Ok(Some(made)) => {
+            rounding = made.rounding;
+            for (i, j) in (0..stored.ncols()).flat_map(|j| (0..stored.nrows()).map(move |i| (i, j))) {
+                let (difference, size) = ((stored[(i, j)] - made.matrix[(i, j)]).abs(), made.sizes[(i, j)]);
+                let error = if difference == 0.0 { 0.0 } else { difference / size };
+                if dense::worse(error, worst.0) {
+                    worst = (error, Some(format!("{} and {}", content.name_of(i), content.name_of(j))));
+                }
+            }
+        }
+        // The file has other modes or matrices than its job names, or none of which damping can be made.
+        Ok(None) | Err(Error::DampingModes { .. } | Error::DenseEigen { .. }) => worst = (f64::INFINITY, None),
+        Err(error) => return Err(error),
+    }
+    let limits = Limits { engineering: AGAIN, arithmetic: rounding, data: 0.0 };
+    Ok(Check {
+        id: "M-28",
+        name: "damping is what its job makes of the matrices",
+        equation: "max |Ĉ − Σ ΨᵀCΨ − L|_ij / (Σ |ΨᵀCΨ|_ij + √(L_ii L_jj)), L made of K̂ and M̂",
+        value: worst.0,
+        limits,
+        fail_above: limits.value(),
+        worst: worst.1,
+    })
+}

@@ -1,0 +1,75 @@
+//! The damping matrix of a component from its parts.
+
+use faer::Mat;
+use supel_runtime::MatrixKind;
+
+use super::law::{Law, Reduced};
+use crate::dense;
+use crate::error::Result;
+use crate::job::{Job, RigidMotionDamping};
+use crate::partition::Partition;
+use crate::reduction::{Reduction, UserUnits};
+
+/// Largest error of modal damping that is put down to rounding.
+const LARGEST_ROUNDING: f64 = 1e-3;
+
+/// Ĉ of a component, with what is known of it.
+#[derive(Clone, Debug)]
+pub struct Damping {
+    /// Ĉ, r × r, in the user's units.
+    pub matrix: Mat<f64>,
+    /// What each entry is made from: Σ|ΨᵀCΨ|_ij + √(L_ii L_jj) with L the part that is made of K̂ and M̂, r × r.
+    pub sizes: Mat<f64>,
+    /// What rounding may make of an entry, relative to its size.
+    pub rounding: f64,
+    /// Whether it may resist rigid-body motion.
+    pub rigid_motion: RigidMotionDamping,
+}
+
+impl Damping {
+    /// The damping that a job asks for, of a reduction.
+    ///
+    /// # Errors
+    /// Those of [`Damping::of`].
+    pub fn of_reduction(job: &Job, partition: &Partition, reduction: &Reduction) -> Result<Option<Self>> {
+        if !job.has_damping() {
+            return Ok(None);
+        }
+        let UserUnits { stiffness, mass, rigid_body_modes, matrices } = reduction.in_user_units(partition);
+        let reduced =
+            Reduced { stiffness: stiffness.as_ref(), mass: mass.as_ref(), motions: rigid_body_modes.as_ref() };
+        let all = partition.matrices.iter().zip(&matrices);
+        let damping = all.filter(|(carried, _)| carried.facts.kind == MatrixKind::Damping).map(|(_, matrix)| matrix);
+        Self::of(job, reduced, damping)
+    }
+
+    /// The damping that a job asks for, from its damping matrices ΨᵀCΨ in the user's units; none where it asks for none.
+    ///
+    /// # Errors
+    /// [`Error::DampingModes`](crate::error::Error::DampingModes); a dense eigenproblem that does not converge.
+    pub fn of<'a>(
+        job: &Job,
+        reduced: Reduced<'_>,
+        matrices: impl IntoIterator<Item = &'a Mat<f64>>,
+    ) -> Result<Option<Self>> {
+        let r = reduced.stiffness.nrows();
+        let (mut matrix, mut sizes, mut is_there) = (Mat::zeros(r, r), Mat::zeros(r, r), false);
+        for part in matrices {
+            matrix += part;
+            sizes += dense::absolute(part.as_ref());
+            is_there = true;
+        }
+        let law = job.damping.as_ref().map(|damping| Law::of(damping, reduced)).transpose()?.flatten();
+        let spread = law.as_ref().map_or(1.0, |law| law.spread);
+        if let Some(law) = law {
+            let size = |i: usize| law.matrix[(i, i)].max(0.0).sqrt();
+            sizes += Mat::from_fn(r, r, |i, j| size(i) * size(j));
+            matrix += law.matrix;
+            is_there = true;
+        }
+        // An eigenvalue is known to ε of the largest one, and its share in Ĉ with it.
+        let rounding = dense::NOISE_FACTOR * r as f64 * f64::EPSILON * spread;
+        let rounding = rounding.min(LARGEST_ROUNDING);
+        Ok(is_there.then(|| Self { matrix, sizes, rounding, rigid_motion: job.rigid_motion() }))
+    }
+}

@@ -1,0 +1,103 @@
+//! Damping that resists motion of a free component as a whole, on the full model.
+//!
+//! ```text
+//! max_i |C U|_i / (|C||U|)_i      force of a rigid-body motion at a dof, relative to the terms that it is the sum of; Cᵀ likewise
+//! ```
+//! Rounding of the data leaves of such a force what it leaves of K U.
+
+use faer::Mat;
+use supel_runtime::{MOTIONS, MatrixKind};
+
+use crate::dense::{self, NOISE_FACTOR};
+use crate::error::{Error, Result};
+use crate::job::{Job, MassActsOn, RigidMotionDamping};
+use crate::partition::{CarriedMatrix, Partition};
+use crate::rigid::RigidBodyModes;
+use crate::sparse::{SparseMatrix, product_and_terms};
+
+/// Share of its terms at which a force is none of rounding, whatever the digits of the data.
+const LARGEST_ROUNDING: f64 = 1e-3;
+
+/// Refuses damping of a free component that resists rigid-body motion, unless the job says that it is meant. Motions of mechanisms may
+/// be damped.
+///
+/// # Errors
+/// [`Error::DampingRigid`].
+pub fn refuse_resistance(job: &Job, partition: &Partition, rigid: &RigidBodyModes) -> Result<()> {
+    let n_whole = rigid.count() - rigid.n_mechanisms;
+    if n_whole == 0 || job.rigid_motion() == RigidMotionDamping::Resist {
+        return Ok(());
+    }
+    let rayleigh = job.damping.as_ref().and_then(|damping| damping.rayleigh);
+    if rayleigh.is_some_and(|rayleigh| rayleigh.mass > 0.0 && rayleigh.mass_acts_on == MassActsOn::Motion) {
+        let found = "a share of the mass in `damping.rayleigh`, which resists every motion".to_owned();
+        return Err(Error::DampingRigid { found, remedy: "set its `mass_acts_on = \"deformation\"`" });
+    }
+    let u = rigid.modes.as_ref().subcols(0, n_whole).to_owned();
+    let Some((forces, rounding)) = Forces::of_damping(&partition.matrices, &u) else { return Ok(()) };
+    // What K leaves tells how well the motions are known, and what its digits are worth.
+    let known = Forces::of(&partition.stiffness, &u).worst().0;
+    let limit = (NOISE_FACTOR * known.max(rounding)).min(LARGEST_ROUNDING);
+    let (share, [dof, motion]) = forces.worst();
+    if share <= limit {
+        return Ok(());
+    }
+    let motion = match MOTIONS.get(motion).filter(|_| rigid.is_classical) {
+        Some(name) => (*name).to_owned(),
+        None => format!("rigid-body mode {}", motion + 1),
+    };
+    let at = partition.name_of(dof % partition.n_dofs());
+    let found =
+        format!("{share:.1e} of the damping forces left under {motion} at {at}, where rounding explains {limit:.1e}");
+    Err(Error::DampingRigid { found, remedy: "take out what damps against the ground" })
+}
+
+/// Forces of motions, and the sizes of the terms that they are sums of.
+struct Forces {
+    forces: Mat<f64>,
+    terms: Mat<f64>,
+}
+
+impl Forces {
+    fn of(matrix: &SparseMatrix, u: &Mat<f64>) -> Self {
+        let (forces, terms) = product_and_terms(matrix, u.as_ref());
+        Self { forces, terms }
+    }
+
+    /// Of the sum of the damping matrices and of its transpose, the one below the other; and the largest rounding of their entries.
+    fn of_damping(matrices: &[CarriedMatrix], u: &Mat<f64>) -> Option<(Self, f64)> {
+        let (n, n_u) = u.shape();
+        let mut sum = Self { forces: Mat::zeros(2 * n, n_u), terms: Mat::zeros(2 * n, n_u) };
+        let mut rounding = None;
+        for carried in matrices.iter().filter(|carried| carried.facts.kind == MatrixKind::Damping) {
+            rounding = Some(carried.facts.rounding.max(rounding.unwrap_or(f64::EPSILON)));
+            let transposed = carried.matrix.transpose_view().to_csr();
+            for (at, matrix) in [&carried.matrix, &transposed].into_iter().enumerate() {
+                let part = Self::of(matrix, u);
+                let unit = faer::Scale(carried.facts.unit);
+                let mut forces = sum.forces.as_mut().subrows_mut(at * n, n);
+                forces += part.forces * unit;
+                let mut terms = sum.terms.as_mut().subrows_mut(at * n, n);
+                terms += part.terms * unit;
+            }
+        }
+        rounding.map(|rounding| (sum, rounding))
+    }
+
+    /// The largest share of a force in its terms, with the dof and the motion.
+    fn worst(&self) -> (f64, [usize; 2]) {
+        let (mut worst, n_u) = ((0.0, [0, 0]), self.forces.ncols());
+        for motion in 0..n_u {
+            // A dof that hardly takes part has terms of rounding alone.
+            let terms = dense::column(self.terms.as_ref(), motion);
+            let least = f64::EPSILON * terms.iter().fold(0.0f64, |max, term| max.max(*term));
+            for (row, (force, term)) in dense::column(self.forces.as_ref(), motion).iter().zip(terms).enumerate() {
+                let share = if *term > least { force.abs() / term } else { 0.0 };
+                if dense::worse(share, worst.0) {
+                    worst = (share, [row, motion]);
+                }
+            }
+        }
+        worst
+    }
+}

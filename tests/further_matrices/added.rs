@@ -1,0 +1,117 @@
+//! Masses at nodes, against matrices made by hand.
+
+use supel::cli::ExitCode;
+use supel_models::{Inertia, Material, Section, frame};
+use supel_testing::place::steel_brick;
+
+use super::{CRAIG_BAMPTON, Case, FOOT_AND_HUB, HERTING};
+
+/// A rigid body of four point masses, and its mass, centre and inertia about that.
+const POINTS: [(f64, [f64; 3]); 4] =
+    [(0.5, [0.3, 0.1, -0.2]), (1.5, [0.1, -0.3, 0.2]), (0.25, [-0.2, 0.4, 0.1]), (0.75, [0.2, 0.2, 0.5])];
+
+/// The mass matrix of the points on a node by their kinetic energy, 2T = Σ m |u̇ + θ̇ × p|².
+fn of_points() -> [[f64; 6]; 6] {
+    let motion =
+        |[x, y, z]: [f64; 3]| [[1.0, 0.0, 0.0, 0.0, z, -y], [0.0, 1.0, 0.0, -z, 0.0, x], [0.0, 0.0, 1.0, y, -x, 0.0]];
+    let of_pair = |i: usize, j: usize| {
+        POINTS.iter().map(|(m, p)| motion(*p).iter().map(|row| m * row[i] * row[j]).sum::<f64>()).sum()
+    };
+    std::array::from_fn(|i| std::array::from_fn(|j| of_pair(i, j)))
+}
+
+/// What the job says of the points.
+fn added() -> String {
+    let mass: f64 = POINTS.iter().map(|(m, _)| m).sum();
+    let centre: [f64; 3] = std::array::from_fn(|i| POINTS.iter().map(|(m, p)| m * p[i]).sum::<f64>() / mass);
+    let product =
+        |i: usize, j: usize| POINTS.iter().map(|(m, p)| m * (p[i] - centre[i]) * (p[j] - centre[j])).sum::<f64>();
+    let trace = product(0, 0) + product(1, 1) + product(2, 2);
+    let inertia = [
+        trace - product(0, 0),
+        trace - product(1, 1),
+        trace - product(2, 2),
+        -product(0, 1),
+        -product(1, 2),
+        -product(2, 0),
+    ];
+    format!("mass = {mass:e}, inertia = {inertia:?}, offset = {centre:?}")
+}
+
+#[test]
+fn masses_at_nodes_are_those_of_matrices_made_by_hand() {
+    let nodes: Vec<[f64; 3]> = (0..7).map(|k| [0.1 * f64::from(k), 0.02 * f64::from(k * k), 0.0]).collect();
+    let edges: Vec<[usize; 2]> = (0..6).map(|k| [k, k + 1]).collect();
+    let model = frame(&nodes, &edges, &Section::round(0.02), &Material::STEEL_SI, Inertia::Consistent);
+    let mut by_hand = model.clone();
+    for (i, row) in of_points().iter().enumerate() {
+        for (j, value) in row.iter().enumerate().filter(|(_, value)| **value != 0.0) {
+            let at = (18 + i as u32, 18 + j as u32);
+            match by_hand.mass.iter_mut().find(|(i, j, _)| (*i, *j) == at) {
+                Some(entry) => entry.2 += value,
+                None => by_hand.mass.push((at.0, at.1, *value)),
+            }
+        }
+    }
+    by_hand.mass.sort_by_key(|(i, j, _)| (*i, *j));
+    let total = by_hand.total_mass(0);
+    let interfaces = "{ name = \"a\", nodes = [1] }, { name = \"b\", nodes = [7] }";
+    let hand = Case::new(by_hand).reduced(interfaces, HERTING, "");
+    let case = Case::new(model);
+    let more = format!("added_mass = [{{ node = 4, {} }}]", added());
+    let file = case.reduced(interfaces, HERTING, &more);
+    let close = |a: f64, b: f64, size: f64| (a - b).abs() <= 1e-10 * size;
+    for (omega, expected) in file.tensors().frequencies.iter().zip(&hand.tensors().frequencies) {
+        assert!(close(*omega, *expected, *expected), "{omega} for {expected}");
+    }
+    let (mass, expected) = (&file.tensors().rigid_body_mass, &hand.tensors().rigid_body_mass);
+    assert!((0..6).all(|i| (0..6).all(|j| close(
+        mass[(i, j)],
+        expected[(i, j)],
+        (expected[(i, i)] * expected[(j, j)]).sqrt()
+    ))));
+    assert!(close(file.metadata().model.mass_properties.expect("a body").mass, total, total));
+    let report = String::from_utf8(case.place.bytes("x.report.json")).expect("UTF-8");
+    assert!(report.contains("mass added at node 4"));
+    case.verify(&[]).expect(ExitCode::Done);
+    case.verify_with_job().expect(ExitCode::Done);
+    // Two masses at one node add up, and another job is told from this one.
+    let job = String::from_utf8(case.place.bytes("job.toml")).expect("UTF-8");
+    case.place.write("job.toml", job.replace("node = 4", "node = 5").as_bytes());
+    case.verify_with_job().expect(ExitCode::CheckFailed);
+}
+
+/// `expect` counts added masses.
+#[test]
+fn expected_mass_counts_them() {
+    let case = Case::new(steel_brick());
+    let total = case.model.total_mass(0);
+    let added = "added_mass = [{ node = 23, mass = 40 }, { node = 23, mass = 2 }]";
+    case.run(FOOT_AND_HUB, CRAIG_BAMPTON, added).expect(ExitCode::Done);
+    let job = String::from_utf8(case.place.bytes("job.toml")).expect("UTF-8");
+    let expecting = |mass: f64| {
+        let text = job.replace("nodes.csv\" }", &format!("nodes.csv\", expect = {{ mass = {mass:e} }} }}"));
+        case.place.write("job.toml", text.as_bytes());
+        supel_testing::place::supel(&["reduce", &case.place.text("job.toml"), "--quiet"]).code
+    };
+    assert_eq!(expecting(total + 42.0), ExitCode::Done);
+    assert_eq!(expecting(total), ExitCode::CheckFailed);
+}
+
+#[test]
+fn masses_that_cannot_be_added() {
+    let case = Case::new(steel_brick());
+    for (mass, said) in [
+        ("node = 99, mass = 1", "no translation of that node"),
+        ("node = 23, mass = 1, offset = [0, 0, 0.1]", "no ry"),
+        ("node = 23, mass = 1, inertia = [1, 1, 1, 0, 0, 0]", "no rx"),
+        ("node = 23, mass = 1, inertia = [1, 1, 1, 2, 0, 0]", "a principal inertia of -"),
+    ] {
+        let ended =
+            case.run(FOOT_AND_HUB, CRAIG_BAMPTON, &format!("added_mass = [{{ {mass} }}]")).expect(ExitCode::InputData);
+        assert!(ended.err.contains("E-ADDED-MASS") && ended.err.contains(said), "{}", ended.err);
+    }
+    let ended =
+        case.run(FOOT_AND_HUB, CRAIG_BAMPTON, "added_mass = [{ node = 23, mass = -1 }]").expect(ExitCode::Usage);
+    assert!(ended.err.contains("added_mass[0].mass"), "{}", ended.err);
+}

@@ -1,0 +1,113 @@
+//! Matrices and damping that are refused.
+
+use supel::cli::ExitCode;
+use supel_testing::place::{Place, steel_brick, supel};
+
+use super::{CRAIG_BAMPTON, Case, Entries, FOOT_AND_HUB, any, skew};
+
+const SPIN: &str = "[[matrix]]\nname = \"spin\"\nkind = \"gyroscopic\"\nfile = \"G.mtx\"\n";
+
+#[test]
+fn files_of_matrices_that_cannot_be_taken() {
+    let case = Case::new(steel_brick());
+    let n = case.model.n;
+    let banner = |symmetry: &str, n: usize, lines: &str| {
+        format!("%%MatrixMarket matrix coordinate real {symmetry}\n{n} {n} {}\n{lines}", lines.lines().count())
+    };
+    let wrong = [
+        (banner("general", n, "2 1 1\n1 2 1\n"), "E-MATRIX-KIND"),
+        (banner("general", n, "2 1 1\n"), "E-MATRIX-KIND"),
+        (banner("general", n, "2 1 1\n1 2 -1.0000000000000002\n"), "E-MATRIX-KIND"),
+        (banner("skew-symmetric", n, "2 1 1\n3 3 1\n"), "E-MATRIX-KIND"),
+        (banner("skew-symmetric", n, "2 1 1\n1 2 -1\n"), "E-DOUBLE-TRIANGLE"),
+        (banner("skew-symmetric", n - 1, "2 1 1\n"), "E-MATRIX-ROWS"),
+        (banner("skew-symmetric", n, "2 1 0\n"), "E-MATRIX-NOTHING"),
+        (banner("hermitian", n, "2 1 1\n"), "E-FLAVOUR"),
+        (banner("skew-symmetric", n, "2 1 nan\n"), "E-"),
+        (banner("skew-symmetric", n, "2 1 1e200\n"), "E-RANGE"),
+        (format!("2 1 1\n1 2 -1\n{n} {n} 0\n"), "E-BANNER"),
+    ];
+    for (text, code) in wrong {
+        case.place.write("G.mtx", text.as_bytes());
+        let ended = case.run(FOOT_AND_HUB, CRAIG_BAMPTON, SPIN);
+        assert!(ended.err.contains(code) && ended.code == ExitCode::InputData, "{code}: {}", ended.err);
+        assert!(!case.place.path("x.supel").exists());
+    }
+    let line = banner("skew-symmetric", n, "2 1 1\n2 1 1\n");
+    case.place.write("G.mtx", line.as_bytes());
+    case.run(FOOT_AND_HUB, CRAIG_BAMPTON, SPIN).expect(ExitCode::Done);
+    let job = String::from_utf8(case.place.bytes("job.toml")).expect("UTF-8");
+    let changed = |job: &str| {
+        case.place.write("job.toml", job.as_bytes());
+        supel(&["reduce", &case.place.text("job.toml"), "--quiet"])
+    };
+    let ended = changed(&job.replace("nodes.csv\" }", "nodes.csv\", duplicates = \"refuse\" }"));
+    assert!(ended.err.contains("E-DUPLICATES"), "{}", ended.err);
+    let ended = changed(&job.replace(SPIN, &format!("{SPIN}{SPIN}"))).expect(ExitCode::Usage);
+    assert!(ended.err.contains("E-MATRIX-NAME"), "{}", ended.err);
+    let held = format!("{SPIN}[[fixed]]\nnodes = [1]\n");
+    let ended = changed(&job.replace(SPIN, &held).replace("[1, 11, 31]", "[2, 11, 31]")).expect(ExitCode::InputData);
+    assert!(ended.err.contains("E-MATRIX-NOTHING") && ended.err.contains("held"), "{}", ended.err);
+    case.place.write("job.toml", job.as_bytes());
+    let output = case.place.text("G.mtx");
+    assert_ne!(supel(&["reduce", &case.place.text("job.toml"), "--report", &output]).code, ExitCode::Done);
+}
+
+/// Damping of the stiffness is free of rigid-body motion, however few digits it is written with; a damper to the ground is not.
+#[test]
+fn dampers_to_the_ground_are_told_from_rounding() {
+    let case = Case::new(steel_brick());
+    let seal = |more: &str| format!("{more}\n[[matrix]]\nname = \"seal\"\nkind = \"damping\"\nfile = \"C.mtx\"\n");
+    let scaled: Entries = case.model.stiffness.iter().map(|(i, j, value)| (*i, *j, 1e-6 * value)).collect();
+    case.matrix("C.mtx", "symmetric", &scaled);
+    case.run(FOOT_AND_HUB, CRAIG_BAMPTON, &seal("")).expect(ExitCode::Done);
+    case.verify(&[]).expect(ExitCode::Done);
+    let digits: Entries =
+        scaled.iter().map(|(i, j, value)| (*i, *j, format!("{value:.5e}").parse().expect("a number"))).collect();
+    case.matrix("C.mtx", "symmetric", &digits);
+    case.run(FOOT_AND_HUB, CRAIG_BAMPTON, &seal("")).expect(ExitCode::Done);
+    let mut grounded = scaled.clone();
+    let at = grounded.iter().position(|(i, j, _)| (*i, *j) == (67, 67)).expect("the diagonal");
+    grounded[at].2 *= 1.0 + 1e-6;
+    case.matrix("C.mtx", "symmetric", &grounded);
+    let ended = case.run(FOOT_AND_HUB, CRAIG_BAMPTON, &seal("")).expect(ExitCode::ModelPhysics);
+    assert!(ended.err.contains("E-DAMPING-RIGID") && ended.err.contains("node 23 uy"), "{}", ended.err);
+    case.run(FOOT_AND_HUB, CRAIG_BAMPTON, &seal("damping = { rigid_motion = \"resist\" }")).expect(ExitCode::Done);
+    case.verify_with_job().expect(ExitCode::Done);
+    // A force of deformation that pushes the body as a whole: C U vanishes, CᵀU does not.
+    let mut pushing = scaled;
+    pushing.extend([(0, 3, 0.01), (0, 6, -0.01)]);
+    case.matrix("C.mtx", "general", &pushing);
+    let ended = case.run(FOOT_AND_HUB, CRAIG_BAMPTON, &seal("")).expect(ExitCode::ModelPhysics);
+    assert!(ended.err.contains("E-DAMPING-RIGID"), "{}", ended.err);
+}
+
+/// Damping that drives a motion is possible and warned of.
+#[test]
+fn damping_that_drives_a_motion_warns() {
+    let case = Case::new(steel_brick());
+    let driving: Entries = case.model.stiffness.iter().map(|(i, j, value)| (*i, *j, -1e-7 * value)).collect();
+    case.matrix("C.mtx", "symmetric", &driving);
+    let seal = "[[matrix]]\nname = \"seal\"\nkind = \"damping\"\nfile = \"C.mtx\"\n";
+    case.run(FOOT_AND_HUB, CRAIG_BAMPTON, seal).expect(ExitCode::Done);
+    let ended = case.verify(&[]);
+    assert!(ended.out.contains("damping takes energy from every motion"), "{}", ended.out);
+    // The skew part of a damping takes nothing and gives nothing.
+    case.matrix("C.mtx", "general", &skew(&any(&case.model, 9), case.model.n));
+    case.run(FOOT_AND_HUB, CRAIG_BAMPTON, &format!("damping = {{ rigid_motion = \"resist\" }}\n{seal}"))
+        .expect(ExitCode::Done);
+    let checks = case.place.superelement("x.supel").metadata().verification.checks.clone();
+    let energy = checks.iter().rev().find(|check| check.id == "M-28").expect("a record");
+    assert!(energy.value.is_some_and(|value| value < 1e-6), "{energy:?}");
+}
+
+#[test]
+fn more_shares_than_modes() {
+    let case = Case::new(steel_brick());
+    let ratios = vec!["0.01"; 30].join(", ");
+    let law = format!("damping = {{ modal = {{ ratios = [{ratios}] }} }}");
+    let ended = case.run(FOOT_AND_HUB, CRAIG_BAMPTON, &law).expect(ExitCode::Usage);
+    assert!(ended.err.contains("E-DAMPING-MODES") && ended.err.contains("found 14"), "{}", ended.err);
+    let place: &Place = &case.place;
+    assert!(!place.path("x.supel").exists());
+}
