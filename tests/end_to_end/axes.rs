@@ -83,17 +83,17 @@ fn axes_of_a_hole() {
 
 #[test]
 fn axes_that_are_none_are_refused() {
-    for (foot, head, words) in [
-        ("", "axes = { z = [0, 0, 1], x = [0, 0, -2] }", ["E-AXES", "which are parallel"]),
-        ("axes = { z = [0, 0, 1], x = [1e-9, 0, 1] }", "", ["E-AXES", "foot"]),
-        ("axes = { z = [0, 0, 0], x = [1, 0, 0] }", "", ["interface[0].axes.z", "a vector with a direction"]),
-        ("axes = \"hole\"", "", ["axes", "set coupling = \"rigid\""]),
-        ("", "axes = \"hole\"", ["E-ORIGIN-FIT", "its origin or its axes"]),
-        ("axes = \"round\"", "", ["axes", "expected"]),
+    let (data, usage) = (ExitCode::InputData, ExitCode::Usage);
+    for (foot, head, code, words) in [
+        ("", "axes = { z = [0, 0, 1], x = [0, 0, -2] }", data, ["E-AXES", "which are parallel"]),
+        ("axes = { z = [0, 0, 1], x = [1e-9, 0, 1] }", "", data, ["E-AXES", "foot"]),
+        ("axes = { z = [0, 0, 0], x = [1, 0, 0] }", "", usage, ["interface[0].axes.z", "a vector with a direction"]),
+        ("axes = \"hole\"", "", usage, ["axes", "set coupling = \"rigid\""]),
+        ("", "axes = \"hole\"", data, ["E-ORIGIN-FIT", "its origin or its axes"]),
+        ("axes = \"round\"", "", usage, ["axes", "expected"]),
     ] {
         let (place, ended) = reduced(foot, head);
-        let expected = if words[0].starts_with("interface") { ExitCode::Usage } else { ExitCode::InputData };
-        assert_eq!(ended.code, expected, "{foot}{head}: {}{}", ended.out, ended.err);
+        assert_eq!(ended.code, code, "{foot}{head}: {}{}", ended.out, ended.err);
         words.iter().for_each(|word| assert!(ended.err.contains(word), "{word:?} is not in {}", ended.err));
         assert!(!place.path("x.supel").exists());
     }
