@@ -161,7 +161,7 @@ impl ExportCommand {
             file,
             format: to,
             answer: if json { Answer::Json } else { Answer::Text },
-            unverified: Unverified::of_flag(allow_unverified),
+            unverified: allow_unverified.into(),
         }
     }
 }
@@ -190,7 +190,7 @@ fn build_reduce(flags: ReduceFlags) -> Result<ReduceCommand> {
         (false, true) => Answer::Nothing,
         (false, false) => Answer::Text,
     };
-    let unverified = Unverified::of_flag(output.allow_unverified);
+    let unverified = Unverified::from(output.allow_unverified);
     let strictness = if output.strict { Strictness::Strict } else { Strictness::Normal };
     let (mut job, remarks) = match &document {
         Some(path) => {

@@ -38,7 +38,7 @@ impl RecoverCommand {
             quantities,
             loads,
             gravity: gravity.as_deref().map(acceleration_of).transpose()?,
-            unverified: Unverified::of_flag(allow_unverified),
+            unverified: allow_unverified.into(),
         })
     }
 }

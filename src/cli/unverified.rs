@@ -11,12 +11,14 @@ pub(super) enum Unverified {
     Written,
 }
 
-impl Unverified {
-    /// By the flag `--allow-unverified`.
-    pub(super) fn of_flag(allow_unverified: bool) -> Self {
-        if allow_unverified { Self::Written } else { Self::Refused }
+/// By the flag `--allow-unverified`.
+impl From<bool> for Unverified {
+    fn from(is_given: bool) -> Self {
+        if is_given { Self::Written } else { Self::Refused }
     }
+}
 
+impl Unverified {
     /// Whether a superelement that failed a check when it was made is refused.
     pub(super) fn refuses(self, verdict: Verdict) -> bool {
         verdict == Verdict::Fail && self == Self::Refused

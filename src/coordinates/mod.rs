@@ -35,7 +35,7 @@ use std::collections::HashSet;
 
 use crate::dofs::Direction;
 use crate::error::Result;
-use crate::model::{CoordinateFit, Finding, Model};
+use crate::model::{CoordinateFit, Finding, Model, Supports};
 
 use motions::Motions;
 use nodes::Nodes;
@@ -54,10 +54,11 @@ pub fn compared(model: Model, held: &[Direction], tied: &HashSet<i64>) -> Result
     let nodes = Nodes::of_model(&motions);
     let doubts = doubt::doubts(&motions, &nodes, held);
     let fit = if doubts.is_empty() { CoordinateFit::Exact } else { judgement::settled(&motions, &doubts, tied)? };
+    let supports = if doubts.is_empty() { Supports::None } else { Supports::Perhaps };
     let mut findings = model.findings.clone();
     findings.extend(doubt::untested(&motions, &doubts));
     findings.extend(matches!(fit, CoordinateFit::Unknown).then_some(Finding::MotionsUncounted));
     findings.extend(doubt::not_held(&motions, held));
     findings.extend(mass::by_direction(&motions, &nodes, &doubts));
-    Ok(Model { fit, is_unsupported: doubts.is_empty(), findings, ..model })
+    Ok(Model { fit, supports, findings, ..model })
 }

@@ -165,20 +165,7 @@ impl std::fmt::Display for Finding {
                 )
             }
             Self::CoordinatesUntested { n_touched, n_rows, largest } => {
-                write!(
-                    f,
-                    "translations make forces at {n_touched} of {}: supports that touch so many rows leave too few to \
-                     compare the coordinates and the dof map with; check that rows and map are in one order",
-                    counted(*n_rows, "row", "rows")
-                )?;
-                if *largest <= LIKE_ROUNDING {
-                    write!(
-                        f,
-                        "; the forces are {largest:.0e} of their terms at most, as rounding leaves of a K that has fewer \
-                         digits than its numbers show: state `stiffness_digits` then"
-                    )?;
-                }
-                Ok(())
+                f.write_str(&coordinates_untested(*n_touched, *n_rows, *largest))
             }
             Self::MotionsUncounted => f.write_str(
                 "K is too badly conditioned to count its motions without energy: nothing confirms the coordinates where supports are; \
@@ -207,6 +194,22 @@ fn stiff_rows(n_rows: usize, first: &str, ratio: f64) -> String {
         "{} a stiffness of {PENALTY:.0e} times the median and more, at most {ratio:.0e} times at {first}: penalties that hold or tie \
          dofs; they take digits from what they touch, leave held dofs out of both matrices",
         counted(n_rows, "row has", "rows have")
+    )
+}
+
+fn coordinates_untested(n_touched: usize, n_rows: usize, largest: f64) -> String {
+    let rounding = if largest <= LIKE_ROUNDING {
+        format!(
+            "; the forces are {largest:.0e} of their terms at most, as rounding leaves of a K that has fewer digits than its \
+             numbers show: state `stiffness_digits` then"
+        )
+    } else {
+        String::new()
+    };
+    format!(
+        "translations make forces at {n_touched} of {}: supports that touch so many rows leave too few to compare the \
+         coordinates and the dof map with; check that rows and map are in one order{rounding}",
+        counted(n_rows, "row", "rows")
     )
 }
 

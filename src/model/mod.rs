@@ -30,7 +30,7 @@ pub use fit::{CoordinateFit, Misfit, RoundedCoordinates};
 pub use scaling::Scaling;
 pub use site::{Frame, Site, recentred};
 pub use symmetry::make_symmetric;
-pub use weight::Weight;
+pub use weight::{Supports, Weight};
 
 /// A checked and scaled model.
 #[derive(Clone, Debug)]
@@ -53,8 +53,8 @@ pub struct Model {
     pub bodies: Bodies,
     /// How coordinates and dof map fit K; unknown until [`crate::coordinates::compared`] has looked.
     pub fit: CoordinateFit,
-    /// Whether the coordinates show that nothing holds it, so that no support took rows out of the matrices.
-    pub is_unsupported: bool,
+    /// Whether supports may have taken rows out of the matrices; [`crate::coordinates::compared`] knows.
+    pub supports: Supports,
     /// What was found and mended, in the order it was found.
     pub findings: Vec<Finding>,
 }
@@ -123,8 +123,8 @@ impl Model {
             || Bodies::of(&stiffness, &node_of_row(stiffness.rows(), dofs.as_deref())),
         );
         is_definite?;
-        let (nodes, fit, is_unsupported) = (input.nodes, CoordinateFit::Unknown, false);
-        Ok(Self { stiffness, mass, scaling, precision, dofs, nodes, rows, bodies, fit, is_unsupported, findings })
+        let (nodes, fit, supports) = (input.nodes, CoordinateFit::Unknown, Supports::Perhaps);
+        Ok(Self { stiffness, mass, scaling, precision, dofs, nodes, rows, bodies, fit, supports, findings })
     }
 
     /// What the rows are called in messages.

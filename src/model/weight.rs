@@ -17,8 +17,17 @@ pub struct Weight {
     pub motions: Option<Mat<f64>>,
     /// Whether every node has all translations or none, so that no direction lacks mass that others have.
     pub has_whole_nodes: bool,
-    /// Whether no support took mass out of the matrices before they were read.
-    pub is_whole: bool,
+    /// Whether supports may have taken mass out of the matrices before they were read.
+    pub supports: Supports,
+}
+
+/// What is known of supports that the matrices had before they were read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Supports {
+    /// There were none: the coordinates show that nothing holds the model.
+    None,
+    /// There may have been some.
+    Perhaps,
 }
 
 impl Model {
@@ -45,7 +54,7 @@ impl Model {
             *n_translations.entry(dof.node).or_default() += 1;
         }
         let has_whole_nodes = n_translations.values().all(|count| *count == 3);
-        let (motions, is_whole) = (sites.is_some().then_some(masses), self.is_unsupported);
-        Some(Weight { translations, motions, has_whole_nodes, is_whole })
+        let motions = sites.is_some().then_some(masses);
+        Some(Weight { translations, motions, has_whole_nodes, supports: self.supports })
     }
 }

@@ -7,6 +7,7 @@ use super::evidence::{Evidence, NAMES, rigid_name};
 use super::rigid_body::mass_difference;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::job::Expectation;
+use crate::model::Supports;
 use crate::number::quantity;
 use crate::partition::Partition;
 
@@ -203,7 +204,7 @@ impl Known {
         // A support may take out the rows of one direction and not of another.
         let mass = weight.translations.into_iter().fold(0.0, f64::max);
         let place = weight.motions.as_ref().map(|m_f| Place::of(m_f.as_ref(), mass));
-        Some(Self { mass, place, is_whole: weight.is_whole })
+        Some(Self { mass, place, is_whole: weight.supports == Supports::None })
     }
 }
 
