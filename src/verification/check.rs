@@ -128,6 +128,7 @@ impl Check {
 
     /// Limit over value: above one is good.
     pub fn margin(&self) -> f64 {
-        self.limits.value() / self.value
+        // A value of nothing may be a negative zero.
+        self.limits.value() / self.value.abs()
     }
 }

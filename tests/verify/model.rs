@@ -126,6 +126,22 @@ fn the_same_matrices_in_another_file_warn() {
     supel(&[args.as_slice(), &["--strict"]].concat()).expect(ExitCode::CheckFailed);
 }
 
+/// A file that lacks the digest of one of its inputs: the line of the inputs warns, whatever others say of it.
+#[test]
+fn a_digest_that_the_file_does_not_have_warns() {
+    let place = reduced("herting");
+    let original = place.superelement("x.supel");
+    let mut metadata = original.metadata().clone();
+    metadata.inputs.remove("mass").expect("a digest");
+    let altered = supel_runtime::Superelement::new(original.tensors().clone(), metadata).expect("a superelement still");
+    altered.write(&place.path("x.supel")).expect("written");
+    let ended = supel(&["verify", &place.text("x.supel"), "--job", &place.text("kept.json"), "--json"]);
+    let document: Value = serde_json::from_str(&ended.out).expect("JSON");
+    let mut checks = document["checks"].as_array().expect("checks").iter();
+    let of_inputs = checks.find(|check| check["name"] == "it was made from the files of the job").expect("the check");
+    assert_eq!((&of_inputs["verdict"], &of_inputs["worst"]), (&"warn".into(), &"mass".into()));
+}
+
 /// A mode missing from the file: what is left is right, and the count of the whole matrix tells.
 #[test]
 fn a_mode_that_the_file_does_not_have() {
@@ -151,5 +167,7 @@ fn a_mode_that_the_file_does_not_have() {
     let altered = supel_runtime::Superelement::new(tensors, metadata).expect("a superelement still");
     altered.write(&place.path("x.supel")).expect("written");
     supel(&["verify", &place.text("x.supel")]).expect(ExitCode::Done);
-    assert_fails(&failures(&place), "frequencies are those of the full model");
+    let failures = failures(&place);
+    assert_fails(&failures, "frequencies are those of the full model");
+    assert_fails(&failures, "it has the modes that the job asks for");
 }

@@ -91,19 +91,11 @@ fn bound(form: &Form, (i, j): (usize, usize), order: Order) -> f64 {
 }
 
 /// What an entry of a coordinate is relative to. Of an interface that just holds the component nothing is left of K̂ but rounding
-/// of its terms, which then stand for it. The column of a free mass has not even terms: all that moves with it is rounding of the
-/// correction (24), a motion of the component, and the largest terms stand for those.
+/// of its terms, which then stand for it.
 fn sizes(form: &Form) -> Vec<f64> {
-    let largest = form.terms.iter().fold(0.0f64, |max, terms| max.max(*terms));
     let size = |(i, terms): (usize, &f64)| {
         let norm = form.matrix[(i, i)].max(0.0).sqrt();
-        if *terms <= BOTH * f64::EPSILON * largest {
-            largest
-        } else if norm * norm > BOTH * f64::EPSILON * terms * terms {
-            norm
-        } else {
-            *terms
-        }
+        if norm * norm > BOTH * f64::EPSILON * terms * terms { norm } else { *terms }
     };
     form.terms.iter().enumerate().map(size).collect()
 }
