@@ -130,7 +130,7 @@ pub fn expansion_columns(
 /// The further matrices of a job, for rows and columns of K and M as they are in their files.
 ///
 /// # Errors
-/// The errors of [`FurtherMatrix::checked`] and of the readers of matrices; [`Error::MatrixRows`]; [`Error::Duplicates`] where the job refuses
+/// The errors of the readers of matrices; [`Error::MatrixKind`]; [`Error::MatrixRows`]; [`Error::Duplicates`] where the job refuses
 /// them.
 pub fn further_matrices(job: &Job, input: &Input, allowance: &Allowance) -> Result<Vec<FurtherMatrix>> {
     let n_rows = input.n_file_rows();
