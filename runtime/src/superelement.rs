@@ -20,8 +20,8 @@ impl Superelement {
     /// # Errors
     ///
     /// The content variants of [`FileError`](crate::FileError): shapes that contradict the coordinates, values that are not finite, a
-    /// stiffness or mass matrix that is not symmetric to the bit, a further matrix that is not what its kind demands, coordinates out of order, modes, positions or
-    /// verdicts that metadata and tensors give differently.
+    /// stiffness or mass matrix that is not symmetric to the bit, a further matrix that is not what its kind demands, coordinates out of
+    /// order, modes, positions or verdicts that metadata and tensors give differently.
     pub fn new(tensors: Tensors, metadata: Metadata) -> Result<Self> {
         validation::check(&tensors, &metadata)?;
         Ok(Self { tensors, metadata })

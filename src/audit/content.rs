@@ -5,7 +5,7 @@ use supel_runtime::{Coordinate, Superelement};
 
 use super::version::kept_job;
 use crate::dense::{self, NOISE_FACTOR, unpacked};
-use crate::eigen::eigenvalues;
+use crate::eigen::eigenvalue_beyond;
 use crate::error::Result;
 use crate::job::{Boundary, Job};
 use crate::verification::check::Limits;
@@ -234,6 +234,5 @@ fn by_own_bars(superelement: &Superelement, first: f64) -> f64 {
 /// The first eigenvalue of the reduced pencil beyond its rigid-body modes, with its interface free; `near` is one of its modes.
 fn first_elastic((k, m, u): (MatRef<'_, f64>, MatRef<'_, f64>, MatRef<'_, f64>), near: Option<f64>) -> Result<f64> {
     let Some(near) = near.map_or_else(|| elastic_scale((k, m, u)), |near| Ok(Some(near)))? else { return Ok(1.0) };
-    let values = eigenvalues(k, m, near)?;
-    Ok(values.get(u.ncols()).copied().filter(|value| *value > 0.0).unwrap_or(near))
+    eigenvalue_beyond(u.ncols(), (k, m), near)
 }

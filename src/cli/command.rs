@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::export::Format;
 use crate::job::{
     Coupling, Duplicates, FixedJob, InterfaceJob, Job, Method, ModeOrigin, ModeSelection, ModelJob, ModesJob,
-    NodeSelection, Origin, ReductionJob, RunJob, WriteJob,
+    NodeSelection, ReductionJob, RunJob, WriteJob,
 };
 
 /// One command, ready to run.
@@ -357,15 +357,7 @@ fn interface(flag: &'static str, text: &str, coupling: Coupling) -> Result<Inter
     let wrong = |expected| Error::FlagText { flag, text: text.to_owned(), expected };
     let (name, nodes) = text.split_once('=').ok_or_else(|| wrong("NAME=NODES, as in hub=12,17,19"))?;
     let nodes = nodes_of(nodes).map_err(wrong)?;
-    Ok(InterfaceJob {
-        name: name.to_owned(),
-        nodes,
-        coupling,
-        origin: Origin::Centroid,
-        weights: None,
-        axes: None,
-        dofs: None,
-    })
+    Ok(InterfaceJob::new(name, nodes, coupling))
 }
 
 /// The held dofs of the flags, in the order typed.

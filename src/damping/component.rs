@@ -30,7 +30,7 @@ impl Damping {
     /// The damping that a job asks for, of a reduction.
     ///
     /// # Errors
-    /// Those of [`Damping::of`].
+    /// The errors of [`Damping::of`].
     pub fn of_reduction(job: &Job, partition: &Partition, reduction: &Reduction) -> Result<Option<Self>> {
         if !job.has_damping() {
             return Ok(None);

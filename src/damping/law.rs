@@ -10,7 +10,7 @@ use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef};
 
 use crate::dense;
-use crate::eigen::{eigenpairs, eigenvalues, lowest_ratio};
+use crate::eigen::{eigenpairs, eigenvalue_beyond, lowest_ratio};
 use crate::error::{Error, Result};
 use crate::job::{ComponentDampingJob, MassActsOn, ModalDampingJob};
 
@@ -84,8 +84,7 @@ fn elastic_modes(reduced: Reduced<'_>) -> Result<(Vec<f64>, Mat<f64>)> {
     let none = || Ok((Vec::new(), Mat::zeros(r, 0)));
     let Some(near) = lowest_ratio(k, m) else { return none() };
     // Near the first elastic eigenvalue rounding is relative to the low ones.
-    let first = eigenvalues(k, m, near)?.get(n_r).copied().filter(|lambda| *lambda > 0.0).unwrap_or(near);
-    let pairs = eigenpairs(k, m, first)?;
+    let pairs = eigenpairs(k, m, eigenvalue_beyond(n_r, (k, m), near)?)?;
     if pairs.values.is_empty() {
         return Err(Error::DenseEigen { n: r });
     }

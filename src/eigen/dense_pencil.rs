@@ -42,6 +42,11 @@ pub(crate) fn eigenvalues(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) ->
     eigenpairs(k, m, alpha).map(|pairs| pairs.values)
 }
 
+/// The eigenvalue after the first `n`, where it is positive, else `near`, which lies near it.
+pub(crate) fn eigenvalue_beyond(n: usize, (k, m): (MatRef<'_, f64>, MatRef<'_, f64>), near: f64) -> Result<f64> {
+    Ok(eigenvalues(k, m, near)?.get(n).copied().filter(|value| *value > 0.0).unwrap_or(near))
+}
+
 /// Share of the largest K̂_ii / M̂_ii up to which another is the rounding of what condensation took away: a body that one interface
 /// node holds has no stiffness there.
 const CONDENSED_AWAY: f64 = 1e-10;

@@ -27,7 +27,7 @@ mod shifted;
 pub(crate) mod zero;
 
 pub use cluster::REPEATED_WITHIN;
-pub(crate) use dense_pencil::{eigenpairs, eigenvalues, lowest_ratio, lowest_ratio_of};
+pub(crate) use dense_pencil::{eigenpairs, eigenvalue_beyond, eigenvalues, lowest_ratio, lowest_ratio_of};
 pub(crate) use elastic::{CARRIES_NOTHING, judged, pairs_between, purified, settled_at};
 pub use elastic::{Eigensolver, ModeRequest, elastic_modes};
 pub use equilibration::Equilibrated;

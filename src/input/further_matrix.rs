@@ -27,8 +27,7 @@ impl FurtherMatrix {
     /// # Errors
     /// [`Error::MatrixKind`] where entries at (i, j) and (j, i) are not what the kind demands.
     pub(super) fn checked(job: &MatrixJob, input: MatrixInput) -> Result<Self> {
-        let transposed = input.matrix.transpose_view().to_csr();
-        let breach = |symmetry| first_breach(&input.matrix, &transposed, symmetry);
+        let breach = |symmetry| first_breach(&input.matrix, symmetry);
         let (name, kind) = (job.name.clone(), job.kind);
         let symmetry = match kind.symmetry() {
             Some(demanded) => match breach(demanded) {
@@ -45,11 +44,8 @@ impl FurtherMatrix {
 }
 
 /// The first place whose entry and that across the diagonal are not what a symmetry says, with both.
-fn first_breach(
-    matrix: &SparseMatrix,
-    transposed: &SparseMatrix,
-    symmetry: Symmetry,
-) -> Option<(usize, usize, [f64; 2])> {
+pub(super) fn first_breach(matrix: &SparseMatrix, symmetry: Symmetry) -> Option<(usize, usize, [f64; 2])> {
+    let transposed = matrix.transpose_view().to_csr();
     let holds = |own: f64, other: f64| match symmetry {
         Symmetry::Symmetric => own == other,
         Symmetry::Skew => own == -other,

@@ -64,8 +64,8 @@ pub fn read(model: &ModelJob) -> Result<Input> {
 /// [`Error::Duplicates`] where the job refuses them.
 pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
     let mut notes = Vec::new();
-    let of = |role| read_matrix(&matrix_source(model, role, allowance));
-    let (stiffness, mass) = rayon::join(|| of(MatrixRole::Stiffness), || of(MatrixRole::Mass));
+    let [stiffness, mass] = own_sources(model, allowance);
+    let (stiffness, mass) = rayon::join(|| read_matrix(&stiffness), || read_matrix(&mass));
     let (mut stiffness, mut mass) = fit_matrices(stiffness?, mass?, &mut notes)?;
     for matrix in [&mut stiffness, &mut mass] {
         refuse_duplicates(matrix, model.duplicates)?;
@@ -212,14 +212,8 @@ pub fn read_hdf5_parts(
     allowance: &Allowance,
 ) -> Result<()> {
     modes.map_or(Ok(()), |path| hdf5_format::rehearse_modes(path, allowance))?;
-    for matrix in matrices {
-        let source = further_source(matrix, allowance);
-        if formats::of_matrix(&source.file)?.is_parsed_in_c() {
-            read_matrix(&source)?;
-        }
-    }
-    for role in [MatrixRole::Stiffness, MatrixRole::Mass] {
-        let source = matrix_source(model, role, allowance);
+    let further = matrices.iter().map(|matrix| further_source(matrix, allowance));
+    for source in further.chain(own_sources(model, allowance)) {
         if formats::of_matrix(&source.file)?.is_parsed_in_c() {
             read_matrix(&source)?;
         }
@@ -236,15 +230,18 @@ pub fn read_hdf5_parts(
     }
 }
 
-fn matrix_source<'a>(model: &ModelJob, role: MatrixRole, allowance: &'a Allowance) -> MatrixSource<'a> {
-    let (path, stated) = match role {
-        MatrixRole::Stiffness => (&model.stiffness, model.stiffness_digits),
-        MatrixRole::Mass | MatrixRole::Further => (&model.mass, model.mass_digits),
-    };
-    let (file, group) = split_group(path);
-    // A job states 17 at most.
-    let stated_digits = stated.map(|digits| digits as u32);
-    MatrixSource { file, group, role, triangle: model.symmetric, stated_digits, allowance }
+/// Where K and M are.
+fn own_sources<'a>(model: &ModelJob, allowance: &'a Allowance) -> [MatrixSource<'a>; 2] {
+    let own = [
+        (MatrixRole::Stiffness, &model.stiffness, model.stiffness_digits),
+        (MatrixRole::Mass, &model.mass, model.mass_digits),
+    ];
+    own.map(|(role, path, stated)| {
+        let (file, group) = split_group(path);
+        // A job states 17 at most.
+        let stated_digits = stated.map(|digits| digits as u32);
+        MatrixSource { file, group, role, triangle: model.symmetric, stated_digits, allowance }
+    })
 }
 
 fn read_matrix(source: &MatrixSource<'_>) -> Result<ReadMatrix> {

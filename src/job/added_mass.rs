@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::ranges::{LARGEST, not_negative, number, point};
+use super::ranges::{LARGEST, not_large, number, point};
 use super::whole;
 use crate::error::Result;
 
@@ -35,13 +35,9 @@ fn tensor_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
 pub(super) fn validate(masses: &[AddedMassJob]) -> Result<()> {
     for (index, AddedMassJob { mass, inertia, offset, .. }) in masses.iter().enumerate() {
         let key = |name: &str| format!("added_mass[{index}].{name}");
-        not_negative(&key("mass"), *mass)?;
-        for (name, value) in
-            [("mass", mass)].into_iter().chain(inertia.iter().flatten().map(|value| ("inertia", value)))
-        {
-            if value.is_nan() || value.abs() > LARGEST {
-                return Err(number(key(name), *value, "a number of at most 1e48 in size"));
-            }
+        not_large(&key("mass"), *mass)?;
+        if let Some(value) = inertia.iter().flatten().find(|value| value.is_nan() || value.abs() > LARGEST) {
+            return Err(number(key("inertia"), *value, "a number of at most 1e48 in size"));
         }
         offset.as_ref().map_or(Ok(()), |offset| point(&key("offset"), offset))?;
     }

@@ -4,7 +4,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::json;
 
-use super::ranges::{LARGEST, not_negative, number};
+use super::ranges::{LARGEST, not_large, not_negative, number};
 use crate::error::{Error, Result};
 
 /// Damping that is made from the reduced matrices, and what damping may do to rigid-body motion.
@@ -181,8 +181,8 @@ fn ratio() -> serde_json::Value {
 
 pub(super) fn validate(damping: &ComponentDampingJob) -> Result<()> {
     if let Some(RayleighJob { mass, stiffness, .. }) = damping.rayleigh {
-        at_most_largest("damping.rayleigh.mass", mass)?;
-        at_most_largest("damping.rayleigh.stiffness", stiffness)?;
+        not_large("damping.rayleigh.mass", mass)?;
+        not_large("damping.rayleigh.stiffness", stiffness)?;
     }
     let listed = |key: &str, n: usize| match n {
         0 => Err(Error::JobEmpty { key: key.to_owned(), expected: "a row at least" }),
@@ -199,7 +199,7 @@ pub(super) fn validate(damping: &ComponentDampingJob) -> Result<()> {
             listed("damping.modal.table", table.len())?;
             for (at, [frequency, ratio]) in table.iter().enumerate() {
                 let key = format!("damping.modal.table[{at}]");
-                at_most_largest(&format!("{key}[0]"), *frequency)?;
+                not_large(&format!("{key}[0]"), *frequency)?;
                 share(&format!("{key}[1]"), *ratio)?;
                 if at > 0 && *frequency <= table[at - 1][0] {
                     return Err(number(format!("{key}[0]"), *frequency, "a frequency above that of the row before"));
@@ -213,9 +213,4 @@ pub(super) fn validate(damping: &ComponentDampingJob) -> Result<()> {
 fn share(key: &str, ratio: f64) -> Result<()> {
     not_negative(key, ratio)?;
     if ratio < 1.0 { Ok(()) } else { Err(number(key.to_owned(), ratio, "a share of critical damping below 1")) }
-}
-
-fn at_most_largest(key: &str, value: f64) -> Result<()> {
-    not_negative(key, value)?;
-    if value <= LARGEST { Ok(()) } else { Err(number(key.to_owned(), value, "a number of at most 1e48")) }
 }

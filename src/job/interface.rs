@@ -158,6 +158,12 @@ word!(sphere, "sphere");
 word!(uniform, "uniform");
 
 impl InterfaceJob {
+    /// An interface that leaves out what may be left out: origin, weights, axes and a choice of dofs.
+    pub fn new(name: impl Into<String>, nodes: NodeSelection, coupling: Coupling) -> Self {
+        let origin = Origin::default();
+        Self { name: name.into(), nodes, coupling, origin, weights: None, axes: None, dofs: None }
+    }
+
     /// What it selects, with the name for messages.
     pub fn selection(&self) -> Selection<'_> {
         Selection {

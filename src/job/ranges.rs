@@ -40,6 +40,12 @@ pub(super) fn not_negative(key: &str, value: f64) -> Result<()> {
     if value.is_finite() && value >= 0.0 { Ok(()) } else { Err(number(key.to_owned(), value, "zero or more")) }
 }
 
+/// A number that is multiplied with others and may be zero.
+pub(super) fn not_large(key: &str, value: f64) -> Result<()> {
+    not_negative(key, value)?;
+    if value <= LARGEST { Ok(()) } else { Err(number(key.to_owned(), value, "a number of at most 1e48")) }
+}
+
 pub(super) fn finite(key: &str, values: &[f64; 3]) -> Result<()> {
     match values.iter().find(|value| !value.is_finite()) {
         Some(value) => Err(number(key.to_owned(), *value, FINITE)),

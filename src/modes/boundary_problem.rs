@@ -238,7 +238,7 @@ mod tests {
     use crate::eigen::{ModeRequest, Wanted, elastic_modes};
     use crate::factor::Cholesky;
     use crate::input::{Digits, Input, MatrixInput};
-    use crate::job::{Coupling, Eigensolver, InterfaceJob, NodeSelection, Origin};
+    use crate::job::{Coupling, Eigensolver, InterfaceJob, NodeSelection};
     use crate::model::Model;
     use crate::random::SEED;
     use crate::rigid;
@@ -267,15 +267,7 @@ mod tests {
             digests: Default::default(),
             notes: Vec::new(),
         };
-        let ends = InterfaceJob {
-            name: "ends".into(),
-            nodes: NodeSelection::Rows { rows: vec![0, n - 1] },
-            coupling: Coupling::Direct,
-            origin: Origin::Centroid,
-            weights: None,
-            axes: None,
-            dofs: None,
-        };
+        let ends = InterfaceJob::new("ends", NodeSelection::Rows { rows: vec![0, n - 1] }, Coupling::Direct);
         Partition::new(Model::new(input).expect("sound"), &[ends]).expect("sound")
     }
 

@@ -1,22 +1,14 @@
 //! The Sturm count against dense spectra, with the interface held and free, at shifts all over the spectrum.
 
 use supel::factor::count_below;
-use supel::job::{Coupling, InterfaceJob, NodeSelection, Origin};
+use supel::job::{Coupling, InterfaceJob, NodeSelection};
 use supel::partition::Partition;
 use supel_models::*;
 
 use crate::component::partition;
 
 fn interface(nodes: NodeSelection) -> InterfaceJob {
-    InterfaceJob {
-        name: "held".to_owned(),
-        nodes,
-        coupling: Coupling::Direct,
-        origin: Origin::Centroid,
-        weights: None,
-        axes: None,
-        dofs: None,
-    }
+    InterfaceJob::new("held", nodes, Coupling::Direct)
 }
 
 /// Counts at shifts midway between neighbouring eigenvalues, where both spectra leave a gap.

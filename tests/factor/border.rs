@@ -4,7 +4,7 @@ use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef, Side};
 use supel::factor::{Cholesky, ShiftedFactor, Storage, condensed, count_below};
 use supel::input::{Digits, Input, MatrixInput};
-use supel::job::{Coupling, InterfaceJob, NodeSelection, Origin};
+use supel::job::{Coupling, InterfaceJob, NodeSelection};
 use supel::model::Model;
 use supel::partition::Partition;
 use supel::sparse::{AssemblyNotes, SparseMatrix, product};
@@ -40,15 +40,7 @@ fn partition(matrix: &SparseMatrix, mass: impl Fn(usize) -> f64, interface: &[us
         notes: Vec::new(),
     };
     let nodes = NodeSelection::Rows { rows: interface.to_vec() };
-    let interface = InterfaceJob {
-        name: "border".to_owned(),
-        nodes,
-        coupling: Coupling::Direct,
-        origin: Origin::Centroid,
-        weights: None,
-        axes: None,
-        dofs: None,
-    };
+    let interface = InterfaceJob::new("border", nodes, Coupling::Direct);
     Partition::new(Model::new(input).expect("a model"), &[interface]).expect("a partition")
 }
 

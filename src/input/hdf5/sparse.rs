@@ -2,16 +2,19 @@
 
 use std::path::Path;
 
+use supel_runtime::Symmetry;
+
 use super::convention::Convention;
 use super::file::{H5, with_memory};
 use super::search::find_matrix;
 use crate::error::{Error, Result};
 use crate::input::file_start::FileStart;
+use crate::input::further_matrix::first_breach;
 use crate::input::hdf5::group::Group;
 use crate::input::unsupported_format::{self, Wanted};
 use crate::input::{Allowance, MatrixInput, MatrixRole, digits_of};
 use crate::regular_file::digest;
-use crate::sparse::{Declared, ENTRY_BYTES, ROW_BYTES, SparseMatrix, TRIPLET_BYTES};
+use crate::sparse::{Declared, ENTRY_BYTES, ROW_BYTES, TRIPLET_BYTES};
 
 /// Reads a square sparse matrix from an HDF5 file: MATLAB v7.3 and PETSc (`MATLAB_sparse`, `jc`, `ir`, `data`), anndata,
 /// h5sparse, Exudyn, or plain `data`, `indices`, `indptr`.
@@ -57,21 +60,11 @@ fn read_matrix_once(path: &Path, group: Option<&str>, role: MatrixRole, allowanc
     h5.hold((TRIPLET_BYTES + ENTRY_BYTES) * compressed.values().len() as u64 + ROW_BYTES * n as u64)?;
     let declared = if role == MatrixRole::Further { Declared::Whole } else { Declared::General };
     let (matrix, notes) = compressed.into_triplets(h5.path())?.assemble(n, declared, h5.path())?;
-    if role == MatrixRole::Further && !convention.tells_rows_from_columns() {
-        refuse_unsymmetric(&matrix, h5.path(), group.name())?;
+    // It would be another matrix with its rows taken for columns.
+    let is_ambiguous = role == MatrixRole::Further && !convention.tells_rows_from_columns();
+    if is_ambiguous && first_breach(&matrix, Symmetry::Symmetric).is_some() {
+        return Err(Error::Hdf5Orientation { path: h5.path().to_owned(), group: group.name().to_owned() });
     }
     h5.keep(ENTRY_BYTES * matrix.nnz() as u64 + ROW_BYTES * n as u64)?;
     Ok(MatrixInput { matrix, notes, digits, path: path.to_owned(), digest: digest(path)? })
-}
-
-/// Refuses a matrix that would be another one with its rows taken for columns.
-fn refuse_unsymmetric(matrix: &SparseMatrix, path: &Path, group: &str) -> Result<()> {
-    let transposed = matrix.transpose_view().to_csr();
-    let differs = |(value, (row, col)): (&f64, (u32, u32))| {
-        *value != transposed.get(row as usize, col as usize).copied().unwrap_or(0.0)
-    };
-    match matrix.iter().any(differs) {
-        true => Err(Error::Hdf5Orientation { path: path.to_owned(), group: group.to_owned() }),
-        false => Ok(()),
-    }
 }

@@ -16,7 +16,7 @@ use supel::error::Error;
 use supel::factor::Cholesky;
 use supel::input::{Digits, Input, MatrixInput};
 pub use supel::job::Method;
-use supel::job::{Boundary, Coupling, Eigensolver, InterfaceJob, ModeSelection, NodeSelection, Origin, ReductionJob};
+use supel::job::{Boundary, Coupling, Eigensolver, InterfaceJob, ModeSelection, NodeSelection, ReductionJob};
 use supel::model::Model;
 use supel::modes::{Component, Retained};
 use supel::partition::{self, Partition};
@@ -87,15 +87,7 @@ pub fn rows(name: &str, rows: &[usize]) -> InterfaceJob {
 
 /// An interface with the centroid as origin and all dofs.
 pub fn interface(name: &str, nodes: NodeSelection, coupling: Coupling) -> InterfaceJob {
-    InterfaceJob {
-        name: name.to_owned(),
-        nodes,
-        coupling,
-        origin: Origin::Centroid,
-        weights: None,
-        axes: None,
-        dofs: None,
-    }
+    InterfaceJob::new(name, nodes, coupling)
 }
 
 /// Everything the stages handed on.

@@ -69,6 +69,12 @@ fn entry(matrix: &mut Matrix, at: (usize, usize), factor: f64) -> bool {
     is_there
 }
 
+/// The first further matrix of a kind.
+fn first_of_kind<'a>(tensors: &'a mut Tensors, metadata: &Metadata, kind: MatrixKind) -> Option<&'a mut Matrix> {
+    let at = metadata.matrices.iter().position(|matrix| matrix.kind == kind)?;
+    tensors.matrices.get_mut(at)
+}
+
 /// The largest entry of some columns of a matrix.
 fn largest_in(matrix: &Matrix, rows: std::ops::Range<usize>, cols: std::ops::Range<usize>) -> Option<(usize, usize)> {
     let places = rows.flat_map(|i| cols.clone().map(move |j| (i, j)));
@@ -571,8 +577,7 @@ pub(super) const ALTERATIONS: &[Alteration] = &[
         field: "matrices",
         what: "an entry of a damping matrix changed",
         alter: |t, m| {
-            let found = m.matrices.iter().position(|matrix| matrix.kind == MatrixKind::Damping);
-            let Some(matrix) = found.map(|at| &mut t.matrices[at]) else { return false };
+            let Some(matrix) = first_of_kind(t, m, MatrixKind::Damping) else { return false };
             largest_in(matrix, 0..matrix.rows(), 0..matrix.cols()).is_some_and(|at| entry(matrix, at, SLIGHTLY))
         },
     },
@@ -580,8 +585,7 @@ pub(super) const ALTERATIONS: &[Alteration] = &[
         field: "matrices",
         what: "a skew matrix turned over",
         alter: |t, m| {
-            let found = m.matrices.iter().position(|matrix| matrix.kind == MatrixKind::Gyroscopic);
-            let Some(matrix) = found.map(|at| &mut t.matrices[at]) else { return false };
+            let Some(matrix) = first_of_kind(t, m, MatrixKind::Gyroscopic) else { return false };
             *matrix = Matrix::from_fn(matrix.rows(), matrix.cols(), |i, j| matrix[(j, i)]);
             true
         },
