@@ -201,7 +201,16 @@ pub fn least_squares(a: MatRef<'_, f64>, f: MatRef<'_, f64>) -> Mat<f64> {
 
 /// A⁻¹ of a small regular matrix.
 pub fn inverse(a: MatRef<'_, f64>) -> Mat<f64> {
-    a.partial_piv_lu().solve(Mat::<f64>::identity(a.nrows(), a.nrows()))
+    divided(Mat::<f64>::identity(a.nrows(), a.nrows()).as_ref(), a)
+}
+
+/// B A⁻¹ of a small regular matrix A, its columns brought to one size first: pivots are then chosen by what is left of a column, whatever
+/// the sizes of the others.
+pub fn divided(b: MatRef<'_, f64>, a: MatRef<'_, f64>) -> Mat<f64> {
+    let largest = |j: usize| column(a, j).iter().fold(0.0f64, |max, value| max.max(value.abs()));
+    let scale: Vec<f64> = (0..a.ncols()).map(|j| power_of_two_root(largest(j).powi(2))).collect();
+    let scaled = |x: MatRef<'_, f64>| Mat::from_fn(x.ncols(), x.nrows(), |i, j| x[(j, i)] * scale[i]);
+    scaled(a).partial_piv_lu().solve(scaled(b)).transpose().to_owned()
 }
 
 /// |A|, entry by entry.

@@ -1656,7 +1656,7 @@ pub enum Error {
         /// What was found, in words.
         found: &'static str,
     },
-    /// Damping resists motion of a free component as a whole.
+    /// Damping resists a rigid-body motion, one of those that are free.
     #[entry(
         "E-DAMPING-RIGID",
         ModelPhysics,
@@ -1664,8 +1664,8 @@ pub enum Error {
         `damping.rigid_motion = \"resist\"`"
     )]
     #[error(
-        "damping resists rigid-body motion of the free component – found {found} – expected none, because nothing inside a body resists \
-        its motion as a whole – {remedy}, or say `damping.rigid_motion = \"resist\"` where that is meant"
+        "damping resists a motion in which nothing deforms – found {found} – expected none, because nothing inside a body resists its \
+        motion as a whole – {remedy}, or say `damping.rigid_motion = \"resist\"` where that is meant"
     )]
     DampingRigid {
         /// What resists which motion, and where.

@@ -6,10 +6,10 @@ use supel_runtime::{Coordinate, Superelement};
 use super::version::kept_job;
 use crate::dense::{self, NOISE_FACTOR, unpacked};
 use crate::eigen::eigenvalue_beyond;
+use crate::eigen::elastic_scale;
 use crate::error::Result;
 use crate::job::{Boundary, Job};
 use crate::verification::check::Limits;
-use crate::verification::elastic::elastic_scale;
 use crate::verification::limits::{self, Judged, Known, LARGEST_EXCUSE};
 
 /// A superelement with its matrices unpacked.

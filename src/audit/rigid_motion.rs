@@ -158,8 +158,8 @@ pub(super) fn zero_modes(content: &Content<'_>) -> Result<Check> {
 /// λ up to which a motion of unit modal mass costs no energy, by the criterion of the reduction: K̂ of a file has double precision.
 fn zero_level(content: &Content<'_>, v: &[f64]) -> f64 {
     let r = content.n_reduced();
-    let stiffness: Vec<f64> = (0..r).map(|i| dense::power_of_two_root(content.k[(i, i)])).collect();
-    let norms = Equilibrated::of_dense(content.k.as_ref(), content.m.as_ref(), stiffness);
+    // Where one patch holds the component, K̂_ii of its node is rounding, and no unit for the entries next to it.
+    let norms = Equilibrated::of_dense(content.k.as_ref(), content.m.as_ref(), content.scale.clone());
     let row = |i: usize| (0..r).map(|j| (content.k[(i, j)] * v[j]).abs()).sum::<f64>();
     let terms: f64 = (0..r).map(|i| v[i].abs() * row(i)).sum();
     let floor = norms.stiffness_norm * norms.scaled_norm(v).powi(2);

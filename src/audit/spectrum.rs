@@ -5,11 +5,11 @@ use faer::{Mat, MatRef};
 use super::content::Content;
 use crate::dense;
 use crate::eigen::eigenvalues;
+use crate::eigen::sharpen;
 use crate::error::Result;
 use crate::job::Boundary;
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::{Judged, n_nearly_free};
-use crate::verification::pencil::sharpen;
 
 /// The eigenvalues that the checks need.
 pub(super) struct Spectrum {

@@ -18,8 +18,10 @@ const LARGEST_ROUNDING: f64 = 1e-3;
 pub struct Damping {
     /// Ĉ, r × r, in the user's units.
     pub matrix: Mat<f64>,
-    /// What each entry is made from: Σ|ΨᵀCΨ|_ij + √(L_ii L_jj) with L the part that is made of K̂ and M̂, r × r.
+    /// What each entry is made from: Σ|ΨᵀCΨ|_ij + √(L_ii L_jj) with L the part that is made of K̂ and M̂, rigid-body motion in it, r × r.
     pub sizes: Mat<f64>,
+    /// β, the share of K̂ in it.
+    pub stiffness_share: f64,
     /// What rounding may make of an entry, relative to its size.
     pub rounding: f64,
     /// Whether it may resist rigid-body motion.
@@ -62,14 +64,16 @@ impl Damping {
         let law = job.damping.as_ref().map(|damping| Law::of(damping, reduced)).transpose()?.flatten();
         let spread = law.as_ref().map_or(1.0, |law| law.spread);
         if let Some(law) = law {
-            let size = |i: usize| law.matrix[(i, i)].max(0.0).sqrt();
-            sizes += Mat::from_fn(r, r, |i, j| size(i) * size(j));
+            let ends: Vec<f64> = law.sizes.iter().map(|size| size.max(0.0).sqrt()).collect();
+            sizes += Mat::from_fn(r, r, |i, j| ends[i] * ends[j]);
             matrix += law.matrix;
             is_there = true;
         }
         // An eigenvalue is known to ε of the largest one, and its share in Ĉ with it.
         let rounding = dense::NOISE_FACTOR * r as f64 * f64::EPSILON * spread;
         let rounding = rounding.min(LARGEST_ROUNDING);
-        Ok(is_there.then(|| Self { matrix, sizes, rounding, rigid_motion: job.rigid_motion() }))
+        let rayleigh = job.damping.as_ref().and_then(|damping| damping.rayleigh);
+        let (stiffness_share, rigid_motion) = (rayleigh.map_or(0.0, |rayleigh| rayleigh.stiffness), job.rigid_motion());
+        Ok(is_there.then(|| Self { matrix, sizes, stiffness_share, rounding, rigid_motion }))
     }
 }

@@ -10,7 +10,7 @@ use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef};
 
 use crate::dense;
-use crate::eigen::{eigenpairs, eigenvalue_beyond, lowest_ratio};
+use crate::eigen::{eigenpairs, eigenvalue_beyond, elastic_scale};
 use crate::error::{Error, Result};
 use crate::job::{ComponentDampingJob, MassActsOn, ModalDampingJob};
 
@@ -29,6 +29,8 @@ pub struct Reduced<'a> {
 pub(super) struct Law {
     /// Symmetric to the bit, r × r.
     pub(super) matrix: Mat<f64>,
+    /// What entry (i, i) is a sum of, before rigid-body motion is taken from it.
+    pub(super) sizes: Vec<f64>,
     /// The largest eigenvalue over the first elastic one where modes are damped, one elsewhere.
     pub(super) spread: f64,
 }
@@ -40,8 +42,10 @@ impl Law {
             return Ok(None);
         }
         let Reduced { stiffness: k, mass: m, .. } = reduced;
-        let mut law = Self { matrix: Mat::zeros(k.nrows(), k.nrows()), spread: 1.0 };
+        let mut law = Self { matrix: Mat::zeros(k.nrows(), k.nrows()), sizes: vec![0.0; k.nrows()], spread: 1.0 };
         if let Some(rayleigh) = job.rayleigh {
+            let size = |i: usize| rayleigh.mass * m[(i, i)] + rayleigh.stiffness * k[(i, i)];
+            law.sizes = (0..k.nrows()).map(size).collect();
             let inertia = match rayleigh.mass_acts_on {
                 MassActsOn::Motion => m.to_owned(),
                 MassActsOn::Deformation => elastic_mass(reduced),
@@ -69,7 +73,9 @@ impl Law {
         };
         let factors: Vec<f64> = lambda.iter().enumerate().map(factor).collect();
         let weighted = Mat::from_fn(momenta.nrows(), n_modes, |i, j| momenta[(i, j)] * factors[j]);
-        self.matrix += dense::product(weighted.as_ref(), momenta.transpose());
+        let damping = dense::product(weighted.as_ref(), momenta.transpose());
+        self.sizes.iter_mut().enumerate().for_each(|(i, size)| *size += damping[(i, i)]);
+        self.matrix += damping;
         if let (Some(first), Some(last)) = (lambda.first(), lambda.last()) {
             self.spread = last / first;
         }
@@ -82,7 +88,10 @@ fn elastic_modes(reduced: Reduced<'_>) -> Result<(Vec<f64>, Mat<f64>)> {
     let Reduced { stiffness: k, mass: m, motions } = reduced;
     let (r, n_r) = (k.nrows(), motions.ncols());
     let none = || Ok((Vec::new(), Mat::zeros(r, 0)));
-    let Some(near) = lowest_ratio(k, m) else { return none() };
+    if r <= n_r {
+        return none();
+    }
+    let Some(near) = elastic_scale((k, m, motions))? else { return none() };
     // Near the first elastic eigenvalue rounding is relative to the low ones.
     let pairs = eigenpairs(k, m, eigenvalue_beyond(n_r, (k, m), near)?)?;
     if pairs.values.is_empty() {

@@ -1,7 +1,8 @@
 //! Damping that resists motion of a free component as a whole, on the full model.
 //!
 //! ```text
-//! max_i |C U|_i / (|C||U|)_i      force of a rigid-body motion at a dof, relative to the terms that it is the sum of; Cᵀ likewise
+//! max_i |TᵀCT U|_i / (|T|ᵀ|C||T||U|)_i      force of a rigid-body motion at a dof, relative to the terms that it is the sum of, also
+//!                                           those that cancel inside a patch; Cᵀ likewise
 //! ```
 //! Rounding of the data leaves of such a force what it leaves of K U.
 
@@ -13,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::job::{Job, MassActsOn, RigidMotionDamping};
 use crate::partition::{CarriedMatrix, Partition};
 use crate::rigid::RigidBodyModes;
-use crate::sparse::{SparseMatrix, product_and_terms};
+use crate::sparse::{product, product_and_terms};
 
 /// Share of its terms at which a force is none of rounding, whatever the digits of the data.
 const LARGEST_ROUNDING: f64 = 1e-3;
@@ -36,7 +37,8 @@ pub fn refuse_resistance(job: &Job, partition: &Partition, rigid: &RigidBodyMode
     let u = rigid.modes.as_ref().subcols(0, n_whole).to_owned();
     let Some((forces, rounding)) = Forces::of_damping(&partition.matrices, &u) else { return Ok(()) };
     // What K leaves tells how well the motions are known, and what its digits are worth.
-    let known = Forces::of(&partition.stiffness, &u).worst().0;
+    let (forces_of_k, terms) = product_and_terms(&partition.stiffness, u.as_ref());
+    let known = Forces { forces: forces_of_k, terms }.worst().0;
     let limit = (NOISE_FACTOR * known.max(rounding)).min(LARGEST_ROUNDING);
     let (share, [dof, motion]) = forces.worst();
     if share <= limit {
@@ -59,11 +61,6 @@ struct Forces {
 }
 
 impl Forces {
-    fn of(matrix: &SparseMatrix, u: &Mat<f64>) -> Self {
-        let (forces, terms) = product_and_terms(matrix, u.as_ref());
-        Self { forces, terms }
-    }
-
     /// Of the sum of the damping matrices and of its transpose, the one below the other; and the largest rounding of their entries.
     fn of_damping(matrices: &[CarriedMatrix], u: &Mat<f64>) -> Option<(Self, f64)> {
         let (n, n_u) = u.shape();
@@ -72,13 +69,13 @@ impl Forces {
         for carried in matrices.iter().filter(|carried| carried.facts.kind == MatrixKind::Damping) {
             rounding = Some(carried.facts.rounding.max(rounding.unwrap_or(f64::EPSILON)));
             let transposed = carried.matrix.transpose_view().to_csr();
-            for (at, matrix) in [&carried.matrix, &transposed].into_iter().enumerate() {
-                let part = Self::of(matrix, u);
-                let unit = faer::Scale(carried.facts.unit);
-                let mut forces = sum.forces.as_mut().subrows_mut(at * n, n);
-                forces += part.forces * unit;
-                let mut terms = sum.terms.as_mut().subrows_mut(at * n, n);
-                terms += part.terms * unit;
+            let forces = [&carried.matrix, &transposed].map(|matrix| product(matrix, u.as_ref()));
+            let unit = faer::Scale(carried.facts.unit);
+            for (at, (forces, terms)) in forces.into_iter().zip(carried.sizes_of_forces(u.as_ref())).enumerate() {
+                let mut sums = sum.forces.as_mut().subrows_mut(at * n, n);
+                sums += forces * unit;
+                let mut sums = sum.terms.as_mut().subrows_mut(at * n, n);
+                sums += terms * unit;
             }
         }
         rounding.map(|rounding| (sum, rounding))

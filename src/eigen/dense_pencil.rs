@@ -1,8 +1,8 @@
 //! Eigenpairs of a small dense pencil.
 
-use faer::{Mat, MatRef, Side};
+use faer::{Mat, MatRef};
 
-use crate::dense;
+use super::spectral::Spectral;
 use crate::error::Result;
 
 /// Eigenpairs of a dense pencil: as many values as M has rank.
@@ -13,28 +13,12 @@ pub(crate) struct DensePairs {
     pub(crate) vectors: Mat<f64>,
 }
 
-/// Eigenpairs of K x = λ M x by the definite matrix K + αM: of M x = θ (K + αM) x, λ = 1/θ − α. With α near the first
-/// elastic eigenvalue rounding is relative to the low eigenvalues.
+/// Eigenpairs of K x = λ M x by the definite matrix K + αM, as [`Spectral`] finds them. With α near the first elastic eigenvalue
+/// rounding is relative to the low eigenvalues.
 pub(crate) fn eigenpairs(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Result<DensePairs> {
-    let n = k.nrows();
-    let shifted = Mat::from_fn(n, n, |i, j| k[(i, j)] + alpha * m[(i, j)]);
-    let d: Vec<f64> = (0..n).map(|i| dense::power_of_two_root(shifted[(i, i)])).collect();
-    let scaled = |a: MatRef<'_, f64>| Mat::from_fn(n, n, |i, j| a[(i, j)] * d[i] * d[j]);
-    let Ok(factor) = scaled(shifted.as_ref()).llt(Side::Lower) else {
-        return Ok(DensePairs { values: Vec::new(), vectors: Mat::zeros(n, 0) });
-    };
-    let l = factor.L();
-    let mut c = dense::standard_form(l, scaled(m));
-    dense::symmetrise(&mut c);
-    let (theta, w) = dense::symmetric_eigen(c.as_ref())?;
-    let largest = theta.last().copied().unwrap_or(0.0);
-    let kept: Vec<usize> = (0..n).rev().filter(|j| theta[*j] > f64::EPSILON * largest).collect();
-    let mut vectors = Mat::from_fn(n, kept.len(), |i, j| w[(i, kept[j])] / theta[kept[j]].sqrt());
-    faer::linalg::triangular_solve::solve_upper_triangular_in_place(l.transpose(), vectors.as_mut(), faer::Par::Seq);
-    for j in 0..vectors.ncols() {
-        dense::column_mut(vectors.as_mut(), j).iter_mut().zip(&d).for_each(|(value, d)| *value *= d);
-    }
-    Ok(DensePairs { values: kept.iter().map(|j| 1.0 / theta[*j] - alpha).collect(), vectors })
+    let spectral = Spectral::if_definite(k, m, alpha)?;
+    let (values, vectors) = spectral.map_or_else(|| (Vec::new(), Mat::zeros(k.nrows(), 0)), |s| s.lowest(usize::MAX));
+    Ok(DensePairs { values, vectors })
 }
 
 /// The eigenvalues of [`eigenpairs`].

@@ -8,8 +8,9 @@
 //!
 //! - Values that are all single precision numbers, or texts of such, are single precision: 7, see [`super::single_precision`].
 //! - d is the number of digits that 99 of 100 sampled values do not exceed. With d above 15 the data are binary: 17.
-//! - d from 7 to 15 is taken as the precision of the source where there are three different values, unless they are exact by design: sums
-//!   of short numbers, or multiples of a half, a quarter or an eighth, see [`super::exact`].
+//! - d from 7 to 15 is taken as the precision of the source where three different values have more than six digits, unless they are exact
+//!   by design: sums of short numbers, or multiples of a half, a quarter or an eighth, see [`super::exact`]. One or two such values among
+//!   short ones are what a soft spring makes of them.
 //! - d up to 6 is otherwise a source of that few digits only if the values look rounded *relative to their size*: many different
 //!   ones, over more than a decade, where those of the lower decades need d digits as often as those of the highest.
 //! - Values in fixed point, such as `%.4f`, have one last decimal and digits by their size. D is the number of decimals that 99 of 100
@@ -148,7 +149,7 @@ pub fn digits_of(values: &[f64]) -> Digits {
     let distinct: BTreeSet<Decimal> = sample.iter().map(|sampled| sampled.decimal).collect();
     let is_of_few = match digits {
         _ if digits <= MAX_EXACT_DIGITS => is_rounded(&distinct, digits),
-        _ if digits <= MAX_DECIMAL_DIGITS => n_mantissas(&distinct) >= MIN_DISTINCT && !is_exact(&distinct, digits),
+        _ if digits <= MAX_DECIMAL_DIGITS => n_long(&distinct) >= MIN_DISTINCT && !is_exact(&distinct, digits),
         _ => false,
     };
     let relative = if is_of_few { Digits::relative(digits) } else { Digits::DOUBLE };
@@ -171,8 +172,10 @@ fn spread(values: &[f64]) -> impl Iterator<Item = f64> {
     (0..n_sampled).map(move |k| values[(k as u128 * values.len() as u128 / n_sampled as u128) as usize])
 }
 
-fn n_mantissas(distinct: &BTreeSet<Decimal>) -> usize {
-    distinct.iter().map(|decimal| decimal.mantissa).collect::<BTreeSet<_>>().len()
+/// Different values that short numbers are not.
+fn n_long(distinct: &BTreeSet<Decimal>) -> usize {
+    let long = distinct.iter().filter(|decimal| decimal.n_digits > MAX_EXACT_DIGITS);
+    long.map(|decimal| decimal.mantissa).collect::<BTreeSet<_>>().len()
 }
 
 /// Whether numbers of at most `digits` digits look rounded relative to their size: below the highest decade, too, most
@@ -293,6 +296,9 @@ mod tests {
     #[test]
     fn one_long_constant_is_no_rounding() {
         assert_eq!(digits_of(&[1_234_567.5, -1_234_567.5, 2_469_135.0]), Digits::DOUBLE);
+        // Springs of thousands, and one of 0.005 to the ground.
+        let springs = [1000.0, 2000.0, 1500.0, 3000.0, 1200.0, 3500.0, 2500.0, 4000.0, 4500.005, -1500.0, -3000.0];
+        assert_eq!(digits_of(&springs), Digits::DOUBLE);
     }
 
     /// Sizes from the last decimal up to more digits than a double has.

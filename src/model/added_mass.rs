@@ -45,7 +45,31 @@ pub fn add_masses(input: &mut Input, masses: &[AddedMassJob]) -> Result<Vec<Stri
     let (n, path) = (input.mass.matrix.rows(), input.mass.path.clone());
     let (added, _) = added.assemble(n, Declared::Whole, &path)?;
     input.mass.matrix = sprs::binop::csmat_binop(input.mass.matrix.view(), added.view(), |a, b| a + b);
-    Ok(masses.iter().map(|job| format!("mass added at node {}: {}", job.node, number::quantity(job.mass, 5))).collect())
+    masses.iter().map(in_words).collect()
+}
+
+/// What was added, as the report has it. A disc may be given by its polar inertia alone, and that is no inertia of a rigid body.
+fn in_words(job: &AddedMassJob) -> Result<String> {
+    /// What few digits of three moments leave of the inequality that those of a plate fulfil with a sign of equality.
+    const DIGITS: f64 = 1e-2;
+    let mass = match job.mass {
+        0.0 => format!("inertia without mass added at node {}", job.node),
+        mass => format!("mass added at node {}: {}", job.node, number::quantity(mass, 5)),
+    };
+    let Some(inertia) = job.inertia.filter(|inertia| inertia.iter().any(|value| *value != 0.0)) else {
+        return Ok(mass);
+    };
+    let principal = dense::symmetric_eigen(tensor(inertia).as_ref())?.0;
+    let [least, middle, most] = [0, 1, 2].map(|axis| principal[axis].max(0.0));
+    let list = [least, middle, most].map(|value| number::quantity(value, 5)).join(", ");
+    let is_of_body = most <= (1.0 + DIGITS) * (least + middle);
+    let doubt = if is_of_body { "" } else { ", which no rigid body has: one is above the sum of the others" };
+    Ok(format!("{mass} · principal inertias {list}{doubt}"))
+}
+
+/// The symmetric matrix of xx, yy, zz, xy, yz, zx.
+fn tensor([xx, yy, zz, xy, yz, zx]: [f64; 6]) -> Mat<f64> {
+    Mat::from_fn(3, 3, |i, j| [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]][i][j])
 }
 
 /// Rows of the dofs of the node.
@@ -65,8 +89,7 @@ fn rows_of(input: &Input, job: &AddedMassJob) -> Result<BTreeMap<Direction, u32>
 /// The mass matrix of one mass.
 fn block(job: &AddedMassJob) -> Result<Mat<f64>> {
     let (m, [x, y, z]) = (job.mass, job.offset.unwrap_or_default());
-    let [xx, yy, zz, xy, yz, zx] = job.inertia.unwrap_or_default();
-    let inertia = Mat::from_fn(3, 3, |i, j| [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]][i][j]);
+    let inertia = tensor(job.inertia.unwrap_or_default());
     let least = dense::symmetric_eigen(inertia.as_ref())?.0[0];
     // A plate has no inertia to spare in one direction, and rounding may leave less than none.
     if least < -8.0 * f64::EPSILON * inertia.norm_max() {

@@ -3,18 +3,21 @@
 //! ```text
 //! A       n × n      as it was read, symmetric or not, without the rows that were dropped
 //! TᵀAT    n' × n'    held dofs are at rest, and rows of a patch follow its node
+//! |T|ᵀ|A||T|         what the entries are sums of: those of a patch may cancel
 //! ```
 //! Each is kept with its largest entry in [1, 2).
 
+use faer::{Mat, MatRef};
 use supel_runtime::{MatrixKind, NamedMatrix, Symmetry};
 
 use super::congruence::general_congruence;
 use super::interface::row_of_model;
 use super::transformation::Transformation;
+use super::transformation_row::TransformationRow;
 use crate::error::{Error, Result, Selector};
 use crate::input::FurtherMatrix;
 use crate::model::{Model, rounding_of};
-use crate::sparse::SparseMatrix;
+use crate::sparse::{SparseMatrix, absolute_product};
 
 /// Exponents of the largest entry in the user's units: products of two such numbers with squares of shapes are numbers.
 const EXPONENTS: std::ops::RangeInclusive<i32> = -400..=400;
@@ -26,6 +29,8 @@ pub struct CarriedMatrix {
     pub facts: MatrixFacts,
     /// TᵀAT in its unit, n' × n'. Of a symmetric or skew A it is so up to rounding.
     pub matrix: SparseMatrix,
+    /// |T|ᵀ|A||T|, where an entry may be a sum.
+    sizes: Option<SparseMatrix>,
 }
 
 /// What is remembered of a further matrix.
@@ -106,13 +111,23 @@ impl CarriedMatrix {
     /// # Errors
     /// [`Error::MatrixNothing`] where a matrix is zero on the dofs that move.
     pub fn carried(matrices: Vec<RowMatrix>, transformation: &Transformation) -> Result<Vec<Self>> {
-        let of_row = |RowMatrix { facts, matrix }: RowMatrix| {
-            let matrix = general_congruence(&matrix, transformation);
-            match matrix.data().iter().all(|value| *value == 0.0) {
-                true => Err(Error::MatrixNothing { matrix: facts.name, found: "all of it on held dofs" }),
-                false => Ok(Self { facts, matrix }),
+        let has_sums = transformation.rows.iter().any(|row| matches!(row, TransformationRow::Tied(_)));
+        let moduli = has_sums.then(|| transformation.of_moduli());
+        let of_row = |RowMatrix { facts, matrix: mut of_rows }: RowMatrix| {
+            let matrix = general_congruence(&of_rows, transformation);
+            if matrix.data().iter().all(|value| *value == 0.0) {
+                return Err(Error::MatrixNothing { matrix: facts.name, found: "all of it on held dofs" });
             }
+            of_rows.data_mut().iter_mut().for_each(|value| *value = value.abs());
+            let sizes = moduli.as_ref().map(|moduli| general_congruence(&of_rows, moduli));
+            Ok(Self { facts, matrix, sizes })
         };
         matrices.into_iter().map(of_row).collect()
+    }
+
+    /// What the forces A u and Aᵀu of motions are sums of, relative to its unit: |T|ᵀ|A||T||u| and |T|ᵀ|Aᵀ||T||u|, n' × n_u each.
+    pub(crate) fn sizes_of_forces(&self, u: MatRef<'_, f64>) -> [Mat<f64>; 2] {
+        let sizes = self.sizes.as_ref().unwrap_or(&self.matrix);
+        [absolute_product(sizes, u), absolute_product(&sizes.transpose_view().to_csr(), u)]
     }
 }

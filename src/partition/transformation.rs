@@ -112,6 +112,17 @@ impl Transformation {
         self.dofs.iter().take_while(|dof| !dof.is_interface).count()
     }
 
+    /// |T|.
+    pub(super) fn of_moduli(&self) -> Self {
+        let mut moduli = self.clone();
+        for row in &mut moduli.rows {
+            if let TransformationRow::Tied(entries) = row {
+                entries.iter_mut().for_each(|(_, factor)| *factor = factor.abs());
+            }
+        }
+        moduli
+    }
+
     /// This transformation with dof `order[k]` moved to place k.
     pub(super) fn permuted(self, order: &[u32]) -> Self {
         let mut place = vec![0u32; order.len()];

@@ -4,10 +4,10 @@ use faer::{Mat, MatRef};
 
 use super::check::{Check, Limits};
 use super::evidence::{Evidence, coordinate_name, coordinate_scales};
-use super::pencil::scaled_by;
 use crate::basis::DynamicCoordinate;
 use crate::dense;
 use crate::eigen::Equilibrated;
+use crate::eigen::scaled_by;
 use crate::error::Result;
 use crate::factor::SolveOperator;
 use crate::rigid::ILL_CONDITIONED;

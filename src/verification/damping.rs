@@ -2,9 +2,11 @@
 //!
 //! ```text
 //! D = diag(1/√(K̂ + λ₁M̂)_ii)                 S = D Ĉ D
-//! max ‖D Ĉû‖ / (max |S| ‖D⁻¹û‖)             force of rigid-body motion, as M-12 measures that of the stiffness
-//! −min λ(S + Sᵀ) / max(|λ(S + Sᵀ)|, 2|S|)   what damping puts into a motion, relative to what it takes from another
+//! s = β + max DTD                           T_ij what Ĉ_ij is a sum of, β K̂ counted as β (K̂ + λ₁M̂)
+//! max ‖D Ĉû‖ / (s ‖D⁻¹û‖)                   force of rigid-body motion, as M-12 measures that of the stiffness
+//! −min λ(S + Sᵀ) / max(|λ(S + Sᵀ)|, 2s)     what damping puts into a motion, relative to what it takes from another
 //! ```
+//! Where nothing deforms, Ĉ is the rounding of terms that cancel, and its own entries are no unit for its forces.
 
 use faer::{Mat, MatRef};
 use supel_runtime::MatrixKind;
@@ -17,13 +19,17 @@ use crate::dense;
 use crate::error::Result;
 use crate::job::RigidMotionDamping;
 use crate::reduction::panel_of;
-use crate::sparse::{absolute_product, panels};
+use crate::sparse::panels;
 
 /// A damped component in units of its own.
 #[derive(Clone, Copy)]
 pub(crate) struct Damped<'a> {
     /// Ĉ, r × r.
     pub(crate) damping: MatRef<'a, f64>,
+    /// T, what each entry is a sum of, r × r.
+    pub(crate) sizes: MatRef<'a, f64>,
+    /// β.
+    pub(crate) stiffness_share: f64,
     /// K̂, r × r.
     pub(crate) stiffness: MatRef<'a, f64>,
     /// M̂, r × r.
@@ -44,16 +50,21 @@ impl Damped<'_> {
         (0..self.stiffness.nrows()).map(|i| if size(i) > 0.0 { 1.0 / size(i).sqrt() } else { 1.0 }).collect()
     }
 
-    /// S. One product of both scales, so that a skew matrix stays skew to the bit.
-    fn scaled(&self) -> Mat<f64> {
+    /// DAD. One product of both scales, so that a skew matrix stays skew to the bit.
+    fn scaled(&self, a: MatRef<'_, f64>) -> Mat<f64> {
         let (r, scales) = (self.stiffness.nrows(), self.scales());
-        Mat::from_fn(r, r, |i, j| self.damping[(i, j)] * (scales[i] * scales[j]))
+        Mat::from_fn(r, r, |i, j| a[(i, j)] * (scales[i] * scales[j]))
     }
 
-    /// The largest force on a motion of the body as a whole, relative to the largest entry of S and to the size of the motion, with the
-    /// motion and the coordinate.
+    /// s.
+    fn size(&self) -> f64 {
+        self.stiffness_share + self.scaled(self.sizes).norm_max()
+    }
+
+    /// The largest force on a motion of the body as a whole, relative to s and to the size of the motion, with the motion and the
+    /// coordinate.
     fn relative_force(&self, forces: MatRef<'_, f64>) -> (f64, Option<[usize; 2]>) {
-        let (scales, largest) = (self.scales(), self.scaled().norm_max());
+        let (scales, largest) = (self.scales(), self.size());
         let mut worst = (0.0, None);
         for motion in 0..self.motions.ncols().min(WHOLE) {
             let scaled = |v: &[f64], by: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
@@ -86,7 +97,7 @@ pub(crate) fn checks(
         RigidMotionDamping::Resist => Judged { limits: Limits::NONE, fail_above: f64::INFINITY },
     };
     let resistance = (damped.motions.ncols() > 0).then(|| resistance(damped, judged, name));
-    Ok(resistance.into_iter().chain([energy(&damped.scaled())?]).collect())
+    Ok(resistance.into_iter().chain([energy(damped)?]).collect())
 }
 
 fn resistance(
@@ -101,7 +112,7 @@ fn resistance(
     Check {
         id: "M-28",
         name: "damping leaves rigid-body motion alone",
-        equation: "max ‖ĈÛ‖, ‖ĈᵀÛ‖ / (max |Ĉ| ‖Û‖), in scales of K̂ + λ₁M̂",
+        equation: "max ‖ĈÛ‖, ‖ĈᵀÛ‖ / (s ‖Û‖), s = max of the terms of Ĉ, in scales of K̂ + λ₁M̂",
         value: worst.0,
         limits,
         fail_above,
@@ -110,19 +121,20 @@ fn resistance(
 }
 
 /// Damping that drives a motion is possible, as that of a fluid, and rarely meant: it warns.
-fn energy(scaled: &Mat<f64>) -> Result<Check> {
+fn energy(damped: Damped<'_>) -> Result<Check> {
     /// What digits of single precision leave of a damping that takes nothing.
     const DIGITS: f64 = 1e-6;
+    let scaled = damped.scaled(damped.damping);
     let r = scaled.nrows();
     let sum = Mat::from_fn(r, r, |i, j| scaled[(i, j)] + scaled[(j, i)]);
     let (values, _) = dense::symmetric_eigen(sum.as_ref())?;
     // Of a skew matrix nothing is left but rounding.
-    let largest = values.iter().fold(2.0 * scaled.norm_max(), |max, value| max.max(value.abs()));
+    let largest = values.iter().fold(2.0 * damped.size(), |max, value| max.max(value.abs()));
     let least = values.first().copied().unwrap_or(0.0).min(0.0);
     Ok(Check {
         id: "M-28",
         name: "damping takes energy from every motion",
-        equation: "−min λ / max(|λ|, 2|Ĉ|), λ of Ĉ + Ĉᵀ in scales of K̂ + λ₁M̂",
+        equation: "−min λ / max(|λ|, 2s), λ of Ĉ + Ĉᵀ in scales of K̂ + λ₁M̂, s = max of the terms of Ĉ",
         value: if largest > 0.0 { -least / largest } else { 0.0 },
         limits: Limits { engineering: DIGITS, ..Limits::default() },
         fail_above: Check::NEVER,
@@ -139,6 +151,8 @@ pub(super) fn of_reduction(evidence: &Evidence<'_>, disturbance: &Disturbance) -
     let model = evidence.reduction.in_user_units(evidence.partition);
     let damped = Damped {
         damping: damping.matrix.as_ref(),
+        sizes: damping.sizes.as_ref(),
+        stiffness_share: damping.stiffness_share,
         stiffness: model.stiffness.as_ref(),
         mass: model.mass.as_ref(),
         motions: model.rigid_body_modes.as_ref(),
@@ -152,14 +166,14 @@ pub(super) fn of_reduction(evidence: &Evidence<'_>, disturbance: &Disturbance) -
     checks(damped, (judged, damping.rigid_motion), &name)
 }
 
-/// Σ ρ|Ψ|ᵀ(|C| + |Cᵀ|)|U| over the damping matrices, r × n_r, in the user's units: what their digits, to a share ρ, may make of forces.
+/// Σ ρ|Ψ|ᵀ|T|ᵀ(|C| + |Cᵀ|)|T||U| over the damping matrices, r × n_r, in the user's units: what their digits, to a share ρ, may make of forces.
 fn rounding_of_forces(evidence: &Evidence<'_>) -> Mat<f64> {
     let (partition, u) = (evidence.partition, evidence.rigid.modes.as_ref());
     let (n_b, shape) = (partition.n_interface(), partition.scaling.shape_unit());
     let mut terms = Mat::zeros(u.nrows(), u.ncols());
     for carried in partition.matrices.iter().filter(|carried| carried.facts.kind == MatrixKind::Damping) {
-        let both =
-            absolute_product(&carried.matrix, u) + absolute_product(&carried.matrix.transpose_view().to_csr(), u);
+        let [forces, made] = carried.sizes_of_forces(u);
+        let both = forces + made;
         terms += both * faer::Scale(carried.facts.unit * carried.facts.rounding);
     }
     let r = evidence.basis.n_reduced();

@@ -11,9 +11,9 @@ use faer::{Mat, MatRef};
 
 use super::check::{Check, Limits};
 use super::evidence::{Evidence, coordinate_scales, rigid_name};
-use super::pencil::scaled_by;
 use super::spectrum::{Spectrum, zero_level};
 use crate::dense;
+use crate::eigen::scaled_by;
 use crate::error::Result;
 
 /// M_F by each route, in scaled units.

@@ -1,7 +1,6 @@
 //! Rigid-body motion passes through the model, the basis and the reduced stiffness: M-05, M-11, M-12.
 
 use super::check::{Check, Limits};
-use super::elastic::elastic_scale;
 use super::evidence::{Evidence, coordinate_name, reduced_norms, rigid_name, share_of_data};
 use super::force;
 use super::grounding::{Grounding, Restraint};
@@ -10,6 +9,7 @@ use super::residual::Worst;
 use super::spectrum::{NOT_FREE, Spectrum, zero_level};
 use crate::constraint::rigid_error;
 use crate::dense::{self, NOISE_FACTOR};
+use crate::eigen::elastic_scale;
 use crate::error::Result;
 
 /// M-05, energy. The value is shown and not judged where no elastic mode is known to compare it with.

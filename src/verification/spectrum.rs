@@ -3,11 +3,11 @@
 use faer::{Mat, MatRef};
 
 use super::check::Limits;
-use super::elastic::elastic_scale;
 use super::evidence::{Evidence, coordinate_scales, data_noise};
 use super::limits::{GROUNDED, n_nearly_free};
-use super::pencil::{Spectral, scaled_by, sharpen};
 use crate::dense;
+use crate::eigen::elastic_scale;
+use crate::eigen::{Spectral, scaled_by, sharpen};
 use crate::eigen::{rayleigh_quotients, zero};
 use crate::error::Result;
 use crate::job::Boundary;

@@ -115,3 +115,38 @@ fn masses_that_cannot_be_added() {
         case.run(FOOT_AND_HUB, CRAIG_BAMPTON, "added_mass = [{ node = 23, mass = -1 }]").expect(ExitCode::Usage);
     assert!(ended.err.contains("added_mass[0].mass"), "{}", ended.err);
 }
+
+/// Two million times the part in the middle of it, as for motion that is prescribed by a large mass: its inertia about its own centre is
+/// what is left of numbers 10⁸ times larger.
+#[test]
+fn a_heavy_mass_keeps_its_verdict() {
+    let nodes: Vec<[f64; 3]> = (0..6).map(|k| [0.2 * f64::from(k), 0.05 * f64::from(k % 3), 0.0]).collect();
+    let edges: Vec<[usize; 2]> = (1..6).map(|k| [k - 1, k]).collect();
+    let model = frame(&nodes, &edges, &Section::round(0.01), &Material::STEEL_SI, Inertia::Consistent);
+    let case = Case::new(model);
+    let ends = r#"{ name = "a", nodes = [1] }, { name = "b", nodes = [6] }"#;
+    for mass in [2e6, 1e7, 1e8] {
+        let file = case.reduced(ends, HERTING, &format!("added_mass = [{{ node = 3, mass = {mass:e} }}]"));
+        let stated = file.metadata().model.mass_properties.expect("a body");
+        assert!((stated.mass / mass - 1.0).abs() < 1e-5);
+        case.verify(&[]).expect(ExitCode::Done);
+    }
+}
+
+/// The polar inertia of a disc alone is no inertia of a body, and is taken all the same.
+#[test]
+fn inertia_that_no_body_has_is_said() {
+    let nodes = [[0.0; 3], [0.1, 0.0, 0.0], [0.2, 0.0, 0.0]];
+    let model = frame(&nodes, &[[0, 1], [1, 2]], &Section::round(0.02), &Material::STEEL_SI, Inertia::Consistent);
+    let case = Case::new(model);
+    let notes = |added: &str| {
+        let ends = r#"{ name = "a", nodes = [1] }, { name = "b", nodes = [3] }"#;
+        case.run(ends, HERTING, &format!("added_mass = [{{ node = 2, {added} }}]")).expect(ExitCode::Done);
+        String::from_utf8(case.place.bytes("x.report.json")).expect("UTF-8")
+    };
+    let disc = notes("mass = 0, inertia = [2e-3, 0, 0, 0, 0, 0]");
+    assert!(disc.contains("inertia without mass added at node 2"), "{disc}");
+    assert!(disc.contains("which no rigid body has"), "{disc}");
+    let ring = notes("mass = 1, inertia = [2e-3, 1e-3, 1e-3, 0, 0, 0]");
+    assert!(ring.contains("principal inertias 0.001, 0.001, 0.002") && !ring.contains("no rigid body"), "{ring}");
+}

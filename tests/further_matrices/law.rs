@@ -1,7 +1,9 @@
 //! Rayleigh and modal damping: each mode of the reduced component has the share that was asked for.
 
 use faer::Mat;
+use faer::linalg::solvers::Solve;
 use supel::cli::ExitCode;
+use supel_models::{Inertia, Material, Section, SplitMix64, frame};
 use supel_runtime::component::{FloatingFrame, ModalComponent, State};
 use supel_runtime::motion::Motion;
 use supel_runtime::{Matrix, Superelement, Tensors};
@@ -178,5 +180,52 @@ fn other_damping_than_that_of_the_law_is_seen_alone() {
             .expect("written");
         case.verify(&[]).expect(ExitCode::CheckFailed);
         assert_eq!(case.verify_with_job().code, ExitCode::CheckFailed, "{what}");
+    }
+}
+
+/// A slender frame that one node holds: of K̂ at that node rounding is left, and without a load there is nothing to deform.
+#[test]
+fn one_node_holds_a_frame_that_is_damped() {
+    let laws = [
+        "modal = { ratio = 0.02 }",
+        "rayleigh = { mass = 0, stiffness = 1e-6 }",
+        r#"rayleigh = { mass = 2, stiffness = 0, mass_acts_on = "deformation" }"#,
+    ];
+    for seed in 0..8 {
+        let mut random = SplitMix64::new(seed);
+        let mut at = [0.0; 3];
+        let nodes: Vec<[f64; 3]> = (0..10)
+            .map(|_| {
+                at = [0, 1, 2].map(|axis| at[axis] + [1.0, 0.3, 0.3][axis] * random.normal());
+                at
+            })
+            .collect();
+        let edges: Vec<[usize; 2]> = (1..10).map(|node| [node - 1, node]).collect();
+        let section = Section::round(10f64.powf(-1.3 * random.uniform() - 1.5));
+        let case = Case::new(frame(&nodes, &edges, &section, &Material::STEEL_SI, Inertia::Consistent));
+        for (at, law) in laws.iter().enumerate() {
+            for load in ["", "load = [{ name = \"tip\", nodes = [9], force = [1, 2, 3] }]\n"] {
+                let more = format!("{load}damping = {{ {law} }}");
+                let node = r#"{ name = "a", nodes = [5] }"#;
+                let file = case.reduced(node, r#"method = "guyan""#, &more);
+                case.verify(&[]).expect(ExitCode::Done);
+                case.verify_with_job().expect(ExitCode::Done);
+                if at == 0 && !load.is_empty() {
+                    let tensors = file.tensors();
+                    let [k, m, c] =
+                        [&tensors.stiffness, &tensors.mass, tensors.damping.as_ref().expect("damping")].map(unpacked);
+                    // The one shape that deforms is what rigid-body motion leaves of the residual vector.
+                    let u = unpacked(&tensors.rigid_body_modes);
+                    let momenta = &m * &u;
+                    let inertia = u.transpose() * &momenta;
+                    let last = Mat::from_fn(k.nrows(), 1, |i, _| f64::from(u8::from(i + 1 == k.nrows())));
+                    let x = &last - &u * inertia.partial_piv_lu().solve(momenta.transpose() * &last);
+                    let of = |a: &Mat<f64>| (x.transpose() * a * &x)[(0, 0)];
+                    let share = of(&c) / (2.0 * (of(&k) * of(&m)).sqrt());
+                    // Of the energy of the shape as much is known as of K̂ next to its terms, which are 1e9 times larger at most.
+                    assert!((share - 0.02).abs() < 1e-6, "seed {seed}: {share}");
+                }
+            }
+        }
     }
 }

@@ -82,6 +82,43 @@ fn dampers_to_the_ground_are_told_from_rounding() {
     assert!(ended.err.contains("E-DAMPING-RIGID"), "{}", ended.err);
 }
 
+/// The damper of 2 between nodes 5 and 25, along the line between them, and one of 10⁵ between two nodes of the patch, in nine digits: those
+/// of a patch cancel when it is tied, and what is left of theirs is not what a rounding of the other is compared with.
+#[test]
+fn dampers_inside_a_patch_are_none_to_the_ground() {
+    let case = Case::new(steel_brick());
+    let mut entries = std::collections::BTreeMap::new();
+    let mut damper = |[a, b]: [usize; 2], size: f64| {
+        let [from, to] = [a, b].map(|label| case.model.nodes[label - 1]);
+        let way: [f64; 3] = std::array::from_fn(|axis| to[axis] - from[axis]);
+        let length = way.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let row = |k: usize| (3 * ([a, b][k / 3] - 1) + k % 3, if k < 3 { way[k] } else { -way[k - 3] } / length);
+        for ((i, x), (j, y)) in (0..6).flat_map(|i| (0..6).map(move |j| (row(i), row(j)))) {
+            *entries.entry((i as u32, j as u32)).or_insert(0.0) += size * x * y;
+        }
+    };
+    damper([5, 10], 1e5);
+    damper([20, 15], 7e4);
+    damper([1, 25], 2.0);
+    let ten: Entries =
+        entries.iter().map(|((i, j), value)| (*i, *j, format!("{value:.8e}").parse().expect("a number"))).collect();
+    let seal = "\n[[matrix]]\nname = \"seal\"\nkind = \"damping\"\nfile = \"C.mtx\"\n";
+    for coupling in ["rigid", "average"] {
+        let interface = FOOT_AND_HUB.replace("rigid", coupling);
+        case.matrix("C.mtx", "general", &ten);
+        case.run(&interface, CRAIG_BAMPTON, seal).expect(ExitCode::Done);
+        case.verify(&[]).expect(ExitCode::Done);
+        case.verify_with_job().expect(ExitCode::Done);
+        // A hundredth of the damper between the patches, from a node of the patch to the ground.
+        let mut grounded = ten.clone();
+        let at = grounded.iter().position(|(i, j, _)| (*i, *j) == (12, 12)).expect("a diagonal entry");
+        grounded[at].2 += 0.02 * 1e5;
+        case.matrix("C.mtx", "general", &grounded);
+        let ended = case.run(&interface, CRAIG_BAMPTON, seal).expect(ExitCode::ModelPhysics);
+        assert!(ended.err.contains("E-DAMPING-RIGID"), "{}", ended.err);
+    }
+}
+
 /// Damping that drives a motion is possible and warned of.
 #[test]
 fn damping_that_drives_a_motion_warns() {

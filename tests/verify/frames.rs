@@ -86,3 +86,124 @@ fn heavy_frames_are_judged_alike_by_all_three() {
     }
     assert!(n_passed >= 24, "{n_passed} of 30 without a warning");
 }
+
+/// Nodes of a walk at random with steps of these sizes.
+fn walk(random: &mut SplitMix64, n: usize, step: [f64; 3]) -> Vec<[f64; 3]> {
+    let mut at = [0.0; 3];
+    (0..n)
+        .map(|_| {
+            at = [0, 1, 2].map(|axis| at[axis] + step[axis] * random.normal());
+            at
+        })
+        .collect()
+}
+
+/// A job without loads.
+fn plain(interface: &str, reduction: &str) -> String {
+    format!(
+        r#"
+model     = {{ stiffness = "K.mtx", mass = "M.mtx", dofs = "dofs.txt", nodes = "nodes.csv" }}
+interface = [{interface}]
+reduction = {{ {reduction} }}
+write     = {{ superelement = "x.supel" }}
+"#
+    )
+}
+
+/// Reduces and looks at the file by itself and against its job.
+#[track_caller]
+fn reduces_and_passes(model: &Model, job: &str, what: &str) {
+    let place = Place::with(model);
+    place.write("job.toml", job.as_bytes());
+    let ended = supel(&["reduce", &place.text("job.toml"), "--quiet"]);
+    assert_eq!(ended.code, ExitCode::Done, "{what}: {}", ended.err);
+    for more in [&[][..], &["--job", &place.text("job.toml")]] {
+        let ended = supel(&[&["verify", &place.text("x.supel")][..], more].concat());
+        assert_eq!(ended.code, ExitCode::Done, "{what}, {more:?}:\n{}{}", ended.out, ended.err);
+    }
+}
+
+/// A patch of most nodes of a very slender frame: of K̂ at its node nothing is left but rounding, which is no unit of anything, and without
+/// a mode K̂ is nothing.
+#[test]
+fn one_patch_that_holds_a_frame() {
+    for seed in 0..24 {
+        let mut random = SplitMix64::new(seed);
+        let nodes = walk(&mut random, 5, [0.03, 0.01, 0.01]);
+        let section = Section::round(10f64.powf(-3.9 + 0.6 * random.uniform()));
+        let edges = [[0, 1], [1, 2], [2, 3], [3, 4], [0, 2]];
+        let model = frame(&nodes, &edges, &section, &Material::STEEL_SI, Inertia::Consistent);
+        let patch = [[1, 2, 3, 5], [2, 4, 1, 3], [1, 4, 3, 2], [5, 4, 3, 1]][random.below(4) as usize];
+        let interface = format!(r#"{{ name = "a", nodes = {patch:?}, coupling = "rigid" }}"#);
+        for method in ["herting", "craig-bampton", "guyan"] {
+            let modes = if method == "guyan" { "" } else { ", modes = { count = 2 }" };
+            let job = plain(&interface, &format!(r#"method = "{method}"{modes}"#));
+            reduces_and_passes(&model, &job, &format!("seed {seed}, {method}"));
+        }
+    }
+}
+
+/// One node cuts a frame in two, and a load acts on the half that a mode leaves at rest: what the mode does there is rounding, and tells
+/// no sign.
+#[test]
+fn a_load_on_the_half_that_a_mode_leaves_at_rest() {
+    for seed in 0..12 {
+        let mut random = SplitMix64::new(seed);
+        let nodes = walk(&mut random, 6, [0.3, 0.1, 0.1]);
+        let edges: Vec<[usize; 2]> = (1..6).map(|node| [node - 1, node]).collect();
+        let model = frame(&nodes, &edges, &Section::round(0.01), &Material::STEEL_SI, Inertia::Consistent);
+        let load = r#"load = [{ name = "l", nodes = [1], force = [1.4, 2.5, 1], residual = false }]"#;
+        for count in 1..=3 {
+            for held in ["", "\nfixed = [{ nodes = [6] }]"] {
+                let job = plain(
+                    r#"{ name = "a", nodes = [2] }"#,
+                    &format!(r#"method = "craig-bampton", modes = {{ count = {count} }}"#),
+                );
+                let job = job.replace("interface =", &format!("{load}{held}\ninterface ="));
+                reduces_and_passes(&model, &job, &format!("seed {seed}, {count} modes{held}"));
+            }
+        }
+        // One dof held, no interface: five motions are free, seen by gravity and the load alone.
+        let free = r#"method = "herting", modes = { count = 3 }"#;
+        let held = format!("fixed = [{{ nodes = [2], dofs = [\"ux\"] }}]\n{load}\ninterface =");
+        let job = plain("", free).replace("interface =", &held);
+        reduces_and_passes(&model, &job, &format!("seed {seed}, one dof held"));
+    }
+}
+
+/// A load and the same in nine digits: what the second adds to the columns of the first is 10⁻⁹ of it, so that the mixing has entries of 1
+/// and of 10¹⁸, and modes come in pairs that only what is seen of them tells apart.
+#[test]
+fn two_loads_that_are_nearly_one() {
+    let model = supel_models::brick([6, 2, 2], [0.2, 0.05, 0.05], &Material::STEEL_SI);
+    let mut random = SplitMix64::new(5);
+    let force: Vec<f64> = (0..model.n).map(|_| random.normal()).collect();
+    for digits in [7, 8, 9] {
+        let lines = |text: &dyn Fn(f64) -> String| force.iter().map(|value| text(*value) + "\n").collect::<String>();
+        let (exact, printed) =
+            (lines(&|value| format!("{value:e}")), lines(&|value| format!("{value:.*e}", digits - 1)));
+        let place = Place::with(&model);
+        place.write(
+            "l.mtx",
+            format!("%%MatrixMarket matrix array real general\n{} 2\n{exact}{printed}", model.n).as_bytes(),
+        );
+        let face = |name: &str, x: f64| {
+            format!(
+                r#"{{ name = "{name}", nodes = {{ within = {{ box = {{ min = [{}, -9, -9], max = [{}, 9, 9] }} }} }}, coupling = "rigid" }}"#,
+                x - 1e-6,
+                x + 1e-6
+            )
+        };
+        let loads =
+            r#"load = [{ name = "p", file = "l.mtx", column = 0 }, { name = "q", file = "l.mtx", column = 1 }]"#;
+        for method in ["craig-bampton", "herting"] {
+            let reduction = format!(r#"method = "{method}", modes = {{ count = 6 }}"#);
+            let job = plain(&format!("{}, {}", face("a", 0.0), face("b", 0.2)), &reduction);
+            let job = job.replace("interface =", &format!("{loads}\ninterface ="));
+            place.write("job.toml", job.as_bytes());
+            supel(&["reduce", &place.text("job.toml"), "--quiet"]).expect(ExitCode::Done);
+            let ended = supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]);
+            assert_eq!(ended.code, ExitCode::Done, "{digits} digits, {method}:\n{}{}", ended.out, ended.err);
+        }
+    }
+}

@@ -11,7 +11,6 @@
 
 use std::ops::Range;
 
-use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef};
 
 use super::columns::Named;
@@ -20,8 +19,8 @@ use super::scaled::Scaled;
 use crate::audit::named_modes::{WithInverse, terms_of_unmixing};
 use crate::dense::{self, NOISE_FACTOR};
 
-/// Weight of recovered rows and loads relative to the rows of the mass: in single precision the former have seven digits, which may decide
-/// on what nothing else sees and on nothing more.
+/// Weight of recovered rows relative to all others: in single precision they have seven digits, which may decide on what nothing else
+/// sees and on nothing more.
 const RECOVERED: f64 = 1e-3;
 
 /// The parts of the basis that may turn.
@@ -143,23 +142,20 @@ fn seen(file: &Scaled, projected: &Projected, mixing: Option<MatRef<'_, f64>>) -
     if let (Some(weight), Some(known), Some(stored)) = (projected.gravity_weight, &projected.gravity, &file.gravity) {
         add(weight, [of_mine(&known.rows), of_file(stored)]);
     }
-    for (known, stored) in projected.loads.iter().zip(&file.loads) {
+    let recovery = projected.recovery.iter().zip(&file.recovery).map(|rows| (RECOVERED, rows));
+    let recovery = recovery.filter(|(_, (known, stored))| known.rows.nrows() == stored.nrows());
+    let loads = projected.loads.iter().zip(&file.loads).map(|rows| (1.0, rows));
+    for (weight, (known, stored)) in loads.chain(recovery) {
         let modal = of_mine(&known.rows);
-        add(RECOVERED / modal.norm_max().max(f64::MIN_POSITIVE), [modal, of_file(stored)]);
-    }
-    if let (Some(known), Some(stored)) = (&projected.recovery, &file.recovery)
-        && known.rows.nrows() == stored.nrows()
-    {
-        let modal = of_mine(&known.rows);
-        add(RECOVERED / modal.norm_max().max(f64::MIN_POSITIVE), [modal, of_file(stored)]);
+        // Where no column moves a load or a row, all that is seen there is what the columns may be off by.
+        if modal.norm_max() > known.errors[p..].iter().copied().fold(0.0, f64::max) {
+            add(weight / modal.norm_max(), [modal, of_file(stored)]);
+        }
     }
     let [mine, stored] = [0, 1].map(|which| stacked(pairs.iter().map(|pair| pair[which].as_ref()).collect()));
     // Stored = named · C: the named columns of the file are its stored ones times C⁻¹.
     let named = match mixing {
-        Some(mixing) => {
-            let solved = mixing.transpose().partial_piv_lu().solve(stored.transpose().to_owned());
-            solved.transpose().to_owned()
-        }
+        Some(mixing) => dense::divided(stored.as_ref(), mixing),
         None => stored,
     };
     [mine, named]

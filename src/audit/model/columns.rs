@@ -136,7 +136,8 @@ impl Columns {
     /// W of a free component without interface: its rigid-body modes and its elastic modes.
     pub(super) fn modal(motions: &RigidBodyModes, asked: &AskedModes) -> Self {
         let (n_r, n_modes) = (motions.count(), asked.modes.count());
-        let rounding = |j: usize| if j < n_r { f64::EPSILON } else { asked.angles[j - n_r] };
+        // Zero modes of K are turned towards elastic ones by its rounding; motions by the coordinates are not.
+        let rounding = |j: usize| if j < n_r { motions.energy.angle.max(f64::EPSILON) } else { asked.angles[j - n_r] };
         let size = |j: usize| if j < n_r { asked.lambda().first() } else { asked.lambda().get(j - n_r) };
         let omega = |j: usize| size(j).copied().unwrap_or(1.0).sqrt();
         Self {

@@ -4,7 +4,7 @@ use crate::eigen::{Shifted, shifted, zero};
 use crate::error::Result;
 use crate::factor::{Analysis, Cholesky};
 use crate::partition::Partition;
-use crate::rigid::{RigidBodyModes, RigidSource};
+use crate::rigid::{RigidBodyModes, RigidEnergy, RigidSource};
 use crate::sparse::product;
 
 /// The full model with a factor of K − σM on all dofs.
@@ -39,6 +39,8 @@ impl<'a> Full<'a> {
             modes: shapes.clone(),
             mass_orthonormal: product(&partition.mass, shapes.as_ref()),
             orthonormal: shapes,
+            source: RigidSource::Algebraic,
+            energy: RigidEnergy { angle: noise, ..RigidEnergy::default() },
             ..RigidBodyModes::none(partition.n_dofs())
         };
         Ok(Self { partition, factor: found.factor, sigma: found.sigma, zero, first, noise })

@@ -2,13 +2,13 @@
 
 use rayon::prelude::*;
 
+use crate::eigen::Spectral;
 use crate::error::{Error, Result};
 use crate::factor::Analysis;
 use crate::job::{Certify, Job};
 use crate::random::SEED;
 use crate::verification::check::Check;
 use crate::verification::evidence::Evidence;
-use crate::verification::pencil::Spectral;
 
 use super::boundaries;
 use super::boundary::Boundary;

@@ -20,11 +20,11 @@ use super::super::evidence::Evidence;
 use super::shift::shift;
 use crate::dense;
 use crate::eigen::{Equilibrated, mass_qr};
+use crate::eigen::{Spectral, complex_shift};
 use crate::error::Result;
 use crate::factor::SolveOperator;
 use crate::reduction::panel_of;
 use crate::sparse::product;
-use crate::verification::pencil::{Spectral, complex_shift};
 
 /// Relative residual that ends the iteration. The error of the response is of the order of its square, times at most the
 /// ratio of the peak to the static response.

@@ -7,11 +7,11 @@ use super::super::evidence::{Evidence, reduced_norms};
 use super::outcome::PreservedMode;
 use crate::dense;
 use crate::eigen::CLUSTER_GAP;
+use crate::eigen::Spectral;
 use crate::error::Result;
 use crate::job::Boundary;
 use crate::reduction::transpose_apply;
 use crate::sparse::product;
-use crate::verification::pencil::Spectral;
 
 /// Modes shown in the matrix of the report; more do not fit on a readable page.
 const SHOWN: usize = 48;

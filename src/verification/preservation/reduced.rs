@@ -17,8 +17,8 @@ use faer::{Mat, MatRef};
 use super::super::evidence::{Evidence, coordinate_scales};
 use super::reference::Reference;
 use crate::dense;
+use crate::eigen::Spectral;
 use crate::error::Result;
-use crate::verification::pencil::Spectral;
 
 /// Eigenvalues found at once lie within this factor: (ε · 10⁶)² is below rounding.
 const SPREAD: f64 = 1e6;

@@ -11,10 +11,10 @@ use super::outcome::{ResponseComparison, ResponseSample};
 use super::samples;
 use super::shift::shift;
 use crate::dense;
+use crate::eigen::Spectral;
 use crate::error::Result;
 use crate::factor::SolveOperator;
 use crate::number::quantity;
-use crate::verification::pencil::Spectral;
 
 /// A pair that responds this much less than its two driving points do is judged by them: symmetry uncouples such pairs,
 /// and what is left of them is rounding. A thousandth is 60 dB, the dynamic range of a good measurement.

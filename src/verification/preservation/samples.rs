@@ -4,8 +4,8 @@ use faer::Mat;
 
 use super::super::evidence::Evidence;
 use super::shift::shift;
+use crate::eigen::Spectral;
 use crate::error::Result;
-use crate::verification::pencil::Spectral;
 
 /// Points of the logarithmic grid.
 const GRID: usize = 24;

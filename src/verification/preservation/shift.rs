@@ -1,7 +1,7 @@
 //! The shift that spectral forms are accurate about.
 
+use crate::eigen::elastic_scale;
 use crate::error::Result;
-use crate::verification::elastic::elastic_scale;
 use crate::verification::evidence::Evidence;
 
 /// A shift near the lowest elastic eigenvalue, which spectral forms are accurate about.

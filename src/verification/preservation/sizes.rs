@@ -8,8 +8,8 @@ use super::response::FullResponse;
 use super::shift::shift;
 use crate::basis::DynamicCoordinate;
 use crate::dense;
+use crate::eigen::Spectral;
 use crate::error::Result;
-use crate::verification::pencil::Spectral;
 
 /// Points of the curve.
 const POINTS: usize = 9;

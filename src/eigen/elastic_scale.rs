@@ -11,9 +11,9 @@
 
 use faer::{Mat, MatRef};
 
-use super::pencil::{Spectral, scaled_by};
+use super::dense_pencil::lowest_ratio;
+use super::spectral::{Spectral, scaled_by};
 use crate::dense::{self, NOISE_FACTOR};
-use crate::eigen::lowest_ratio;
 use crate::error::Result;
 
 /// λ₁ of (K̂, M̂) beyond the rigid-body motions Û, r × n_r; none where K̂ lets other motions pass, or all.

@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 
 /// The spectral form of K − zM.
 #[derive(Clone, Debug)]
-pub(super) struct Spectral {
+pub(crate) struct Spectral {
     /// α.
     alpha: f64,
     /// θ, descending.
@@ -30,7 +30,7 @@ impl Spectral {
     ///
     /// # Errors
     /// [`Error::DenseEigen`] where K + αM is not definite, M is negative, or either holds NaN.
-    pub(super) fn of(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Result<Self> {
+    pub(crate) fn of(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Result<Self> {
         let n = k.nrows();
         let spectral = Self::if_definite(k, m, alpha)?.ok_or(Error::DenseEigen { n })?;
         // Rounding leaves a θ of zero a little below; one further below than the largest is above belongs to no mass.
@@ -41,7 +41,7 @@ impl Spectral {
     }
 
     /// The decomposition of a pencil whatever M is; none where K + αM is not definite.
-    pub(super) fn if_definite(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Result<Option<Self>> {
+    pub(crate) fn if_definite(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Result<Option<Self>> {
         let n = k.nrows();
         let shifted = Mat::from_fn(n, n, |i, j| k[(i, j)] + alpha * m[(i, j)]);
         let scale: Vec<f64> = (0..n).map(|i| dense::power_of_two_root(shifted[(i, i)])).collect();
@@ -59,12 +59,12 @@ impl Spectral {
     }
 
     /// r.
-    pub(super) fn n(&self) -> usize {
+    pub(crate) fn n(&self) -> usize {
         self.shapes.nrows()
     }
 
     /// The finite eigenvalues, ascending.
-    pub(super) fn eigenvalues(&self) -> Vec<f64> {
+    pub(crate) fn eigenvalues(&self) -> Vec<f64> {
         let largest = self.theta.first().copied().unwrap_or(0.0);
         // A θ at the rounding of the largest belongs to an infinite eigenvalue.
         let finite = self.theta.iter().take_while(|theta| **theta > f64::EPSILON * largest);
@@ -72,25 +72,25 @@ impl Spectral {
     }
 
     /// Eigenvector j at unit modal mass.
-    pub(super) fn eigenvector(&self, j: usize) -> Vec<f64> {
+    pub(crate) fn eigenvector(&self, j: usize) -> Vec<f64> {
         let length = self.theta[j].sqrt();
         dense::column(self.shapes.as_ref(), j).iter().map(|value| value / length).collect()
     }
 
     /// The finite eigenvalues, ascending, and the first `n_shapes` eigenvectors at unit modal mass, r × n_shapes or fewer.
-    pub(super) fn lowest(&self, n_shapes: usize) -> (Vec<f64>, Mat<f64>) {
+    pub(crate) fn lowest(&self, n_shapes: usize) -> (Vec<f64>, Mat<f64>) {
         let lambda = self.eigenvalues();
         let shapes: Vec<Vec<f64>> = (0..n_shapes.min(lambda.len())).map(|j| self.eigenvector(j)).collect();
         (lambda, Mat::from_fn(self.n(), shapes.len(), |i, j| shapes[j][i]))
     }
 
     /// The columns of (K − zM)⁻¹ that belong to the leading `n_b` coordinates, real and imaginary part, r × n_b each.
-    pub(super) fn columns(&self, z: c64, n_b: usize) -> [Mat<f64>; 2] {
+    pub(crate) fn columns(&self, z: c64, n_b: usize) -> [Mat<f64>; 2] {
         self.weighted(self.shapes.as_ref(), z, n_b)
     }
 
     /// The leading n_b × n_b block of (K − zM)⁻¹, real and imaginary part.
-    pub(super) fn block(&self, z: c64, n_b: usize) -> [Mat<f64>; 2] {
+    pub(crate) fn block(&self, z: c64, n_b: usize) -> [Mat<f64>; 2] {
         self.weighted(self.shapes.as_ref().subrows(0, n_b), z, n_b)
     }
 
@@ -132,12 +132,12 @@ pub(crate) fn sharpen(
 }
 
 /// z = ω² / (1 + iη) of a scaled eigenvalue ω².
-pub(super) fn complex_shift(lambda: f64, eta: f64) -> c64 {
+pub(crate) fn complex_shift(lambda: f64, eta: f64) -> c64 {
     c64::new(lambda, 0.0) / c64::new(1.0, eta)
 }
 
 /// D A D.
-pub(super) fn scaled_by(a: MatRef<'_, f64>, scales: &[f64]) -> Mat<f64> {
+pub(crate) fn scaled_by(a: MatRef<'_, f64>, scales: &[f64]) -> Mat<f64> {
     Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * scales[i] * scales[j])
 }
 
