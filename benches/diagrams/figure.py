@@ -36,6 +36,16 @@ def axes(title, x, y, n=1):
     return figure, list(all_axes[0])
 
 
+def grid(title, rows, columns):
+    """A figure with rows of log-log axes; those of a row share their y axis."""
+    figure, all_axes = plt.subplots(rows, columns, figsize=(3.1 * columns + 1.6, 3.0 * rows), squeeze=False, sharey="row")
+    for ax in all_axes.flat:
+        ax.set(xscale="log", yscale="log")
+        ax.grid(True, which="both", linewidth=0.3)
+    figure.suptitle(title, fontsize=10)
+    return figure, all_axes
+
+
 def label_short_axis(ax):
     """Plain numbers at 1, 2 and 5 of each decade along an x axis of few decades."""
     low, high = ax.get_xlim()
