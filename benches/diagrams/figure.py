@@ -36,9 +36,9 @@ def axes(title, x, y, n=1):
     return figure, list(all_axes[0])
 
 
-def grid(title, rows, columns):
-    """A figure with rows of log-log axes; those of a row share their y axis."""
-    figure, all_axes = plt.subplots(rows, columns, figsize=(3.1 * columns + 1.6, 3.0 * rows), squeeze=False, sharey="row")
+def grid(title, rows, columns, sharey="row"):
+    """A figure with rows of log-log axes; those of a row share their y axis, unless told otherwise."""
+    figure, all_axes = plt.subplots(rows, columns, figsize=(3.1 * columns + 1.6, 3.0 * rows), squeeze=False, sharey=sharey)
     for ax in all_axes.flat:
         ax.set(xscale="log", yscale="log")
         ax.grid(True, which="both", linewidth=0.3)

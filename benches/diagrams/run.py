@@ -20,10 +20,10 @@ from harness import environment, machine
 
 environment.enter()
 
-from diagrams import accuracy, delivered, eigen, foreign, scaling
+from diagrams import accuracy, delivered, eigen, foreign, hole, scaling
 
 FAMILIES = ("bulky", "slender", "lattice")
-LETTERS = ("A", "B", "C", "D", "E")
+LETTERS = ("A", "B", "C", "D", "E", "H")
 
 
 def main():
@@ -52,7 +52,7 @@ def main():
                 delivered.draw(settings, family, dofs)
         if "E" in letters:
             scaling.draw(settings, family, settings.dofs or [2500, 5000, 10000])
-    for letter, diagram in (("B", foreign), ("D", accuracy)):
+    for letter, diagram in (("B", foreign), ("D", accuracy), ("H", hole)):
         if letter in letters:
             diagram.draw(settings)
 
