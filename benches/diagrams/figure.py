@@ -36,11 +36,14 @@ def axes(title, x, y, n=1):
     return figure, list(all_axes[0])
 
 
-def grid(title, rows, columns, sharey="row"):
-    """A figure with rows of log-log axes; those of a row share their y axis, unless told otherwise."""
-    figure, all_axes = plt.subplots(rows, columns, figsize=(3.1 * columns + 1.6, 3.0 * rows), squeeze=False, sharey=sharey)
+def grid(title, rows, columns, sharey="row", panel=(3.1, 3.0)):
+    """A figure with rows of log-log axes, each a panel of that size in inches; those of a row share y unless told otherwise."""
+    figure, all_axes = plt.subplots(
+        rows, columns, figsize=(panel[0] * columns + 1.6, panel[1] * rows), squeeze=False, sharey=sharey
+    )
     for ax in all_axes.flat:
         ax.set(xscale="log", yscale="log")
+        ax.tick_params(labelsize=7)
         ax.grid(True, which="both", linewidth=0.3)
     figure.suptitle(title, fontsize=10)
     return figure, all_axes
