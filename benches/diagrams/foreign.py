@@ -166,6 +166,7 @@ def rows_of(settings, component, folder, truth):
 
 
 def draw(settings):
+    every = []
     for component in (brick(), rod(), slender_frame()):
         if component is None:
             print("the connecting rod is left out: SUPEL_CORPUS names no folder with pairs/ccx_exudyn_conrod")
@@ -176,6 +177,26 @@ def draw(settings):
         rows = list(rows_of(settings, component, folder, truth))
         figure.write_rows(settings.out / f"B-{component.name}.csv", rows, settings.origin)
         draw_one(settings, component, truth, rows)
+        every += rows
+    summarise(settings, every)
+
+
+def summarise(settings, rows):
+    """A table of the largest error over all components, in dB, for each method, number of modes and boundary."""
+    components = list(dict.fromkeys(row["model"] for row in rows))
+    lines = ["## B. Largest error of the response over " + ", ".join(components) + ", dB", ""]
+    lines += [f"- {name}: {text}" for name, text in settings.origin]
+    lines += ["", f"| method | modes up to × the band's end | coordinates: {', '.join(components)} | {' | '.join(BOUNDARIES)} |"]
+    lines.append("|---" * (3 + len(BOUNDARIES)) + "|")
+    for method, factor in dict.fromkeys((row["method"], row["modes_up_to_over_band"]) for row in rows):
+        those = [row for row in rows if (row["method"], row["modes_up_to_over_band"]) == (method, factor)]
+        sizes = [next(str(row["n_reduced"]) for row in those if row["model"] == name) for name in components]
+        worst = [max(row["error_db"] for row in those if row["boundary"] == boundary) for boundary in BOUNDARIES]
+        cells = [method, str(factor), ", ".join(sizes), *(f"{error:.2g}" for error in worst)]
+        lines.append(f"| {' | '.join(cells)} |")
+    path = settings.out / "B-summary.md"
+    path.write_text("\n".join([*lines, ""]))
+    print(path)
 
 
 # Rows of the figure: what is drawn over what; errors below the least are drawn there.
