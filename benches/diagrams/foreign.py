@@ -182,37 +182,45 @@ def draw(settings):
 
 
 def summarise(settings, rows):
-    """A table of the largest error over all components, in dB, for each method, number of modes and boundary."""
+    """Writes a table of the largest errors over all components for each method, number of modes and boundary."""
     components = list(dict.fromkeys(row["model"] for row in rows))
-    lines = ["## B. Largest error of the response over " + ", ".join(components) + ", dB", ""]
+    lines = [f"## B. Largest errors of the response over {', '.join(components)}", ""]
     lines += [f"- {name}: {text}" for name, text in settings.origin]
-    lines += ["", f"| method | modes up to × the band's end | coordinates: {', '.join(components)} | {' | '.join(BOUNDARIES)} |"]
+    lines += ["", "In each cell: of the worst pair of dofs in dB / of the whole response, relative.", ""]
+    lines.append(f"| method | modes up to × the band's end | coordinates: {', '.join(components)} | {' | '.join(BOUNDARIES)} |")
     lines.append("|---" * (3 + len(BOUNDARIES)) + "|")
     for method, factor in dict.fromkeys((row["method"], row["modes_up_to_over_band"]) for row in rows):
         those = [row for row in rows if (row["method"], row["modes_up_to_over_band"]) == (method, factor)]
         sizes = [next(str(row["n_reduced"]) for row in those if row["model"] == name) for name in components]
-        worst = [max(row["error_db"] for row in those if row["boundary"] == boundary) for boundary in BOUNDARIES]
-        cells = [method, str(factor), ", ".join(sizes), *(f"{error:.2g}" for error in worst)]
-        lines.append(f"| {' | '.join(cells)} |")
+        worst = lambda key, boundary: max(row[key] for row in those if row["boundary"] == boundary)
+        errors = [f"{worst('error_db', name):.2g} / {percent(worst('relative_error', name))}" for name in BOUNDARIES]
+        lines.append(f"| {' | '.join([method, str(factor), ', '.join(sizes), *errors])} |")
     path = settings.out / "B-summary.md"
     path.write_text("\n".join([*lines, ""]))
     print(path)
 
 
+def percent(share):
+    """Two digits, without an exponent: 0.0012 is 0.12 %."""
+    text = f"{float(f'{100 * share:.2g}'):.6f}"
+    return f"{text.rstrip('0').rstrip('.')} %"
+
+
 # Rows of the figure: what is drawn over what; errors below the least are drawn there.
-RESPONSE = ("error_db", 1e-4, "largest error of the response (dB)")
-FREQUENCY = ("frequency_error", LEAST, "largest error of a frequency (1: missing)")
+RESPONSE = ("error_db", 1e-4, "error of the worst pair of dofs (dB)")
+WHOLE = ("relative_error", 1e-6, "relative error of the whole response")
+FREQUENCY = ("frequency_error", LEAST, "error of a frequency (1: missing)")
 COORDINATES = ("n_reduced", 1, "coordinates of the superelement")
 KIB = ("bytes", 1024, "file (KiB)")
 # Curves whose points have their numbers, and where these stand.
 LABELLED = {"craig-bampton": (0, 7), "herting": (-8, -7)}
-DRAWN = ((RESPONSE, COORDINATES), (FREQUENCY, COORDINATES), (RESPONSE, KIB))
+DRAWN = ((RESPONSE, COORDINATES), (WHOLE, COORDINATES), (FREQUENCY, COORDINATES), (RESPONSE, KIB))
 
 
 def draw_one(settings, component, truth, rows):
     n = component.model.stiffness.shape[0]
     title = f"B. {component.title[0].upper()}{component.title[1:]}, {n} dofs: errors up to {truth.band:.0f} Hz under four boundaries"
-    fig, axes = figure.grid(title, len(DRAWN), len(BOUNDARIES))
+    fig, axes = figure.grid(title, len(DRAWN), len(BOUNDARIES), panel=(3.1, 2.7))
     for column, boundary in enumerate(BOUNDARIES):
         for line, (y, x) in enumerate(DRAWN):
             ax = axes[line][column]
@@ -224,7 +232,7 @@ def draw_one(settings, component, truth, rows):
     axes[0][-1].legend(fontsize=7, loc="upper left", bbox_to_anchor=(1.02, 1.0))
     note = "numbers: modes are kept up to\nthis multiple of the band's end\n\nthe mass on the tip is that of\nthe component itself\n\n"
     note += f"structural damping {ETA:g}"
-    axes[0][-1].text(1.04, 0.5, note, transform=axes[0][-1].transAxes, fontsize=7, va="top")
+    axes[1][-1].text(1.04, 0.98, note, transform=axes[1][-1].transAxes, fontsize=7, va="top")
     figure.save(fig, settings.out / f"B-{component.name}.svg", settings.origin)
 
 
