@@ -156,12 +156,12 @@ def draw_one(settings, rows):
     left.set(xscale="linear", yscale="linear", ylim=(0, 90))
     for number, (label, *_) in enumerate(REDUCED):
         errors = np.maximum(of(label, "largest_error"), LEAST)
-        held = f"{label} ({of(label, 'coordinates')[0]} amplitudes)"
+        held = f"{label},\n{of(label, 'coordinates')[0]} amplitudes"
         right.plot(of(label, "speed"), errors, "o-", color=f"C{number}", markersize=3, linewidth=0.9, label=held)
     right.set(xscale="linear")
     for ax, label in ((left, "frequency × √(m L⁴/EI)"), (right, f"largest relative error of the first {N_SHOWN} frequencies")):
         ax.set_xlabel("speed × √(m L⁴/EI), EI across the plane of rotation", fontsize=8)
         ax.set_ylabel(label, fontsize=8)
-    left.legend(fontsize=7, loc="upper left")
+    left.legend(fontsize=6, loc="upper left")
     right.legend(fontsize=7, loc="upper left", bbox_to_anchor=(1.02, 1.0))
     figure.save(fig, settings.out / "S-spinning.svg", settings.origin)
