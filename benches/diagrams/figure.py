@@ -50,10 +50,10 @@ def grid(title, rows, columns, sharey="row", panel=(3.1, 3.0)):
 
 
 def label_short_axis(ax):
-    """Plain numbers at 1, 2 and 5 of each decade along an x axis of few decades."""
+    """Plain numbers at 1, 2 and 5 of each decade along an x axis of few decades, at some more of a single one."""
     low, high = ax.get_xlim()
     if high < low * 10**FEW_DECADES:
-        ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if high > 10 * low else (1, 1.5, 2, 3, 5, 7)))
         ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         ax.xaxis.set_minor_formatter(NullFormatter())
 

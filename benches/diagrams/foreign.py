@@ -231,7 +231,7 @@ def draw_one(settings, component, truth, rows):
         axes[0][column].set_title({"both held": "both held, driven there"}.get(boundary, boundary), fontsize=9)
     axes[0][-1].legend(fontsize=7, loc="upper left", bbox_to_anchor=(1.02, 1.0))
     note = "numbers: modes are kept up to\nthis multiple of the band's end\n\nthe mass on the tip is that of\nthe component itself\n\n"
-    note += f"structural damping {ETA:g}"
+    note += f"structural damping {ETA:g}\n\nwhere no free mode is kept herting\nis guyan with inertia relief"
     axes[1][-1].text(1.04, 0.98, note, transform=axes[1][-1].transAxes, fontsize=7, va="top")
     figure.save(fig, settings.out / f"B-{component.name}.svg", settings.origin)
 
@@ -242,7 +242,7 @@ def draw_curves(ax, rows, y, x):
         shown = [row for row in rows if row["method"] == method]
         points = [(row[x[0]] / x[1], max(row[y[0]], y[1])) for row in shown]
         is_ring = method.startswith("rubin")
-        style = {"markersize": 9, "fillstyle": "none"} if is_ring else {"markersize": 4 if has_modes else 6, "linewidth": 0.9}
+        style = {"markersize": 9, "fillstyle": "none"} if is_ring else {"markersize": 4 if has_modes else 7, "linewidth": 0.9, "zorder": 2 if has_modes else 4}
         ax.plot(*zip(*points), mark, color=colour, label=method, **style)
         if method in LABELLED and y is RESPONSE and x is COORDINATES:
             for row, point in zip(shown, points):

@@ -11,8 +11,6 @@ axis are small, and what rotation does to torsion is left out.
 """
 
 import numpy as np
-import scipy.linalg
-import scipy.sparse as sp
 
 from diagrams import figure, own
 from harness import structures
