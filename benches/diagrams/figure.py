@@ -36,11 +36,24 @@ def axes(title, x, y, n=1):
     return figure, list(all_axes[0])
 
 
+def grid(title, rows, columns, sharey="row", panel=(3.1, 3.0)):
+    """A figure with rows of log-log axes, each a panel of that size in inches; those of a row share y unless told otherwise."""
+    figure, all_axes = plt.subplots(
+        rows, columns, figsize=(panel[0] * columns + 1.6, panel[1] * rows), squeeze=False, sharey=sharey
+    )
+    for ax in all_axes.flat:
+        ax.set(xscale="log", yscale="log")
+        ax.tick_params(labelsize=7)
+        ax.grid(True, which="both", linewidth=0.3)
+    figure.suptitle(title, fontsize=10)
+    return figure, all_axes
+
+
 def label_short_axis(ax):
-    """Plain numbers at 1, 2 and 5 of each decade along an x axis of few decades."""
+    """Plain numbers at 1, 2 and 5 of each decade along an x axis of few decades, at some more of a single one."""
     low, high = ax.get_xlim()
     if high < low * 10**FEW_DECADES:
-        ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if high > 10 * low else (1, 1.5, 2, 3, 5, 7)))
         ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         ax.xaxis.set_minor_formatter(NullFormatter())
 

@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
-"""Makes the diagrams of run time against error, as SVG and CSV, by one command.
+"""Makes the diagrams of errors, sizes and run times, as SVG and CSV, by one command.
 
-    benches/diagrams/run.py [A C D E] [--family bulky] [--dofs 10000] [--threads 2]
+    benches/diagrams/run.py [A B C D E H S] [--family bulky] [--dofs 10000] [--threads 2]
 
-A eigen stage against eigenvalue error; C whole job against the delivered frequency response; D error over eps * kappa;
-E growth with n. Needs a release build of supel; parts are generated and kept in --work, Python packages come into an
-environment of its own (PEERS_VENV). Without options a short run on small parts; the documents' series is
-`--dofs 89000` for A and C, and `E --dofs 10000 --dofs 30000 --dofs 89000 --dofs 297000 --dofs 878000 --repeats 5`.
+A eigen stage against eigenvalue error; B error under foreign boundaries against size; C whole job against the delivered
+frequency response; D error over eps * kappa; E growth with n; H couplings of a hole against the mesh; S a spinning beam.
+
+Needs a release build of supel; parts are generated and kept in --work, Python packages come into an environment of its own
+(PEERS_VENV). --family, --dofs, --method and --repeats are of A, C and E: without options a short run on small parts; the
+documents' series is `--dofs 89000` for A and C, and
+`E --dofs 10000 --dofs 30000 --dofs 89000 --dofs 297000 --dofs 878000 --repeats 5`. B leaves out what needs SUPEL_CORPUS
+where that is absent, H needs CalculiX.
 """
 
 import argparse
@@ -20,10 +24,10 @@ from harness import environment, machine
 
 environment.enter()
 
-from diagrams import accuracy, delivered, eigen, scaling
+from diagrams import accuracy, delivered, eigen, foreign, hole, scaling, spin
 
 FAMILIES = ("bulky", "slender", "lattice")
-LETTERS = ("A", "C", "D", "E")
+LETTERS = ("A", "B", "C", "D", "E", "H", "S")
 
 
 def main():
@@ -52,8 +56,9 @@ def main():
                 delivered.draw(settings, family, dofs)
         if "E" in letters:
             scaling.draw(settings, family, settings.dofs or [2500, 5000, 10000])
-    if "D" in letters:
-        accuracy.draw(settings)
+    for letter, diagram in (("B", foreign), ("D", accuracy), ("H", hole), ("S", spin)):
+        if letter in letters:
+            diagram.draw(settings)
 
 
 if __name__ == "__main__":

@@ -59,7 +59,7 @@ def rigid_body_modes(points, directions):
 
 @dataclasses.dataclass
 class Condensation:
-    """u = T (u_B, u_I): one six-dof node at the centroid of each face moves it as a rigid body."""
+    """u = T (u_B, u_I): one six-dof node at the centroid of each patch moves it as a rigid body."""
 
     t: sp.csr_matrix
     hubs: np.ndarray
@@ -71,8 +71,12 @@ class Condensation:
 def condensation(folder, points):
     """The condensation of a part."""
     what = facts(folder)
-    directions, along = what["directions"], points[:, what["axis"]]
-    patches = [np.flatnonzero(np.abs(along - at) <= what["tolerance"]) for at in what["faces"]]
+    along = points[:, what["axis"]]
+    return condensed(points, what["directions"], [np.flatnonzero(np.abs(along - at) <= what["tolerance"]) for at in what["faces"]])
+
+
+def condensed(points, directions, patches):
+    """The condensation on rigid patches of nodes, given by their places in the table of nodes."""
     hubs = np.array([points[patch].mean(axis=0) for patch in patches])
     is_free = np.ones(len(points), dtype=bool)
     rows, columns, values = [], [], []
