@@ -163,6 +163,13 @@ fn a_load_on_the_half_that_a_mode_leaves_at_rest() {
                 reduces_and_passes(&model, &job, &format!("seed {seed}, {count} modes{held}"));
             }
         }
+        // Nodes are recovered in the half that the modes leave at rest.
+        for (label, count) in [(1, 1), (1, 2), (6, 1), (6, 2)] {
+            let reduction = format!(r#"method = "craig-bampton", modes = {{ count = {count} }}"#);
+            let kept = format!(r#""x.supel", recovery = {{ nodes = [{label}] }}"#);
+            let job = plain(r#"{ name = "a", nodes = [3] }"#, &reduction).replace(r#""x.supel""#, &kept);
+            reduces_and_passes(&model, &job, &format!("seed {seed}, {count} modes, node {label} recovered"));
+        }
         // One dof held, no interface: five motions are free, seen by gravity and the load alone.
         let free = r#"method = "herting", modes = { count = 3 }"#;
         let held = format!("fixed = [{{ nodes = [2], dofs = [\"ux\"] }}]\n{load}\ninterface =");

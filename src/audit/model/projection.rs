@@ -248,23 +248,30 @@ fn quantity(row: &[(u32, f64)], shapes: MatRef<'_, f64>, (mass, diagonal): (&For
     }
 }
 
-/// TW. What a column lacks is a motion of like columns: displacements for its inertia are as large as theirs. What solves lack is measured.
+/// TW. What a column lacks is a motion of like columns: displacements for its inertia are as large as theirs, wherever those are largest,
+/// because rows that a mode leaves at rest are moved by what it lacks all the same. What solves lack is measured.
 fn recovered(partition: &Partition, columns: &Columns, mass: &Form) -> Rows {
+    /// Share of their largest displacement up to which columns are at rest in all recovered rows, and compared with that.
+    const AT_REST: f64 = 1e-6;
     let (shapes, n_probes) = (columns.shapes.as_ref(), columns.n_probes());
     let rows = Mat::from_fn(partition.recovered.rows.len(), shapes.ncols(), |i, j| {
         let entries = partition.transformation.rows[partition.recovered.rows[i].0].entries();
         entries.map(|(dof, factor)| factor * shapes[(dof as usize, j)]).sum()
     });
     let length = |j: usize| mass.matrix[(j, j)].max(0.0).sqrt();
-    let largest = |j: usize| dense::column(rows.as_ref(), j).iter().fold(0.0f64, |max, value| max.max(value.abs()));
+    let largest = |a: MatRef<'_, f64>, j: usize| dense::column(a, j).iter().fold(0.0f64, |max, x| max.max(x.abs()));
     let (mut errors, mut sizes) = (Vec::new(), Vec::new());
     for like in [0..n_probes, n_probes..shapes.ncols()] {
-        let share = |j: usize| if length(j) > 0.0 { largest(j) / length(j) } else { 0.0 };
-        let share = like.clone().map(share).fold(0.0, f64::max);
-        errors.extend(
-            like.clone().map(|j| share * mass.errors[j] + columns.displacement_errors[j] + f64::EPSILON * largest(j)),
-        );
-        sizes.extend(like.map(|j| share * length(j)));
+        let share = |a: MatRef<'_, f64>| {
+            let shares = like.clone().filter(|j| length(*j) > 0.0).map(|j| largest(a, j) / length(j));
+            shares.fold(0.0, f64::max)
+        };
+        let own = share(rows.as_ref());
+        let whole = share(shapes).max(own);
+        errors.extend(like.clone().map(|j| {
+            whole * mass.errors[j] + columns.displacement_errors[j] + f64::EPSILON * largest(rows.as_ref(), j)
+        }));
+        sizes.extend(like.map(|j| own.max(AT_REST * whole) * length(j)));
     }
     Rows { rows, errors, sizes }
 }
