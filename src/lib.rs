@@ -252,6 +252,7 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
 
     observer.stage("coordinates");
     let tied = partition::nodes_of_patches(&model, &job.interfaces);
+    facts.notes.extend(partition::reference_nodes(&model, &job.interfaces));
     let model = coordinates::compared(model, &job.model.held_rotations, &tied)?;
 
     observer.stage("partition");

@@ -11,6 +11,7 @@ mod methods;
 mod misleading;
 mod penalties;
 mod recovery;
+mod reference_node;
 mod results;
 #[cfg(feature = "hdf5")]
 mod same_bytes;
