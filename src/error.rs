@@ -19,7 +19,7 @@ use supel_runtime::{FileError, MatrixKind};
 use code::catalogued;
 use words::{
     At, BY_ROWS, FEW_DIGITS, OFF_THE_AXIS, Offered, ROWS_THAT_MOVE, SIX_DOFS, STATE_DIGITS, STATE_EXACT, Suggested,
-    at_line, column_words, forecast, groups, listed, not_text, place, quoted,
+    at_line, column_words, forecast, groups, listed, multipliers, not_text, place, quoted,
 };
 
 use crate::number::{bytes, count, counted, quantity, typed};
@@ -1797,18 +1797,24 @@ pub enum Error {
         /// Its dof, in brackets, where known.
         dof: String,
     },
-    /// K has a zero diagonal in a row with other entries.
+    /// K has rows of constraint multipliers.
     #[entry(
         "E-LAGRANGE",
         InputData,
-        "eliminate constraints before exporting: multipliers have no mass and no stiffness"
+        "export K and M without multipliers, or eliminate constraints before exporting"
     )]
     #[error(
-        "row {row}{dof} of the stiffness has a zero diagonal and other entries – expected a positive diagonal – this \
-        is a constraint multiplier: eliminate constraints before exporting the matrices"
+        "{} in the stiffness, {} – the first is row {row}{dof} – expected none – export K and M without them, or \
+        eliminate constraints before exporting",
+        counted(n_single + n_of_pairs, "row of a constraint multiplier", "rows of constraint multipliers"),
+        multipliers(*n_single, *n_of_pairs)
     )]
     MultiplierRow {
-        /// The row, from one.
+        /// How many have a zero on the diagonal and other entries.
+        n_single: usize,
+        /// How many are one of two that belong to one constraint.
+        n_of_pairs: usize,
+        /// The first row, from one.
         row: usize,
         /// Its dof.
         dof: String,

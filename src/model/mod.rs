@@ -10,6 +10,7 @@ mod definite;
 mod finding;
 mod fit;
 mod mass_order;
+mod multipliers;
 mod scaling;
 mod site;
 mod symmetry;
@@ -109,6 +110,7 @@ impl Model {
         findings.extend(of_stiffness.into_iter().chain(of_mass));
         assert!(stiffness.rows() == mass.rows(), "K has {} rows, M has {}", stiffness.rows(), mass.rows());
         check_not_swapped(&stiffness, &mass, dofs.as_deref())?;
+        multipliers::refuse(&stiffness, &mass, names)?;
         check_diagonals(&stiffness, &mass, names, &mut findings)?;
         findings.extend(mass_order::compared(&stiffness, &mass, dofs.as_deref(), names)?);
         clear_negative_rounding(&mut mass);
@@ -268,8 +270,6 @@ fn check_diagonals(
         }
         if k_empty {
             particles.push(row);
-        } else if k_diag[row] == 0.0 {
-            return Err(Error::MultiplierRow { row: names.number(row), dof: names.bracketed(row) });
         } else if k_diag[row] < 0.0 {
             return Err(Error::NegativeStiffness {
                 row: names.number(row),
