@@ -19,7 +19,7 @@ use supel_runtime::{FileError, MatrixKind};
 use code::catalogued;
 use words::{
     At, BY_ROWS, FEW_DIGITS, OFF_THE_AXIS, Offered, ROWS_THAT_MOVE, SIX_DOFS, STATE_DIGITS, STATE_EXACT, Suggested,
-    at_line, column_words, forecast, groups, listed, not_text, place, quoted,
+    at_line, column_words, forecast, groups, listed, multipliers, not_text, place, quoted,
 };
 
 use crate::number::{bytes, count, counted, quantity, typed};
@@ -1797,18 +1797,24 @@ pub enum Error {
         /// Its dof, in brackets, where known.
         dof: String,
     },
-    /// K has a zero diagonal in a row with other entries.
+    /// K has rows of constraint multipliers.
     #[entry(
         "E-LAGRANGE",
         InputData,
-        "eliminate constraints before exporting: multipliers have no mass and no stiffness"
+        "export K and M without multipliers and give the constraints as `model.constraints`, or eliminate constraints before exporting"
     )]
     #[error(
-        "row {row}{dof} of the stiffness has a zero diagonal and other entries – expected a positive diagonal – this \
-        is a constraint multiplier: eliminate constraints before exporting the matrices"
+        "{} in the stiffness, {} – the first is row {row}{dof} – expected none – export K and M without them and \
+        give the constraints as model.constraints, a matrix G with G u = 0, or eliminate constraints before exporting",
+        counted(n_single + n_of_pairs, "row of a constraint multiplier", "rows of constraint multipliers"),
+        multipliers(*n_single, *n_of_pairs)
     )]
     MultiplierRow {
-        /// The row, from one.
+        /// How many have a zero on the diagonal and other entries.
+        n_single: usize,
+        /// How many are one of two that belong to one constraint.
+        n_of_pairs: usize,
+        /// The first row, from one.
         row: usize,
         /// Its dof.
         dof: String,
@@ -1840,6 +1846,169 @@ pub enum Error {
         dof: String,
         /// The entry.
         value: f64,
+    },
+    /// A line of a file of constraints is none of its format.
+    #[entry(
+        "E-CONSTRAINT-FORMAT",
+        InputData,
+        "write G as Matrix Market, a row for each constraint, as scipy.io.mmwrite does"
+    )]
+    #[error("{}:{line}: `{found}` – expected {expected} – write G as Matrix Market, as scipy.io.mmwrite does", path.display())]
+    ConstraintFormat {
+        /// The file.
+        path: PathBuf,
+        /// The line, from one.
+        line: u64,
+        /// What stands there.
+        found: String,
+        /// What should stand there.
+        expected: &'static str,
+    },
+    /// A file of constraints has another number of columns than the matrices have rows.
+    #[entry(
+        "E-CONSTRAINT-SIZE",
+        InputData,
+        "give G a column for each row of K and M in their order, and a row for each constraint"
+    )]
+    #[error(
+        "{}: {columns} columns – expected {n}, one for each row of the matrices – give G a row for each constraint \
+        and a column for each row of K and M in their order",
+        path.display()
+    )]
+    ConstraintSize {
+        /// The file.
+        path: PathBuf,
+        /// Its columns.
+        columns: u64,
+        /// Rows of K and M in their files.
+        n: u64,
+    },
+    /// Constraints resist a rigid-body motion of the component.
+    #[entry(
+        "E-CONSTRAINT-GROUND",
+        ModelPhysics,
+        "check signs, levers and coordinates of the constraint named; say `model.constraints_to_ground = \"accept\"` where it is meant"
+    )]
+    #[error(
+        "constraint row {row} ({}) resists the {motion} of the component by {share:.1e} of the displacements that it compares, and \
+        {} – expected {:.0e} at most – check its signs and levers and the coordinates, or say model.constraints_to_ground = \"accept\" if it \
+        holds the component to the ground",
+        listed(dofs),
+        counted(*n_rows, "constraint does so in all", "constraints do so in all"),
+        1e-4
+    )]
+    ConstraintGround {
+        /// The row, from one.
+        row: usize,
+        /// Its dofs.
+        dofs: Vec<String>,
+        /// The motion.
+        motion: &'static str,
+        /// How much of it is resisted.
+        share: f64,
+        /// How many constraints resist some motion.
+        n_rows: usize,
+    },
+    /// Constraints tie interface dofs to each other.
+    #[entry(
+        "E-CONSTRAINT-INTERFACE",
+        InputData,
+        "leave all but one of the dofs that follow each other out of the interfaces, or join their nodes in a patch"
+    )]
+    #[error(
+        "constraint row {row} ({}) leaves an equation between dofs of interfaces – expected dofs that move independently – leave \
+        one of them out of the interface with its key `dofs`, or take the nodes together with coupling = \"rigid\"",
+        listed(dofs)
+    )]
+    ConstraintInterface {
+        /// The row, from one.
+        row: usize,
+        /// Its dofs.
+        dofs: Vec<String>,
+    },
+    /// A constraint nearly follows from others.
+    #[entry(
+        "E-CONSTRAINT-RANK",
+        InputData,
+        "write the coefficients with all their digits, or leave the constraint out where it says the same as others"
+    )]
+    #[error(
+        "constraint row {row} ({}) follows from others but for {left:.1e} – expected less than 1e-10, or more than 1e-5 – write the \
+        coefficients with all digits of a double, or leave it out if it says the same as others",
+        listed(dofs)
+    )]
+    ConstraintRank {
+        /// The row, from one.
+        row: usize,
+        /// Its dofs.
+        dofs: Vec<String>,
+        /// What is left of it.
+        left: f64,
+    },
+    /// A dof would follow others by too large a factor.
+    #[entry(
+        "E-CONSTRAINT-SPREAD",
+        InputData,
+        "leave dofs with small coefficients out of the interface, so that others follow them, or mend the coefficients"
+    )]
+    #[error(
+        "{dof} follows other dofs by a factor of {factor:.1e} – expected {limit:.0e} at most, beyond which the stiffness loses its \
+        digits – check the coefficients of its constraints, or leave it out of them"
+    )]
+    ConstraintSpread {
+        /// The dof.
+        dof: String,
+        /// The factor, a rotation in the scale of displacements.
+        factor: f64,
+        /// The largest there may be.
+        limit: f64,
+    },
+    /// Too many constraints hang together.
+    #[entry(
+        "E-CONSTRAINT-BLOCK",
+        InputData,
+        "write them so that each has a dof of its own, as the slave of a tie is, or tie with fewer"
+    )]
+    #[error(
+        "constraint row {row} ({}) is {found} – expected constraints of which each has a dof that no other has, or blocks of less \
+        than 4000 – write a slave dof into each, or leave the interface fewer of their dofs",
+        listed(dofs)
+    )]
+    ConstraintBlock {
+        /// The row, from one.
+        row: usize,
+        /// Its dofs.
+        dofs: Vec<String>,
+        /// What it is part of.
+        found: String,
+    },
+    /// Constraints tie dofs without stiffness and mass to nothing that has any.
+    #[entry(
+        "E-CONSTRAINT-LOOSE",
+        InputData,
+        "tie the node by more constraints, or by nodes that are not in line, or leave its dof out of the matrices"
+    )]
+    #[error(
+        "{} neither stiffness nor mass after the constraints, the first is {dof} – expected that constraints tie it to others – tie \
+        its node by more constraints or by nodes that are not in line, or leave the dof out of the matrices",
+        counted(*n_dofs, "dof has", "dofs have")
+    )]
+    ConstraintLoose {
+        /// How many.
+        n_dofs: usize,
+        /// The first.
+        dof: String,
+    },
+    /// Constraints leave nothing that deforms.
+    #[entry(
+        "E-CONSTRAINT-ALL",
+        InputData,
+        "leave out constraints: what is at rest, or moves as a whole alone, has no modes"
+    )]
+    #[error("the constraints {left} – expected a component that deforms – leave out constraints")]
+    ConstraintAll {
+        /// What they leave, in words.
+        left: String,
     },
     /// The coordinates or the dof map do not belong to K.
     #[entry(

@@ -43,6 +43,7 @@ pub use schema::{Role, schema};
 pub use selection::Selection;
 pub(crate) use shape::nearest;
 pub use types::{
-    Certify, Duplicates, Expectation, Job, ModeSelection, ModelJob, ModesJob, Precision, ReductionJob, RunJob, WriteJob,
+    Certify, ConstraintsToGround, Duplicates, Expectation, Job, ModeSelection, ModelJob, ModesJob, Precision,
+    ReductionJob, RunJob, WriteJob,
 };
 pub(crate) use validation::ends_in;

@@ -10,7 +10,7 @@ use crate::sparse::{product, product_and_terms};
 pub(super) struct Motions<'a> {
     pub(super) model: &'a Model,
     pub(super) sites: &'a [Option<Site>],
-    /// The bodies that have a node.
+    /// The bodies that have a node; those without stiffness and mass, which only constraints tie to others, are none.
     pub(super) bodies: Vec<Body>,
     /// C, n × 6.
     pub(super) centred: Mat<f64>,
@@ -50,7 +50,9 @@ impl<'a> Motions<'a> {
         for (row, body) in model.bodies.of_row.iter().enumerate() {
             rows[*body as usize].push(row);
         }
-        rows.retain(|rows| rows.iter().any(|row| sites[*row].is_some()));
+        let empty = model.empty_rows();
+        let is_there = |row: &usize| sites[*row].is_some() && empty.binary_search(row).is_err();
+        rows.retain(|rows| rows.iter().any(is_there));
         let bodies: Vec<Body> = rows.into_iter().map(|rows| Body::of(sites, rows)).collect();
         let mut centred = Mat::zeros(sites.len(), 6);
         for Body { rows, frame, .. } in &bodies {

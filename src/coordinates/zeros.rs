@@ -7,7 +7,8 @@ use super::motions::{Body, Motions};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::factor::count_below;
-use crate::partition::{DofOrigin, Partition};
+use crate::model::Model;
+use crate::partition::{DofOrigin, Held, Partition};
 use crate::rigid::{ZeroModes, moving_directions, zero_modes};
 
 /// A shift just above zero, in units of what rounding of the data can make of a zero eigenvalue: as many as an eigenvalue may
@@ -21,17 +22,21 @@ const AT_REST: f64 = 1e-12;
 
 /// Rows without stiffness in bodies that have some, and scalar dofs without stiffness: each moves by itself and costs nothing.
 pub(super) fn n_loose_rows(motions: &Motions<'_>) -> usize {
-    let is_empty = |row: &usize| motions.sites[*row].is_some() && motions.scale_of(*row) == 0.0;
+    let without_mass = motions.model.empty_rows();
+    let moves = |row: usize| without_mass.binary_search(&row).is_err();
+    let is_empty = |row: &usize| motions.sites[*row].is_some() && motions.scale_of(*row) == 0.0 && moves(*row);
     let of_body =
         |body: &Body| Some(body.rows.iter().filter(|row| is_empty(row)).count()).filter(|n| *n < body.rows.len());
     let stiffness = crate::sparse::diagonal(&motions.model.stiffness);
-    let scalars = motions.sites.iter().zip(stiffness).filter(|(site, stiffness)| site.is_none() && *stiffness == 0.0);
+    let scalars = motions.sites.iter().zip(stiffness).enumerate();
+    let scalars = scalars.filter(|(row, (site, stiffness))| site.is_none() && *stiffness == 0.0 && moves(*row));
     motions.bodies.iter().filter_map(of_body).sum::<usize>() + scalars.count()
 }
 
-/// K and M whole, in order of elimination.
+/// K and M whole, in order of elimination, before constraints tie anything. Rows without stiffness and mass say nothing of coordinates.
 pub(super) fn whole(motions: &Motions<'_>) -> Result<Partition> {
-    Partition::new(motions.model.clone(), &[])
+    let held = Held::of_rows(motions.model.empty_rows());
+    Partition::with_held(Model { constraints: None, ..motions.model.clone() }, &[], held)
 }
 
 /// Eigenvalues of the pencil that are zero as far as a Sturm count tells, or `None` where the shift meets one; `noise` is

@@ -127,3 +127,12 @@ pub(super) fn forecast(available: u64, [factors, matrices, vectors]: [u64; 3], i
 pub(super) fn place(point: [f64; 3]) -> String {
     point.map(|x| quantity(x, 6)).join(", ")
 }
+
+/// How rows of multipliers are known: by a zero on the diagonal, or as two of one constraint.
+pub(super) fn multipliers(n_single: usize, n_of_pairs: usize) -> String {
+    let single = (n_single > 0).then(|| format!("{n_single} with a zero diagonal and other entries"));
+    let of_pairs = (n_of_pairs > 0).then(|| {
+        format!("{n_of_pairs} in pairs, massless, coupled alike and with opposite numbers on and off the diagonal")
+    });
+    single.into_iter().chain(of_pairs).collect::<Vec<_>>().join(", ")
+}

@@ -4,15 +4,17 @@ use super::{InputNote, MatrixInput};
 use crate::dofs::{DofMap, FileRows};
 use crate::sparse::SparseMatrix;
 
-/// Drops the rows and columns without stiffness and mass from both matrices and from the dof map; says which are left.
+/// Drops the rows and columns without stiffness and mass from both matrices and from the dof map, but for those that constraints tie to
+/// others (`tied`, ascending); says which are left.
 pub(super) fn drop_empty(
-    stiffness: &mut MatrixInput,
-    mass: &mut MatrixInput,
+    (stiffness, mass): (&mut MatrixInput, &mut MatrixInput),
     dofs: &mut Option<DofMap>,
+    tied: &[u32],
 ) -> Option<(FileRows, InputNote)> {
     let n = stiffness.matrix.rows();
-    let is_kept: Vec<bool> =
-        (0..n).map(|row| !is_empty(&stiffness.matrix, row) || !is_empty(&mass.matrix, row)).collect();
+    let is_tied = |row: usize| tied.binary_search(&(row as u32)).is_ok();
+    let has_entries = |row: usize| !is_empty(&stiffness.matrix, row) || !is_empty(&mass.matrix, row);
+    let is_kept: Vec<bool> = (0..n).map(|row| has_entries(row) || is_tied(row)).collect();
     let count = is_kept.iter().filter(|kept| !**kept).count();
     // A pencil without any row is left as it is, to be refused by name.
     let first = is_kept.iter().position(|kept| !kept).filter(|_| count < n)?;

@@ -5,6 +5,7 @@
 mod allowance;
 mod banner;
 mod blocks;
+mod constraint_file;
 mod decimal;
 mod digits;
 mod dof_map;
@@ -40,6 +41,7 @@ mod unsupported_format;
 mod written;
 
 pub use allowance::Allowance;
+pub use constraint_file::{Constraint, ConstraintRows};
 pub use digits::{Digits, DigitsBy, digits_of};
 pub use facts::{InputFacts, MatrixFacts};
 pub use further_matrix::FurtherMatrix;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::allowance::Allowance;
 use super::blocks::LastLine;
+use super::constraint_file::{ConstraintRows, constraint_rows};
 use super::format::{DirectionBase, MatrixSource, OrderSource, ReadMatrix};
 use super::further_matrix::FurtherMatrix;
 use super::hdf5_format::{self, split_group};
@@ -15,7 +16,9 @@ use super::quantity_files::{QuantityRows, quantity_rows};
 use super::{Cells, InputNote, MatrixInput, MatrixRole, dof_map, empty_rows, formats};
 use crate::dofs::{DofMap, FileRows, Nodes};
 use crate::error::{Error, Result};
-use crate::job::{Duplicates, Job, LoadJob, LoadPattern, MatrixJob, ModelJob, QuantitiesJob, ReductionJob};
+use crate::job::{
+    ConstraintsToGround, Duplicates, Job, LoadJob, LoadPattern, MatrixJob, ModelJob, QuantitiesJob, ReductionJob,
+};
 use crate::regular_file::{digest, unchanged};
 use crate::sparse::SparseMatrix;
 use crate::sparse::Triangle;
@@ -33,8 +36,10 @@ pub struct Input {
     pub nodes: Option<Nodes>,
     /// Which rows of the files are left.
     pub rows: FileRows,
-    /// BLAKE3 digests of the files of the dof map (`dofs`), of the nodes (`nodes`) and of what those refer to (`nodes_data`),
-    /// lower-case hexadecimal.
+    /// Multipoint constraints on the rows that are left; absent where the job names none.
+    pub constraints: Option<ConstraintRows>,
+    /// BLAKE3 digests of the files of the dof map (`dofs`), of the nodes (`nodes`), of what those refer to (`nodes_data`) and of the
+    /// constraints (`constraints`), lower-case hexadecimal.
     pub digests: BTreeMap<&'static str, String>,
     /// What reading needed beyond copying.
     pub notes: Vec<InputNote>,
@@ -90,14 +95,19 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
         }
         (None, None) => None,
     };
+    let constraints = read_constraints(model, n, allowance, &mut digests)?;
     let mut rows = FileRows::default();
+    let tied = constraints.as_ref().map_or_else(Vec::new, ConstraintRows::tied);
     if model.drop_empty
-        && let Some((kept, note)) = empty_rows::drop_empty(&mut stiffness, &mut mass, &mut dofs)
+        && let Some((kept, note)) = empty_rows::drop_empty((&mut stiffness, &mut mass), &mut dofs, &tied)
     {
         rows = kept;
         notes.push(note);
     }
-    Ok(Input { stiffness, mass, dofs, nodes, rows, digests, notes })
+    // A row that takes part in a constraint is not dropped.
+    let number = |row: u32| rows.find(row as usize).unwrap_or_default() as u32;
+    let constraints = constraints.map(|constraints| constraints.renumbered(number));
+    Ok(Input { stiffness, mass, dofs, nodes, rows, constraints, digests, notes })
 }
 
 /// The columns of the files of loads, one for each load that has a file.
@@ -182,6 +192,7 @@ pub fn file_of(path: &Path) -> PathBuf {
 pub fn files(model: &ModelJob) -> Vec<(&'static str, PathBuf)> {
     let mut files = vec![("the stiffness", file_of(&model.stiffness)), ("the mass", file_of(&model.mass))];
     files.extend(model.dofs.clone().map(|path| ("the dof map", path)));
+    files.extend(model.constraints.clone().map(|path| ("the constraints", path)));
     if let Some(nodes) = &model.nodes {
         files.push(("the nodes", nodes.clone()));
         let referenced = formats::of_nodes(nodes).map(|format| format.referenced_files(nodes)).unwrap_or_default();
@@ -260,6 +271,18 @@ fn read_nodes(path: &Path, allowance: &Allowance, digests: &mut Digests) -> Resu
     digests.insert("nodes", of_nodes);
     refuse_out_of_range(path, &nodes)?;
     Ok(nodes)
+}
+
+fn read_constraints(
+    model: &ModelJob,
+    n: usize,
+    allowance: &Allowance,
+    digests: &mut Digests,
+) -> Result<Option<ConstraintRows>> {
+    let Some(path) = &model.constraints else { return Ok(None) };
+    let read = constraint_rows(path, n, allowance)?;
+    digests.insert("constraints", read.digest.clone());
+    Ok(Some(ConstraintRows { may_ground: model.constraints_to_ground == ConstraintsToGround::Accept, ..read }))
 }
 
 /// Refuses coordinates with which moments of inertia, and what is squared of them, would leave the range of double precision.

@@ -1,4 +1,4 @@
-//! Rectangular matrices in Matrix Market form: loads and modes in columns, quantities in rows.
+//! Rectangular matrices in Matrix Market form: loads and modes in columns, quantities and constraints in rows.
 //!
 //! `array` files list every value, column by column; `coordinate` files list `row column value`, and values at one place are added up.
 
@@ -24,6 +24,8 @@ pub(super) enum Content<'a> {
     Modes { n_rows: usize },
     /// A row for each name of a quantity, a column for each row of the matrices.
     Quantities { n_names: usize, n_rows: usize },
+    /// A row for each constraint, a column for each row of the matrices.
+    Constraints { n_rows: usize },
 }
 
 impl Content<'_> {
@@ -32,6 +34,7 @@ impl Content<'_> {
             Self::Load { .. } => "a load in Matrix Market form",
             Self::Modes { .. } => "modes in Matrix Market form",
             Self::Quantities { .. } => "rows of quantities in Matrix Market form",
+            Self::Constraints { .. } => "constraints in Matrix Market form",
         }
     }
 
@@ -41,6 +44,7 @@ impl Content<'_> {
             Self::Load { .. } => Error::LoadFormat { path, line, found, expected },
             Self::Modes { .. } => Error::ModesFormat { path, line: Some(line), found: format!("`{found}`"), expected },
             Self::Quantities { .. } => Error::QuantityFormat { path, line, found, expected },
+            Self::Constraints { .. } => Error::ConstraintFormat { path, line, found, expected },
         }
     }
 
@@ -54,7 +58,10 @@ impl Content<'_> {
             Self::Quantities { n_names, n_rows } if [rows, columns] != [n_names as u64, n_rows as u64] => {
                 Err(Error::QuantitySize { path, rows, columns, n_names: n_names as u64, n: n_rows as u64 })
             }
-            Self::Load { .. } | Self::Modes { .. } | Self::Quantities { .. } => Ok(()),
+            Self::Constraints { n_rows: n } if columns != n as u64 => {
+                Err(Error::ConstraintSize { path, columns, n: n as u64 })
+            }
+            Self::Load { .. } | Self::Modes { .. } | Self::Quantities { .. } | Self::Constraints { .. } => Ok(()),
         }
     }
 }
@@ -71,7 +78,8 @@ pub(super) struct Entry {
 pub(super) struct RectangularFile<'a> {
     lines: Lines<'a>,
     layout: Layout,
-    n_rows: u64,
+    /// Rows that the size line says.
+    pub(super) n_rows: u64,
     /// Columns that the size line says.
     pub(super) n_columns: u64,
     n_entries: u64,

@@ -44,12 +44,13 @@ impl Job {
 
     fn has_inputs_in(&self, folder: &Path) -> bool {
         let model = &self.model;
-        let files = [Some(&model.stiffness), Some(&model.mass), model.dofs.as_ref(), model.nodes.as_ref()];
+        let of_model = [model.dofs.as_ref(), model.nodes.as_ref(), model.constraints.as_ref()];
+        let files = [Some(&model.stiffness), Some(&model.mass)].into_iter().chain(of_model);
         let of_loads = self.loads.iter().map(|load| load.file.as_ref());
         let of_matrices = self.matrices.iter().map(|matrix| Some(&matrix.file));
         let of_quantities = self.write.quantities.iter().flat_map(|rows| [Some(&rows.matrix), Some(&rows.names)]);
         let modes = self.reduction.modes_file().is_none_or(|path| is_there(&folder.join(path)));
-        let mut named = files.into_iter().chain(of_loads).chain(of_matrices).chain(of_quantities).flatten();
+        let mut named = files.chain(of_loads).chain(of_matrices).chain(of_quantities).flatten();
         modes && named.all(|path| is_there(&folder.join(path)))
     }
 }

@@ -6,7 +6,7 @@ use supel_runtime::MatrixKind;
 
 use super::damping::{ComponentDampingJob, RigidMotionDamping};
 use super::location::Holder;
-use super::types::{Certify, Job, ModesJob};
+use super::types::{Certify, ConstraintsToGround, Job, ModesJob};
 use super::{document, validation};
 use crate::error::{Error, Result};
 
@@ -54,7 +54,9 @@ impl Job {
         let held = self.fixed.iter().enumerate().map(|(index, fixed)| fixed.assumption(index));
         let resisted = (self.has_damping() && self.rigid_motion() == RigidMotionDamping::Resist)
             .then(|| "damping may resist rigid-body motion of the component".to_owned());
-        held.chain(resisted).collect()
+        let grounded = (self.model.constraints_to_ground == ConstraintsToGround::Accept)
+            .then(|| "constraints may hold the component to the ground".to_owned());
+        held.chain(resisted).chain(grounded).collect()
     }
 
     /// Whether the superelement has damping: that of matrices, or one that is made from the reduced ones.
@@ -109,6 +111,7 @@ impl Job {
             ("model.mass", Some(&mut model.mass)),
             ("model.dofs", model.dofs.as_mut()),
             ("model.nodes", model.nodes.as_mut()),
+            ("model.constraints", model.constraints.as_mut()),
             ("reduction.modes.file", modes),
             ("write.quantities.matrix", matrix),
             ("write.quantities.names", names),

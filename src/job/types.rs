@@ -109,6 +109,16 @@ pub struct ModelJob {
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "rotations")]
     #[schemars(schema_with = "rotations_schema")]
     pub held_rotations: Vec<Direction>,
+    /// File of multipoint constraints, a Matrix Market file of a matrix G with G u = 0: a row for each constraint, a column for each row
+    /// of K and M.
+    #[schemars(length(min = 1))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-role" = "place-of-one"))]
+    pub constraints: Option<PathBuf>,
+    /// What becomes of constraints that resist rigid-body motion of the component.
+    #[serde(default, skip_serializing_if = "ConstraintsToGround::are_refused")]
+    #[schemars(extend("default" = "refuse"))]
+    pub constraints_to_ground: ConstraintsToGround,
     /// What the user knows of the component, to be compared with what the matrices say.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expect: Option<Expectation>,
@@ -123,6 +133,23 @@ fn rotations<'de, D: serde::Deserializer<'de>>(deserializer: D) -> std::result::
     match first_repeated(&directions) {
         Some(twice) => Err(serde::de::Error::custom(format!("`{twice}` is listed twice, expected each rotation once"))),
         None => Ok(directions),
+    }
+}
+
+/// What becomes of constraints that resist rigid-body motion, and so hold the component to the ground.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ConstraintsToGround {
+    /// They are an error.
+    #[default]
+    Refuse,
+    /// They are taken, with a warning.
+    Accept,
+}
+
+impl ConstraintsToGround {
+    fn are_refused(&self) -> bool {
+        *self == Self::Refuse
     }
 }
 

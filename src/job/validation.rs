@@ -69,6 +69,7 @@ fn model(job: &Job) -> Result<()> {
         ("model.mass", Some(&model.mass)),
         ("model.dofs", model.dofs.as_ref()),
         ("model.nodes", model.nodes.as_ref()),
+        ("model.constraints", model.constraints.as_ref()),
     ];
     for (key, path) in files {
         if path.is_some_and(|path| path.as_os_str().is_empty()) {

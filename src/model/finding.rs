@@ -98,6 +98,30 @@ pub enum Finding {
         /// Its distance from the mean of the patch over the size of the part.
         ratio: f64,
     },
+    /// Constraints that were eliminated.
+    Constrained {
+        /// How many have terms.
+        n_rows: usize,
+        /// How many dofs follow others.
+        n_dependent: usize,
+        /// The largest factor by which one does, rotations in the scale of displacements.
+        largest: f64,
+        /// Those that follow from others, by their rows in the file, from one.
+        redundant: Vec<usize>,
+        /// Rows of the file without terms.
+        empty: u64,
+    },
+    /// Constraints that hold the component to the ground, as the job accepts.
+    ConstraintGround {
+        /// The one that does so most, from one.
+        row: usize,
+        /// Its dofs.
+        dofs: String,
+        /// The rigid-body motion that it resists.
+        motion: &'static str,
+        /// How many resist some.
+        n_rows: usize,
+    },
     /// Interface dofs with mass and no stiffness.
     HangingInterface {
         /// What the first is called.
@@ -118,7 +142,7 @@ impl Finding {
     pub fn warning(&self) -> Option<&'static str> {
         match self {
             Self::Symmetrised { asymmetry, .. } => (*asymmetry > ASYMMETRY_WARN).then_some("W-UNSYMMETRIC"),
-            Self::MasslessRows { .. } => None,
+            Self::MasslessRows { .. } | Self::Constrained { .. } => None,
             Self::FreeParticles { .. } => Some("W-FREE-PARTICLE"),
             Self::MassCouplesOthers { .. } => Some("W-MASS-ORDER"),
             Self::Penalties { .. } => Some("W-PENALTY"),
@@ -128,6 +152,7 @@ impl Finding {
             Self::MassByDirection { .. } => Some("W-MASS-DIRECTION"),
             Self::RotationsFree { .. } => Some("W-NOT-HELD"),
             Self::OriginFar { .. } => Some("W-ORIGIN-FAR"),
+            Self::ConstraintGround { .. } => Some("W-CONSTRAINT-GROUND"),
             Self::HangingInterface { .. } => Some("W-HANGING"),
         }
     }
@@ -181,12 +206,46 @@ impl std::fmt::Display for Finding {
                 )
             }
             Self::OriginFar { interface, origin, ratio } => f.write_str(&origin_far(interface, *origin, *ratio)),
+            Self::Constrained { n_rows, n_dependent, largest, redundant, empty } => {
+                f.write_str(&constrained([*n_rows, *n_dependent], *largest, redundant, *empty))
+            }
+            Self::ConstraintGround { row, dofs, motion, n_rows } => {
+                f.write_str(&to_ground(*row, dofs, motion, *n_rows))
+            }
             Self::HangingInterface { dof, n_dofs } => {
                 let dofs = counted(*n_dofs, "interface dof has", "interface dofs have");
                 write!(f, "{dofs} mass and no stiffness, the first is {dof}: they move freely")
             }
         }
     }
+}
+
+fn constrained([n_rows, n_dependent]: [usize; 2], largest: f64, redundant: &[usize], empty: u64) -> String {
+    /// Constraints that a message names.
+    const SHOWN: usize = 12;
+    let mut text = format!(
+        "{}, {} by factors of {} at most",
+        counted(n_rows, "constraint", "constraints"),
+        counted(n_dependent, "dof follows others", "dofs follow others"),
+        quantity(largest, 3)
+    );
+    if !redundant.is_empty() {
+        let rows: Vec<String> = redundant.iter().take(SHOWN).map(ToString::to_string).collect();
+        let more = redundant.len().saturating_sub(SHOWN);
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        text += &format!("; left out because they follow from others: rows {}{more}", rows.join(", "));
+    }
+    if empty > 0 {
+        text += &format!("; {} no terms", counted(empty, "row has", "rows have"));
+    }
+    text
+}
+
+fn to_ground(row: usize, dofs: &str, motion: &str, n_rows: usize) -> String {
+    format!(
+        "{} to the ground, most of all row {row} ({dofs}), which resists the {motion} of the component: the job accepts that",
+        counted(n_rows, "constraint holds the component", "constraints hold the component")
+    )
 }
 
 fn stiff_rows(n_rows: usize, first: &str, ratio: f64) -> String {

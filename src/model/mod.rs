@@ -10,6 +10,7 @@ mod definite;
 mod finding;
 mod fit;
 mod mass_order;
+mod multipliers;
 mod scaling;
 mod site;
 mod symmetry;
@@ -19,7 +20,7 @@ use std::collections::HashSet;
 
 use crate::dofs::{Dof, DofMap, FileRows, Nodes, RowNames};
 use crate::error::{Error, Result};
-use crate::input::{Input, MatrixInput};
+use crate::input::{ConstraintRows, Input, MatrixInput};
 use crate::sparse::{Precision, Rounding, SparseMatrix, diagonal};
 
 pub use added_mass::add_masses;
@@ -49,6 +50,8 @@ pub struct Model {
     pub nodes: Option<Nodes>,
     /// Which rows of the files its rows are.
     pub rows: FileRows,
+    /// Multipoint constraints on its rows, where there are some.
+    pub constraints: Option<ConstraintRows>,
     /// Connected parts of the graph of K.
     pub bodies: Bodies,
     /// How coordinates and dof map fit K; unknown until [`crate::coordinates::compared`] has looked.
@@ -66,6 +69,8 @@ pub struct ModelFacts {
     pub n_dofs: usize,
     /// How many of them the job holds.
     pub n_held: usize,
+    /// How many of them follow others by constraints.
+    pub n_dependent: usize,
     /// Number of nodes, where known.
     pub n_nodes: Option<usize>,
     /// Number of connected parts that can move.
@@ -79,9 +84,9 @@ pub struct ModelFacts {
 }
 
 impl ModelFacts {
-    /// Dofs that the job does not hold.
+    /// Dofs that the job does not hold and that do not follow others by constraints.
     pub fn n_moving(&self) -> usize {
-        self.n_dofs - self.n_held
+        self.n_dofs - self.n_held - self.n_dependent
     }
 }
 
@@ -109,7 +114,10 @@ impl Model {
         findings.extend(of_stiffness.into_iter().chain(of_mass));
         assert!(stiffness.rows() == mass.rows(), "K has {} rows, M has {}", stiffness.rows(), mass.rows());
         check_not_swapped(&stiffness, &mass, dofs.as_deref())?;
-        check_diagonals(&stiffness, &mass, names, &mut findings)?;
+        multipliers::refuse(&stiffness, &mass, names)?;
+        let constraints = input.constraints;
+        let tied = constraints.as_ref().map_or_else(Vec::new, ConstraintRows::tied);
+        check_diagonals((&stiffness, &mass), names, &tied, &mut findings)?;
         findings.extend(mass_order::compared(&stiffness, &mass, dofs.as_deref(), names)?);
         clear_negative_rounding(&mut mass);
         let scaling = Scaling::take_out(&mut stiffness, &mut mass)?;
@@ -124,7 +132,20 @@ impl Model {
         );
         is_definite?;
         let (nodes, fit, supports) = (input.nodes, CoordinateFit::Unknown, Supports::Perhaps);
-        Ok(Self { stiffness, mass, scaling, precision, dofs, nodes, rows, bodies, fit, supports, findings })
+        Ok(Self {
+            stiffness,
+            mass,
+            scaling,
+            precision,
+            dofs,
+            nodes,
+            rows,
+            constraints,
+            bodies,
+            fit,
+            supports,
+            findings,
+        })
     }
 
     /// What the rows are called in messages.
@@ -143,6 +164,13 @@ impl Model {
         Bodies::count_among(&self.stiffness, &node_of_row(self.n_dofs(), self.dofs.as_deref()), is_counted)
     }
 
+    /// Rows with neither stiffness nor mass, which constraints tie to others.
+    pub fn empty_rows(&self) -> Vec<usize> {
+        let is_empty = |row: &usize| is_empty_row(&self.stiffness, *row) && is_empty_row(&self.mass, *row);
+        let tied = self.constraints.iter().flat_map(ConstraintRows::tied).map(|row| row as usize);
+        tied.filter(is_empty).collect()
+    }
+
     /// Whether some rows belong to no node.
     pub fn has_scalars(&self) -> bool {
         self.dofs.iter().flatten().any(Option::is_none)
@@ -154,6 +182,7 @@ impl Model {
         ModelFacts {
             n_dofs: self.n_dofs(),
             n_held: 0,
+            n_dependent: 0,
             n_nodes: self.dofs.as_ref().map(n_nodes),
             n_bodies: if self.has_scalars() { self.n_bodies_among(|_| true) } else { self.bodies.n_bodies },
             weight: None,
@@ -245,10 +274,11 @@ fn cancelling_rows(matrix: &SparseMatrix, dofs: Option<&[Option<Dof>]>) -> f64 {
     if total > 0 { cancelling as f64 / total as f64 } else { 0.0 }
 }
 
+/// Refuses diagonals that no structure has. Rows that constraints tie to others (`tied`, ascending) need neither stiffness nor mass.
 fn check_diagonals(
-    stiffness: &SparseMatrix,
-    mass: &SparseMatrix,
+    (stiffness, mass): (&SparseMatrix, &SparseMatrix),
     names: RowNames<'_>,
+    tied: &[u32],
     findings: &mut Vec<Finding>,
 ) -> Result<()> {
     let n = stiffness.rows();
@@ -263,13 +293,13 @@ fn check_diagonals(
         let k_empty = is_empty_row(stiffness, row);
         let m_empty = is_empty_row(mass, row);
         if k_empty && m_empty {
-            empty.push(row);
+            if tied.binary_search(&(row as u32)).is_err() {
+                empty.push(row);
+            }
             continue;
         }
         if k_empty {
             particles.push(row);
-        } else if k_diag[row] == 0.0 {
-            return Err(Error::MultiplierRow { row: names.number(row), dof: names.bracketed(row) });
         } else if k_diag[row] < 0.0 {
             return Err(Error::NegativeStiffness {
                 row: names.number(row),

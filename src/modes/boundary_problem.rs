@@ -264,6 +264,7 @@ mod tests {
             dofs: None,
             nodes: None,
             rows: Default::default(),
+            constraints: None,
             digests: Default::default(),
             notes: Vec::new(),
         };

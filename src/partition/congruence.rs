@@ -47,7 +47,8 @@ fn rows(matrix: &SparseMatrix, moved: &Moved<'_>) -> RowStorage {
 /// The rows of A that move with each dof.
 struct Moved<'a> {
     transformation: &'a Transformation,
-    /// Rows of A and factors for the dofs of patches; any other dof has one row, factor one.
+    /// Rows of A and factors for the dofs that rows of patches and of constraints follow, in addition to the row that is the dof itself;
+    /// any other dof has that one alone, factor one.
     by_patch_nodes: BTreeMap<usize, Vec<(u32, f64)>>,
     /// Whether rows of T have tens of entries: rows of A are added up before T expands them.
     has_long_rows: bool,
@@ -64,13 +65,18 @@ impl<'a> Moved<'a> {
             }
         }
         let is_long = |dof: &ReducedDof| matches!(dof.origin, DofOrigin::Distortion(..));
-        let has_long_rows = transformation.dofs.iter().any(is_long);
+        let is_long_row =
+            |row: &TransformationRow| matches!(row, TransformationRow::Tied(entries) if entries.len() > 6);
+        let has_long_rows = transformation.dofs.iter().any(is_long) || transformation.rows.iter().any(is_long_row);
         Self { transformation, by_patch_nodes, has_long_rows }
     }
 
     /// Entries of a dof's row where it is a row of A with its columns in other places, each to itself.
     fn permuted_length(&self, matrix: &SparseMatrix, dof: usize) -> Option<usize> {
         let DofOrigin::Row(row) = self.transformation.dofs[dof].origin else { return None };
+        if self.by_patch_nodes.contains_key(&dof) {
+            return None;
+        }
         let columns = matrix.outer_view(row).map_or(&[][..], |row| row.into_raw_storage().0);
         let is_dof = |col: &u32| matches!(self.transformation.rows[*col as usize], TransformationRow::Dof(_));
         columns.iter().all(is_dof).then_some(columns.len())
@@ -142,7 +148,7 @@ impl Row {
     }
 }
 
-/// Replaces the entries of patches' nodes by the mean of the two sides of the diagonal: their sums are taken in different orders
+/// Replaces the entries of dofs that others follow by the mean of the two sides of the diagonal: their sums are taken in different orders
 /// there. All other entries are single terms.
 fn symmetrise(RowStorage { pointers, indices, values }: &mut RowStorage, moved: &Moved<'_>) {
     for dof in moved.by_patch_nodes.keys() {
@@ -157,22 +163,23 @@ fn symmetrise(RowStorage { pointers, indices, values }: &mut RowStorage, moved: 
     }
 }
 
-/// The largest (|T|ᵀ|A||T|)_ii / (TᵀAT)_ii: how much larger the terms of the stiffness of a patch's node are than their sum.
-/// Rounding of the data reaches the node's row enlarged by this factor.
+/// The largest (|T|ᵀ|A||T|)_ii / (TᵀAT)_ii: how much larger the terms of the stiffness of a dof that others follow are than their sum.
+/// Rounding of the data reaches its row enlarged by this factor.
 pub(super) fn cancellation(matrix: &SparseMatrix, product: &SparseMatrix, transformation: &Transformation) -> f64 {
     let mut sums: BTreeMap<u32, f64> = BTreeMap::new();
-    for (row, entries) in transformation.rows.iter().enumerate() {
-        let TransformationRow::Tied(entries) = entries else {
-            continue;
-        };
+    let followed = transformation.followed();
+    let takes_part = |row: usize| match &transformation.rows[row] {
+        TransformationRow::Dof(dof) => followed[*dof as usize],
+        TransformationRow::Tied(_) => true,
+        TransformationRow::Held => false,
+    };
+    for row in (0..transformation.rows.len()).filter(|row| takes_part(*row)) {
         let Some(view) = matrix.outer_view(row) else { continue };
-        for (col, value) in view.iter() {
-            let TransformationRow::Tied(others) = &transformation.rows[col] else {
-                continue;
-            };
-            for (dof, factor) in entries {
-                let lever = others.iter().find(|(other, _)| other == dof).map_or(0.0, |(_, lever)| *lever);
-                *sums.entry(*dof).or_default() += (factor * value * lever).abs();
+        for (col, value) in view.iter().filter(|(col, _)| takes_part(*col)) {
+            for (dof, factor) in transformation.rows[row].entries() {
+                let mut others = transformation.rows[col].entries();
+                let lever = others.find(|(other, _)| *other == dof).map_or(0.0, |(_, lever)| lever);
+                *sums.entry(dof).or_default() += (factor * value * lever).abs();
             }
         }
     }

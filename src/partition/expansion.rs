@@ -6,7 +6,8 @@
 //! ```
 //! Held dofs and rigid patches follow a mode as near as they can: the motion T v̂ that is nearest to v in the mass has
 //! TᵀMT v̂ = TᵀM v, so that TᵀMV are the inertia forces of those motions, and v̂ need not be known. Each v is kept with its largest
-//! entry in [1, 2): a mode may be of any size. An average loses nothing: its T is a change of variables.
+//! entry in [1, 2): a mode may be of any size. An average loses nothing: its T is a change of variables. Where constraints tie dofs, all
+//! rows follow together.
 
 use std::collections::BTreeMap;
 
@@ -49,6 +50,8 @@ pub struct RowModes {
     terms: Vec<f64>,
     /// The diagonal of M.
     weights: Vec<f64>,
+    /// Whether constraints tie dofs to each other, so that no few rows follow a mode by themselves.
+    are_constrained: bool,
 }
 
 /// The modes of a file on the rows of a model; those of rows that were dropped, which have no mass, are left out.
@@ -73,7 +76,8 @@ pub fn expansion_modes(model: &Model, modes: &ModeColumns) -> Result<RowModes> {
     if let Some(at) = terms.iter().position(|terms| *terms == 0.0) {
         return Err(Error::ModesNothing { mode: at + 1, found: "no dof with mass that it moves" });
     }
-    Ok(RowModes { values, inertia, units, terms, weights: diagonal(&model.mass) })
+    let (weights, are_constrained) = (diagonal(&model.mass), model.constraints.is_some());
+    Ok(RowModes { values, inertia, units, terms, weights, are_constrained })
 }
 
 impl RowModes {
@@ -131,6 +135,12 @@ impl Expansion {
 fn not_followed(modes: &RowModes, transformation: &Transformation) -> Vec<f64> {
     let k = modes.units.len();
     let square = |row: usize, at: usize| modes.weighted(row, at).powi(2);
+    let whole = |at: usize| (0..modes.values.nrows()).map(|row| square(row, at)).sum::<f64>();
+    let share = |(at, lost): (usize, f64)| if lost > 0.0 { (lost / whole(at)).sqrt().min(1.0) } else { 0.0 };
+    if modes.are_constrained {
+        let left = NotFollowed { modes, transformation, diagonal: diagonal_of(modes, transformation) };
+        return (0..k).map(|at| share((at, left.least(at, whole(at))))).collect();
+    }
     let mut lost = vec![0.0; k];
     let mut patches: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (row, of_row) in transformation.rows.iter().enumerate() {
@@ -158,8 +168,6 @@ fn not_followed(modes: &RowModes, transformation: &Transformation) -> Vec<f64> {
     for rows in patches.values() {
         lost.iter_mut().zip(lost_by_patch(modes, transformation, rows)).for_each(|(lost, of_patch)| *lost += of_patch);
     }
-    let whole = |at: usize| (0..modes.values.nrows()).map(|row| square(row, at)).sum::<f64>();
-    let share = |(at, lost): (usize, f64)| if lost > 0.0 { (lost / whole(at)).sqrt().min(1.0) } else { 0.0 };
     lost.into_iter().enumerate().map(share).collect()
 }
 
@@ -183,4 +191,93 @@ fn lost_by_patch(modes: &RowModes, transformation: &Transformation, rows: &[usiz
     let followed = dense::least_squares(motions.as_ref(), left.as_ref());
     dense::add_product(left.as_mut(), -1.0, motions.as_ref(), followed.as_ref());
     (0..k).map(|at| dense::norm(dense::column(left.as_ref(), at)).powi(2)).collect()
+}
+
+/// Steps of conjugate gradients: T is the identity but for rows of few entries, so that tens are enough; stopped early, the share is a
+/// bound from above.
+const STEPS: usize = 200;
+/// Share of what is left, squared, by which a further step could make it smaller, below which none is taken.
+const SETTLED: f64 = 1e-12;
+/// Share of a mode, squared, that is rounding.
+const ROUNDING: f64 = 1e-24;
+
+/// The diagonal of TᵀWT with W the diagonal of M.
+fn diagonal_of(modes: &RowModes, transformation: &Transformation) -> Vec<f64> {
+    let mut diagonal = vec![0.0; transformation.dofs.len()];
+    for (row, of_row) in transformation.rows.iter().enumerate() {
+        let weight = modes.weights[row].max(0.0);
+        of_row.entries().for_each(|(dof, factor)| diagonal[dof as usize] += weight * factor * factor);
+    }
+    diagonal
+}
+
+/// What a motion of the dofs leaves of a mode where constraints tie dofs to each other.
+struct NotFollowed<'a> {
+    modes: &'a RowModes,
+    transformation: &'a Transformation,
+    diagonal: Vec<f64>,
+}
+
+impl NotFollowed<'_> {
+    /// min_q Σ M_ii (v − Tq)_i² by conjugate gradients on TᵀWT q = TᵀWv, from the motion that has the values of v.
+    fn least(&self, at: usize, whole: f64) -> f64 {
+        let mut left = self.after_own_values(at);
+        let mut size = self.size(&left);
+        let (mut direction, mut slope) = (Vec::new(), 0.0);
+        for _ in 0..STEPS {
+            let force = self.pulled_back(&left);
+            let step: Vec<f64> =
+                force.iter().zip(&self.diagonal).map(|(f, d)| if *d > 0.0 { f / d } else { 0.0 }).collect();
+            let next = dense::dot(&force, &step);
+            if next <= SETTLED * size || size <= ROUNDING * whole {
+                break;
+            }
+            direction = match slope > 0.0 {
+                true => step
+                    .iter()
+                    .zip(&direction)
+                    .map(|(step, before): (&f64, &f64)| step + next / slope * before)
+                    .collect(),
+                false => step,
+            };
+            slope = next;
+            let moved: Vec<f64> = self.moved(&direction);
+            let length = slope / self.size(&moved);
+            left.iter_mut().zip(&moved).for_each(|(left, moved)| *left -= length * moved);
+            size = self.size(&left);
+        }
+        size
+    }
+
+    /// v − Tq with the values of v for those dofs that are rows of the model.
+    fn after_own_values(&self, at: usize) -> Vec<f64> {
+        let own = |origin: DofOrigin| match origin {
+            DofOrigin::Row(row) => self.modes.values[(row, at)],
+            DofOrigin::PatchNode(..) | DofOrigin::Distortion(..) => 0.0,
+        };
+        let q: Vec<f64> = self.transformation.dofs.iter().map(|dof| own(dof.origin)).collect();
+        let values = dense::column(self.modes.values.as_ref(), at);
+        values.iter().zip(self.moved(&q)).map(|(value, moved)| value - moved).collect()
+    }
+
+    /// T q.
+    fn moved(&self, q: &[f64]) -> Vec<f64> {
+        let of_row = |row: &TransformationRow| row.entries().map(|(dof, factor)| factor * q[dof as usize]).sum();
+        self.transformation.rows.iter().map(of_row).collect()
+    }
+
+    /// TᵀW x.
+    fn pulled_back(&self, x: &[f64]) -> Vec<f64> {
+        let mut force = vec![0.0; self.transformation.dofs.len()];
+        for (row, of_row) in self.transformation.rows.iter().enumerate() {
+            let weighted = self.modes.weights[row].max(0.0) * x[row];
+            of_row.entries().for_each(|(dof, factor)| force[dof as usize] += factor * weighted);
+        }
+        force
+    }
+
+    /// xᵀWx.
+    fn size(&self, x: &[f64]) -> f64 {
+        x.iter().zip(&self.modes.weights).map(|(x, weight)| weight.max(0.0) * x * x).sum()
+    }
 }

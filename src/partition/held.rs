@@ -38,6 +38,11 @@ pub struct HeldSelection {
 const NO_LEVER: f64 = 1e-9;
 
 impl Held {
+    /// Rows that are held for a look at the model without them.
+    pub(crate) fn of_rows(rows: Vec<usize>) -> Self {
+        Self { rows: rows.into_iter().map(|row| (row, 0)).collect(), ..Self::default() }
+    }
+
     /// Dofs that are held, each counted once.
     pub fn count(&self) -> usize {
         self.rows.len()

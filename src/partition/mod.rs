@@ -1,7 +1,8 @@
 //! The partition: which degrees of freedom are interface, which internal, and the two matrices in that order.
 //!
 //! ```text
-//! T            n × n'      original rows from partitioned dofs; identity but for the rows of patches and those that the job holds, which are empty
+//! T            n × n'      original rows from partitioned dofs; identity but for the rows of patches, those that follow others by
+//!                          constraints and those that the job holds, which are empty
 //! K = TᵀKT     n' × n'     internal dofs first, in the order of elimination, then the interface dofs in job order
 //! M = TᵀMT     n' × n'
 //! n' = n_I + n_B
@@ -12,8 +13,11 @@
 mod average_patch;
 mod axes;
 mod congruence;
+mod constraint_ground;
+mod constraints;
 mod direct_nodes;
 mod distortions;
+mod elimination;
 mod expansion;
 mod faces;
 mod fitted;

@@ -23,7 +23,8 @@
 //! |xᵀEx| ≤ √(2 ln(2/p)/3) (c Σ h² w² x̃_i² x̃_j²)^½        over all entries, but for a chance of p
 //! ```
 //!
-//! Rigid patches are made of sums of entries, which were rounded before: their entries are taken as the model has them.
+//! Rigid patches and dofs that others follow by constraints are made of sums of entries, which were rounded before: their entries are
+//! taken as the model has them.
 
 use faer::MatRef;
 use rayon::prelude::*;
@@ -60,7 +61,7 @@ impl Partition {
                 .collect();
         }
         let rounding = self.precision.stiffness;
-        let of = || Roundings::of(&self.stiffness, &self.dofs, &self.patches, rounding);
+        let of = || Roundings::of(&self.stiffness, &self.transformation, &self.patches, rounding);
         self.noise_of((self.roundings.get_or_init(of), rounding, self.scaling.stiffness_unit()), x)
     }
 
@@ -69,7 +70,7 @@ impl Partition {
     pub fn mass_noise(&self, x: MatRef<'_, f64>) -> Option<Vec<f64>> {
         let patches = self.mass_patches.as_ref()?;
         let rounding = self.precision.mass;
-        let of = || Roundings::of(&self.mass, &self.dofs, patches, rounding);
+        let of = || Roundings::of(&self.mass, &self.transformation, patches, rounding);
         Some(self.noise_of((self.mass_roundings.get_or_init(of), rounding, self.scaling.mass_unit()), x))
     }
 

@@ -105,7 +105,7 @@ fn node_graph(model: &Model, transformation: &Transformation, nodes: &InternalNo
         .iter()
         .map(|row| match row {
             TransformationRow::Dof(dof) => nodes.of_dof.get(*dof as usize).copied().unwrap_or(NONE),
-            // Dofs of a rigid node that are internal couple densely; METIS may place the node anywhere.
+            // Dofs of a rigid node that are internal couple densely; METIS may place the node anywhere. Other dofs are `Shared`.
             TransformationRow::Tied(_) | TransformationRow::Held => NONE,
         })
         .collect();
@@ -135,7 +135,7 @@ fn node_graph(model: &Model, transformation: &Transformation, nodes: &InternalNo
     graph
 }
 
-/// The rows that distortions of patches move, which are no dofs of their own.
+/// The rows that distortions of patches move, or nodes that they follow by constraints; they are no dofs of their own.
 #[derive(Default)]
 struct Shared {
     groups: HashMap<u32, Vec<u32>>,
@@ -145,11 +145,15 @@ struct Shared {
 impl Shared {
     fn of(transformation: &Transformation, nodes: &InternalNodes) -> Self {
         let mut shared = Self::default();
-        let is_distortion = |dof: &u32| matches!(transformation.dofs[*dof as usize].origin, DofOrigin::Distortion(..));
+        // Dofs of the interface are in no group.
+        let moves_groups = |dof: &u32| {
+            let is_of_patch_node = matches!(transformation.dofs[*dof as usize].origin, DofOrigin::PatchNode(..));
+            !is_of_patch_node && (*dof as usize) < nodes.of_dof.len()
+        };
         for (row, entries) in transformation.rows.iter().enumerate() {
             let TransformationRow::Tied(entries) = entries else { continue };
-            let distortions = entries.iter().map(|(dof, _)| *dof).filter(is_distortion);
-            let mut groups: Vec<u32> = distortions.map(|dof| nodes.of_dof[dof as usize]).collect();
+            let moving = entries.iter().map(|(dof, _)| *dof).filter(moves_groups);
+            let mut groups: Vec<u32> = moving.map(|dof| nodes.of_dof[dof as usize]).collect();
             groups.sort_unstable();
             groups.dedup();
             for group in &groups {

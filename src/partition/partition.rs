@@ -8,7 +8,7 @@ use crate::dofs::FileRows;
 use crate::error::{Error, Result};
 use crate::factor::Analysis;
 use crate::job::InterfaceJob;
-use crate::model::{CoordinateFit, Finding, Model, ModelFacts, Scaling, Site};
+use crate::model::{Bodies, CoordinateFit, Finding, Model, ModelFacts, Scaling, Site};
 use crate::sparse::Pencil;
 use crate::sparse::Precision;
 use crate::sparse::{Leading, SparseMatrix};
@@ -24,7 +24,7 @@ use super::quantities::Quantities;
 use super::roundings::{PatchEntries, Roundings};
 use super::transformation::{DofOrigin, ReducedDof, Transformation};
 use super::transformation_row::TransformationRow;
-use super::{congruence, gravity, interface, missing_directions, ordering, origin};
+use super::{congruence, constraints, gravity, interface, missing_directions, ordering, origin};
 
 /// Most interface dofs: the two reduced matrices alone take 6.4 GB then, and decomposing them days.
 pub const LARGEST_INTERFACE: usize = 20_000;
@@ -68,25 +68,25 @@ pub struct Partition {
     pub model: ModelFacts,
     /// What was found of the interface that is not an error.
     pub findings: Vec<Finding>,
-    /// How much rigid patches enlarge rounding of the data of K; one without patches.
+    /// How much rigid patches and constraints enlarge rounding of the data of K; one without them.
     pub cancellation: f64,
-    /// Entries of the model's K that rigid patches have taken up.
+    /// Entries of the model's K that rigid patches and constraints have taken up.
     pub(super) patches: PatchEntries,
     /// The entries of K by their sizes, once somebody asks.
     pub(super) roundings: OnceLock<Roundings>,
-    /// Entries of the model's M that rigid patches have taken up, where an entry may be off by more than a share of itself.
+    /// Entries of the model's M that they have taken up, where an entry may be off by more than a share of itself.
     pub(super) mass_patches: Option<PatchEntries>,
     /// The entries of M by their sizes, once somebody asks.
     pub(super) mass_roundings: OnceLock<Roundings>,
 }
 
 impl Partition {
-    /// Resolves the interfaces, applies the rigid patches by congruence and orders the internal dofs for elimination. The
+    /// Resolves the interfaces, applies the rigid patches and the constraints by congruence and orders the internal dofs for elimination. The
     /// matrices of the model go as those of the partition come.
     ///
     /// # Errors
     /// Interface nodes that do not exist, repeat, or lack the dofs asked for; a patch that cannot carry a rotation, or whose origin is
-    /// far outside of the part.
+    /// far outside of the part; constraints that cannot be eliminated.
     ///
     /// # Panics
     /// Where the pattern of K or M is not symmetric, which that of a checked model is.
@@ -106,6 +106,7 @@ impl Partition {
         held.refuse_interface(&model, &resolved)?;
         let far_origins = origin::far_origins(&model, &resolved)?;
         let transformation = Transformation::new(&model, &resolved, &held)?;
+        let (transformation, n_dependent, constrained) = constraints::applied(&model, transformation)?;
         let order = ordering::elimination_order(&model, &transformation)?;
         let transformation = transformation.permuted(&order);
         let n_internal = transformation.n_internal();
@@ -114,7 +115,8 @@ impl Partition {
             return Err(Error::InterfaceTooLarge { n_interface, limit: LARGEST_INTERFACE });
         }
         let mut findings = missing_directions::constrained_nodes(&model, &resolved);
-        let facts = facts(&model, &transformation, &held);
+        let mut facts = ModelFacts { n_dependent, ..facts(&model, &transformation, &held) };
+        facts.findings.extend(constrained);
         let gravity = if held.count() > 0 { gravity::gravity(&model, &transformation) } else { None };
         let stiffness = congruence::congruence(&model.stiffness, &transformation);
         let cancellation = congruence::cancellation(&model.stiffness, &stiffness, &transformation);
@@ -125,6 +127,13 @@ impl Partition {
         let mass_patches = of_mass.is_beyond_entries().then(|| PatchEntries::of(&model.mass, &transformation, of_mass));
         drop(model.mass);
         let interface = resolved.into_nodes();
+        if model.constraints.is_some() {
+            if mass.data().iter().all(|value| *value == 0.0) {
+                return Err(Error::ConstraintAll { left: "leave no mass that moves".to_owned() });
+            }
+            refuse_loose([&stiffness, &mass], &transformation, (&interface, &facts.rows))?;
+            facts.n_bodies = n_bodies(&stiffness, &transformation);
+        }
         findings.extend(far_origins);
         findings.extend(hanging_dofs(&stiffness, &transformation, (&interface, &facts.rows)));
         Ok(Self {
@@ -223,10 +232,12 @@ fn facts(model: &Model, transformation: &Transformation, held: &Held) -> ModelFa
     }
 }
 
-/// The findings of a model without the particles that the job holds or that a rigid patch ties to others. A patch that no stiffness
+/// The findings of a model without the particles that the job holds or that a rigid patch or constraints tie to others. A patch that no stiffness
 /// reaches is one of [`hanging_dofs`].
 fn untied(findings: Vec<Finding>, transformation: &Transformation, model: &Model) -> Vec<Finding> {
-    let is_free = |row: &usize| matches!(transformation.rows[*row], TransformationRow::Dof(_));
+    let followed = transformation.followed();
+    let is_free =
+        |row: &usize| matches!(transformation.rows[*row], TransformationRow::Dof(dof) if !followed[dof as usize]);
     let of_finding = |finding| match finding {
         Finding::FreeParticles { rows, .. } => {
             Finding::free_particles(rows.into_iter().filter(is_free).collect(), model.names())
@@ -236,15 +247,44 @@ fn untied(findings: Vec<Finding>, transformation: &Transformation, model: &Model
     findings.into_iter().filter_map(of_finding).collect()
 }
 
+/// Refuses dofs that constraints leave without stiffness and mass: those of nodes that have none, where nothing that they are tied to
+/// has any or where the constraints say too little of them.
+fn refuse_loose(
+    matrices: [&SparseMatrix; 2],
+    transformation: &Transformation,
+    (interface, rows): (&[InterfaceNode], &FileRows),
+) -> Result<()> {
+    let is_row = |dof: &ReducedDof| matches!(dof.origin, DofOrigin::Row(_));
+    let dofs = transformation.dofs.iter().enumerate().filter(|(_, dof)| is_row(dof));
+    let mut loose = dofs.filter(|(dof, _)| matrices.iter().all(|matrix| is_bare(matrix, *dof)));
+    match loose.next() {
+        None => Ok(()),
+        Some((_, first)) => Err(Error::ConstraintLoose { n_dofs: 1 + loose.count(), dof: first.name(interface, rows) }),
+    }
+}
+
+/// Connected parts of the dofs that have a node.
+fn n_bodies(stiffness: &SparseMatrix, transformation: &Transformation) -> usize {
+    let dofs = &transformation.dofs;
+    let nodes: Vec<u32> = dofs.iter().map(|dof| dof.node).collect();
+    let has_map = dofs.iter().any(|dof| dof.dof.is_some());
+    let is_scalar = |dof: &ReducedDof| has_map && dof.dof.is_none() && matches!(dof.origin, DofOrigin::Row(_));
+    Bodies::count_among(stiffness, &nodes, |dof| !is_scalar(&dofs[dof]))
+}
+
+/// Whether a row of a matrix has no entry other than zero.
+fn is_bare(matrix: &SparseMatrix, dof: usize) -> bool {
+    matrix.outer_view(dof).is_none_or(|row| row.data().iter().all(|value| *value == 0.0))
+}
+
 /// Interface dofs that no stiffness reaches; the model has seen to it that they have mass.
 fn hanging_dofs(
     stiffness: &SparseMatrix,
     partition: &Transformation,
     (interface, rows): (&[InterfaceNode], &FileRows),
 ) -> Option<Finding> {
-    let is_bare =
-        |dof: &usize| stiffness.outer_view(*dof).is_none_or(|row| row.data().iter().all(|value| *value == 0.0));
-    let hanging: Vec<usize> = (partition.n_internal()..partition.dofs.len()).filter(is_bare).collect();
+    let hanging = (partition.n_internal()..partition.dofs.len()).filter(|dof| is_bare(stiffness, *dof));
+    let hanging: Vec<usize> = hanging.collect();
     let first = *hanging.first()?;
     Some(Finding::HangingInterface { dof: partition.dofs[first].name(interface, rows), n_dofs: hanging.len() })
 }

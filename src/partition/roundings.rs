@@ -2,17 +2,17 @@
 
 use rayon::prelude::*;
 
-use super::transformation::{DofOrigin, ReducedDof, Transformation};
+use super::transformation::{DofOrigin, Transformation};
 use super::transformation_row::TransformationRow;
 use crate::sparse::{Rounding, SparseMatrix, diagonal, ends};
 
 /// Entries of a unit of parallel work, at least: fixed, so that sums never depend on the number of threads.
 const ENTRIES_PER_TASK: usize = 1 << 16;
 
-/// Entries of the model that a patch has taken up.
+/// Entries of the model that a patch or a constraint has taken up: those of rows that follow dofs, and of dofs that others follow.
 #[derive(Debug)]
 pub(super) struct PatchEntries {
-    /// How the rows of the patches follow the dofs of the partition.
+    /// How these rows follow the dofs of the partition.
     pub(super) rows: Vec<Box<[(u32, f64)]>>,
     /// Entries with at least one such row, one of each pair: places in the extended motion, and the value.
     pub(super) entries: Vec<Entry>,
@@ -34,9 +34,14 @@ impl PatchEntries {
         const NOWHERE: u32 = u32::MAX;
         let n = transformation.dofs.len();
         let mut place = Vec::with_capacity(transformation.rows.len());
-        let mut rows = Vec::new();
+        let mut rows: Vec<Box<[(u32, f64)]>> = Vec::new();
+        let followed = transformation.followed();
         for row in &transformation.rows {
             match row {
+                TransformationRow::Dof(dof) if followed[*dof as usize] => {
+                    place.push((n + rows.len()) as u32);
+                    rows.push([(*dof, 1.0)].into());
+                }
                 TransformationRow::Dof(dof) => place.push(*dof),
                 TransformationRow::Tied(entries) => {
                     place.push((n + rows.len()) as u32);
@@ -85,10 +90,16 @@ pub(super) struct Roundings {
 }
 
 impl Roundings {
-    /// The entries of a matrix of a partition, without those of rigid patches, and what the patches took up.
-    pub(super) fn of(matrix: &SparseMatrix, dofs: &[ReducedDof], patches: &PatchEntries, rounding: Rounding) -> Self {
-        let size = Sizes::of(matrix, rounding);
-        let is_own = |dof: usize| matches!(dofs[dof].origin, DofOrigin::Row(_));
+    /// The entries of a matrix of a partition, without those that patches and constraints have taken up, and these as the model has them.
+    pub(super) fn of(
+        matrix: &SparseMatrix,
+        transformation: &Transformation,
+        patches: &PatchEntries,
+        rounding: Rounding,
+    ) -> Self {
+        let (size, followed) = (Sizes::of(matrix, rounding), transformation.followed());
+        let dofs = &transformation.dofs;
+        let is_own = |dof: usize| matches!(dofs[dof].origin, DofOrigin::Row(_)) && !followed[dof];
         let mut entries = patches.entries.clone();
         for row in (0..dofs.len()).filter(|row| is_own(*row)) {
             let view = matrix.outer_view(row);

@@ -1,10 +1,13 @@
 //! The transformation T between the rows of the model and the dofs of the partition.
 //!
 //! A row of an ordinary dof holds a single one. A row of a patch holds how it follows the dofs of the interface node and, where these
-//! are those of its mean motion, what it deviates by. To follow a node is the motion of its point, u = t + θ × r for a translation, θ for a rotation; where coordinates are
+//! are those of its mean motion, what it deviates by. A row that constraints make dependent holds the dofs that it follows. To follow a node is the motion of its point, u = t + θ × r for a translation, θ for a rotation; where coordinates are
 //! rounded, the motion that K knows instead of the one by the coordinates.
 
+use std::collections::BTreeMap;
+
 use super::distortions::Owner;
+use super::elimination::{Terms, summed};
 use super::held::Held;
 use super::interface_node::{InterfaceNode, Interfaces, Resolved, Rows};
 use super::sites::Sites;
@@ -105,6 +108,48 @@ impl Transformation {
             builder.rows[row].extend(&own);
         }
         Ok(Self { dofs: builder.dofs, rows: builder.rows })
+    }
+
+    /// This transformation with some dofs following others, T C: `dependent` has the row of C of each.
+    pub(super) fn constrained(self, dependent: &BTreeMap<u32, Terms>) -> Self {
+        let mut place = vec![0u32; self.dofs.len()];
+        let mut dofs = Vec::with_capacity(self.dofs.len() - dependent.len());
+        for (old, dof) in self.dofs.iter().enumerate().filter(|(old, _)| !dependent.contains_key(&(*old as u32))) {
+            place[old] = dofs.len() as u32;
+            dofs.push(*dof);
+        }
+        let of_row = |row: TransformationRow| {
+            let follows = |dof: u32| dependent.contains_key(&dof);
+            let expanded = |(dof, factor): (u32, f64)| -> Terms {
+                match dependent.get(&dof) {
+                    Some(terms) => terms.iter().map(|(other, value)| (*other, factor * value)).collect(),
+                    None => vec![(dof, factor)],
+                }
+            };
+            let placed = |(dof, factor): (u32, f64)| (place[dof as usize], factor);
+            match row {
+                TransformationRow::Dof(dof) if !follows(dof) => TransformationRow::Dof(place[dof as usize]),
+                TransformationRow::Tied(entries) if !entries.iter().any(|(dof, _)| follows(*dof)) => {
+                    TransformationRow::Tied(entries.into_iter().map(placed).collect())
+                }
+                row => match summed(row.entries().flat_map(expanded).collect()) {
+                    entries if entries.is_empty() => TransformationRow::Held,
+                    entries => TransformationRow::Tied(entries.into_iter().map(placed).collect()),
+                },
+            }
+        };
+        Self { dofs, rows: self.rows.into_iter().map(of_row).collect() }
+    }
+
+    /// Of each dof whether rows other than its own follow it.
+    pub(super) fn followed(&self) -> Vec<bool> {
+        let mut followed = vec![false; self.dofs.len()];
+        for row in &self.rows {
+            if let TransformationRow::Tied(entries) = row {
+                entries.iter().for_each(|(dof, _)| followed[*dof as usize] = true);
+            }
+        }
+        followed
     }
 
     /// Number of internal dofs, which come first.

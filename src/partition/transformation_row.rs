@@ -5,7 +5,7 @@
 pub enum TransformationRow {
     /// The row is a dof of the partition itself.
     Dof(u32),
-    /// The row follows the interface node of a patch, and distortions of the patch where it has any.
+    /// The row follows dofs: those of the interface node of a patch, distortions of the patch where it has any, those that constraints name.
     Tied(Box<[(u32, f64)]>),
     /// The row is at rest.
     Held,

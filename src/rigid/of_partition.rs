@@ -4,6 +4,7 @@ use super::algebraic::from_matrices;
 use super::geometric;
 use super::rigid_body_modes::RigidBodyModes;
 use crate::error::{Error, Result};
+use crate::number::counted;
 use crate::partition::Partition;
 
 /// The rigid-body modes, and the factorisations they took: from coordinates none.
@@ -14,7 +15,9 @@ use crate::partition::Partition;
 /// The errors of [`from_coordinates`] and [`from_matrices`]; rigid patches that leave nothing elastic.
 pub fn rigid_body_modes(partition: &Partition) -> Result<(RigidBodyModes, usize)> {
     let Some(sites) = partition.sites() else {
-        return from_matrices(partition);
+        let (rigid, n_factorisations) = from_matrices(partition)?;
+        refuse_wholly_rigid(partition, &rigid)?;
+        return Ok((rigid, n_factorisations));
     };
     let rigid = geometric::rigid_body_modes(partition, &sites)?;
     refuse_wholly_rigid(partition, &rigid)?;
@@ -27,11 +30,15 @@ pub fn rigid_body_modes(partition: &Partition) -> Result<(RigidBodyModes, usize)
     Ok((rigid, n_factorisations))
 }
 
-/// Patches of all nodes leave no stiffness but rounding, of which nothing follows.
+/// Patches of all nodes, and constraints between all, leave no stiffness but rounding, of which nothing follows.
 fn refuse_wholly_rigid(partition: &Partition, rigid: &RigidBodyModes) -> Result<()> {
     match partition.interface.iter().find(|node| node.coupling.is_patch()) {
         Some(patch) if partition.n_dofs() == rigid.count() => {
             Err(Error::WhollyRigid { interface: patch.name.clone(), n_nodes: patch.n_nodes, n_rigid: rigid.count() })
+        }
+        None if partition.n_dofs() == rigid.count() && partition.model.n_dependent > 0 => {
+            let motions = counted(rigid.count(), "rigid-body motion", "rigid-body motions");
+            Err(Error::ConstraintAll { left: format!("leave nothing but {motions}") })
         }
         _ => Ok(()),
     }

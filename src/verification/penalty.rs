@@ -93,12 +93,20 @@ pub fn penalties(evidence: &Evidence<'_>, first: Option<f64>) -> Option<Penaltie
     let stiffest = rows.iter().copied().max_by(|a, b| size(*a).total_cmp(&size(*b)))?;
     Some(Penalties {
         n_rows: rows.len(),
-        stiffest: if stiffest < n { partition.name_of(stiffest) } else { "nodes of a rigid patch".to_owned() },
+        stiffest: if stiffest < n { partition.name_of(stiffest) } else { taken_up(partition).to_owned() },
         ratio: contrast[stiffest],
         noise,
         asked,
         noise_without,
     })
+}
+
+/// What K has taken up whose rows are gone.
+fn taken_up(partition: &Partition) -> &'static str {
+    match partition.interface.iter().any(|node| node.coupling.is_patch()) {
+        true => "nodes of a rigid patch",
+        false => "dofs that constraints tie",
+    }
 }
 
 /// What the stiff rows cost one motion, where that is a digit and more than is asked for.

@@ -36,6 +36,7 @@ fn partition(matrix: &SparseMatrix, mass: impl Fn(usize) -> f64, interface: &[us
         dofs: None,
         nodes: None,
         rows: Default::default(),
+        constraints: None,
         digests: Default::default(),
         notes: Vec::new(),
     };

@@ -444,11 +444,12 @@ fn names_that_are_not_utf8_are_refused() {
          keep names – rename \"J\\xF6rg\""
     );
     type Change = fn(&mut Job, PathBuf);
-    let changes: [(&str, Change); 8] = [
+    let changes: [(&str, Change); 9] = [
         ("model.stiffness", |job, path| job.model.stiffness = path),
         ("model.mass", |job, path| job.model.mass = path),
         ("model.dofs", |job, path| job.model.dofs = Some(path)),
         ("model.nodes", |job, path| job.model.nodes = Some(path)),
+        ("model.constraints", |job, path| job.model.constraints = Some(path)),
         ("write.superelement", |job, path| job.write.superelement = path),
         ("write.report", |job, path| job.write.report = Some(path)),
         ("write.html", |job, path| job.write.html = Some(path)),
@@ -527,6 +528,8 @@ fn changed_jobs() -> Vec<Value> {
         with("/write/junit", "x.json".into()),
         with("/model/expect", json!({ "mass": 0 })),
         with("/model/expect", json!({ "cg": [1, 2, 3] })),
+        with("/model/constraints", "G.mtx".into()),
+        with("/model/constraints_to_ground", "accept".into()),
         with("/model/units", 3.into()),
     ]
 }

@@ -118,8 +118,36 @@ fn constraint_multiplier() {
     let mut model = spring(4, Ends::Fixed);
     model.stiffness = with_entry(&model.stiffness, (2, 2), 0.0);
     let error = refused(&model);
-    assert!(matches!(error, Error::MultiplierRow { row: 3, .. }), "{error}");
+    assert!(matches!(error, Error::MultiplierRow { n_single: 1, n_of_pairs: 0, row: 3, .. }), "{error}");
     assert_says(&error, ErrorClass::InputData, &["row 3 (node 3 ux)", "multiplier", "eliminate"]);
+}
+
+/// Two multipliers for each constraint, as Code_Aster writes them: their diagonal is −α, and α with the other sign of the equations.
+#[test]
+fn pairs_of_constraint_multipliers() {
+    let chain = || spring(4, Ends::Free);
+    for alpha in [7.5, -7.5] {
+        let mut model = chain();
+        // u₁ = u₂ in rows 5 and 6, u₃ = u₄ in rows 7 and 8.
+        for (first, [a, b]) in [(4, [0, 1]), (6, [2, 3])] {
+            for multiplier in [first, first + 1] {
+                model.stiffness = with_entry(&model.stiffness, (multiplier, a), alpha);
+                model.stiffness = with_entry(&model.stiffness, (multiplier, b), -alpha);
+                model.stiffness = with_entry(&model.stiffness, (multiplier, multiplier), -alpha);
+            }
+            model.stiffness = with_entry(&model.stiffness, (first, first + 1), alpha);
+        }
+        model = models::Model { n: 8, dofs: Vec::new(), ..model };
+        let error = refused(&model);
+        assert!(matches!(error, Error::MultiplierRow { n_single: 0, n_of_pairs: 4, row: 5, .. }), "{error}");
+        assert_says(&error, ErrorClass::InputData, &["4 rows of constraint multipliers", "in pairs", "row 5 –"]);
+    }
+    // A spring between two massless dofs that nothing else holds is a structure.
+    let mut model = chain();
+    for (row, other, value) in [(4, 4, 2.0), (5, 5, 2.0), (4, 5, -2.0)] {
+        model.stiffness = with_entry(&model.stiffness, (row, other), value);
+    }
+    Model::new(input(&models::Model { n: 6, dofs: Vec::new(), ..model })).expect("a structure");
 }
 
 #[test]

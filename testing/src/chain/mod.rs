@@ -47,6 +47,7 @@ pub fn input(model: &models::Model) -> Input {
         nodes: (!dofs.is_empty()).then_some(nodes),
         dofs: (!dofs.is_empty()).then_some(dofs),
         rows: Default::default(),
+        constraints: None,
         digests: Default::default(),
         notes: Vec::new(),
     }

@@ -1,0 +1,104 @@
+//! Constraints that hold the component to the ground.
+//!
+//! ```text
+//! U    n × 6    the six unit motions of all rows about their middle
+//! G U = 0       constraints between nodes let every rigid-body motion of the model pass
+//! ```
+//! Where one does not, dofs are held by it – or a lever has the wrong sign, a coupling of equal dofs lies between nodes that are apart,
+//! coordinates are those of another state. None of this shows in K: the component would only be stiffer than it is.
+
+use supel_runtime::MOTIONS;
+
+use crate::error::{Error, Result};
+use crate::input::{Constraint, ConstraintRows};
+use crate::model::{Finding, Frame, Model, Site};
+
+/// Share of the displacements that a constraint compares, up to which it is rounding: coefficients and coordinates of five digits
+/// leave less.
+const ROUNDED: f64 = 1e-4;
+
+/// A constraint and the motion that it resists.
+struct Resisting<'a> {
+    constraint: &'a Constraint,
+    motion: usize,
+    share: f64,
+}
+
+/// The motion that constraints resist most; none where they let all pass, and where nothing tells the directions of rows.
+///
+/// # Errors
+/// [`Error::ConstraintGround`] where the job does not accept it.
+pub(super) fn held_motion(model: &Model, given: &ConstraintRows) -> Result<Option<Finding>> {
+    let motions = Motions::of(model);
+    let resisting: Vec<Resisting<'_>> = given.list.iter().filter_map(|row| motions.resisted(row)).collect();
+    let Some(worst) = resisting.iter().reduce(|worst, next| if next.share > worst.share { next } else { worst }) else {
+        return Ok(None);
+    };
+    let (row, motion, n_rows) = (worst.constraint.row + 1, MOTIONS[worst.motion], resisting.len());
+    let dofs = worst.constraint.dofs(model.names());
+    match given.may_ground {
+        true => Ok(Some(Finding::ConstraintGround { row, dofs: dofs.join(", "), motion, n_rows })),
+        false => Err(Error::ConstraintGround { row, dofs, motion, share: worst.share, n_rows }),
+    }
+}
+
+/// The unit motions of the rows of a model, as far as dof map and coordinates tell.
+struct Motions<'a> {
+    model: &'a Model,
+    sites: Option<Vec<Option<Site>>>,
+    centre: [f64; 3],
+    size: f64,
+}
+
+impl<'a> Motions<'a> {
+    fn of(model: &'a Model) -> Self {
+        let sites = model.sites();
+        let every: Vec<usize> = (0..model.n_dofs()).collect();
+        let (centre, size) = match &sites {
+            Some(sites) => {
+                let frame = Frame::of(sites, &every);
+                (frame.centre, frame.size)
+            }
+            None => ([0.0; 3], 1.0),
+        };
+        Self { model, sites, centre, size }
+    }
+
+    /// The six motions of a row; without coordinates the translations, without a dof map nothing.
+    fn at(&self, row: usize) -> [f64; 6] {
+        if let Some(rounded) = self.model.fit.rounded() {
+            return rounded.motion(row, self.centre);
+        }
+        let direction = || self.model.dofs.as_ref()?[row].map(|dof| dof.direction);
+        match (&self.sites, direction()) {
+            (Some(sites), _) => sites[row].map_or([0.0; 6], |site| site.rigid_motion_about(self.centre)),
+            (None, Some(direction)) if !direction.is_rotation() => {
+                std::array::from_fn(|motion| f64::from(u8::from(motion == direction.axis())))
+            }
+            (None, _) => [0.0; 6],
+        }
+    }
+
+    /// The motion that a constraint resists most, relative to displacements of all of its dofs of the size that the motion has anywhere.
+    fn resisted<'b>(&self, constraint: &'b Constraint) -> Option<Resisting<'b>> {
+        let (mut sums, mut sizes) = ([0.0f64; 6], [0.0f64; 6]);
+        for (row, value) in &constraint.terms {
+            let motion = self.at(*row as usize);
+            let turns = self.model.dofs.as_ref().and_then(|dofs| dofs[*row as usize]);
+            let turns = turns.is_some_and(|dof| dof.direction.is_rotation());
+            for j in 0..6 {
+                sums[j] += value * motion[j];
+                // A translation leaves rotations at rest; a rotation by one makes displacements of the size of the model.
+                let size = match (j < 3, turns) {
+                    (true, true) => 0.0,
+                    (false, false) => self.size,
+                    _ => 1.0,
+                };
+                sizes[j] += value.abs() * size;
+            }
+        }
+        let share = |j: usize| if sizes[j] > 0.0 { sums[j].abs() / sizes[j] } else { 0.0 };
+        let motion = (1..6).fold(0, |most, j| if share(j) > share(most) { j } else { most });
+        (share(motion) > ROUNDED).then(|| Resisting { constraint, motion, share: share(motion) })
+    }
+}

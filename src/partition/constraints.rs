@@ -1,0 +1,163 @@
+//! Multipoint constraints G u = 0, eliminated after everything else that says how rows of the model follow dofs.
+//!
+//! ```text
+//! u = T₁ x           rows of the model from dofs, with held dofs and patches
+//! G T₁ x = 0         the constraints on these; interface dofs among them stay
+//! x = C q,  T = T₁C  dependent dofs follow the others: the pencil TᵀKT, TᵀMT has no constraint left
+//! ```
+//! Coefficients are made comparable first, by powers of two: a rotation by the extent of the nodes that it takes part with, a constraint
+//! by its largest term. What a patch makes of a constraint is relative to the terms that it sums, so that constraints that the patch
+//! satisfies anyway are rounding and follow from it.
+
+use std::collections::BTreeMap;
+
+use super::constraint_ground;
+use super::elimination::{Elimination, Obstacle, Terms, eliminated, summed};
+use super::transformation::{DofOrigin, ReducedDof, Transformation};
+use crate::error::{Error, Result};
+use crate::input::{Constraint, ConstraintRows};
+use crate::model::{Finding, Frame, Model};
+
+/// Largest entry of C, with rotations in the scale of displacements: stiffness grows by its square, of which half the digits are left
+/// to the dofs that follow nothing.
+const LARGEST: f64 = 1e4;
+/// Exponents of coefficients: products of two with coordinates are numbers.
+const EXPONENTS: std::ops::RangeInclusive<i32> = -400..=400;
+/// What it takes to let a dof of a patch follow others: more than any row of a matrix, so that dofs of nodes are taken first.
+const OF_PATCH: u32 = u32::MAX;
+
+/// T with the constraints of a model eliminated, how many dofs follow others, and what is to be said of them.
+///
+/// # Errors
+/// [`Error::ConstraintGround`] where constraints let no rigid-body motion pass; [`Error::ConstraintInterface`],
+/// [`Error::ConstraintRank`], [`Error::ConstraintSpread`] and [`Error::ConstraintBlock`] where they cannot be eliminated;
+/// [`Error::ConstraintAll`] where they leave nothing that moves; [`Error::UnitRange`].
+pub(super) fn applied(model: &Model, transformation: Transformation) -> Result<(Transformation, usize, Vec<Finding>)> {
+    let Some(given) = &model.constraints else { return Ok((transformation, 0, Vec::new())) };
+    refuse_out_of_range(given)?;
+    let ground = constraint_ground::held_motion(model, given)?;
+    let scales = scales(model, given, &transformation);
+    let rows: Vec<Terms> = given.list.iter().map(|row| carried(row, &transformation, &scales)).collect();
+    let costs: Vec<Option<u32>> = transformation.dofs.iter().map(|dof| cost(model, dof)).collect();
+    let Elimination { dependent, redundant } =
+        eliminated(&rows, &costs).map_err(|obstacle| refused(model, given, obstacle))?;
+    let largest = refuse_spread(model, &transformation, &dependent)?;
+    let in_units = |(dof, terms): (u32, Terms)| {
+        let own = scales[dof as usize];
+        let terms = terms.into_iter().map(|(other, value)| (other, value * own / scales[other as usize]));
+        (dof, terms.collect())
+    };
+    let dependent: BTreeMap<u32, Terms> = dependent.into_iter().map(in_units).collect();
+    let n_dependent = dependent.len();
+    let transformation = transformation.constrained(&dependent);
+    if transformation.dofs.is_empty() {
+        return Err(Error::ConstraintAll { left: format!("hold all {} dofs at rest", model.n_dofs()) });
+    }
+    let empty = given.n_rows - given.list.len() as u64;
+    let redundant = redundant.iter().map(|number| given.list[*number].row + 1).collect();
+    let found = Finding::Constrained { n_rows: given.list.len(), n_dependent, largest, redundant, empty };
+    Ok((transformation, n_dependent, std::iter::once(found).chain(ground).collect()))
+}
+
+/// Refuses coefficients whose products with coordinates may be no numbers.
+fn refuse_out_of_range(given: &ConstraintRows) -> Result<()> {
+    let values = given.list.iter().flat_map(|row| row.terms.iter().map(|(_, value)| value.abs()));
+    let exponents = values.map(|value| value.log2().floor() as i32);
+    let mut outside = exponents.filter(|exponent| !EXPONENTS.contains(exponent));
+    outside.next().map_or(Ok(()), |exponent| Err(Error::UnitRange { what: "a constraint", exponent }))
+}
+
+/// What a displacement of each dof is measured in: one, and for a rotation the reciprocal of the extent of the nodes that constraints tie
+/// it to.
+fn scales(model: &Model, given: &ConstraintRows, transformation: &Transformation) -> Vec<f64> {
+    let dofs = &transformation.dofs;
+    let mut extents = vec![0.0f64; dofs.len()];
+    for row in &given.list {
+        let of_row = || row.terms.iter().flat_map(|(row, _)| transformation.rows[*row as usize].entries());
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for site in of_row().filter_map(|(dof, _)| dofs[dof as usize].site) {
+            for axis in 0..3 {
+                low[axis] = low[axis].min(site.position[axis]);
+                high[axis] = high[axis].max(site.position[axis]);
+            }
+        }
+        let extent = (0..3).map(|axis| (high[axis] - low[axis]).max(0.0).powi(2)).sum::<f64>().sqrt();
+        of_row().for_each(|(dof, _)| extents[dof as usize] = extents[dof as usize].max(extent));
+    }
+    let whole = model.sites().map_or(1.0, |sites| Frame::of(&sites, &(0..sites.len()).collect::<Vec<_>>()).size);
+    let scale = |(dof, extent): (&ReducedDof, f64)| match dof.site {
+        Some(site) if site.direction.is_rotation() => {
+            let extent = if extent > 0.0 { extent } else { whole };
+            (-extent.log2().floor()).exp2()
+        }
+        _ => 1.0,
+    };
+    dofs.iter().zip(extents).map(scale).collect()
+}
+
+/// A constraint on the dofs, its largest term in [1, 2).
+fn carried(constraint: &Constraint, transformation: &Transformation, scales: &[f64]) -> Terms {
+    let mut terms = Terms::new();
+    for (row, value) in &constraint.terms {
+        let of_row = transformation.rows[*row as usize].entries();
+        terms.extend(of_row.map(|(dof, factor)| (dof, value * factor * scales[dof as usize])));
+    }
+    let largest = terms.iter().fold(0.0f64, |max, (_, value)| max.max(value.abs()));
+    if largest == 0.0 {
+        return Terms::new();
+    }
+    let unit = largest.log2().floor().exp2();
+    terms.iter_mut().for_each(|(_, value)| *value /= unit);
+    summed(terms)
+}
+
+/// What it takes to let a dof follow others: the entries that K and M have in its row. Interface dofs stay.
+fn cost(model: &Model, dof: &ReducedDof) -> Option<u32> {
+    let of_row = |row: usize| {
+        let entries = [&model.stiffness, &model.mass].map(|matrix| matrix.outer_view(row).map_or(0, |row| row.nnz()));
+        u32::try_from(entries[0] + entries[1]).unwrap_or(OF_PATCH)
+    };
+    let cost = match dof.origin {
+        DofOrigin::Row(row) => of_row(row),
+        DofOrigin::PatchNode(..) | DofOrigin::Distortion(..) => OF_PATCH,
+    };
+    (!dof.is_interface).then_some(cost)
+}
+
+/// The largest entry of C.
+fn refuse_spread(model: &Model, transformation: &Transformation, dependent: &BTreeMap<u32, Terms>) -> Result<f64> {
+    let entries = dependent.iter().flat_map(|(dof, terms)| terms.iter().map(move |(_, value)| (*dof, value.abs())));
+    let Some((dof, largest)) = entries.max_by(|a, b| a.1.total_cmp(&b.1)) else { return Ok(0.0) };
+    if largest <= LARGEST {
+        return Ok(largest);
+    }
+    let dof = match transformation.dofs[dof as usize].origin {
+        DofOrigin::Row(row) => model.names().short(row),
+        DofOrigin::PatchNode(..) | DofOrigin::Distortion(..) => "a dof of a patch".to_owned(),
+    };
+    Err(Error::ConstraintSpread { dof, factor: largest, limit: LARGEST })
+}
+
+/// The error of constraints that cannot be eliminated.
+fn refused(model: &Model, given: &ConstraintRows, obstacle: Obstacle) -> Error {
+    let name = |number: usize| (given.list[number].row + 1, given.list[number].dofs(model.names()));
+    match obstacle {
+        Obstacle::Kept(number) => {
+            let (row, dofs) = name(number);
+            Error::ConstraintInterface { row, dofs }
+        }
+        Obstacle::NearlyFollows(number, left) => {
+            let (row, dofs) = name(number);
+            Error::ConstraintRank { row, dofs, left }
+        }
+        Obstacle::Block(number, [n_rows, n_dofs]) => {
+            let (row, dofs) = name(number);
+            let found = format!("one of {n_rows} between {n_dofs} dofs that hang together");
+            Error::ConstraintBlock { row, dofs, found }
+        }
+        Obstacle::Entries(number) => {
+            let (row, dofs) = name(number);
+            Error::ConstraintBlock { row, dofs, found: "one of a chain whose dofs follow too many others".to_owned() }
+        }
+    }
+}

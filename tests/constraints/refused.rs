@@ -1,0 +1,167 @@
+//! Constraints that are refused by name, or told.
+
+use supel::cli::ExitCode;
+use supel_models::{Ends, Model, spring};
+use supel_runtime::Tensors;
+use supel_testing::place::{Place, steel_brick, supel};
+
+use crate::model::{position, rigid_elements, row, with_hub};
+use crate::{Case, Rows, matrix_market};
+
+const CRAIG_BAMPTON: &str = r#"method = "craig-bampton", modes = { count = 4 }"#;
+const FOOT: &str = r#"{ name = "foot", nodes = [1, 11, 31] }"#;
+
+#[track_caller]
+fn assert_refused(case: &Case, interface: &str, words: &[&str]) {
+    let ended = case.run("", interface, CRAIG_BAMPTON, "");
+    assert!(ended.code == ExitCode::InputData || ended.code == ExitCode::ModelPhysics, "{}{}", ended.out, ended.err);
+    words.iter().for_each(|word| assert!(ended.err.contains(word), "{word:?} is not in {}", ended.err));
+    assert!(!case.place.path("x.supel").exists());
+}
+
+#[test]
+fn files_of_constraints_that_cannot_be_taken() {
+    let case = Case::new(steel_brick(), vec![vec![]]);
+    for (text, words) in [
+        ("%%MatrixMarket matrix coordinate real symmetric\n1 135 0\n", ["E-CONSTRAINT-FORMAT", "G.mtx:1"]),
+        ("%%MatrixMarket matrix coordinate real general\n1 134 0\n", ["E-CONSTRAINT-SIZE", "134 columns"]),
+        ("%%MatrixMarket matrix coordinate real general\n1 135 1\n2 1 1\n", ["E-", "G.mtx:3"]),
+        ("%%MatrixMarket matrix coordinate real general\n1 135 1\n1 1 1e200\n", ["E-RANGE", "constraint"]),
+    ] {
+        case.place.write("G.mtx", text.as_bytes());
+        assert_refused(&case, FOOT, &words);
+    }
+    // A header that promises any number of rows.
+    let many = format!("%%MatrixMarket matrix coordinate real general\n{} 135 0\n", u64::MAX);
+    case.place.write("G.mtx", many.as_bytes());
+    case.run("", FOOT, CRAIG_BAMPTON, "").expect(ExitCode::Done);
+    let output = case.place.text("G.mtx");
+    assert_ne!(supel(&["reduce", &case.place.text("job.toml"), "--report", &output]).code, ExitCode::Done);
+}
+
+/// u = 0 of a dof, or equal displacements of nodes that are apart: what a rigid-body motion does not satisfy is named, and taken where the
+/// job accepts it. Then a dof at rest is one that the job holds.
+#[test]
+fn constraints_that_hold_the_component_to_the_ground() {
+    let model = steel_brick();
+    let equal = vec![vec![(row(&model, (45, 1)), 1.0), (row(&model, (41, 1)), -1.0)]];
+    let case = Case::new(model.clone(), equal);
+    // Nodes 41 and 45 are one apart along x: rotation about z moves them by 1/2 and −1/2.
+    assert_refused(&case, FOOT, &["E-CONSTRAINT-GROUND", "row 1 (node 41 uy, node 45 uy)", "rotation about z"]);
+
+    let at_rest = vec![vec![], vec![(row(&model, (45, 1)), -2.5)], vec![(row(&model, (45, 2)), 1.0)]];
+    let case = Case::new(model, at_rest);
+    assert_refused(
+        &case,
+        FOOT,
+        &["E-CONSTRAINT-GROUND", "row 2 (node 45 uy)", "translation along y", "2 constraints do so"],
+    );
+    case.run(r#", constraints_to_ground = "accept""#, FOOT, CRAIG_BAMPTON, "").expect(ExitCode::Done);
+    let (codes, told) = case.told();
+    assert_eq!(codes, ["W-CONSTRAINT-GROUND"], "{told}");
+    assert!(told.contains("2 constraints, 2 dofs follow others by factors of 0 at most; 1 row has no terms"), "{told}");
+    let (file, job) = (case.place.text("x.supel"), case.place.text("job.toml"));
+    for args in [&["verify", &file] as &[&str], &["verify", &file, "--job", &job]] {
+        supel(args).expect(ExitCode::Done);
+    }
+    let found = case.place.superelement("x.supel");
+    assert!(found.metadata().validity.assumptions.iter().any(|words| words.contains("ground")));
+    case.place.write("G.mtx", matrix_market(135, &vec![vec![]], |value| value.to_string()).as_bytes());
+    let held = "[[fixed]]\nnodes = [45]\ndofs = [\"uy\", \"uz\"]\n";
+    case.run("", FOOT, CRAIG_BAMPTON, held).expect(ExitCode::Done);
+    let without_gravity = |tensors: &Tensors| Tensors { gravity: None, ..tensors.clone() };
+    let expected = case.place.superelement("x.supel");
+    assert_eq!(without_gravity(found.tensors()), without_gravity(expected.tensors()));
+    assert_eq!(found.metadata().model.n_dofs, expected.metadata().model.n_dofs);
+}
+
+/// Interface dofs are coordinates of the superelement and move independently.
+#[test]
+fn constraints_between_interface_dofs() {
+    let (model, hub) = with_hub(&steel_brick(), [1.0, 0.155, 0.115]);
+    let rows = rigid_elements(&model, hub, &[5, 15, 45]);
+    let in_line = rigid_elements(&model, hub, &[5, 25, 45]);
+    let case = Case::new(model.clone(), rows);
+    let all = format!("{{ name = \"ends\", nodes = [1, 5, 15, 45, {hub}] }}");
+    assert_refused(&case, &all, &["E-CONSTRAINT-INTERFACE", "constraint row", "`dofs`"]);
+    // Two nodes of one rigid body have a distance that does not change.
+    assert_refused(&case, r#"{ name = "ends", nodes = [1, 5, 15] }"#, &["E-CONSTRAINT-INTERFACE"]);
+    case.run("", r#"{ name = "ends", nodes = [1, 3, 15] }"#, CRAIG_BAMPTON, "").expect(ExitCode::Done);
+    // Nodes in line do not say how the hub turns about that line.
+    let case = Case::new(model, in_line);
+    assert_refused(&case, FOOT, &["E-CONSTRAINT-LOOSE", "1 dof has", "node 46 r", "not in line"]);
+}
+
+/// A circle of ties of six digits: whether its last one says the same as the others is not for a program to judge.
+#[test]
+fn constraints_that_nearly_follow_from_others() {
+    let (model, hub) = with_hub(&steel_brick(), [1.0, 0.155, 0.115]);
+    let (model, other) = with_hub(&model, [1.0, 0.155, 0.115]);
+    let ends = [5, 10, 25, 40, 45];
+    let both =
+        |model: &Model| -> Rows { [hub, other].iter().flat_map(|hub| rigid_elements(model, *hub, &ends)).collect() };
+    // With all digits both hubs move alike.
+    let case = Case::new(model.clone(), both(&model));
+    case.run("", FOOT, CRAIG_BAMPTON, "").expect(ExitCode::Done);
+    let (_, told) = case.told();
+    assert!(told.contains("30 constraints, 21 dofs follow others"), "{told}");
+    std::fs::remove_file(case.place.path("x.supel")).expect("a file");
+    // Levers of a few digits, not the same ones in each row.
+    let mut rows = both(&model);
+    for (number, row) in rows.iter_mut().enumerate() {
+        let levers = row.iter_mut().filter(|(_, value)| value.abs() != 1.0);
+        levers.for_each(|(_, value)| *value *= 1.0 + 3e-7 * (number as f64).sin());
+    }
+    case.place.write("G.mtx", matrix_market(model.n, &rows, |value| value.to_string()).as_bytes());
+    assert_refused(&case, FOOT, &["E-CONSTRAINT-RANK", "follows from others but for", "all digits"]);
+}
+
+/// A node far from the others that follow it, with a coefficient of a ten-thousandth and less.
+#[test]
+fn constraints_that_spread_too_far() {
+    let model = steel_brick();
+    let [a, b, c] = [(1, 0), (2, 0), (3, 0)].map(|dof| row(&model, dof));
+    // u₁ = u₂ but for a little of u₃: with both in the interface it is u₃ that follows, 50,000 times as far.
+    let rows = vec![vec![(a, 1.0), (b, -1.0 - 2e-5), (c, 2e-5)]];
+    let case = Case::new(model, rows);
+    assert_refused(&case, r#"{ name = "ends", nodes = [1, 2, 45] }"#, &["E-CONSTRAINT-SPREAD", "node 3 ux", "5.0e4"]);
+    assert!(position(&case.model, 3)[0] > 0.0);
+}
+
+/// Without a dof map nothing tells a motion, so that constraints are taken as they are.
+#[test]
+fn constraints_on_rows() {
+    let n = 6000;
+    let chain = Model { dofs: Vec::new(), ..spring(n, Ends::Free) };
+    let circle: Rows = (0..4200u32).map(|row| [0, 1, 7].map(|step| ((row + step) % 4200, 1.0)).to_vec()).collect();
+    let interface = r#"{ name = "ends", nodes = { rows = [5999] } }"#;
+    assert_refused(&Case::new(chain, circle), interface, &["E-CONSTRAINT-BLOCK", "one of 4200 between 4200 dofs"]);
+
+    let chain = |n: usize| Model { dofs: Vec::new(), ..spring(n, Ends::Free) };
+    let all: Rows = (0..4).map(|row| vec![(row, 1.0)]).collect();
+    let case = Case::new(chain(4), all);
+    assert_refused(&case, "", &["E-CONSTRAINT-ALL", "hold all 4 dofs at rest"]);
+    // A chain of which all masses move alike, and one whose mass is at rest.
+    let alike: Rows = (0..3).map(|row| vec![(row, 1.0), (row + 1, -1.0)]).collect();
+    assert_refused(&Case::new(chain(4), alike), "", &["E-CONSTRAINT-ALL", "nothing but 1 rigid-body motion"]);
+    let mut seismic = chain(3);
+    seismic.mass.retain(|(row, ..)| *row == 0);
+    assert_refused(&Case::new(seismic, vec![vec![(0, 1.0)]]), "", &["E-CONSTRAINT-ALL", "no mass"]);
+    // Two rows without stiffness and mass, tied to each other alone.
+    let mut loose = chain(6);
+    loose.n = 8;
+    let case = Case::new(loose, vec![vec![(6, 1.0), (7, -1.0)]]);
+    assert_refused(&case, r#"{ name = "ends", nodes = { rows = [0] } }"#, &["E-CONSTRAINT-LOOSE", "row 8"]);
+    // Tied to a row that has both they follow it, dropped rows counted or not.
+    let case = Case::new(case.model.clone(), vec![vec![(6, 1.0), (0, -1.0)], vec![(7, 1.0), (6, -1.0)]]);
+    for drop_empty in ["", ", drop_empty = true"] {
+        case.run(drop_empty, r#"{ name = "ends", nodes = { rows = [7] } }"#, CRAIG_BAMPTON, "").expect(ExitCode::Done);
+        let place = Place::with(&spring(6, Ends::Free));
+        place
+            .reduce(&place.matrix_flags(), "--interface ends=rows:0 --method craig-bampton --modes 4")
+            .expect(ExitCode::Done);
+        let (found, expected) = (case.place.superelement("x.supel"), place.superelement("x.supel"));
+        assert_eq!(found.tensors().frequencies.len(), 4);
+        supel_testing::place::assert_close(&found.tensors().frequencies, &expected.tensors().frequencies, 1e-12);
+    }
+}
