@@ -45,6 +45,11 @@ pub fn gram(x: MatRef<'_, f64>, y: MatRef<'_, f64>) -> Mat<f64> {
     sum
 }
 
+/// The rows of a square matrix with the numbers given, and the same columns.
+pub fn part(a: MatRef<'_, f64>, numbers: &[usize]) -> Mat<f64> {
+    Mat::from_fn(numbers.len(), numbers.len(), |i, j| a[(numbers[i], numbers[j])])
+}
+
 /// The columns of X with these numbers, in their order.
 pub fn columns(x: MatRef<'_, f64>, numbers: &[usize]) -> Mat<f64> {
     Mat::from_fn(x.nrows(), numbers.len(), |i, j| x[(i, numbers[j])])

@@ -1184,6 +1184,32 @@ pub enum Error {
         /// The name.
         name: String,
     },
+    /// What is held while modes are computed is missing with the method of mixed boundaries, or there with another method.
+    #[entry(
+        "E-JOB-HELD",
+        Usage,
+        "say what is held while the modes of mixed-interface are computed, an empty list for nothing; remove the key with any other method"
+    )]
+    #[error("`reduction.held` is {found} with {method} – {}", if *found == "given" { "remove the key or use mixed-interface" } else { "expected interfaces and directions: held = [\"base\", \"hub.ux\"]" })]
+    JobHeld {
+        /// Whether the key is there.
+        found: &'static str,
+        /// The method as the job has it.
+        method: String,
+    },
+    /// What is held while modes are computed names no interface, or a direction that none of its nodes has.
+    #[entry(
+        "E-HELD-INTERFACE",
+        Usage,
+        "use the name of an interface, or a name, a dot and a direction that its nodes have: hub.ux; the message lists the names"
+    )]
+    #[error("reduction.held: `{held}` is no interface and no direction of one – the job has {}", listed(known))]
+    HeldInterface {
+        /// What the job says.
+        held: String,
+        /// Names of the job's interfaces.
+        known: Vec<String>,
+    },
     /// A boundary of the scene is about an interface that the job does not have.
     #[entry("E-SCENE-INTERFACE", Usage, "use the name of an interface; the message lists them")]
     #[error("scene.boundaries: `{boundary}`: no interface is called `{name}` – the job has {}", listed(known))]

@@ -180,7 +180,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
 
     observer.stage("certificate");
     let (found, certificate) = modes::certified(&search, &search.problem, found, search.edge(), job.certified())?;
-    let retained = Retained { modes: found, boundary: search.problem.boundary };
+    let retained = Retained::new(&partition, found, search.problem.boundary);
 
     observer.stage("basis");
     let answers = basis::static_answers(component);
@@ -276,6 +276,7 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
         partition.expansion = Expansion::carried(&modes, &partition.transformation)?;
     }
     partition.model.weight = weight;
+    job.reduction.held.as_ref().map_or(Ok(()), |held| partition.hold_for_modes(held))?;
     Ok((facts, partition))
 }
 

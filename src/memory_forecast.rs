@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, Storage};
-use crate::job::{Certify, Job, ModeSelection, Precision};
+use crate::job::{Boundary, Certify, Job, ModeSelection, Precision};
 use crate::modes::{LARGEST_SEARCH, SLICED_FROM};
 use crate::partition::Partition;
 use crate::sparse::ENTRY_BYTES;
@@ -163,10 +163,16 @@ impl Forecast {
         let others = analysis.factor_bytes(Storage::Double).saturating_mul(n_other);
         let stacks = analysis.stack_bytes().saturating_mul(in_slices.max(1));
         let factors = analysis.factor_bytes(storage).saturating_add(others).saturating_add(stacks);
+        // Mixed boundaries have matrices of their own, and answers to the interface dofs that are free.
+        let free = partition.free_under(Boundary::MixedInterface);
+        let (n_copies, n_free) = free.map_or((n_copies, 0), |free| (n_copies + 1, free.len() as u64));
         // The loads and the inertia forces of the modes of a file, their static answers and their columns of the basis.
         let of_loads = 3 * (partition.loads.count() + partition.expansion.count()) as u64;
-        let vectors =
-            of_loads + 2 * partition.n_interface() as u64 + of_solver.max(BLOCKS_OF_MODES * n_modes) + refinement;
+        let vectors = of_loads
+            + n_free
+            + 2 * partition.n_interface() as u64
+            + of_solver.max(BLOCKS_OF_MODES * n_modes)
+            + refinement;
         let recovery = COPIES
             * (partition.recovered.rows.len() + partition.quantities.rows.len()) as u64
             * (partition.n_interface() as u64 + n_modes);

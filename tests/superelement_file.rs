@@ -45,6 +45,7 @@ fn metadata_of_every_kind_follow_the_schema() {
         Method::Herting,
         Method::Rubin,
         Method::Macneal,
+        Method::MixedInterface,
         Method::Guyan,
         Method::ModeAcceleration,
     ];

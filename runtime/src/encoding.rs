@@ -4,9 +4,9 @@ use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use crate::container::{Dtype, RawTensor, TENSORS, TensorToWrite};
+use crate::direction::Direction;
 use crate::error::{FileError, Result};
 use crate::matrix::Matrix;
-use crate::metadata::Direction;
 use crate::tensors::{Precision, RecoveredDof, Recovery, Tensors};
 
 /// The tensors that are there, in the order of the file.

@@ -5,7 +5,7 @@ use alloc::{string::String, vec::Vec};
 #[cfg(feature = "std")]
 use std::path::PathBuf;
 
-use crate::metadata::Direction;
+use crate::direction::Direction;
 
 /// The result of every fallible call of this crate.
 pub type Result<T, E = FileError> = core::result::Result<T, E>;
@@ -392,6 +392,16 @@ pub enum FileError {
         node: usize,
         /// Direction.
         direction: Direction,
+    },
+    /// The coordinates held while modes were computed are no interface coordinates, or not in ascending order.
+    #[error(
+        "`modes_held` names coordinate {coordinate} (from 0), which is out of order or beyond the {n_interface} interface coordinates"
+    )]
+    ModesHeld {
+        /// The coordinate.
+        coordinate: usize,
+        /// Number of interface coordinates.
+        n_interface: usize,
     },
     /// Number of names and of load vectors differ.
     #[error("{names} load names for {vectors} load vectors")]

@@ -129,6 +129,8 @@ mod atomic_file;
 pub mod capi;
 pub mod component;
 mod container;
+mod coordinate;
+mod direction;
 #[cfg(feature = "std")]
 mod disk;
 mod document;
@@ -148,6 +150,8 @@ mod validation;
 
 #[cfg(feature = "std")]
 pub use atomic_file::{StagedFile, StagedWriter, abandoned_parts};
+pub use coordinate::Coordinate;
+pub use direction::Direction;
 #[cfg(feature = "std")]
 pub use disk::file_bytes;
 pub use document::FORMAT_VERSION;
@@ -157,8 +161,8 @@ pub use further_matrix::{MatrixKind, NamedMatrix, Symmetry};
 pub use mass_properties::mass_properties;
 pub use matrix::Matrix;
 pub use metadata::{
-    CheckSummary, Coordinate, Direction, DroppedColumn, Flag, Generator, InterfaceDof, InterfaceNode, MOTIONS,
-    MassProperties, Metadata, Method, ModelSummary, Quantity, RigidBodyModes, Validity, Verdict, Verification,
+    CheckSummary, DroppedColumn, Flag, Generator, InterfaceDof, InterfaceNode, MOTIONS, MassProperties, Metadata,
+    Method, ModelSummary, Quantity, RigidBodyModes, Validity, Verdict, Verification,
 };
 pub use superelement::Superelement;
 pub use tensors::{Precision, RecoveredDof, Recovery, Tensors};

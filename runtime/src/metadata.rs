@@ -6,6 +6,8 @@ use alloc::vec::Vec;
 
 use serde::{Deserialize, Serialize};
 
+use crate::coordinate::Coordinate;
+use crate::direction::Direction;
 use crate::further_matrix::NamedMatrix;
 
 /// The metadata document, without format version and digest, which writer and reader handle themselves.
@@ -35,6 +37,10 @@ pub struct Metadata {
     /// What each matrix of the tensor `matrices` is. Absent from the file where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub matrices: Vec<NamedMatrix>,
+    /// Interface coordinates that were held while mixed-interface modes were computed, ascending; the others were free. Absent from the
+    /// file where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub modes_held: Vec<usize>,
     /// What the superelement may be used for.
     pub validity: Validity,
     /// Properties that a client must know before it uses the matrices.
@@ -78,29 +84,12 @@ pub enum Method {
     Rubin,
     /// Rubin's without residual mass.
     Macneal,
+    /// Constraint modes and mode-accelerated modes computed with some interface dofs held and the others free.
+    MixedInterface,
     /// Constraint modes alone.
     Guyan,
     /// Mode acceleration with modes of the user's choice.
     ModeAcceleration,
-}
-
-/// The direction of a degree of freedom, in the order of the classical six.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
-#[serde(rename_all = "lowercase")]
-pub enum Direction {
-    /// Translation along x.
-    Ux,
-    /// Translation along y.
-    Uy,
-    /// Translation along z.
-    Uz,
-    /// Rotation about x.
-    Rx,
-    /// Rotation about y.
-    Ry,
-    /// Rotation about z.
-    Rz,
 }
 
 /// The six unit motions of a free body, the columns of U of equation (8): translations first, then rotations about the origin.
@@ -112,27 +101,6 @@ pub const MOTIONS: [&str; 6] = [
     "rotation about y",
     "rotation about z",
 ];
-
-impl Direction {
-    /// All six, in order; their places are the numbers in `recovery_dofs`.
-    pub const ALL: [Self; 6] = [Self::Ux, Self::Uy, Self::Uz, Self::Rx, Self::Ry, Self::Rz];
-
-    /// The axis 0, 1 or 2.
-    pub fn axis(self) -> usize {
-        self as usize % 3
-    }
-
-    /// True for a rotation.
-    pub fn is_rotation(self) -> bool {
-        self as usize >= 3
-    }
-}
-
-impl core::fmt::Display for Direction {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str(["ux", "uy", "uz", "rx", "ry", "rz"][*self as usize])
-    }
-}
 
 /// A node at which the superelement is joined to others.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -146,97 +114,6 @@ pub struct InterfaceNode {
     pub dofs: Vec<Direction>,
     /// Its position in the reference configuration, equal to its row of `interface_positions`.
     pub position: [f64; 3],
-}
-
-/// What one reduced coordinate is.
-///
-/// `mode` counts the entries of `frequencies` from 0. Where the tensor `mixing` is present the modal coordinates name
-/// the columns *before* mixing: stored dynamic modes = named modes · mixing.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
-pub enum Coordinate {
-    /// Displacement or rotation of an interface node.
-    Interface {
-        /// Number of the interface node, from 0.
-        node: usize,
-        /// Direction.
-        direction: Direction,
-    },
-    /// Displacement of an interface row of a model that has no nodes.
-    InterfaceRow {
-        /// Row of the model's matrices, from 0.
-        row: u64,
-    },
-    /// Amplitude of a rigid-body mode, in a component without interface.
-    RigidBodyMode {
-        /// Number of the rigid-body mode, from 0.
-        index: usize,
-    },
-    /// Amplitude of an inertia-relief mode.
-    InertiaRelief {
-        /// Number of the rigid-body mode whose inertia loads it answers, from 0.
-        index: usize,
-    },
-    /// Amplitude of a mode-accelerated expansion mode: the static answer to the inertia forces of a mode that a file gave.
-    ExpansionMode {
-        /// Column of the file, from 0.
-        column: usize,
-    },
-    /// Amplitude of a residual vector, the static answer to a load.
-    ResidualVector {
-        /// Number of the load among `load_names`, from 0.
-        load: usize,
-    },
-    /// Amplitude of a free-free normal mode.
-    ElasticMode {
-        /// Number of the mode.
-        mode: usize,
-        /// Natural frequency.
-        frequency_hz: f64,
-        /// Bound of the error of the natural frequency.
-        error_bar_hz: Option<f64>,
-    },
-    /// Amplitude of a fixed-interface normal mode.
-    FixedInterfaceMode {
-        /// Number of the mode.
-        mode: usize,
-        /// Natural frequency.
-        frequency_hz: f64,
-        /// Bound of the error of the natural frequency.
-        error_bar_hz: Option<f64>,
-    },
-}
-
-impl Coordinate {
-    /// True for u_B, false for η.
-    pub fn is_interface(&self) -> bool {
-        matches!(self, Self::Interface { .. } | Self::InterfaceRow { .. })
-    }
-
-    /// What the amplitude of a mode is called in messages, counted from one: `mode 3`, `residual vector of thrust`; none for an interface
-    /// coordinate. `load_names` are those of the file.
-    pub fn mode_name(&self, load_names: &[String]) -> Option<String> {
-        Some(match self {
-            Self::Interface { .. } | Self::InterfaceRow { .. } => return None,
-            Self::RigidBodyMode { index } => format!("rigid-body mode {}", index + 1),
-            Self::InertiaRelief { index } => format!("inertia relief {}", index + 1),
-            Self::ExpansionMode { column } => format!("expansion mode {}", column + 1),
-            Self::ResidualVector { load } => {
-                format!("residual vector of {}", load_names.get(*load).map_or("no load", String::as_str))
-            }
-            Self::ElasticMode { mode, .. } | Self::FixedInterfaceMode { mode, .. } => format!("mode {}", mode + 1),
-        })
-    }
-
-    /// Number of the mode and its frequency in Hz, for a coordinate that has them.
-    pub fn mode(&self) -> Option<(usize, f64)> {
-        match *self {
-            Self::ElasticMode { mode, frequency_hz, .. } | Self::FixedInterfaceMode { mode, frequency_hz, .. } => {
-                Some((mode, frequency_hz))
-            }
-            _ => None,
-        }
-    }
 }
 
 /// A mode that was left out of the basis.
@@ -370,6 +247,7 @@ impl Method {
             Self::Herting => "Herting",
             Self::Rubin => "Rubin",
             Self::Macneal => "MacNeal",
+            Self::MixedInterface => "mixed-interface",
             Self::Guyan => "Guyan",
             Self::ModeAcceleration => "mode acceleration",
         }

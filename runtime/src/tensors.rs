@@ -12,9 +12,9 @@ use alloc::vec::Vec;
 
 use serde::{Deserialize, Serialize};
 
+use crate::direction::Direction;
 use crate::error::{FileError, Result};
 use crate::matrix::Matrix;
-use crate::metadata::Direction;
 
 /// The numbers of a superelement, under the names they have in the file.
 ///

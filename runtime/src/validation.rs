@@ -4,11 +4,12 @@ use alloc::borrow::ToOwned;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+use crate::coordinate::Coordinate;
 use crate::document::is_digest;
 use crate::error::{FileError, Result};
 use crate::further_matrix::Symmetry;
 use crate::matrix::Matrix;
-use crate::metadata::{Coordinate, InterfaceDof, Metadata};
+use crate::metadata::{InterfaceDof, Metadata};
 use crate::tensors::Tensors;
 
 /// How far RᵀR of an interface frame may be from the identity; a rotation from twelve printed digits passes.
@@ -26,6 +27,7 @@ pub(crate) fn check(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
     check_coordinates(metadata)?;
     check_validity(metadata)?;
     check_modes(tensors, metadata)?;
+    check_modes_held(metadata)?;
     check_residual_vectors(metadata)?;
     check_matrices(tensors, metadata)?;
     for (name, digest) in &metadata.inputs {
@@ -191,13 +193,8 @@ fn check_metadata_numbers(metadata: &Metadata) -> Result<()> {
 
 /// Frequency and error bar of a modal coordinate, zeros for the others.
 fn mode_numbers(coordinate: &Coordinate) -> [f64; 2] {
-    match *coordinate {
-        Coordinate::ElasticMode { frequency_hz, error_bar_hz, .. }
-        | Coordinate::FixedInterfaceMode { frequency_hz, error_bar_hz, .. } => {
-            [frequency_hz, error_bar_hz.unwrap_or(0.0)]
-        }
-        _ => [0.0; 2],
-    }
+    let frequency_hz = coordinate.mode().map_or(0.0, |(_, frequency_hz)| frequency_hz);
+    [frequency_hz, coordinate.error_bar_hz().unwrap_or(0.0)]
 }
 
 fn check_interface(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
@@ -262,6 +259,19 @@ fn check_coordinates(metadata: &Metadata) -> Result<()> {
         Some(stray) => Err(FileError::CoordinateOrder { coordinate: n_from_nodes + n_rows + stray }),
         None => Ok(()),
     }
+}
+
+/// What was held while modes were computed is part of the interface, each coordinate once.
+fn check_modes_held(metadata: &Metadata) -> Result<()> {
+    let n_interface = metadata.coordinates.iter().take_while(|coordinate| coordinate.is_interface()).count();
+    let mut least = 0;
+    for &coordinate in &metadata.modes_held {
+        if coordinate < least || coordinate >= n_interface {
+            return Err(FileError::ModesHeld { coordinate, n_interface });
+        }
+        least = coordinate + 1;
+    }
+    Ok(())
 }
 
 fn check_modes(tensors: &Tensors, metadata: &Metadata) -> Result<()> {

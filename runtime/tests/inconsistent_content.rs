@@ -284,6 +284,14 @@ fn names_and_kinds_of_further_matrices() {
 }
 
 #[test]
+fn coordinates_held_for_modes_that_are_no_interface_coordinates() {
+    for (held, coordinate) in [(vec![6], 6), (vec![0, 0], 0), (vec![3, 1], 1)] {
+        let error = refusal(|_, metadata| metadata.modes_held = held);
+        assert_refused!(error, FileError::ModesHeld { coordinate: found, n_interface: 6 } if found == coordinate);
+    }
+}
+
+#[test]
 fn unloaded_dof_that_is_not_there() {
     let unloaded = |node, direction| vec![InterfaceDof { node, direction }];
     let error = refusal(|_, metadata| metadata.validity.unloaded = unloaded(1, Direction::Ux));

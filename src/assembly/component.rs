@@ -106,11 +106,7 @@ fn rounding_of(stiffness: MatRef<'_, f64>, mass: MatRef<'_, f64>, rigid: MatRef<
 /// How far the first eigenvalue of a mode may be off by its error bar; zero without modes, and the eigenvalue itself where no bar is known.
 fn known_to(superelement: &Superelement) -> f64 {
     let coordinates = &superelement.metadata().coordinates;
-    let first = coordinates.iter().find_map(|coordinate| match *coordinate {
-        Coordinate::ElasticMode { frequency_hz, error_bar_hz, .. }
-        | Coordinate::FixedInterfaceMode { frequency_hz, error_bar_hz, .. } => Some((frequency_hz, error_bar_hz)),
-        _ => None,
-    });
+    let first = coordinates.iter().find_map(|coordinate| Some((coordinate.mode()?.1, coordinate.error_bar_hz())));
     first.map_or(0.0, |(hertz, bar)| {
         let [lower, upper] = [hertz, hertz + bar.unwrap_or(hertz)].map(|hertz| (std::f64::consts::TAU * hertz).powi(2));
         upper - lower

@@ -9,7 +9,8 @@
 //! chosen orthogonal to all of Ψ in K. An exact shape x = Ψv has Kx = λMx inside, and QᵀMx = QᵀKx/λ = 0; for rigid-body motions the
 //! inertia-relief modes do the same, K_II Ψ_IRM = (MU)_I. So CᵀV = 0, and a motion of Q is orthogonal in M to every mode that was
 //! kept: its Rayleigh quotient is not below κ, the end of the band that was counted to be complete. With the interface held the modes
-//! are those of K_II alone and the argument is the one of the interior.
+//! are those of K_II alone and the argument is the one of the interior; with some of it held Q is at rest there, too, and Kx = λMx holds
+//! wherever Q moves.
 //!
 //! *Mass.* The mass of Ψ and Q together is not negative. Taking V out of it, which couples with nothing of Q, leaves S − C Cᵀ ⪰ 0.
 //!
@@ -38,6 +39,7 @@ use super::spectrum::{Pencil, Spectrum};
 use crate::dense::{self, NOISE_FACTOR};
 use crate::error::Result;
 use crate::job::{Boundary, Method, ModeOrigin};
+use crate::rigid::n_passing;
 
 /// How far λ of the reduced matrices may be from the one that the file states for the shape to count as exact.
 const SAME_EIGENVALUE: f64 = 1e-6;
@@ -89,7 +91,7 @@ pub(super) fn omitted(
     let kappa = (std::f64::consts::TAU * hz).powi(2);
     let mass = match boundary {
         Boundary::FreeInterface => of_free_modes(superelement, (k, m, u), kappa)?,
-        Boundary::FixedInterface => of_fixed_modes(superelement, (k, m, u), kappa)?,
+        Boundary::FixedInterface | Boundary::MixedInterface => of_held_modes(superelement, (k, m, u), kappa)?,
     };
     Ok(mass.map_or_else(|why| Omitted::Unknown { why: why.to_owned() }, |mass| Omitted::Above { hz, mass }))
 }
@@ -128,7 +130,7 @@ fn kept(superelement: &Superelement) -> Result<(Boundary, f64), String> {
     let of_motions = |coordinate: &Coordinate| {
         matches!(coordinate, Coordinate::InertiaRelief { .. } | Coordinate::RigidBodyMode { .. })
     };
-    let boundary = method.boundary();
+    let boundary = method.boundary().holding(metadata.modes_held.len(), superelement.n_interface());
     if boundary == Boundary::FreeInterface && n_named(superelement, of_motions) < superelement.n_rigid() {
         return Err("it has free modes without an inertia-relief mode for each rigid-body mode".to_owned());
     }
@@ -138,12 +140,9 @@ fn kept(superelement: &Superelement) -> Result<(Boundary, f64), String> {
         );
     };
     // The modes that were left out are not slower than the last one that was kept, which is known up to its bar.
-    let bars = metadata.coordinates.iter().filter_map(|coordinate| match *coordinate {
-        Coordinate::ElasticMode { frequency_hz, error_bar_hz, .. }
-        | Coordinate::FixedInterfaceMode { frequency_hz, error_bar_hz, .. } => {
-            (frequency_hz >= 0.5 * end).then_some(error_bar_hz.unwrap_or(0.0))
-        }
-        _ => None,
+    let bars = metadata.coordinates.iter().filter_map(|coordinate| {
+        let (_, frequency_hz) = coordinate.mode()?;
+        (frequency_hz >= 0.5 * end).then_some(coordinate.error_bar_hz().unwrap_or(0.0))
     });
     let from = end - bars.fold(0.0, f64::max);
     if from > 0.0 {
@@ -179,22 +178,31 @@ fn of_free_modes(
     Ok(Ok(SprungMass { factor: dense::product(m, shapes.as_ref()), springs }))
 }
 
-/// The omitted mass next to modes with the interface held: what is left of M̂ beyond them, and beyond the rigid-body motions where
+/// The omitted mass next to modes with the interface held, or some of it: what is left of M̂ beyond them, and beyond the rigid-body motions where
 /// inertia-relief modes make these uncoupled.
-fn of_fixed_modes(
+fn of_held_modes(
     superelement: &Superelement,
     (k, m, u): (MatRef<'_, f64>, MatRef<'_, f64>, MatRef<'_, f64>),
     kappa: f64,
 ) -> Result<Result<SprungMass, &'static str>> {
     let (r, n_b) = (superelement.n_coordinates(), superelement.n_interface());
-    let inner = |a: MatRef<'_, f64>| a.submatrix(n_b, n_b, r - n_b, r - n_b).to_owned();
-    let (k, inner_m) = (inner(k), inner(m));
-    let spectrum = match stated_spectrum(superelement, (k.as_ref(), inner_m.as_ref()), Mat::zeros(r - n_b, 0))? {
+    let named = &superelement.metadata().modes_held;
+    let held: Vec<usize> = if named.is_empty() { (0..n_b).collect() } else { named.clone() };
+    let scales: Vec<f64> = (0..n_b).map(|i| dense::power_of_two_root(k[(i, i)])).collect();
+    if held.len() < n_b && n_passing(u.subrows(0, n_b), &scales, &held)? > 0 {
+        return Ok(Err("its modes were computed with some of its interface held, which lets it move as a rigid body"));
+    }
+    let moving: Vec<usize> = (0..r).filter(|at| !held.contains(at)).collect();
+    let [k, inner_m] = [k, m].map(|a| dense::part(a, &moving));
+    let spectrum = match stated_spectrum(superelement, (k.as_ref(), inner_m.as_ref()), Mat::zeros(moving.len(), 0))? {
         Ok(spectrum) => spectrum,
         Err(why) => return Ok(Err(why)),
     };
     let n_modes = superelement.tensors().frequencies.len();
-    let modes = Mat::from_fn(r, n_modes, |i, j| if i < n_b { 0.0 } else { spectrum.shapes[(i - n_b, j)] });
+    let mut modes = Mat::zeros(r, n_modes);
+    for (row, at) in moving.iter().enumerate() {
+        (0..n_modes).for_each(|j| modes[(*at, j)] = spectrum.shapes[(row, j)]);
+    }
     let is_relief = |coordinate: &Coordinate| matches!(coordinate, Coordinate::InertiaRelief { .. });
     let is_uncoupled = n_named(superelement, is_relief) >= u.ncols();
     let exact = if is_uncoupled { dense::side_by_side(modes.as_ref(), u) } else { modes };

@@ -9,6 +9,7 @@ use crate::eigen::eigenvalue_beyond;
 use crate::eigen::elastic_scale;
 use crate::error::Result;
 use crate::job::{Boundary, Job};
+use crate::rigid::n_passing;
 use crate::verification::check::Limits;
 use crate::verification::limits::{self, Judged, Known, LARGEST_EXCUSE};
 
@@ -91,6 +92,30 @@ impl<'a> Content<'a> {
             first,
             scale,
         })
+    }
+
+    /// For each interface coordinate whether it was held while the modes were computed.
+    pub(super) fn held(&self) -> Vec<bool> {
+        let named = &self.superelement.metadata().modes_held;
+        let is_held = |at: usize| match self.boundary {
+            Boundary::FixedInterface => true,
+            Boundary::FreeInterface => false,
+            Boundary::MixedInterface => named.binary_search(&at).is_ok(),
+        };
+        (0..self.n_b).map(is_held).collect()
+    }
+
+    /// Numbers of the coordinates that take part in the eigenproblem of the modes.
+    pub(super) fn moving(&self) -> Vec<usize> {
+        let held = self.held();
+        (0..self.n_reduced()).filter(|at| held.get(*at) != Some(&true)).collect()
+    }
+
+    /// Rigid-body motions that leave what was held at rest, which the eigenproblem of the modes has at zero.
+    pub(super) fn n_passing(&self) -> Result<usize> {
+        let held = self.held();
+        let rows: Vec<usize> = (0..self.n_b).filter(|at| held[*at]).collect();
+        n_passing(self.u.as_ref().subrows(0, self.n_b), &self.scale, &rows)
     }
 
     /// r.
@@ -210,23 +235,25 @@ pub(super) fn coordinate_name(superelement: &Superelement, coordinate: usize) ->
 
 /// The kind of a mode tells where it was computed, whatever the method is called.
 pub(super) fn boundary(superelement: &Superelement) -> Boundary {
-    let mut columns = superelement.metadata().named_columns();
-    let is_fixed = columns.any(|coordinate| matches!(coordinate, Coordinate::FixedInterfaceMode { .. }));
-    if is_fixed { Boundary::FixedInterface } else { Boundary::FreeInterface }
+    let has = |is_kind: fn(&Coordinate) -> bool| superelement.metadata().named_columns().any(is_kind);
+    if has(|coordinate| matches!(coordinate, Coordinate::FixedInterfaceMode { .. })) {
+        return Boundary::FixedInterface;
+    }
+    match has(|coordinate| matches!(coordinate, Coordinate::MixedInterfaceMode { .. })) {
+        true => Boundary::MixedInterface,
+        false => Boundary::FreeInterface,
+    }
 }
 
 /// The noise of energies relative to the first elastic one, by the bars that the file states. No file is written with a frequency that
 /// is unknown, and a bar that says so excuses nothing.
 fn by_own_bars(superelement: &Superelement, first: f64) -> f64 {
-    let known = superelement.metadata().coordinates.iter().filter_map(|coordinate| match *coordinate {
-        Coordinate::ElasticMode { frequency_hz, error_bar_hz: Some(bar), .. }
-        | Coordinate::FixedInterfaceMode { frequency_hz, error_bar_hz: Some(bar), .. } => {
-            // The bar of the square of a frequency is twice that of the frequency.
-            let omega = frequency_hz * std::f64::consts::TAU;
-            let known = Known { lambda: omega * omega, relative_bar: 2.0 * bar / frequency_hz };
-            (bar <= limits::UNKNOWN * frequency_hz).then_some(known)
-        }
-        _ => None,
+    let known = superelement.metadata().coordinates.iter().filter_map(|coordinate| {
+        let ((_, frequency_hz), bar) = (coordinate.mode()?, coordinate.error_bar_hz()?);
+        // The bar of the square of a frequency is twice that of the frequency.
+        let omega = frequency_hz * std::f64::consts::TAU;
+        let known = Known { lambda: omega * omega, relative_bar: 2.0 * bar / frequency_hz };
+        (bar <= limits::UNKNOWN * frequency_hz).then_some(known)
     });
     limits::noise(known, first)
 }

@@ -76,6 +76,7 @@ fn by_job(content: &Content<'_>, job: &Job) -> Vec<&'static str> {
         "a labelled patch",
     );
     expect(!found.is_empty() || !is_by_rows || rows(content) == rows_asked(job), "other interface rows");
+    expect(found.is_empty() || metadata.modes_held == held_asked(content, job), "other dofs held for the modes");
     expect(metadata.validity.band_hz == band(content.superelement, job), "another band");
     expect(metadata.load_names.iter().eq(job.loads.iter().map(|load| &load.name)), "other loads");
     expect(tensors.quantities.is_some() == job.write.quantities.is_some(), "other quantities");
@@ -95,6 +96,24 @@ fn by_job(content: &Content<'_>, job: &Job) -> Vec<&'static str> {
         expect(found == *asked, "other recovered nodes");
     }
     flaws
+}
+
+/// Interface coordinates that the job holds while modes are computed.
+fn held_asked(content: &Content<'_>, job: &Job) -> Vec<usize> {
+    let metadata = content.superelement.metadata();
+    let held = job.reduction.held.as_deref().unwrap_or_default();
+    let named: Vec<_> = held
+        .iter()
+        .filter_map(|held| held.of(|name| metadata.interface_nodes.iter().any(|node| node.name == name)))
+        .collect();
+    let is_held = |coordinate: &Coordinate| match coordinate {
+        Coordinate::Interface { node, direction } => {
+            let name = &metadata.interface_nodes[*node].name;
+            named.iter().any(|(held, of)| held == name && of.is_none_or(|of| of == *direction))
+        }
+        _ => false,
+    };
+    (0..content.n_b).filter(|at| is_held(&metadata.coordinates[*at])).collect()
 }
 
 /// Whether an interface is a rigid patch: one node that the model does not have.
@@ -161,7 +180,13 @@ pub(super) fn n_modes(content: &Content<'_>) -> Option<Check> {
     let stated = content.superelement.tensors().frequencies.as_slice();
     let (value, words) = match content.job.as_ref()?.reduction.wanted() {
         ModeSelection::Count { count } => {
-            let n_without = if content.boundary == Boundary::FixedInterface { content.n_b } else { content.n_rigid() };
+            let n_without = match content.boundary {
+                Boundary::FixedInterface => content.n_b,
+                Boundary::FreeInterface => content.n_rigid(),
+                Boundary::MixedInterface => {
+                    content.superelement.metadata().modes_held.len() + content.n_passing().unwrap_or(content.n_rigid())
+                }
+            };
             let n_dofs = usize::try_from(content.superelement.metadata().model.n_dofs).unwrap_or(usize::MAX);
             let most = count.min(n_dofs.saturating_sub(n_without));
             let text = format!("{count} asked for, {} stated", stated.len());
@@ -208,6 +233,7 @@ pub(super) fn accounts(content: &Content<'_>) -> Check {
     let is_of_boundary = |coordinate: &Coordinate| match coordinate {
         Coordinate::FixedInterfaceMode { .. } => content.boundary == Boundary::FixedInterface,
         Coordinate::ElasticMode { .. } => content.boundary == Boundary::FreeInterface,
+        Coordinate::MixedInterfaceMode { .. } => content.boundary == Boundary::MixedInterface,
         _ => true,
     };
     if !modal().all(is_of_boundary) {
@@ -235,8 +261,10 @@ fn of_method(content: &Content<'_>, method: Method) -> Vec<&'static str> {
     };
     let n_r = content.n_rigid();
     let is_modal = is_modal(content);
-    let boundary = if is_modal { Boundary::FreeInterface } else { method.boundary() };
+    let of_method = method.boundary().holding(metadata.modes_held.len(), content.n_b);
+    let boundary = if is_modal { Boundary::FreeInterface } else { of_method };
     expect(tensors.frequencies.is_empty() || content.boundary == boundary, "modes of another boundary");
+    expect(metadata.modes_held.is_empty() || method.boundary() == Boundary::MixedInterface, "dofs held for the modes");
     let numbers = |pick: fn(&Coordinate) -> Option<usize>| -> Vec<usize> {
         let mut numbers: Vec<usize> = modal().filter_map(pick).collect();
         numbers.sort_unstable();

@@ -34,7 +34,7 @@ use super::Audit;
 use super::content::ModelNoise;
 use super::spectrum::condition_of;
 use crate::error::Result;
-use crate::factor::Analysis;
+use crate::factor::{Analysis, Cholesky};
 use crate::input::InputFacts;
 use crate::job::{Boundary, Job};
 use crate::partition::Partition;
@@ -230,17 +230,38 @@ impl Free {
     fn new(job: &Job, partition: &Partition, (analysis, given): (&Analysis, &RigidBodyModes)) -> Result<Self> {
         let full = Full::new(partition, analysis, given)?;
         let is_modal = partition.n_interface() == 0 && full.zero.count() > 0;
-        let boundary = if is_modal { Boundary::FreeInterface } else { job.reduction.method.boundary() };
+        let of_method = partition.boundary(job.reduction.method.boundary());
+        let boundary = if is_modal { Boundary::FreeInterface } else { of_method };
         let asked = match boundary {
-            Boundary::FreeInterface => Some(AskedModes::free(&full, deflated(given, &full.zero), &job.reduction)?),
-            Boundary::FixedInterface => None,
+            Boundary::FreeInterface => {
+                let rigid = deflated(given, &full.zero);
+                Some(AskedModes::moving(&full, (boundary, &full.factor), rigid, &job.reduction)?)
+            }
+            Boundary::FixedInterface | Boundary::MixedInterface => None,
         };
         let motions = KnownMotions::of(&full, given);
+        let mixed = match boundary {
+            Boundary::MixedInterface => Some(mixed(&full, deflated(given, &full.zero), job)?),
+            Boundary::FreeInterface | Boundary::FixedInterface => None,
+        };
         let Full { zero, first, factor, .. } = full;
         drop(factor);
         let asked = asked.map(|asked| asked.counted(partition, analysis, first)).transpose()?;
-        Ok(Self { zero, motions, asked, first })
+        Ok(Self { zero, motions, asked: asked.or(mixed), first })
     }
+}
+
+/// The modes asked for with mixed boundaries, counted, by a factor of K − σM of the dofs that are not held.
+fn mixed(full: &Full<'_>, rigid: &RigidBodyModes, job: &Job) -> Result<AskedModes> {
+    let (partition, boundary) = (full.partition, Boundary::MixedInterface);
+    let rigid = rigid::with_passing(rigid.clone(), partition)?;
+    let pencil = partition.pencil_under(boundary);
+    let analysis = Analysis::new(pencil)?;
+    let name = |row: usize| partition.name_of(partition.dof_under(boundary, row));
+    let factor = Cholesky::new(&analysis, pencil, full.sigma, &name)?;
+    let asked = AskedModes::moving(full, (boundary, &factor), &rigid, &job.reduction)?;
+    drop(factor);
+    asked.counted(partition, &analysis, full.first)
 }
 
 /// The motions that elastic modes are orthogonal to: those of the coordinates, where they are all.

@@ -12,7 +12,6 @@ use supel_runtime::Coordinate;
 
 use super::content::Content;
 use crate::dense::{self, NOISE_FACTOR, unpacked};
-use crate::job::Boundary;
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::{Judged, LARGEST_EXCUSE};
 
@@ -141,15 +140,13 @@ fn backward_error(content: &Content<'_>, lambda: f64, q: &[f64]) -> f64 {
     let dynamic = Mat::from_fn(r, r, |i, j| (content.k[(i, j)] - lambda * content.m[(i, j)]) * d[i] * d[j]);
     let amplitude = Mat::from_fn(r - b, 1, |i, _| q[i] / d[b + i]);
     // A held interface takes up the reaction: its rows are not part of the eigenproblem.
-    let first = match content.boundary {
-        Boundary::FixedInterface => b,
-        Boundary::FreeInterface => 0,
-    };
-    let rows = dynamic.as_ref().subrows(first, r - first);
-    let mut residual = dense::product(rows.subcols(b, r - b), amplitude.as_ref());
+    let moving = content.moving();
+    let rows = dense::part(dynamic.as_ref(), &moving);
+    let (n_free, n_moving) = (moving.len() - (r - b), moving.len());
+    let mut residual = dense::product(rows.as_ref().subcols(n_free, n_moving - n_free), amplitude.as_ref());
     let mut motion = dense::norm(dense::column(amplitude.as_ref(), 0)).powi(2);
-    if first == 0 && b > 0 {
-        let interface = rows.subcols(0, b);
+    if n_free > 0 {
+        let interface = rows.as_ref().subcols(0, n_free);
         let mut load = residual.clone();
         load *= faer::Scale(-1.0);
         let displacement = dense::least_squares(interface, load.as_ref());

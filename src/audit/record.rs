@@ -98,12 +98,9 @@ fn bars(content: &Content<'_>, checks: &[CheckSummary]) -> Option<String> {
     /// What the residual of a mode adds to its bar, relative to the digits and in itself, where nothing is wrong.
     const RESIDUAL: [f64; 2] = [10.0, 1e-9];
     let record = checks.iter().find(|check| check.id == "M-09")?;
-    let relative = content.superelement.metadata().named_columns().filter_map(|coordinate| match *coordinate {
-        Coordinate::ElasticMode { frequency_hz, error_bar_hz, .. }
-        | Coordinate::FixedInterfaceMode { frequency_hz, error_bar_hz, .. } => {
-            Some(error_bar_hz.map_or(f64::INFINITY, |bar| bar / frequency_hz))
-        }
-        _ => None,
+    let relative = content.superelement.metadata().named_columns().filter_map(|coordinate| {
+        let (_, frequency_hz) = coordinate.mode()?;
+        Some(coordinate.error_bar_hz().map_or(f64::INFINITY, |bar| bar / frequency_hz))
     });
     let largest = relative.fold(0.0, f64::max);
     // A bar that is not a number has no place in the file, nor has the value.

@@ -26,12 +26,14 @@ impl Spectrum {
         sharpen(&mut free, (k, m), content.first, content.n_rigid() + content.lambda.len())?;
         let same_boundary = match content.boundary {
             Boundary::FreeInterface => free.get(content.n_rigid()..).unwrap_or_default().to_vec(),
-            Boundary::FixedInterface => {
-                let (b, n) = (content.n_b, content.n_reduced() - content.n_b);
-                let inner = (k.submatrix(b, b, n, n), m.submatrix(b, b, n, n));
+            Boundary::FixedInterface | Boundary::MixedInterface => {
+                let moving = content.moving();
+                let [k, m] = [k, m].map(|a| dense::part(a, &moving));
+                let inner = (k.as_ref(), m.as_ref());
+                let n_zero = if content.boundary == Boundary::MixedInterface { content.n_passing()? } else { 0 };
                 let mut held = eigenvalues(inner.0, inner.1, content.first)?;
-                sharpen(&mut held, inner, content.first, content.lambda.len())?;
-                held
+                sharpen(&mut held, inner, content.first, n_zero + content.lambda.len())?;
+                held.split_off(n_zero.min(held.len()))
             }
         };
         Ok(Self { free, same_boundary })

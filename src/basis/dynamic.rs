@@ -26,6 +26,8 @@ pub enum DynamicCoordinate {
     FreeFree(usize),
     /// Fixed-interface normal mode k.
     FixedInterface(usize),
+    /// Mode-accelerated mode k with some interface dofs held.
+    MixedInterface(usize),
     /// Mode-accelerated expansion mode k of a file.
     Expansion(usize),
     /// Residual vector of load k of the job.
@@ -38,7 +40,9 @@ impl DynamicCoordinate {
         match self {
             Self::RigidBody(index) => format!("rigid-body mode {}", index + 1),
             Self::InertiaRelief(index) => format!("inertia relief {}", index + 1),
-            Self::FreeFree(mode) | Self::FixedInterface(mode) => format!("mode {}", mode + 1),
+            Self::FreeFree(mode) | Self::FixedInterface(mode) | Self::MixedInterface(mode) => {
+                format!("mode {}", mode + 1)
+            }
             Self::Expansion(mode) => format!("expansion mode {}", mode + 1),
             Self::ResidualVector(load) => format!("residual vector of {}", loads[load].name),
         }
@@ -119,14 +123,15 @@ pub fn expansion_columns(partition: &Partition, factor: &dyn SolveOperator) -> D
 pub fn accelerated_columns(partition: &Partition, constraint: &ConstraintModes, retained: &Retained) -> DynamicColumns {
     let (n_i, n_b, modes) = (partition.n_internal, partition.n_interface(), &retained.modes);
     let mut columns = modes.shapes.as_ref().subrows(0, n_i).to_owned();
+    if retained.boundary != Boundary::FixedInterface {
+        let x_b = modes.shapes.as_ref().subrows(n_i, n_b);
+        dense::add_product(columns.as_mut(), -1.0, constraint.modes.as_ref(), x_b);
+        clear_rounding(partition, constraint, modes, columns.as_mut());
+    }
     let kind = match retained.boundary {
         Boundary::FixedInterface => DynamicCoordinate::FixedInterface,
-        Boundary::FreeInterface => {
-            let x_b = modes.shapes.as_ref().subrows(n_i, n_b);
-            dense::add_product(columns.as_mut(), -1.0, constraint.modes.as_ref(), x_b);
-            clear_rounding(partition, constraint, modes, columns.as_mut());
-            DynamicCoordinate::FreeFree
-        }
+        Boundary::FreeInterface => DynamicCoordinate::FreeFree,
+        Boundary::MixedInterface => DynamicCoordinate::MixedInterface,
     };
     DynamicColumns { columns, coordinates: (0..modes.count()).map(kind).collect() }
 }

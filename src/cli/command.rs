@@ -13,7 +13,7 @@ use crate::dofs::Direction;
 use crate::error::{Error, Result};
 use crate::export::Format;
 use crate::job::{
-    Coupling, Duplicates, FixedJob, InterfaceJob, Job, Method, ModeOrigin, ModeSelection, ModelJob, ModesJob,
+    Boundary, Coupling, Duplicates, FixedJob, InterfaceJob, Job, Method, ModeOrigin, ModeSelection, ModelJob, ModesJob,
     NodeSelection, ReductionJob, RunJob, WriteJob,
 };
 
@@ -237,6 +237,8 @@ fn override_job(
         job.reduction.modes = None;
     }
     job.reduction.inertia_relief |= reduction.inertia_relief;
+    let is_told = reduction.method.is_none_or(|method| method.boundary() == Boundary::MixedInterface);
+    job.reduction.held = reduction.held().or(job.reduction.held.filter(|_| is_told));
     replace(&mut job.reduction.eigensolver, reduction.eigensolver);
     replace(&mut job.write.superelement, output.output);
     job.write.report = output.report.or(job.write.report);
@@ -312,7 +314,7 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
         matrices: Vec::new(),
         added_masses: Vec::new(),
         damping: None,
-        reduction: ReductionJob { method, modes, inertia_relief, eigensolver },
+        reduction: ReductionJob { method, modes, inertia_relief, held: reduction.held(), eigensolver },
         scene: None,
         run: RunJob::default(),
         write: WriteJob {

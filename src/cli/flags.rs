@@ -6,7 +6,7 @@ use clap::builder::{PossibleValuesParser, Resettable, TypedValueParser};
 use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 
 use crate::export::{FORMATS, Format};
-use crate::job::{Certify, Eigensolver, Method, Precision};
+use crate::job::{Certify, Eigensolver, HeldInterface, Method, Precision};
 use crate::sparse::Triangle;
 
 /// Turns finite element models into verified superelements for multibody simulation.
@@ -106,6 +106,9 @@ pub(super) struct ReductionFlags {
     /// Take the modes of a file, with mode-acceleration: Matrix Market, .npy, or a dataset as in model.h5:/V
     #[arg(long, value_name = "FILE")]
     pub(super) modes_from: Option<PathBuf>,
+    /// Hold these interfaces, or directions of them, while the modes of mixed-interface are computed: base,hub.ux
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub(super) held: Option<Vec<String>>,
     /// Add inertia-relief modes to the basis; herting and rubin have them anyway
     #[arg(long)]
     pub(super) inertia_relief: bool,
@@ -115,6 +118,14 @@ pub(super) struct ReductionFlags {
     /// How completeness of the modes is certified [default: count]
     #[arg(long, value_parser = values::<Certify>())]
     pub(super) certify: Option<Certify>,
+}
+
+impl ReductionFlags {
+    /// What is held while modes are computed; nothing between commas is nothing held.
+    pub(super) fn held(&self) -> Option<Vec<HeldInterface>> {
+        let held = self.held.as_ref()?.iter().filter(|held| !held.is_empty());
+        Some(held.cloned().map(HeldInterface).collect())
+    }
 }
 
 #[derive(Debug, Args)]

@@ -5,14 +5,14 @@ use super::mechanism::{LooseMotions, with_mechanisms};
 use crate::error::Result;
 use crate::factor::Cholesky;
 use crate::partition::Partition;
-use crate::rigid::{InterfaceRank, RigidBodyModes, confirmed_rank};
+use crate::rigid::{InterfaceRank, RigidBodyModes, confirmed_rank, with_passing};
 
 /// A component as its interface sees it.
 #[derive(Clone, Debug)]
 pub struct Constrained {
     /// Ψ_S and K̂_BB.
     pub modes: ConstraintModes,
-    /// The rigid-body modes with the motions of mechanisms.
+    /// The rigid-body modes with the motions of mechanisms, and those that mixed boundaries let pass.
     pub rigid: RigidBodyModes,
     /// How well the interface reacts the rigid-body modes.
     pub rank: InterfaceRank,
@@ -35,5 +35,6 @@ pub fn constrained(
     let modes = constraint_modes(partition, factor, &rigid);
     factor.refinement()?;
     let (rigid, loose) = with_mechanisms(partition, &modes, rigid)?;
+    let rigid = with_passing(rigid, partition)?;
     Ok(Constrained { modes, rigid, rank, loose })
 }

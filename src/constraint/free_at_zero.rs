@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use crate::factor::SolveOperator;
 use crate::rigid::RigidBodyModes;
 use crate::sparse::diagonal;
-use crate::sparse::{SparseMatrix, product};
+use crate::sparse::{Leading, product};
 
 /// K⁺ of a free component from the factor of K_II alone, at shift zero.
 ///
@@ -27,7 +27,7 @@ use crate::sparse::{SparseMatrix, product};
 /// survives. With it on both sides this is the inverse, but for U, of a symmetric matrix that differs from K by the forces KU.
 pub struct FreeAtZero<'a> {
     factor: &'a dyn SolveOperator,
-    stiffness: &'a SparseMatrix,
+    stiffness: Leading<'a>,
     constraint_modes: MatRef<'a, f64>,
     carried: Option<&'a Carried>,
     schur: Schur,
@@ -89,7 +89,7 @@ impl<'a> FreeAtZero<'a> {
     /// S has more zero-energy motions than there are rigid-body modes: a mechanism.
     pub fn new(
         factor: &'a dyn SolveOperator,
-        stiffness: &'a SparseMatrix,
+        stiffness: impl Into<Leading<'a>>,
         constraint: &'a ConstraintModes,
         rigid: &RigidBodyModes,
     ) -> Result<Self> {
@@ -104,10 +104,11 @@ impl<'a> FreeAtZero<'a> {
     /// As [`Self::new`].
     pub fn uncorrected(
         factor: &'a dyn SolveOperator,
-        stiffness: &'a SparseMatrix,
+        stiffness: impl Into<Leading<'a>>,
         (constraint_modes, schur): (MatRef<'a, f64>, MatRef<'_, f64>),
         rigid: &RigidBodyModes,
     ) -> Result<Self> {
+        let stiffness = stiffness.into();
         // The stiffness of the interface before condensation: what is left of it may be nothing where the interface just
         // holds the component, and rounding of S is relative to it.
         let uncondensed = diagonal(stiffness).split_off(factor.n());
@@ -161,12 +162,9 @@ impl ShiftInvert for FreeAtZero<'_> {
         self.factor.solve_in_place(block.as_mut().subrows_mut(0, n_i));
         let mut loads = block.as_ref().subrows(n_i, n_b).to_owned();
         for b in 0..n_b {
-            let Some(row) = self.stiffness.outer_view(n_i + b) else {
-                continue;
-            };
             for j in 0..block.ncols() {
                 let y = &dense::column(block.as_ref(), j)[..n_i];
-                let internal = row.iter().filter(|(col, _)| *col < n_i);
+                let internal = self.stiffness.entries(n_i + b).filter(|(col, _)| *col < n_i);
                 loads[(b, j)] -= internal.map(|(col, value)| value * y[col]).sum::<f64>();
             }
         }

@@ -9,6 +9,7 @@
 mod constrained;
 mod constraint_modes;
 mod free_at_zero;
+mod free_statics;
 mod interior;
 mod mechanism;
 mod rigid_correction;
@@ -17,6 +18,7 @@ mod schur_complement;
 pub use constrained::{Constrained, constrained};
 pub use constraint_modes::{ConstraintModes, constraint_modes};
 pub use free_at_zero::{FreeAtZero, RefinedAtZero};
+pub use free_statics::FreeStatics;
 pub use interior::interior_factor;
 pub use mechanism::{Loose, LooseMotions, with_mechanisms};
 pub(crate) use rigid_correction::left_inverse;

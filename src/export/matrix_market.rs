@@ -81,6 +81,9 @@ fn rows(superelement: &Superelement, labels: &[i64]) -> Vec<String> {
         Coordinate::FixedInterfaceMode { mode, frequency_hz, .. } => {
             format!("fixed-interface mode {}, {frequency_hz} Hz", mode + 1)
         }
+        Coordinate::MixedInterfaceMode { mode, frequency_hz, .. } => {
+            format!("mixed-interface mode {}, {frequency_hz} Hz", mode + 1)
+        }
         mode => mode.mode_name(&metadata.load_names).unwrap_or_default(),
     };
     metadata.coordinates.iter().map(of_coordinate).collect()

@@ -7,10 +7,11 @@
 //! to the last digit of K̂, and the job states as many digits as K̂ Q shows: taken for exact, the zero eigenvalues of K̂
 //! would be negative or elastic.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use faer::Mat;
-use supel_runtime::{Coordinate, InterfaceNode, Method, Superelement};
+use supel_runtime::{Coordinate, InterfaceNode, Metadata, Method, Superelement};
 use toml::Value;
 
 use super::names::Names;
@@ -126,6 +127,18 @@ fn directions(node: &InterfaceNode) -> String {
     Value::from(node.dofs.iter().map(ToString::to_string).collect::<Vec<_>>()).to_string()
 }
 
+/// Directions of interfaces that were held while the modes were computed: of a direction all nodes of an interface are held, or none.
+fn held(metadata: &Metadata) -> Vec<String> {
+    let of = |held: &usize| match &metadata.coordinates[*held] {
+        Coordinate::Interface { node, direction } => {
+            Some(format!("{}.{direction}", metadata.interface_nodes[*node].name))
+        }
+        _ => None,
+    };
+    let names: BTreeSet<String> = metadata.modes_held.iter().filter_map(of).collect();
+    names.into_iter().collect()
+}
+
 fn reduction(superelement: &Superelement) -> String {
     let metadata = superelement.metadata();
     // Modes that were left out because others span them are found again, as far as there are coordinates for them.
@@ -135,14 +148,24 @@ fn reduction(superelement: &Superelement) -> String {
     let n_named = metadata.named_columns().filter(is_mode).count();
     let n_still = match metadata.method {
         Method::Herting | Method::Rubin | Method::Macneal => superelement.n_rigid(),
-        Method::CraigBampton | Method::ModeAcceleration | Method::Guyan => superelement.n_interface(),
+        Method::CraigBampton | Method::ModeAcceleration | Method::MixedInterface | Method::Guyan => {
+            superelement.n_interface()
+        }
     };
     let n_modes = n_named.min(superelement.n_coordinates().saturating_sub(n_still));
     let has_relief =
         metadata.coordinates.iter().any(|coordinate| matches!(coordinate, Coordinate::InertiaRelief { .. }));
     let (method, is_relief_asked) = match metadata.method {
-        Method::CraigBampton | Method::ModeAcceleration if n_modes > 0 => ("craig-bampton", has_relief),
-        Method::CraigBampton | Method::ModeAcceleration | Method::Guyan => ("guyan", has_relief),
+        Method::MixedInterface if n_modes > 0 && !metadata.interface_nodes.is_empty() => {
+            ("mixed-interface", has_relief)
+        }
+        // Rows of one interface cannot be held in part.
+        Method::CraigBampton | Method::ModeAcceleration | Method::MixedInterface if n_modes > 0 => {
+            ("craig-bampton", has_relief)
+        }
+        Method::CraigBampton | Method::ModeAcceleration | Method::MixedInterface | Method::Guyan => {
+            ("guyan", has_relief)
+        }
         // A file of Rubin's method is in Herting's coordinates.
         Method::Herting | Method::Rubin | Method::Macneal => ("herting", false),
     };
@@ -152,6 +175,9 @@ fn reduction(superelement: &Superelement) -> String {
     }
     if is_relief_asked {
         text += "inertia_relief = true\n";
+    }
+    if method == "mixed-interface" {
+        let _ = writeln!(text, "held = {}", Value::from(held(metadata)));
     }
     text
 }

@@ -115,6 +115,11 @@ impl<'a> Indefinite<'a> {
         Mat::from_fn(border.len(), border.len(), |i, j| self.numbers.schur[(i, j)] / (border[i] * border[j]))
     }
 
+    /// n_B.
+    pub(super) fn n_border(&self) -> usize {
+        self.analysis.n_border()
+    }
+
     /// Bytes of the factor, all of which a solve reads.
     pub(super) fn bytes(&self) -> u64 {
         self.analysis.factor_bytes(Storage::Double)

@@ -35,7 +35,8 @@ pub use refined::Refinement;
 pub use rounding::forming_error;
 pub use solve::SolveOperator;
 pub use sturm_count::{
-    CONDENSED_GAP, InertiaCount, ShiftedFactor, condensed, count_below, count_negative, few_digits, rank,
+    CONDENSED_GAP, InertiaCount, ShiftedFactor, condensed, count_below, count_below_freeing, count_negative,
+    few_digits, rank,
 };
 
 /// How the entries of a Cholesky factor are kept.

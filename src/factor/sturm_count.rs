@@ -21,7 +21,7 @@ pub struct InertiaCount {
     pub sigma: f64,
     /// Below it with the interface held.
     pub clamped: usize,
-    /// Below it with the interface free.
+    /// Below it with the interface free, or those dofs of it that were asked for.
     pub free: usize,
     /// Bound of the largest entry of |L||B||Lᵀ| over the largest entry of the scaled matrix: near one, the signs can be trusted.
     pub growth: f64,
@@ -58,7 +58,21 @@ impl InertiaCount {
 /// # Errors
 /// No memory for the second factor; pivots that are not numbers, which means that σ hits an eigenvalue exactly.
 pub fn count_below(analysis: &Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<InertiaCount> {
-    let (_, _, count) = counted(analysis, pencil, sigma, Keep::Pivots)?;
+    count_below_freeing(analysis, pencil, sigma, None)
+}
+
+/// Counts as [`count_below`] does, with some dofs of the border free (their numbers, ascending) and the others held, by the part of S(σ) that
+/// is theirs; with all of them where none are named.
+///
+/// # Errors
+/// As [`count_below`].
+pub fn count_below_freeing(
+    analysis: &Analysis,
+    pencil: Pencil<'_>,
+    sigma: f64,
+    free: Option<&[usize]>,
+) -> Result<InertiaCount> {
+    let (_, _, count) = counted(analysis, (pencil, sigma), free, Keep::Pivots)?;
     Ok(count)
 }
 
@@ -67,15 +81,15 @@ pub fn count_below(analysis: &Analysis, pencil: Pencil<'_>, sigma: f64) -> Resul
 /// # Errors
 /// As [`count_below`].
 pub fn condensed(analysis: &Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<(InertiaCount, Mat<f64>)> {
-    let (factor, _, count) = counted(analysis, pencil, sigma, Keep::Pivots)?;
+    let (factor, _, count) = counted(analysis, (pencil, sigma), None, Keep::Pivots)?;
     Ok((count, factor.schur()))
 }
 
 /// K − σM factored, S(σ) decomposed, and the counts.
 fn counted<'a>(
     analysis: &'a Analysis,
-    pencil: Pencil<'_>,
-    sigma: f64,
+    (pencil, sigma): (Pencil<'_>, f64),
+    free: Option<&[usize]>,
     keep: Keep,
 ) -> Result<(Indefinite<'a>, Schur, InertiaCount)> {
     let factor = Indefinite::new(analysis, pencil, sigma, keep)?;
@@ -84,7 +98,14 @@ fn counted<'a>(
     let (stiffness, mass) = (pencil.stiffness.diagonal(), pencil.mass.diagonal());
     let uncondensed: Vec<f64> =
         (n_i..stiffness.len()).map(|i| stiffness[i].abs() + sigma.abs() * mass[i].abs()).collect();
-    let schur = Schur::new(factor.schur(), &uncondensed)?;
+    let whole = factor.schur();
+    let schur = match free {
+        None => Schur::new(whole, &uncondensed)?,
+        Some(free) => {
+            let part = Mat::from_fn(free.len(), free.len(), |i, j| whole[(free[i], free[j])]);
+            Schur::new(part, &free.iter().map(|dof| uncondensed[*dof]).collect::<Vec<f64>>())?
+        }
+    };
     let count = InertiaCount {
         sigma,
         clamped: signs.negative,
@@ -192,6 +213,8 @@ fn below_share_of_diagonal(analysis: &Analysis, matrix: Leading<'_>, share: f64)
 pub struct ShiftedFactor<'a> {
     factor: Indefinite<'a>,
     schur: Schur,
+    /// Dofs of the border that are free, where not all of them are.
+    free: Option<Vec<usize>>,
     /// The counts below σ.
     pub count: InertiaCount,
 }
@@ -211,8 +234,16 @@ impl<'a> ShiftedFactor<'a> {
     /// # Errors
     /// As [`count_below`].
     pub fn new(analysis: &'a Analysis, pencil: Pencil<'_>, sigma: f64) -> Result<Self> {
-        let (factor, schur, count) = counted(analysis, pencil, sigma, Keep::Factor)?;
-        Ok(Self { factor, schur, count })
+        Self::freeing(analysis, pencil, sigma, None)
+    }
+
+    /// Factors K − σM for solves with some dofs of the border free, as [`count_below_freeing`] counts.
+    ///
+    /// # Errors
+    /// As [`count_below`].
+    pub fn freeing(analysis: &'a Analysis, pencil: Pencil<'_>, sigma: f64, free: Option<&[usize]>) -> Result<Self> {
+        let (factor, schur, count) = counted(analysis, (pencil, sigma), free, Keep::Factor)?;
+        Ok(Self { factor, schur, free: free.map(<[usize]>::to_vec), count })
     }
 
     /// Bytes of the factor, all of which a solve reads.
@@ -225,9 +256,27 @@ impl<'a> ShiftedFactor<'a> {
         self.factor.solve_held(block);
     }
 
-    /// F ← (K − σM)⁻¹ F, the interface free: n_I + n_B rows.
-    pub fn solve_free(&self, block: MatMut<'_, f64>) {
-        self.factor.solve_free(block, |loads| self.schur.solve_in_place(loads));
+    /// F ← (K − σM)⁻¹ F, the interface free: n_I + n_B rows; with some of it free n_I + n_F.
+    pub fn solve_free(&self, mut block: MatMut<'_, f64>) {
+        let Some(free) = &self.free else {
+            return self.factor.solve_free(block, |loads| self.schur.solve_in_place(loads));
+        };
+        let n_i = block.nrows() - free.len();
+        let mut whole = Mat::zeros(n_i + self.factor.n_border(), block.ncols());
+        whole.as_mut().subrows_mut(0, n_i).copy_from(block.as_ref().subrows(0, n_i));
+        for (row, dof) in free.iter().enumerate() {
+            whole.as_mut().row_mut(n_i + dof).copy_from(block.as_ref().row(n_i + row));
+        }
+        self.factor.solve_free(whole.as_mut(), |mut loads| {
+            let mut part = Mat::from_fn(free.len(), loads.ncols(), |i, j| loads[(free[i], j)]);
+            self.schur.solve_in_place(part.as_mut());
+            loads.fill(0.0);
+            free.iter().enumerate().for_each(|(i, dof)| loads.as_mut().row_mut(*dof).copy_from(part.as_ref().row(i)));
+        });
+        block.as_mut().subrows_mut(0, n_i).copy_from(whole.as_ref().subrows(0, n_i));
+        for (row, dof) in free.iter().enumerate() {
+            block.as_mut().row_mut(n_i + row).copy_from(whole.as_ref().row(n_i + dof));
+        }
     }
 }
 

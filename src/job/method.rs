@@ -14,6 +14,8 @@ pub enum Method {
     Herting,
     /// Residual attachment modes and free-free modes: the space of Herting's method, written in Herting's variables.
     Rubin,
+    /// Constraint modes and mode-accelerated modes computed with some interface dofs held and the others free.
+    MixedInterface,
     /// Constraint modes alone: exact in statics, without modes.
     Guyan,
     /// Constraint modes and the mode-accelerated modes of a file, measured or any others.
@@ -38,6 +40,19 @@ pub enum Boundary {
     FreeInterface,
     /// Interface held.
     FixedInterface,
+    /// Some interface dofs held, the others free.
+    MixedInterface,
+}
+
+impl Boundary {
+    /// The boundary that holds `n_held` of the interface: mixed boundaries that hold all of it, or nothing, are those of others.
+    pub fn holding(self, n_held: usize, n_interface: usize) -> Self {
+        match self {
+            Self::MixedInterface if n_held == n_interface => Self::FixedInterface,
+            Self::MixedInterface if n_held == 0 => Self::FreeInterface,
+            other => other,
+        }
+    }
 }
 
 impl Method {
@@ -47,6 +62,7 @@ impl Method {
             Self::CraigBampton => supel_runtime::Method::CraigBampton,
             Self::Herting => supel_runtime::Method::Herting,
             Self::Rubin => supel_runtime::Method::Rubin,
+            Self::MixedInterface => supel_runtime::Method::MixedInterface,
             Self::Guyan => supel_runtime::Method::Guyan,
             Self::ModeAcceleration => supel_runtime::Method::ModeAcceleration,
         }
@@ -72,13 +88,14 @@ impl Method {
         match self {
             Self::CraigBampton | Self::Guyan | Self::ModeAcceleration => Boundary::FixedInterface,
             Self::Herting | Self::Rubin => Boundary::FreeInterface,
+            Self::MixedInterface => Boundary::MixedInterface,
         }
     }
 
     /// Where its modes come from.
     pub fn modes(self) -> ModeOrigin {
         match self {
-            Self::CraigBampton | Self::Herting | Self::Rubin => ModeOrigin::Computed,
+            Self::CraigBampton | Self::Herting | Self::Rubin | Self::MixedInterface => ModeOrigin::Computed,
             Self::ModeAcceleration => ModeOrigin::File,
             Self::Guyan => ModeOrigin::None,
         }

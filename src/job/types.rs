@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 use super::added_mass::AddedMassJob;
 use super::damping::ComponentDampingJob;
 use super::fixed::FixedJob;
+use super::held_interface::HeldInterface;
 use super::interface::InterfaceJob;
 use super::load::LoadJob;
 use super::matrix::MatrixJob;
@@ -194,6 +195,10 @@ pub struct Expectation {
         "if": { "properties": { "method": { "const": "mode-acceleration" } } },
         "then": { "properties": { "modes": { "required": ["file"] } } },
         "else": { "properties": { "modes": { "not": { "required": ["file"] } } } },
+    }, {
+        "if": { "properties": { "method": { "const": "mixed-interface" } } },
+        "then": { "required": ["held"] },
+        "else": { "not": { "required": ["held"] } },
     }],
 ))]
 pub struct ReductionJob {
@@ -206,6 +211,10 @@ pub struct ReductionJob {
     /// modes have anyway.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub inertia_relief: bool,
+    /// What is held while mixed-interface modes are computed: `"base"`, an interface, or `"hub.ux"`, a direction of one; the rest of the
+    /// interfaces is free. An empty list holds nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub held: Option<Vec<HeldInterface>>,
     /// Which eigensolver finds them.
     #[serde(default)]
     #[schemars(extend("x-role" = "way"))]
@@ -215,7 +224,8 @@ pub struct ReductionJob {
 impl ReductionJob {
     /// A method with its modes, found by Lanczos.
     pub fn new(method: Method, modes: ModeSelection) -> Self {
-        Self { method, modes: Some(modes.into()), inertia_relief: false, eigensolver: Eigensolver::default() }
+        let (inertia_relief, eigensolver) = (false, Eigensolver::default());
+        Self { method, modes: Some(modes.into()), inertia_relief, held: None, eigensolver }
     }
 
     /// The modes that are computed: none, where the method has none or a file has them.

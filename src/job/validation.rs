@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::interface::{Axes, AxesGiven, Coupling, InterfaceJob, Origin, Weights};
-use super::method::ModeOrigin;
+use super::method::{Boundary, ModeOrigin};
 use super::node_selection::NodeSelection;
 use super::ranges::{self, positive, size};
 use super::selection;
@@ -17,6 +17,7 @@ pub(super) fn validate(job: &Job) -> Result<()> {
     super::added_mass::validate(&job.added_masses)?;
     interfaces(&job.interfaces)?;
     reduction(&job.reduction)?;
+    held(&job.reduction, &job.interfaces)?;
     super::fixed::validate(&job.fixed)?;
     super::load::validate(&job.loads)?;
     super::matrix::validate(&job.matrices)?;
@@ -59,6 +60,26 @@ fn reduction(job: &ReductionJob) -> Result<()> {
             size("reduction.modes.up_to_hz", *up_to_hz)
         }
         _ => Ok(()),
+    }
+}
+
+/// Checks that what is held is there with the method that takes it, and names interfaces.
+fn held(job: &ReductionJob, interfaces: &[InterfaceJob]) -> Result<()> {
+    let held = match (&job.held, job.method.boundary() == Boundary::MixedInterface) {
+        (Some(held), true) => held,
+        (None, false) => return Ok(()),
+        (found, _) => {
+            let found = if found.is_some() { "given" } else { "missing" };
+            return Err(Error::JobHeld { found, method: job.method.key() });
+        }
+    };
+    let names: BTreeSet<&str> = interfaces.iter().map(|interface| interface.name.as_str()).collect();
+    match held.iter().find(|held| held.of(|name| names.contains(name)).is_none()) {
+        None => Ok(()),
+        Some(held) => {
+            let known = names.into_iter().map(str::to_owned).collect();
+            Err(Error::HeldInterface { held: held.0.clone(), known })
+        }
     }
 }
 

@@ -3,16 +3,17 @@
 use faer::{MatMut, MatRef};
 
 use super::Component;
-use crate::constraint::{FreeAtZero, RefinedAtZero};
+use crate::constraint::{FreeAtZero, FreeStatics, RefinedAtZero};
 use crate::eigen::ElasticCount;
 use crate::eigen::Interval;
 use crate::eigen::relative_residual;
 use crate::eigen::{CARRIES_NOTHING, Factored, ShiftInvert};
 use crate::eigen::{ModalProblem, Shifted, shifted};
 use crate::error::{Error, Result};
-use crate::factor::{Analysis, InertiaCount, ShiftedFactor, count_below};
+use crate::factor::{Analysis, InertiaCount, ShiftedFactor, count_below_freeing};
 use crate::job::Boundary;
 use crate::partition::Partition;
+use crate::rigid::{RigidBodyModes, that_pass};
 use crate::sparse::diagonal;
 
 /// A component under one boundary condition.
@@ -32,10 +33,8 @@ impl<'a> BoundaryProblem<'a> {
     /// K, M and the rigid-body modes of the dofs that are free to move.
     pub fn modal(&self) -> ModalProblem<'a> {
         let Component { partition, rigid, .. } = self.component;
-        match self.boundary {
-            Boundary::FixedInterface => partition.held_problem(),
-            Boundary::FreeInterface => partition.free_problem().deflating(rigid.deflated()),
-        }
+        let problem = partition.problem_under(self.boundary);
+        rigid.under(self.boundary).map_or(problem, |rigid| problem.deflating(rigid.deflated()))
     }
 
     /// Rigid-body modes under this boundary.
@@ -57,12 +56,24 @@ impl<'a> BoundaryProblem<'a> {
             return Ok((solve(&Factored::new(factor, 0.0))?, 0));
         }
         let problem = self.modal();
-        massive(partition, rigid.massless())?;
+        self.refuse_massless()?;
         if self.component.is_modal() {
             return self.with_operator_below(solve);
         }
-        let operator = FreeAtZero::new(factor, &partition.stiffness, constraint, rigid)?;
-        let residual = relative_residual(problem, &operator);
+        if let (Some(rigid), Some(free)) = (&rigid.passing, partition.free_under(self.boundary)) {
+            let statics = FreeStatics::of(factor, problem.stiffness, (free, partition.n_interface()));
+            return self.with_operator_at_zero((statics.operator(rigid)?, rigid), solve);
+        }
+        self.with_operator_at_zero((FreeAtZero::new(factor, &partition.stiffness, constraint, rigid)?, rigid), solve)
+    }
+
+    /// Hands an operator at zero to `solve` where it holds up, and one below zero where it does not.
+    fn with_operator_at_zero<T>(
+        &self,
+        (operator, rigid): (FreeAtZero<'_>, &RigidBodyModes),
+        solve: impl FnOnce(&dyn ShiftInvert) -> Result<T>,
+    ) -> Result<(T, usize)> {
+        let residual = relative_residual(self.modal(), &operator);
         if residual <= MAX_RESIDUAL_OF_CLAMPED_FACTOR {
             // K of few digits makes forces of rigid-body motion, and so do roundings of penalties that tie dofs: modes of the operator
             // as it is would be those of another K by as much.
@@ -84,7 +95,9 @@ impl<'a> BoundaryProblem<'a> {
         solve: impl FnOnce(&dyn ShiftInvert) -> Result<T>,
     ) -> Result<(T, usize)> {
         let partition = self.component.partition;
-        by_shift(partition, self.modal(), |shifted| solve(&Factored::new(&shifted.factor, shifted.sigma)))
+        by_shift((partition, self.boundary), self.modal(), |shifted| {
+            solve(&Factored::new(&shifted.factor, shifted.sigma))
+        })
     }
 
     /// Factors K − σM inside the spectrum.
@@ -94,7 +107,7 @@ impl<'a> BoundaryProblem<'a> {
     pub fn factor_at(&self, sigma: f64) -> Result<ShiftedFactor<'a>> {
         let Component { partition, analysis, .. } = self.component;
         self.refuse_massless()?;
-        let factor = ShiftedFactor::new(analysis, partition.pencil(), sigma)?;
+        let factor = ShiftedFactor::freeing(analysis, partition.pencil(), sigma, partition.free_under(self.boundary))?;
         if self.is_off(factor.count) { Ok(factor) } else { Err(Error::SturmPivot) }
     }
 
@@ -104,6 +117,10 @@ impl<'a> BoundaryProblem<'a> {
         match self.boundary {
             Boundary::FreeInterface => massive(partition, rigid.massless()),
             Boundary::FixedInterface => Ok(()),
+            Boundary::MixedInterface => {
+                let held = partition.held_under(self.boundary);
+                massive(partition, that_pass(partition, rigid.massless(), &held)?.as_ref())
+            }
         }
     }
 
@@ -111,7 +128,7 @@ impl<'a> BoundaryProblem<'a> {
     fn is_off(&self, count: InertiaCount) -> bool {
         match self.boundary {
             Boundary::FixedInterface => count.is_off_clamped(),
-            Boundary::FreeInterface => count.is_off_clamped() && count.is_off_free(),
+            Boundary::FreeInterface | Boundary::MixedInterface => count.is_off_clamped() && count.is_off_free(),
         }
     }
 
@@ -133,14 +150,15 @@ impl<'a> BoundaryProblem<'a> {
     /// A rigid-body motion of a free component has no mass; no memory for the count; σ hits an eigenvalue exactly.
     pub(super) fn count_at(&self, sigma: f64) -> Result<(Result<ElasticCount>, bool)> {
         self.refuse_massless()?;
-        let count = count_below(self.component.analysis, self.component.partition.pencil(), sigma)?;
+        let Component { partition, analysis, .. } = self.component;
+        let count = count_below_freeing(analysis, partition.pencil(), sigma, partition.free_under(self.boundary))?;
         Ok((self.elastic(count), self.is_off(count)))
     }
 
     /// Without the rigid-body modes: they lie below any shift above zero, and a count that says otherwise is wrong.
     fn elastic(&self, inertia: InertiaCount) -> Result<ElasticCount> {
         let (counted, found) = match self.boundary {
-            Boundary::FreeInterface => (inertia.free, self.n_rigid()),
+            Boundary::FreeInterface | Boundary::MixedInterface => (inertia.free, self.n_rigid()),
             Boundary::FixedInterface => (inertia.clamped, 0),
         };
         match counted.checked_sub(found) {
@@ -210,7 +228,7 @@ impl ShiftInvert for AtShift<'_> {
     fn solve_in_place(&self, block: MatMut<'_, f64>) {
         match self.boundary {
             Boundary::FixedInterface => self.factor.solve_held(block),
-            Boundary::FreeInterface => self.factor.solve_free(block),
+            Boundary::FreeInterface | Boundary::MixedInterface => self.factor.solve_free(block),
         }
     }
 
@@ -221,12 +239,12 @@ impl ShiftInvert for AtShift<'_> {
 
 /// Hands a factor of K − σM on all dofs to `solve`, with the number of factorisations made.
 pub(super) fn by_shift<T>(
-    partition: &Partition,
+    (partition, boundary): (&Partition, Boundary),
     problem: ModalProblem<'_>,
     solve: impl FnOnce(&Shifted<'_>) -> Result<T>,
 ) -> Result<(T, usize)> {
     let analysis = Analysis::new(problem.pencil())?;
-    let shifted = shifted(&analysis, problem, &|dof| partition.name_of(dof))?;
+    let shifted = shifted(&analysis, problem, &|row| partition.name_of(partition.dof_under(boundary, row)))?;
     Ok((solve(&shifted)?, shifted.n_factorisations))
 }
 
@@ -307,7 +325,7 @@ mod tests {
         assert!(relative_residual(problem, &Off(&operator, 0.01)) > MAX_RESIDUAL_OF_CLAMPED_FACTOR);
         let request = ModeRequest { wanted: Wanted::Count(6), eigensolver: Eigensolver::Lanczos, seed: SEED };
         let at_zero = elastic_modes(problem, &operator, request).expect("converges");
-        let found = by_shift(&partition, problem, |shifted| {
+        let found = by_shift((&partition, Boundary::FreeInterface), problem, |shifted| {
             elastic_modes(problem, &Factored::new(&shifted.factor, shifted.sigma), request)
         });
         let (by_shift, n_factorisations) = found.expect("converges");

@@ -2,6 +2,7 @@
 
 use crate::constraint::ConstraintModes;
 use crate::factor::{Analysis, Cholesky};
+use crate::job::{Boundary, ReductionJob};
 use crate::partition::Partition;
 use crate::rigid::RigidBodyModes;
 
@@ -34,6 +35,11 @@ impl<'a> Component<'a> {
 }
 
 impl Component<'_> {
+    /// The boundary that the modes of a job are computed under.
+    pub fn boundary(&self, job: &ReductionJob) -> Boundary {
+        if self.is_modal() { Boundary::FreeInterface } else { self.partition.boundary(job.method.boundary()) }
+    }
+
     /// True where nothing holds the component and nothing is to be condensed: its own modes are the model.
     pub fn is_modal(&self) -> bool {
         self.partition.n_interface() == 0 && self.rigid.count() > 0

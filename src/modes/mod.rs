@@ -3,8 +3,9 @@
 //! ```text
 //! free-free modes             K x = λ M x on all dofs, rigid-body modes deflated
 //! fixed-interface modes       K_II v = λ M_II v
+//! mixed-interface modes       K x = λ M x without the interface dofs that are held, motions that pass deflated
 //! ```
-//! Both come from the factor of K_II at shift zero. Eigenvalues are recomputed as Rayleigh quotients, whose error is the
+//! All come from the factor of K_II at shift zero. Eigenvalues are recomputed as Rayleigh quotients, whose error is the
 //! square of the vector's; each carries the bar that rounding and the digits of the data put on it. Which modes, in which
 //! slices, and certified how is decided here; [`crate::eigen`] finds them.
 

@@ -44,7 +44,7 @@ impl<'a> Search<'a> {
         if component.is_modal() && component.partition.expansion.count() > 0 {
             return Err(Error::ModesUnheld);
         }
-        let boundary = if component.is_modal() { Boundary::FreeInterface } else { job.method.boundary() };
+        let boundary = component.boundary(job);
         let problem = BoundaryProblem { component, boundary };
         let wanted = mode_wish(job.wanted(), component.partition);
         let edge = match wanted {
@@ -86,7 +86,7 @@ impl<'a> Search<'a> {
         let solve = |operator: &dyn ShiftInvert| elastic_modes(problem, operator, request);
         let (mut modes, n_factorisations) = match self.problem.with_lowest_operator(solve) {
             // The factor of K_II serves two purposes; one of K − σM is made for this one.
-            Err(Error::LanczosStalled { .. }) if self.problem.boundary == Boundary::FreeInterface => {
+            Err(Error::LanczosStalled { .. }) if self.problem.boundary != Boundary::FixedInterface => {
                 self.problem.with_operator_below(solve)?
             }
             found => found?,

@@ -101,6 +101,7 @@ fn reduction(results: &Results<'_>) -> ReductionReport {
         n_inertia_relief,
         n_modes: basis.n_dynamic() - n_inertia_relief - n_rigid_body - n_expansion_modes - n_residual_vectors,
         n_reduced: basis.n_reduced(),
+        modes_held: results.job.reduction.held.as_ref().map(|held| held.iter().map(|held| held.0.clone()).collect()),
         expansion: expansion::report(results),
         loads: loads(results),
         dropped: basis
@@ -236,6 +237,7 @@ fn kind(boundary: Boundary) -> ModeKind {
     match boundary {
         Boundary::FreeInterface => ModeKind::FreeInterface,
         Boundary::FixedInterface => ModeKind::FixedInterface,
+        Boundary::MixedInterface => ModeKind::MixedInterface,
     }
 }
 

@@ -106,7 +106,9 @@ fn mixing(results: &Results<'_>) -> Option<Mat<f64>> {
     let named_unit = |coordinate: DynamicCoordinate| match coordinate {
         DynamicCoordinate::RigidBody(_) => 1.0,
         DynamicCoordinate::InertiaRelief(_) => 1.0 / scaling.eigenvalue_unit(),
-        DynamicCoordinate::FreeFree(_) | DynamicCoordinate::FixedInterface(_) => scaling.shape_unit(),
+        DynamicCoordinate::FreeFree(_)
+        | DynamicCoordinate::FixedInterface(_)
+        | DynamicCoordinate::MixedInterface(_) => scaling.shape_unit(),
         DynamicCoordinate::Expansion(mode) => evidence.partition.expansion.facts[mode].unit / scaling.eigenvalue_unit(),
         DynamicCoordinate::ResidualVector(load) => evidence.partition.loads.facts[load].unit / scaling.stiffness_unit(),
     };
@@ -161,6 +163,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Resul
         load_names: evidence.partition.loads.facts.iter().map(|load| load.name.clone()).collect(),
         quantities: evidence.partition.quantities.names.clone(),
         matrices: evidence.partition.matrices.iter().map(|carried| carried.facts.in_file()).collect(),
+        modes_held: evidence.partition.modes_held(),
         validity: file::Validity {
             band_hz: band(results.job, tensors),
             assumptions: results.job.assumptions(),
@@ -212,6 +215,9 @@ fn dynamic_coordinate(results: &Results<'_>, tensors: &Tensors, coordinate: Dyna
         }
         DynamicCoordinate::FixedInterface(mode) => {
             Coordinate::FixedInterfaceMode { mode, frequency_hz: frequency(mode), error_bar_hz: bar(mode) }
+        }
+        DynamicCoordinate::MixedInterface(mode) => {
+            Coordinate::MixedInterfaceMode { mode, frequency_hz: frequency(mode), error_bar_hz: bar(mode) }
         }
     }
 }

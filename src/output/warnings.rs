@@ -126,7 +126,7 @@ pub(super) fn data_precision(results: &Results<'_>) -> Option<Warning> {
     };
     let soft: &[Loose] = match retained.boundary {
         Boundary::FixedInterface => &results.loose.uncertain,
-        Boundary::FreeInterface => &[],
+        Boundary::FreeInterface | Boundary::MixedInterface => &[],
     };
     let of_free = soft.iter().map(|motion| {
         let what = format!("motion of the free interface, largest at {},", motion.nodes.join(", "));

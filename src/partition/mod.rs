@@ -12,6 +12,7 @@
 
 mod average_patch;
 mod axes;
+mod boundary;
 mod congruence;
 mod constraint_ground;
 mod constraints;
@@ -30,6 +31,7 @@ mod load;
 mod metis;
 mod minimum_degree;
 mod missing_directions;
+mod mixed_interface;
 mod node_catalogue;
 mod noise;
 mod ordering;
@@ -58,6 +60,7 @@ pub use held::{Held, HeldSelection, held};
 pub use interface::{RecoveredRows, nodes_of_patches, patches, recovered_rows};
 pub use interface_node::InterfaceNode;
 pub use load::{LoadFacts, Loads, RowLoad, loads};
+pub use mixed_interface::MixedInterface;
 pub use noise::CHANCE_OF_MORE;
 pub use partition::{LARGEST_INTERFACE, Partition};
 pub use problem::EntriesAt;

@@ -20,6 +20,7 @@ use super::held::Held;
 use super::interface::RecoveredRows;
 use super::interface_node::InterfaceNode;
 use super::load::Loads;
+use super::mixed_interface::MixedInterface;
 use super::quantities::Quantities;
 use super::roundings::{PatchEntries, Roundings};
 use super::transformation::{DofOrigin, ReducedDof, Transformation};
@@ -52,6 +53,8 @@ pub struct Partition {
     pub loads: Loads,
     /// Expansion modes of a file; none unless the caller adds them.
     pub expansion: Expansion,
+    /// What is held of the interface while modes with mixed boundaries are computed; none unless the caller adds it.
+    pub mixed: Option<MixedInterface>,
     /// Rows of the model whose displacements the superelement recovers; none unless the caller adds them.
     pub recovered: RecoveredRows,
     /// Quantities that the superelement gives; none unless the caller adds them.
@@ -151,6 +154,7 @@ impl Partition {
             gravity,
             loads: Loads::none(n_internal + n_interface),
             expansion: Expansion::none(n_internal + n_interface),
+            mixed: None,
             recovered: RecoveredRows::default(),
             quantities: Quantities::default(),
             matrices: Vec::new(),

@@ -4,6 +4,7 @@ use faer::{Mat, MatRef};
 
 use super::partition::Partition;
 use crate::eigen::{EnergyNoise, ModalProblem};
+use crate::job::Boundary;
 
 impl Partition {
     /// The eigenproblem with the interface free; nothing is deflated.
@@ -15,19 +16,29 @@ impl Partition {
     pub fn held_problem(&self) -> ModalProblem<'_> {
         ModalProblem::of(self.internal(), self.precision).with_noise(self)
     }
+
+    /// The eigenproblem of the dofs that a boundary leaves free; nothing is deflated.
+    pub fn problem_under(&self, boundary: Boundary) -> ModalProblem<'_> {
+        ModalProblem::of(self.pencil_under(boundary), self.precision).with_noise(self)
+    }
 }
 
 impl EnergyNoise for Partition {
     fn energy_noise(&self, x: MatRef<'_, f64>) -> Option<Vec<f64>> {
+        let whole = self.with_all_dofs(x);
+        let x = whole.as_ref().map_or(x, Mat::as_ref);
         (x.ncols() > 0 && self.has_few_digits()).then(|| Self::energy_noise(self, x))
     }
 
     fn mass_noise(&self, x: MatRef<'_, f64>) -> Option<Vec<f64>> {
+        let whole = self.with_all_dofs(x);
+        let x = whole.as_ref().map_or(x, Mat::as_ref);
         if x.ncols() > 0 { Self::mass_noise(self, x) } else { None }
     }
 
     fn hidden_terms(&self, x: MatRef<'_, f64>) -> Vec<f64> {
-        self.patch_terms(x)
+        let whole = self.with_all_dofs(x);
+        self.patch_terms(whole.as_ref().map_or(x, Mat::as_ref))
     }
 }
 

@@ -1,6 +1,8 @@
 //! What a superelement file says of itself, as text for people.
 
-use supel_runtime::{CheckSummary, Coordinate, FORMAT_VERSION, Flag, InterfaceNode, Superelement};
+use std::collections::BTreeSet;
+
+use supel_runtime::{CheckSummary, Coordinate, Direction, FORMAT_VERSION, Flag, InterfaceNode, Metadata, Superelement};
 
 use super::mode_table::{Mode, mode_table};
 use super::page::{Page, Paint, Tone, verdict_word};
@@ -104,18 +106,15 @@ fn interface(page: &mut Page, nodes: &[InterfaceNode]) {
 fn modes(page: &mut Page, superelement: &Superelement) {
     let metadata = superelement.metadata();
     let bar = |mode_idx: usize| {
-        metadata.coordinates.iter().find_map(|coordinate| match *coordinate {
-            Coordinate::ElasticMode { mode, error_bar_hz, .. }
-            | Coordinate::FixedInterfaceMode { mode, error_bar_hz, .. }
-                if mode == mode_idx =>
-            {
-                error_bar_hz
-            }
-            _ => None,
-        })
+        let named =
+            metadata.coordinates.iter().find(|coordinate| coordinate.mode().is_some_and(|(mode, _)| mode == mode_idx));
+        named.and_then(Coordinate::error_bar_hz)
     };
     let frequencies = &superelement.tensors().frequencies;
     page.entry("frequencies", &frequencies.len().to_string());
+    if !metadata.modes_held.is_empty() {
+        page.entry("held", &format!("{} while modes were computed", held(metadata)));
+    }
     for dropped in &metadata.dropped {
         page.entry("left out", &format!("{}: {}", column(&dropped.column, &metadata.load_names), dropped.reason));
     }
@@ -129,6 +128,28 @@ fn modes(page: &mut Page, superelement: &Superelement) {
         })
         .collect();
     mode_table(page, &rows);
+}
+
+/// What was held while modes were computed, interface by interface: `base ux uy uz, tip uz`; of bare rows their number.
+fn held(metadata: &Metadata) -> String {
+    let mut of_interfaces: Vec<(&str, BTreeSet<Direction>)> = Vec::new();
+    for at in &metadata.modes_held {
+        let Coordinate::Interface { node, direction } = metadata.coordinates[*at] else {
+            return number::counted(metadata.modes_held.len() as u64, "row", "rows");
+        };
+        let name = metadata.interface_nodes[node].name.as_str();
+        match of_interfaces.last_mut() {
+            Some((last, directions)) if *last == name => {
+                directions.insert(direction);
+            }
+            _ => of_interfaces.push((name, BTreeSet::from([direction]))),
+        }
+    }
+    let words = |(name, directions): &(&str, BTreeSet<Direction>)| {
+        let directions: Vec<String> = directions.iter().map(ToString::to_string).collect();
+        format!("{name} {}", directions.join(" "))
+    };
+    of_interfaces.iter().map(words).collect::<Vec<_>>().join(", ")
 }
 
 fn column(column: &Coordinate, load_names: &[String]) -> String {

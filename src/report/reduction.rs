@@ -25,6 +25,9 @@ pub struct ReductionReport {
     pub n_modes: usize,
     /// Order of the reduced matrices.
     pub n_reduced: usize,
+    /// Interfaces, and directions of them, held while the modes were computed; absent with methods that are not told what to hold.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub modes_held: Option<Vec<String>>,
     /// The modes of a file; absent where the method computes its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expansion: Option<ExpansionReport>,
@@ -149,4 +152,6 @@ pub enum ModeKind {
     FreeInterface,
     /// Interface held: fixed-interface normal modes.
     FixedInterface,
+    /// Some interface dofs held, the others free.
+    MixedInterface,
 }

@@ -30,6 +30,7 @@ pub(super) fn mode_kind(kind: ModeKind) -> &'static str {
     match kind {
         ModeKind::FreeInterface => "free-interface",
         ModeKind::FixedInterface => "fixed-interface",
+        ModeKind::MixedInterface => "mixed-interface",
     }
 }
 
@@ -43,6 +44,15 @@ pub(super) fn boundary(code: &str) -> String {
     match loaded.rsplit_once('=').filter(|(_, mass)| mass.parse::<f64>().is_ok()) {
         Some((interface, mass)) => format!("{interface} loaded by {mass}"),
         None => format!("{loaded} loaded"),
+    }
+}
+
+/// The boundary of the modes in words: `mixed-interface (base held)`.
+pub(super) fn modes_under(kind: ModeKind, held: Option<&[String]>) -> String {
+    match held {
+        None => mode_kind(kind).to_owned(),
+        Some([]) => format!("{} (nothing held)", mode_kind(kind)),
+        Some(held) => format!("{} ({} held)", mode_kind(kind), held.join(", ")),
     }
 }
 

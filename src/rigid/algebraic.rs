@@ -64,6 +64,7 @@ pub(crate) fn zero_modes(partition: &Partition) -> Result<ZeroModes> {
         source: RigidSource::Algebraic,
         is_classical: false,
         energy,
+        passing: None,
     };
     Ok(ZeroModes { rigid, elastic, n_factorisations: found.n_factorisations })
 }

@@ -60,6 +60,7 @@ pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Option<Site>]) ->
         source: if partition.fit.rounded().is_some() { RigidSource::Algebraic } else { RigidSource::Geometric },
         is_classical,
         energy,
+        passing: None,
     })
 }
 

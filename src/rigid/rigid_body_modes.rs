@@ -5,6 +5,7 @@ use faer::{Mat, MatRef};
 pub use supel_runtime::RigidBodyModes as RigidSource;
 
 use crate::dense;
+use crate::job::Boundary;
 use crate::partition::{InterfaceNode, Partition};
 use crate::sparse::{SparseMatrix, product};
 
@@ -29,6 +30,9 @@ pub struct RigidBodyModes {
     pub is_classical: bool,
     /// Energies of the modes against the noise of the data.
     pub energy: RigidEnergy,
+    /// Those motions with mass that leave the dofs at rest which are held while mixed-interface modes are computed, at the dofs of that
+    /// eigenproblem; none under any other boundary.
+    pub passing: Option<Box<RigidBodyModes>>,
 }
 
 /// How well K lets the rigid-body modes pass.
@@ -72,6 +76,15 @@ impl RigidBodyModes {
         self.orthonormal.as_ref().subcols(self.count() - self.n_massless, self.n_massless)
     }
 
+    /// The motions that a boundary leaves free, at the dofs of its eigenproblem; none where it leaves none.
+    pub fn under(&self, boundary: Boundary) -> Option<&Self> {
+        match boundary {
+            Boundary::FreeInterface => Some(self),
+            Boundary::FixedInterface => None,
+            Boundary::MixedInterface => self.passing.as_deref(),
+        }
+    }
+
     /// These modes without those of mechanisms: what was known before these were looked for.
     pub(crate) fn without_mechanisms(&self) -> Self {
         let n = self.count() - self.n_mechanisms;
@@ -92,6 +105,7 @@ impl RigidBodyModes {
             source: RigidSource::Geometric,
             is_classical: false,
             energy: RigidEnergy::default(),
+            passing: None,
         }
     }
 

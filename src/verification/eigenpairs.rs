@@ -5,6 +5,8 @@
 //! D                  powers of two near 1/√K_ii, so that units of length and angle do not matter
 //! ```
 
+use std::borrow::Cow;
+
 use faer::Mat;
 
 use super::check::{Check, Limits};
@@ -14,6 +16,7 @@ use super::residual::{AT_REST, Residuals, Rows, Worst};
 use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::{MassOrthogonality, ModeError, NOTICED_BAR, mass_orthogonality};
 use crate::job::Boundary;
+use crate::modes::Retained;
 use crate::sparse::Pencil;
 use crate::sparse::panels;
 
@@ -34,22 +37,27 @@ pub(super) struct Pairs {
 
 /// K and M of the boundary the modes were computed under.
 pub(super) fn pencil<'a>(evidence: &Evidence<'a>) -> Pencil<'a> {
-    match evidence.retained.boundary {
-        Boundary::FixedInterface => evidence.partition.internal(),
-        Boundary::FreeInterface => evidence.partition.pencil(),
-    }
+    evidence.partition.pencil_under(evidence.retained.boundary)
+}
+
+/// The shapes of the retained modes at the dofs of that pencil.
+fn shapes<'a>(evidence: &Evidence<'a>) -> Cow<'a, Mat<f64>> {
+    let Retained { modes, boundary } = evidence.retained;
+    let rows = evidence.partition.rows_under(*boundary, modes.shapes.as_ref());
+    rows.map_or(Cow::Borrowed(&modes.shapes), Cow::Owned)
 }
 
 impl Pairs {
     pub(super) fn of(evidence: &Evidence<'_>) -> Self {
         let rows = Rows::of(pencil(evidence));
         let modes = &evidence.retained.modes;
+        let all = shapes(evidence);
         let mut found =
             Self { backward: Worst::none(), componentwise: Worst::none(), concentration: 1.0, coupling: (0.0, (0, 0)) };
         // The memory needed in addition to the shapes is five such panels.
         for panel in panels(modes.count()) {
             let (start, end) = (panel.start, panel.end);
-            let shapes = modes.shapes.as_ref().get(.., panel.clone());
+            let shapes = all.as_ref().as_ref().get(.., panel.clone());
             let lambda = &modes.lambda[panel];
             let Residuals { forces, residual, terms } = rows.residuals(shapes, lambda);
             for (j, lambda) in lambda.iter().enumerate() {
@@ -61,7 +69,7 @@ impl Pairs {
                 let largest = x.iter().zip(&rows.norms.scale).fold(0.0f64, |max, (x, d)| max.max((x / d).abs()));
                 found.concentration = found.concentration.max(rows.norms.scaled_norm(x) / largest);
             }
-            let energies = dense::gram(modes.shapes.as_ref().subcols(0, end), forces.as_ref());
+            let energies = dense::gram(all.as_ref().as_ref().subcols(0, end), forces.as_ref());
             found.couple(&energies, start, &modes.lambda);
         }
         found
@@ -94,11 +102,11 @@ fn residual_limits(evidence: &Evidence<'_>) -> Limits {
     // On a free component a load is balanced by the interface first and the rigid-body motion taken out afterwards.
     // That motion is up to 1/ratio times the elastic one, and K lets it pass only to the precision of its data; ten
     // stands for the sum over the rigid-body modes. An interface that holds too badly is not used for this.
+    let of_motion = || (10.0 * digits / evidence.rank.singular_ratio).min(MAX_SOLVE_RESIDUAL.max(10.0 * digits));
     let motion = match evidence.retained.boundary {
-        Boundary::FreeInterface => {
-            (10.0 * digits / evidence.rank.singular_ratio).min(MAX_SOLVE_RESIDUAL.max(10.0 * digits))
-        }
-        Boundary::FixedInterface => 0.0,
+        Boundary::FreeInterface => of_motion(),
+        Boundary::MixedInterface if evidence.n_zero() > 0 => of_motion(),
+        Boundary::FixedInterface | Boundary::MixedInterface => 0.0,
     };
     if digits > f64::EPSILON {
         Limits { engineering: 0.0, arithmetic: solver, data: motion }
@@ -118,7 +126,7 @@ pub(super) fn backward_error(evidence: &Evidence<'_>, pairs: &Pairs) -> Check {
         value: pairs.backward.value,
         limits,
         fail_above: limits.value().max(FAIL),
-        worst: pairs.backward.name(evidence, "mode"),
+        worst: pairs.backward.name_under(evidence, "mode"),
     }
 }
 
@@ -138,19 +146,20 @@ pub(super) fn componentwise_error(evidence: &Evidence<'_>, pairs: &Pairs) -> Che
         value: pairs.componentwise.value,
         limits,
         fail_above: limits.value().max(FAIL),
-        worst: pairs.componentwise.name(evidence, "mode"),
+        worst: pairs.componentwise.name_under(evidence, "mode"),
     }
 }
 
 /// M-03.
 pub(super) fn orthogonality(evidence: &Evidence<'_>) -> Check {
     const FAIL: f64 = 1e-9;
-    let shapes = evidence.retained.modes.shapes.as_ref();
-    let (joined, n_r) = match evidence.retained.boundary {
-        Boundary::FixedInterface => (None, 0),
-        Boundary::FreeInterface => {
+    let shapes = shapes(evidence);
+    let shapes = shapes.as_ref().as_ref();
+    let (joined, n_r) = match evidence.rigid.under(evidence.retained.boundary) {
+        None => (None, 0),
+        Some(rigid) => {
             // Motions without mass have no length in it.
-            let rigid = evidence.rigid.massive();
+            let rigid = rigid.massive();
             (Some(dense::side_by_side(rigid, shapes)), rigid.ncols())
         }
     };

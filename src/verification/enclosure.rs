@@ -86,10 +86,10 @@ pub fn enclosures(
     modes: &Modes,
     boundary: Boundary,
 ) -> Result<Enclosures> {
-    let (pencil, zero_modes) = match boundary {
-        Boundary::FreeInterface => (partition.pencil(), Some(rigid)),
-        Boundary::FixedInterface => (partition.internal(), None),
-    };
+    let (pencil, zero_modes) = (partition.pencil_under(boundary), rigid.under(boundary));
+    let rows = partition.rows_under(boundary, modes.shapes.as_ref());
+    let rows = rows.map(|shapes| Modes { shapes, ..modes.clone() });
+    let modes = rows.as_ref().unwrap_or(modes);
     let analysis = Analysis::new(pencil)?;
     let (metric, n_metric) = Metric::new(&analysis, pencil, modes.lambda.first().copied())?;
     let Some(metric) = metric else {

@@ -54,6 +54,19 @@ pub struct Evidence<'a> {
     pub expect: Option<&'a Expectation>,
 }
 
+impl Evidence<'_> {
+    /// Zero modes of the boundary that the retained modes were computed under.
+    pub(super) fn n_zero(&self) -> usize {
+        self.rigid.under(self.retained.boundary).map_or(0, RigidBodyModes::count)
+    }
+
+    /// Numbers of the reduced coordinates that take part in the eigenproblem of the retained modes: those that are not held.
+    pub(super) fn moving(&self) -> Vec<usize> {
+        let held = self.partition.held_under(self.retained.boundary);
+        (0..self.reduction.n_reduced()).filter(|i| !held.get(*i).copied().unwrap_or(false)).collect()
+    }
+}
+
 /// The name of a rigid-body mode: `rotation z` of one free body, otherwise its number.
 pub(super) fn rigid_name(evidence: &Evidence<'_>, mode: usize) -> String {
     match NAMES.get(mode).filter(|_| evidence.rigid.is_classical) {

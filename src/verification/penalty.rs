@@ -11,7 +11,6 @@
 
 use faer::MatRef;
 
-use super::eigenpairs;
 use super::evidence::Evidence;
 use super::limits::{ENERGY_ASKED, FREQUENCY_ASKED};
 use crate::dense;
@@ -86,7 +85,9 @@ pub fn penalties(evidence: &Evidence<'_>, first: Option<f64>) -> Option<Penaltie
         }
     };
     look(partition.pencil().stiffness, evidence.rigid.massive(), &|_| first, ENERGY_ASKED);
-    look(eigenpairs::pencil(evidence).stiffness, modes.shapes.as_ref(), &|j| modes.lambda[j], FREQUENCY_ASKED);
+    // Shapes of mixed boundaries have all rows.
+    let whole = Leading::new(&partition.stiffness, modes.shapes.nrows());
+    look(whole, modes.shapes.as_ref(), &|j| modes.lambda[j], FREQUENCY_ASKED);
     let Worst { noise, asked, noise_without, rows, .. } = worst?;
     let stiffness = diagonal(&partition.stiffness);
     let size = |row: usize| stiffness.get(row).copied().unwrap_or(f64::INFINITY);

@@ -10,7 +10,6 @@ use super::rigid_motion::energy_limits;
 use super::spectrum::{Spectrum, zero_level};
 use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::{Modes, REPEATED_WITHIN};
-use crate::job::Boundary;
 use crate::sparse::absolute_energy;
 use crate::sparse::{Leading, panels};
 
@@ -95,23 +94,19 @@ pub(super) fn pair_residual(evidence: &Evidence<'_>) -> Check {
     let reduction = evidence.reduction;
     let modes = &evidence.retained.modes;
     let norms = reduced_norms(evidence);
-    let n_b = evidence.partition.n_interface();
+    let held = evidence.partition.held_under(evidence.retained.boundary);
     let reduced = evidence.basis.reduced_modes(modes, evidence.partition.n_internal);
     let forces = dense::product(reduction.stiffness.as_ref(), reduced.as_ref());
     let momenta = dense::product(reduction.mass.as_ref(), reduced.as_ref());
     let mut worst = (0.0, None);
     for (j, lambda) in modes.lambda.iter().enumerate() {
         let (force, momentum) = (dense::column(forces.as_ref(), j), dense::column(momenta.as_ref(), j));
-        let held = match evidence.retained.boundary {
-            Boundary::FixedInterface => n_b,
-            Boundary::FreeInterface => 0,
-        };
         // A held interface takes up the reaction: its rows are not part of the eigenproblem.
         let residual: Vec<f64> = force
             .iter()
             .zip(momentum)
             .enumerate()
-            .map(|(i, (f, p))| if i < held { 0.0 } else { f - lambda * p })
+            .map(|(i, (f, p))| if held.get(i) == Some(&true) { 0.0 } else { f - lambda * p })
             .collect();
         let error = norms.backward_error(*lambda, dense::column(reduced.as_ref(), j), &residual);
         if dense::worse(error, worst.0) {

@@ -122,6 +122,12 @@ impl Worst {
         }
     }
 
+    /// As [`Self::name`], of rows of the eigenproblem of the retained modes.
+    pub(super) fn name_under(&self, evidence: &Evidence<'_>, column_is: &str) -> Option<String> {
+        let dof = |row| evidence.partition.dof_under(evidence.retained.boundary, row);
+        Self { at: self.at.map(|(column, row)| (column, dof(row))), ..*self }.name(evidence, column_is)
+    }
+
     /// `mode 3, node 12 uz`.
     pub(super) fn name(&self, evidence: &Evidence<'_>, column_is: &str) -> Option<String> {
         self.at.map(|(column, row)| format!("{column_is} {}, {}", column + 1, evidence.partition.name_of(row)))

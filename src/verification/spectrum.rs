@@ -42,7 +42,6 @@ pub(super) struct Spectrum {
 impl Spectrum {
     pub(super) fn of(evidence: &Evidence<'_>) -> Result<Self> {
         let (k, m) = (evidence.reduction.stiffness.as_ref(), evidence.reduction.mass.as_ref());
-        let n_b = evidence.partition.n_interface();
         let lambda = match first_of_full(evidence, evidence.rigid.n_grey) {
             Some(lambda) => lambda,
             None => elastic_scale(evidence.reduction.pencil())?.unwrap_or(1.0),
@@ -64,12 +63,13 @@ impl Spectrum {
         sharpen(&mut free, (k_held.as_ref(), m), lambda, n_pencil + n_modes)?;
         let same_boundary = match evidence.retained.boundary {
             Boundary::FreeInterface => free.get(n_pencil..).unwrap_or_default().to_vec(),
-            Boundary::FixedInterface => {
-                let n = k.nrows() - n_b;
-                let inner = (k.submatrix(n_b, n_b, n, n), m.submatrix(n_b, n_b, n, n));
+            Boundary::FixedInterface | Boundary::MixedInterface => {
+                let (moving, n_zero) = (evidence.moving(), evidence.n_zero());
+                let [k, m] = [k, m].map(|a| dense::part(a, &moving));
+                let inner = (k.as_ref(), m.as_ref());
                 let (mut held, _) = lowest_eigenpairs(inner.0, inner.1, lambda, 0)?;
-                sharpen(&mut held, inner, lambda, n_modes)?;
-                held
+                sharpen(&mut held, inner, lambda, n_zero + n_modes)?;
+                held.split_off(n_zero.min(held.len()))
             }
         };
         let levels = zero_levels(evidence, shapes.as_ref());
@@ -146,7 +146,7 @@ fn first_of_full(evidence: &Evidence<'_>, n_soft: usize) -> Option<f64> {
     let modes = &evidence.retained.modes;
     let n_soft = match evidence.retained.boundary {
         Boundary::FreeInterface => n_soft,
-        Boundary::FixedInterface => 0,
+        Boundary::FixedInterface | Boundary::MixedInterface => 0,
     };
     modes.lambda.get(n_soft).copied().or(modes.next)
 }

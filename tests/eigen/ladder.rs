@@ -9,7 +9,7 @@ use supel::modes::{Mending, ModeSource, Search, certified};
 use supel::random::SEED;
 use supel_models::*;
 
-use crate::chain::certified::{Certified, count, free, held, judge, with_component};
+use crate::chain::certified::{Certified, count, free, held, judge, mixed, with_component, with_component_of};
 use crate::chain::direct;
 
 /// A search that loses one mode as often as it is told to.
@@ -46,8 +46,13 @@ fn lose(model: &Model, boundary: Boundary, loses: usize, times: (usize, usize)) 
     let (interfaces, job) = match boundary {
         Boundary::FreeInterface => (vec![direct("ends", &[1, 2, 4, 7])], free(count(12), Eigensolver::Lanczos)),
         Boundary::FixedInterface => (Vec::new(), held(count(12), Eigensolver::Lanczos)),
+        // One node is held, about which the component turns.
+        Boundary::MixedInterface => {
+            let interfaces = vec![direct("pivot", &[1]), direct("ends", &[2, 4, 7])];
+            (interfaces, mixed(&["pivot"], count(12), Eigensolver::Lanczos))
+        }
     };
-    with_component(model, &interfaces, |component| {
+    with_component_of(model, &interfaces, &job, |component| {
         let search = Search::new(component, &job)?;
         let source = Forgetful { search: &search, loses, starts: times.0.into(), slices: times.1.into() };
         let found = source.lowest(SEED)?;
@@ -65,6 +70,7 @@ fn lose(model: &Model, boundary: Boundary, loses: usize, times: (usize, usize)) 
 fn each_rung_of_the_ladder_finds_what_the_one_before_has_lost() {
     for (model, boundary) in [
         (brick([5, 2, 2], [5.0, 2.0, 1.5], &Material::UNIT), Boundary::FreeInterface),
+        (brick([5, 2, 2], [5.0, 2.0, 1.5], &Material::UNIT), Boundary::MixedInterface),
         (bar(120), Boundary::FixedInterface),
         (known(&(1..=90).map(f64::from).collect::<Vec<_>>(), fnv1a("ladder")), Boundary::FixedInterface),
     ] {

@@ -76,7 +76,7 @@ fn beam(place: &Place, rest: &str) -> Written {
 #[test]
 fn pairs_of_modes_do_not_depend_on_threads_nor_on_the_run() {
     let place = square_beam();
-    for method in ["herting", "craig-bampton"] {
+    for method in ["herting", "craig-bampton", "mixed-interface --held root"] {
         for solver in eigensolver_words() {
             let flags = format!("--method {method} --eigensolver {solver} --modes 8 --threads");
             let first = beam(&place, &format!("{flags} 1"));

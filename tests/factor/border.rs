@@ -2,7 +2,7 @@
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef, Side};
-use supel::factor::{Cholesky, ShiftedFactor, Storage, condensed, count_below};
+use supel::factor::{Cholesky, ShiftedFactor, Storage, condensed, count_below, count_below_freeing};
 use supel::input::{Digits, Input, MatrixInput};
 use supel::job::{Coupling, InterfaceJob, NodeSelection};
 use supel::model::Model;
@@ -144,6 +144,44 @@ fn counts_and_solves_inside_the_spectrum_are_those_of_dense_algebra() {
         let error = backward_error(&held, &scale[..n_i], x.as_ref(), b);
         assert!(error <= bar, "{name}, held: {error:e} above {bar:e}");
     }
+}
+
+/// Some of the border free and the rest held: S(σ) of the part that is free counts and solves.
+#[test]
+fn counts_and_solves_with_some_of_the_border_free_are_those_of_dense_algebra() {
+    let mut n_mixed = 0;
+    for (name, partition) in partitions() {
+        let (n_i, n_b) = (partition.n_internal, partition.n_interface());
+        let free: Vec<usize> = (0..n_b).filter(|dof| dof % 3 != 1).collect();
+        if free.len() == n_b {
+            continue;
+        }
+        n_mixed += 1;
+        let (sigma, ..) = shift(&partition);
+        let kept: Vec<usize> = (0..n_i).chain(free.iter().map(|dof| n_i + dof)).collect();
+        let n = kept.len();
+        let (whole, of_whole) = (shifted(&partition, sigma), scale(&partition));
+        let a = Mat::from_fn(n, n, |i, j| whole[(kept[i], kept[j])]);
+        let scale: Vec<f64> = kept.iter().map(|dof| of_whole[*dof]).collect();
+        let unit = Mat::from_fn(n, n, |i, j| a[(i, j)] * scale[i] * scale[j]);
+        let values = unit.self_adjoint_eigenvalues(Side::Lower).expect("eigenvalues");
+        // A sign that rounding decides says nothing.
+        let least = values.iter().fold(f64::INFINITY, |least: f64, value| least.min(value.abs()));
+        assert!(least > 1e-9, "{name}: the shift is on an eigenvalue");
+        let analysis = partition.analysis().expect("memory");
+        let count =
+            count_below_freeing(&analysis, partition.pencil(), sigma, Some(&free)).expect("off the eigenvalues");
+        assert_eq!(count.free, values.iter().filter(|value| **value < 0.0).count(), "{name}");
+        let factor = ShiftedFactor::freeing(&analysis, partition.pencil(), sigma, Some(&free)).expect("off them");
+        assert_eq!(factor.count, count, "{name}: a factor that is kept has the same pivots");
+        let b = Mat::from_fn(n, 9, |i, j| loads(n, 9)[(i, j)] / scale[i]);
+        let mut x = b.clone();
+        factor.solve_free(x.as_mut());
+        let bar = 100.0 * count.growth * n as f64 * f64::EPSILON;
+        let error = backward_error(&a, &scale, x.as_ref(), b.as_ref());
+        assert!(error <= bar, "{name}: {error:e} above {bar:e}");
+    }
+    assert!(n_mixed > 5, "{n_mixed} partitions have a border to hold some of");
 }
 
 /// Below the first pivot all other entries vanish exactly, in a panel wider than the blocks of a dense factorisation.

@@ -65,6 +65,7 @@ fn jobs() -> Vec<Value> {
     of_file["reduction"]["method"] = "mode-acceleration".into();
     of_file["damping"]["modal"] = json!({ "ratios": [0.25, 0.5] });
     jobs[1]["damping"]["modal"] = json!({ "table": [[10.5, 0.25]] });
+    jobs[3]["reduction"] = json!({ "method": "mixed-interface", "modes": { "count": 5 }, "held": ["hub", "hub.rx"] });
     jobs.push(of_file);
     jobs.extend(regions.map(|region| {
         let hub = json!([{ "name": "hub", "nodes": { "within": region }, "coupling": "rigid", "origin": [0.25, 1.25, 2.25] }]);
@@ -165,6 +166,7 @@ fn is_about_two_keys(error: &Error) -> bool {
     matches!(
         error,
         Error::SceneInterface { .. }
+            | Error::HeldInterface { .. }
             | Error::InterfaceConflict { .. }
             | Error::InterfaceOverlap { .. }
             | Error::InterfaceTwice { .. }

@@ -307,6 +307,7 @@ pub fn parts(stiffness: Matrix, mass: Matrix, positions: &[Vector3]) -> (Tensors
         coordinates: of_nodes.chain(of_modes).collect(),
         dropped: Vec::new(),
         load_names: Vec::new(),
+        modes_held: Vec::new(),
         quantities: Vec::new(),
         matrices: Vec::new(),
         validity: Validity::default(),

@@ -156,6 +156,7 @@ fn bare_metadata(method: Method) -> Metadata {
         coordinates: Vec::new(),
         dropped: Vec::new(),
         load_names: Vec::new(),
+        modes_held: Vec::new(),
         quantities: Vec::new(),
         matrices: Vec::new(),
         validity: Validity::default(),

@@ -21,9 +21,11 @@ use super::measures::Measures;
 use super::modal_component::{Matrices, ModalComponent};
 use super::recovery_map::RecoveryMap;
 use super::weight::Weight;
+use crate::coordinate::Coordinate;
+use crate::direction::Direction;
 use crate::elementary::sqrt;
 use crate::matrix::Matrix;
-use crate::metadata::{Coordinate, Direction, MOTIONS, RigidBodyModes};
+use crate::metadata::{MOTIONS, RigidBodyModes};
 use crate::motion::{
     IDENTITY_3, IDENTITY_6, Matrix6, Vector3, Vector6, ZERO_3, blocks, dot, multiply_6, skew, transposed_times_6,
 };

@@ -3,7 +3,7 @@
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use crate::metadata::Direction;
+use crate::direction::Direction;
 
 /// Why a superelement cannot undergo large motion.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -78,13 +78,21 @@ impl AskedModes {
         self.groups.iter().find(|group| group.contains(&mode)).map_or(0.0, of)
     }
 
-    /// Modes with the interface free; `rigid` are the motions that the reduction deflates.
+    /// Modes with the interface free, or some of it, by a factor of K − σM of the dofs that are free; `rigid` are the motions that the
+    /// reduction deflates.
     ///
     /// # Errors
     /// The eigensolver fails; the count falls on an eigenvalue.
-    pub(super) fn free(full: &Full<'_>, rigid: &RigidBodyModes, job: &ReductionJob) -> Result<Self> {
-        let problem = full.partition.free_problem().deflating(rigid.deflated());
-        let mut found = Self::of(problem, (&full.factor, full.sigma), job, full.partition)?;
+    pub(super) fn moving(
+        full: &Full<'_>,
+        (boundary, factor): (Boundary, &dyn SolveOperator),
+        rigid: &RigidBodyModes,
+        job: &ReductionJob,
+    ) -> Result<Self> {
+        let problem = full.partition.problem_under(boundary);
+        let passing = rigid.under(boundary);
+        let problem = passing.map_or(problem, |passing| problem.deflating(passing.deflated()));
+        let mut found = Self::of(problem, (factor, full.sigma), job, full.partition)?;
         // Motions that K does not quite let pass are not those of the next operator: what they cost it is what tells both apart.
         let energy = rigid.energy.largest_quotient / full.first;
         for group in &found.groups {
@@ -94,7 +102,9 @@ impl AskedModes {
             // A shape that lacks δ of θ, and is turned by δ/γ for it, has a quotient that is off by δ²/γ.
             found.residual_bars[group.clone()].iter_mut().for_each(|bar| *bar += turn * turn * gap);
         }
-        Ok(Self { boundary: Boundary::FreeInterface, n_zero: rigid.count(), ..found })
+        let shapes = full.partition.whole_under(boundary, found.modes.shapes);
+        let modes = Modes { shapes, ..found.modes };
+        Ok(Self { boundary, n_zero: passing.map_or(0, RigidBodyModes::count), modes, ..found })
     }
 
     /// Modes with the interface held; none where there is no interior.
@@ -153,10 +163,7 @@ impl AskedModes {
     /// # Errors
     /// The shift falls on an eigenvalue; no memory.
     pub(super) fn counted(self, partition: &Partition, analysis: &Analysis, first: f64) -> Result<Self> {
-        let pencil = match self.boundary {
-            Boundary::FixedInterface => partition.internal(),
-            Boundary::FreeInterface => partition.pencil(),
-        };
+        let pencil = partition.pencil_under(self.boundary);
         let is_bare = self.modes.lambda.is_empty() && self.modes.next.is_none();
         let sigma = if is_bare { PLACE * first } else { self.modes.shift_above(PLACE) };
         Ok(Self { count: Some(whole_count(analysis, pencil, sigma)?), ..self })

@@ -1,6 +1,6 @@
 //! Frequencies and their error bars against those found again: M-14, M-09.
 
-use supel_runtime::{Coordinate, Superelement};
+use supel_runtime::Superelement;
 
 use super::asked::AskedModes;
 use super::entries::FAR;
@@ -59,11 +59,8 @@ pub(super) fn error_bars(superelement: &Superelement, file: &Scaled, asked: &Ask
     let limits_of_none = Limits { engineering: SAME_SHAPES, ..Limits::default() };
     let (mut excess, mut value, mut limits, mut worst) = (0.0, 0.0, limits_of_none, None);
     for coordinate in metadata.named_columns() {
-        let (Coordinate::ElasticMode { mode, frequency_hz, error_bar_hz }
-        | Coordinate::FixedInterfaceMode { mode, frequency_hz, error_bar_hz }) = *coordinate
-        else {
-            continue;
-        };
+        let Some((mode, frequency_hz)) = coordinate.mode() else { continue };
+        let error_bar_hz = coordinate.error_bar_hz();
         let (Some(error), Some(stated)) = (asked.modes.errors.get(mode), file.lambda.get(mode)) else { continue };
         let of_residual = error.residual_bar.max(asked.residual_bars[mode]);
         // A bar is what roundings make of an energy over λ, and λ may be known to a few digits only: energies are compared.

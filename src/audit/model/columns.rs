@@ -123,7 +123,9 @@ impl Columns {
         columns.answer_inertia(&mut follower, n_relief + n_modes);
         columns.answer_loads(&mut follower);
         match asked.boundary {
-            Boundary::FreeInterface => columns.accelerate(&mut follower, (n_relief, asked)),
+            Boundary::FreeInterface | Boundary::MixedInterface => {
+                columns.accelerate(&mut follower, (n_relief, asked));
+            }
             Boundary::FixedInterface => {
                 let mut at = columns.shapes.as_mut().subrows_mut(0, n_i).subcols_mut(p + n_relief, n_modes);
                 at.copy_from(&asked.modes.shapes);
@@ -219,7 +221,9 @@ impl Columns {
             let (angle, lambda) = (asked.angles[mode], asked.lambda()[mode]);
             let inertia = match asked.boundary {
                 Boundary::FixedInterface => angle,
-                Boundary::FreeInterface => angle * (lambda / softest).min(1.0 / f64::EPSILON),
+                Boundary::FreeInterface | Boundary::MixedInterface => {
+                    angle * (lambda / softest).min(1.0 / f64::EPSILON)
+                }
             };
             self.energy_errors[p + slot] += (angle + asked.width(mode)) * lambda.sqrt();
             self.inertia_errors[p + slot] += inertia;

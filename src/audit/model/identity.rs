@@ -139,7 +139,8 @@ fn named(coordinate: &Coordinate, boundary: Boundary) -> Option<Named> {
         (Coordinate::ExpansionMode { column }, _) => Some(Named::Expansion(*column)),
         (Coordinate::ResidualVector { load }, _) => Some(Named::Residual(*load)),
         (Coordinate::ElasticMode { mode, .. }, Boundary::FreeInterface)
-        | (Coordinate::FixedInterfaceMode { mode, .. }, Boundary::FixedInterface) => Some(Named::Mode(*mode)),
+        | (Coordinate::FixedInterfaceMode { mode, .. }, Boundary::FixedInterface)
+        | (Coordinate::MixedInterfaceMode { mode, .. }, Boundary::MixedInterface) => Some(Named::Mode(*mode)),
         _ => None,
     }
 }
@@ -247,6 +248,7 @@ pub(super) fn statements(
     expect(metadata.load_names.iter().eq(names), "loads");
     expect(metadata.quantities == partition.quantities.names, "quantities");
     expect(metadata.flags.is_empty(), "flags");
+    expect(metadata.modes_held == partition.modes_held(), "other dofs held for the modes");
     expect(metadata.validity.assumptions == job.assumptions(), "assumptions about the simulation");
     expect(metadata.validity.unloaded.is_empty(), "unloaded directions");
     expect(metadata.validity.band_hz == band(superelement, job), "another band");

@@ -170,13 +170,10 @@ fn modes(reduction: &ReductionReport) -> Vec<String> {
     }
     let line = match (reduction.modes.first(), reduction.modes.last()) {
         (Some(first), Some(last)) => format!(
-            "{} {}, {} Hz to {} Hz",
+            "{} {} {}, {} Hz to {} Hz",
             number::count(reduction.modes.len() as u64),
-            format_args!(
-                "{} {}",
-                words::mode_kind(first.kind),
-                if reduction.modes.len() == 1 { "mode" } else { "modes" }
-            ),
+            words::modes_under(first.kind, reduction.modes_held.as_deref()),
+            if reduction.modes.len() == 1 { "mode" } else { "modes" },
             quantity(first.frequency_hz, 6),
             quantity(last.frequency_hz, 6)
         ),

@@ -131,7 +131,7 @@ fn reduced(page: &mut Page, reduction: &ReductionReport) {
     let solver = words::eigensolver(reduction.eigensolver);
     let worst = reduction.modes.iter().map(|mode| mode.backward_error).fold(0.0, f64::max);
     if let Some(mode) = reduction.modes.first() {
-        let kind = words::mode_kind(mode.kind);
+        let kind = words::modes_under(mode.kind, reduction.modes_held.as_deref());
         let worst = number::scientific(worst, 2);
         page.entry("modes", &format!("{kind} · {solver} · backward error at most {worst}"));
     }

@@ -1,7 +1,6 @@
 //! What a boundary of the scene does to the interface dofs.
 
 use super::interfaces::{Inertia, Interface};
-use crate::job::Boundary as ModeBoundary;
 use crate::job::Support;
 use crate::number::quantity;
 use crate::verification::evidence::Evidence;
@@ -65,11 +64,8 @@ impl Boundary {
 
     /// Whether the retained modes are those of this boundary.
     pub(super) fn is_own(&self, evidence: &Evidence<'_>) -> bool {
-        match evidence.retained.boundary {
-            ModeBoundary::FreeInterface => {
-                self.load.iter().all(|load| *load == 0.0) && self.held.iter().all(|held| !held)
-            }
-            ModeBoundary::FixedInterface => self.held.iter().all(|held| *held),
-        }
+        let held = evidence.partition.held_under(evidence.retained.boundary);
+        // A load on a dof that is held changes nothing.
+        self.held == held && self.load.iter().zip(held).all(|(load, held)| held || *load == 0.0)
     }
 }

@@ -9,7 +9,6 @@ use crate::dense;
 use crate::eigen::CLUSTER_GAP;
 use crate::eigen::Spectral;
 use crate::error::Result;
-use crate::job::Boundary;
 use crate::reduction::transpose_apply;
 use crate::sparse::product;
 
@@ -31,23 +30,18 @@ pub(super) struct Preserved {
 pub(super) fn preserved(evidence: &Evidence<'_>) -> Result<Preserved> {
     let modes = &evidence.retained.modes;
     let (k, m) = (evidence.reduction.stiffness.as_ref(), evidence.reduction.mass.as_ref());
-    let n_held = match evidence.retained.boundary {
-        Boundary::FreeInterface => 0,
-        Boundary::FixedInterface => evidence.partition.n_interface(),
-    };
-    let n_zero = if n_held == 0 { evidence.rigid.count() } else { 0 };
-    let n = k.nrows() - n_held;
+    let (moving, n_zero) = (evidence.moving(), evidence.n_zero());
     let alpha = modes.lambda.first().copied().unwrap_or(1.0);
-    let part = |a: MatRef<'_, f64>| a.submatrix(n_held, n_held, n, n).to_owned();
-    let spectral = Spectral::of(part(k).as_ref(), part(m).as_ref(), alpha)?;
+    let spectral = Spectral::of(dense::part(k, &moving).as_ref(), dense::part(m, &moving).as_ref(), alpha)?;
     let reduced: Vec<f64> = spectral.eigenvalues().into_iter().skip(n_zero).collect();
     let n_found = modes.count().min(reduced.len());
     let vectors: Vec<Vec<f64>> = (0..n_found).map(|j| spectral.eigenvector(n_zero + j)).collect();
-    let phi = Mat::from_fn(n, n_found, |i, j| vectors[j][i]);
+    let phi = Mat::from_fn(moving.len(), n_found, |i, j| vectors[j][i]);
     let projected = projected_modes(evidence);
-    let cross = dense::gram(projected.as_ref().subrows(n_held, n), phi.as_ref());
+    let projected = Mat::from_fn(moving.len(), projected.ncols(), |i, j| projected[(moving[i], j)]);
+    let cross = dense::gram(projected.as_ref(), phi.as_ref());
     let by_mode = cluster_mac(evidence, cross.as_ref());
-    let errors = backward_errors(evidence, n_held);
+    let errors = backward_errors(evidence);
     let hz = |lambda: f64| evidence.partition.scaling.hertz(lambda);
     let row = |j: usize| {
         let (full_hz, reduced_hz) = (hz(modes.lambda[j]), reduced.get(j).map_or(f64::INFINITY, |lambda| hz(*lambda)));
@@ -99,7 +93,8 @@ fn cluster_mac(evidence: &Evidence<'_>, cross: MatRef<'_, f64>) -> Vec<f64> {
 }
 
 /// Backward error of every (λ, V̄) in the reduced pencil.
-fn backward_errors(evidence: &Evidence<'_>, n_held: usize) -> Vec<f64> {
+fn backward_errors(evidence: &Evidence<'_>) -> Vec<f64> {
+    let held = evidence.partition.held_under(evidence.retained.boundary);
     let (reduction, modes) = (evidence.reduction, &evidence.retained.modes);
     let norms = reduced_norms(evidence);
     let reduced = evidence.basis.reduced_modes(modes, evidence.partition.n_internal);
@@ -108,7 +103,8 @@ fn backward_errors(evidence: &Evidence<'_>, n_held: usize) -> Vec<f64> {
     let error = |(j, lambda): (usize, &f64)| {
         let pairs = dense::column(forces.as_ref(), j).iter().zip(dense::column(momenta.as_ref(), j)).enumerate();
         // A held interface takes up the reaction: its rows are not part of the eigenproblem.
-        let residual: Vec<f64> = pairs.map(|(i, (f, p))| if i < n_held { 0.0 } else { f - lambda * p }).collect();
+        let residual: Vec<f64> =
+            pairs.map(|(i, (f, p))| if held.get(i) == Some(&true) { 0.0 } else { f - lambda * p }).collect();
         norms.backward_error(*lambda, dense::column(reduced.as_ref(), j), &residual)
     };
     modes.lambda.iter().enumerate().map(error).collect()

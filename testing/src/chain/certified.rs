@@ -4,7 +4,7 @@ use supel::constraint::constraint_modes;
 use supel::eigen::{Modes, mass_orthogonality};
 use supel::error::Error;
 use supel::factor::Cholesky;
-use supel::job::{Certify, Eigensolver, InterfaceJob, Method, ModeSelection, ReductionJob};
+use supel::job::{Certify, Eigensolver, HeldInterface, InterfaceJob, Method, ModeSelection, ReductionJob};
 use supel::modes::{Certificate, Component, ModeSource, Search, certified};
 use supel::partition::DofOrigin;
 use supel::random::SEED;
@@ -55,14 +55,32 @@ pub fn up_to(lambda: f64) -> ModeSelection {
     ModeSelection::UpTo { up_to_hz: lambda.sqrt() / std::f64::consts::TAU }
 }
 
+/// Modes with these interfaces held, or directions of them, and the others free.
+pub fn mixed(held: &[&str], modes: ModeSelection, eigensolver: Eigensolver) -> ReductionJob {
+    let held = held.iter().map(|held| HeldInterface((*held).to_owned())).collect();
+    ReductionJob { eigensolver, held: Some(held), ..ReductionJob::new(Method::MixedInterface, modes) }
+}
+
 /// Runs the stages up to the factor of K_II.
 pub fn with_component<T>(
     model: &Model,
     interfaces: &[InterfaceJob],
     look: impl FnOnce(Component<'_>) -> Result<T, Error>,
 ) -> Result<T, Error> {
-    let (partition, rigid) = super::rigid_of(model, interfaces)?;
+    with_component_of(model, interfaces, &held(count(0), Eigensolver::Lanczos), look)
+}
+
+/// Runs the stages up to the factor of K_II for a job, which may hold some of its interfaces.
+pub fn with_component_of<T>(
+    model: &Model,
+    interfaces: &[InterfaceJob],
+    job: &ReductionJob,
+    look: impl FnOnce(Component<'_>) -> Result<T, Error>,
+) -> Result<T, Error> {
+    let (mut partition, rigid) = super::rigid_of(model, interfaces)?;
     rigid::interface_rank(&partition, &rigid)?;
+    job.held.as_ref().map_or(Ok(()), |held| partition.hold_for_modes(held))?;
+    let rigid = rigid::with_passing(rigid, &partition)?;
     let analysis = partition.analysis()?;
     let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof))?;
     let constraint = constraint_modes(&partition, &factor, &rigid);
@@ -77,7 +95,7 @@ pub fn with_component<T>(
 
 /// Searches and certifies.
 pub fn certify(model: &Model, interfaces: &[InterfaceJob], job: &ReductionJob) -> Result<Certified, Error> {
-    with_component(model, interfaces, |component| {
+    with_component_of(model, interfaces, job, |component| {
         let search = Search::new(component, job)?;
         let found = search.lowest(SEED)?;
         let (modes, certificate) = certified(&search, &search.problem, found, search.edge(), Certify::Count)?;
@@ -99,7 +117,8 @@ pub fn judge(search: &Search<'_>, modes: Modes, certificate: Certificate) -> Cer
         DofOrigin::Row(row) => row,
         DofOrigin::PatchNode(..) | DofOrigin::Distortion(..) => usize::MAX,
     };
-    let rows = partition.dofs.iter().map(row).collect();
+    let dof_of = |at: usize| &partition.dofs[partition.dof_under(search.problem.boundary, at)];
+    let rows = (0..modes.shapes.nrows()).map(|at| row(dof_of(at))).collect();
     let orthogonality = mass_orthogonality(search.problem.modal().mass, modes.shapes.as_ref()).error;
     let lambda = modes.lambda.iter().map(|lambda| lambda * unit).collect();
     Certified { lambda, modes, certificate, orthogonality, rows, unit }

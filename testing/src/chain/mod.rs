@@ -136,7 +136,8 @@ pub fn reduce(
             let problem = ModalProblem::of(partition.internal(), precision);
             elastic_modes(problem, &Factored::new(&factor, 0.0), request)?
         }
-        Boundary::FreeInterface => {
+        // Mixed boundaries need a job that says what they hold.
+        Boundary::FreeInterface | Boundary::MixedInterface => {
             let operator = FreeAtZero::new(&factor, &partition.stiffness, &constraint, &rigid)?;
             let problem = ModalProblem::of(partition.pencil(), precision).deflating(rigid.deflated());
             elastic_modes(problem, &operator, request)?

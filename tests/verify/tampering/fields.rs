@@ -16,7 +16,7 @@ pub(super) struct Change {
 
 /// Words of which one is as valid as another.
 const WORDS: &[&[&str]] = &[
-    &["herting", "craig-bampton", "rubin", "macneal", "guyan", "mode-acceleration"],
+    &["herting", "craig-bampton", "rubin", "macneal", "mixed-interface", "guyan", "mode-acceleration"],
     &["ux", "uy", "uz", "rx", "ry", "rz"],
     &["pass", "warn", "fail"],
     &["geometric", "algebraic"],
@@ -25,7 +25,7 @@ const WORDS: &[&[&str]] = &[
     &["direct", "rigid"],
     &["double", "single"],
     &["add", "refuse"],
-    &["elastic_mode", "fixed_interface_mode"],
+    &["elastic_mode", "fixed_interface_mode", "mixed_interface_mode"],
 ];
 
 /// What stands where a document may hold nothing.

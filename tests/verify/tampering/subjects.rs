@@ -156,6 +156,14 @@ fn expanded() -> Subject {
     Subject::of("modes of a file", place, &text(&(FILES.to_owned() + MESH), &interfaces, reduction, ""))
 }
 
+/// A solid whose modes were computed with one of its interfaces held.
+fn mixed() -> Subject {
+    let place = Place::with(&steel_brick());
+    let interfaces = patch("foot", "[1, 11, 31, 41]", "direct") + &patch("head", "[5, 15, 35]", "rigid");
+    let reduction = "method = \"mixed-interface\"\nmodes = { count = 6 }\nheld = [\"head\"]";
+    Subject::of("mixed boundaries", place, &text(&(FILES.to_owned() + MESH), &interfaces, reduction, ""))
+}
+
 /// A solid without interface: its own modes.
 fn modal() -> Subject {
     let place = Place::with(&steel_brick());
@@ -186,6 +194,7 @@ pub(super) fn subjects() -> Vec<Subject> {
         loaded(),
         damped(),
         expanded(),
+        mixed(),
         modal(),
         massless(),
     ];

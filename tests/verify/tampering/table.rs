@@ -128,6 +128,7 @@ impl Known {
         if let Some(modes) = modes {
             partition.expansion = Expansion::carried(&modes, &partition.transformation).expect("modes that move");
         }
+        job.reduction.held.iter().for_each(|held| partition.hold_for_modes(held).expect("interfaces"));
         partition.loads = Loads::carried(row_loads, &partition.transformation).expect("dofs that move");
         partition.matrices = CarriedMatrix::carried(matrices, &partition.transformation).expect("dofs that move");
         partition.recovered = recovered;

@@ -1,0 +1,24 @@
+//! What is held while modes with mixed boundaries are computed: interfaces, or directions of them.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::dofs::Direction;
+
+/// An interface, `base`, or a direction of one, `hub.ux`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(transparent)]
+#[schemars(extend("minLength" = 1, "examples" = ["base", "hub.ux"]))]
+pub struct HeldInterface(pub String);
+
+impl HeldInterface {
+    /// The interface it names, and the direction where it names one. A name wins over a direction: an interface may be called `hub.ux`.
+    pub fn of(&self, is_interface: impl Fn(&str) -> bool) -> Option<(&str, Option<Direction>)> {
+        if is_interface(&self.0) {
+            return Some((&self.0, None));
+        }
+        let (name, direction) = self.0.rsplit_once('.')?;
+        let direction = Direction::ALL.into_iter().find(|known| known.to_string() == direction)?;
+        is_interface(name).then_some((name, Some(direction)))
+    }
+}
