@@ -18,6 +18,7 @@ mod quantities;
 mod ranges;
 mod reading;
 mod recovery;
+mod reduction;
 mod scene;
 mod schema;
 mod selection;
@@ -40,12 +41,10 @@ pub use method::{Boundary, Method, ModeOrigin};
 pub use node_selection::{NodeSelection, Region};
 pub use quantities::QuantitiesJob;
 pub use recovery::RecoveryJob;
+pub use reduction::{ModeSelection, ModesJob, ReductionJob};
 pub use scene::{DampingJob, SceneJob, Support};
 pub use schema::{Role, schema};
 pub use selection::Selection;
 pub(crate) use shape::nearest;
-pub use types::{
-    Certify, ConstraintsToGround, Duplicates, Expectation, Job, ModeSelection, ModelJob, ModesJob, Precision,
-    ReductionJob, RunJob, WriteJob,
-};
+pub use types::{Certify, ConstraintsToGround, Duplicates, Expectation, Job, ModelJob, Precision, RunJob, WriteJob};
 pub(crate) use validation::ends_in;

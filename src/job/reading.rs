@@ -6,7 +6,8 @@ use supel_runtime::MatrixKind;
 
 use super::damping::{ComponentDampingJob, RigidMotionDamping};
 use super::location::Holder;
-use super::types::{Certify, ConstraintsToGround, Job, ModesJob};
+use super::reduction::ModesJob;
+use super::types::{Certify, ConstraintsToGround, Job};
 use super::{document, validation};
 use crate::error::{Error, Result};
 

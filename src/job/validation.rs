@@ -7,8 +7,9 @@ use super::interface::{Axes, AxesGiven, Coupling, InterfaceJob, Origin, Weights}
 use super::method::{Boundary, ModeOrigin};
 use super::node_selection::NodeSelection;
 use super::ranges::{self, positive, size};
+use super::reduction::{ModeSelection, ModesJob, ReductionJob};
 use super::selection;
-use super::types::{Job, ModeSelection, ModesJob, ReductionJob};
+use super::types::Job;
 use crate::dofs::Direction;
 use crate::error::{Error, Result, Selector};
 
