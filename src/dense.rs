@@ -210,12 +210,13 @@ pub fn inverse(a: MatRef<'_, f64>) -> Mat<f64> {
 }
 
 /// B A⁻¹ of a small regular matrix A, its columns brought to one size first: pivots are then chosen by what is left of a column, whatever
-/// the sizes of the others.
+/// the sizes of the others. Of a triangle they are its diagonal, and every entry is as exact as its terms.
 pub fn divided(b: MatRef<'_, f64>, a: MatRef<'_, f64>) -> Mat<f64> {
     let largest = |j: usize| column(a, j).iter().fold(0.0f64, |max, value| max.max(value.abs()));
     let scale: Vec<f64> = (0..a.ncols()).map(|j| power_of_two_root(largest(j).powi(2))).collect();
-    let scaled = |x: MatRef<'_, f64>| Mat::from_fn(x.ncols(), x.nrows(), |i, j| x[(j, i)] * scale[i]);
-    scaled(a).partial_piv_lu().solve(scaled(b)).transpose().to_owned()
+    let scaled = Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * scale[j]);
+    let right = Mat::from_fn(b.ncols(), b.nrows(), |i, j| b[(j, i)] * scale[i]);
+    scaled.partial_piv_lu().solve_transpose(right).transpose().to_owned()
 }
 
 /// |A|, entry by entry.

@@ -13,10 +13,10 @@
 use std::ops::Range;
 
 use faer::{Mat, MatRef};
-use supel_runtime::Symmetry;
+use supel_runtime::{MatrixKind, Symmetry};
 
 use crate::basis::Basis;
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::partition::{CarriedMatrix, Partition};
 use crate::rigid::RigidBodyModes;
 use crate::sparse::{SparseMatrix, absolute_energy, panels, product};
@@ -78,8 +78,8 @@ impl Reduction {
             rayon::join(|| project(&partition.stiffness, basis), || project(&partition.mass, basis));
         let n_b = partition.n_interface();
         // K̂Û = 0 with a regular Û: the component is rigid as far as its coordinates go, and what was projected is rounding.
-        let is_rigid = rigid.count() == basis.n_reduced();
-        let rounding = is_rigid.then(|| clear_all(&mut stiffness, partition, basis));
+        let deforms = if rigid.count() == basis.n_reduced() { Deforms::Nowhere } else { Deforms::Somewhere };
+        let rounding = (deforms == Deforms::Nowhere).then(|| clear_all(&mut stiffness, partition, basis));
         let mut measured = Projection {
             stiffness_asymmetry: dense::symmetrise(&mut stiffness),
             mass_asymmetry: dense::symmetrise(&mut mass),
@@ -110,7 +110,7 @@ impl Reduction {
             rigid_body_mass: rigid.rigid_body_mass(&partition.mass),
             gravity,
             loads: transpose_apply(basis, partition.loads.vectors.as_ref()),
-            matrices: partition.matrices.iter().map(|further| project_further(further, basis)).collect(),
+            matrices: partition.matrices.iter().map(|further| project_further(further, basis, deforms)).collect(),
             cleared,
             measured,
         }
@@ -161,8 +161,11 @@ fn project(matrix: &SparseMatrix, basis: &Basis) -> Mat<f64> {
 }
 
 /// ΨᵀAΨ of a further matrix. What rounding leaves of its symmetry goes; a matrix that has none is left as it is.
-fn project_further(further: &CarriedMatrix, basis: &Basis) -> Mat<f64> {
+fn project_further(further: &CarriedMatrix, basis: &Basis, deforms: Deforms) -> Mat<f64> {
     let mut projected = project(&further.matrix, basis);
+    if deforms == Deforms::Nowhere && further.facts.kind == MatrixKind::Damping {
+        clear_rounding(&mut projected, further, panel_of(basis, 0..basis.n_reduced()).as_ref());
+    }
     match further.facts.symmetry {
         Some(Symmetry::Symmetric) => {
             dense::symmetrise(&mut projected);
@@ -174,6 +177,24 @@ fn project_further(further: &CarriedMatrix, basis: &Basis) -> Mat<f64> {
         None => {}
     }
     projected
+}
+
+/// Sets damping of columns that are all rigid-body motions, n' × r, to zero, entry by entry, where it is the rounding of its terms.
+pub(crate) fn clear_rounding(projected: &mut Mat<f64>, further: &CarriedMatrix, columns: MatRef<'_, f64>) {
+    let [terms, _] = further.sizes_of_forces(columns);
+    let terms = dense::gram(dense::absolute(columns).as_ref(), terms.as_ref());
+    let rounding = NOISE_FACTOR * further.facts.rounding.max(f64::EPSILON);
+    let is_rounding = |i: usize, j: usize, value: f64| value.abs() <= rounding * terms[(i, j)];
+    let kept = |i: usize, j: usize| if is_rounding(i, j, projected[(i, j)]) { 0.0 } else { projected[(i, j)] };
+    *projected = Mat::from_fn(projected.nrows(), projected.ncols(), kept);
+}
+
+/// Where a reduced component deforms.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Deforms {
+    Somewhere,
+    /// All its motions are those of rigid bodies.
+    Nowhere,
 }
 
 /// Some columns of Ψ, n' × k.

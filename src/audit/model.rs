@@ -98,7 +98,7 @@ impl<'a> Reference<'a> {
                 with_interior(job, partition, (asked, Motions { carried: &given, relieved, source }), first)?
             }
         };
-        let projected = Projected::new(partition, columns, unit);
+        let projected = Projected::new(partition, columns, (unit, zero.count()));
         let noise = energy_noise((partition, &given), asked.known(), first);
         Ok(Self { job, facts, partition, motions, asked: asked.without_shapes(), projected, first, noise })
     }

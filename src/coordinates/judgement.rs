@@ -25,6 +25,9 @@ const EVEN: f64 = 100.0;
 /// Displacement out of place, in units of the size of a held body, that coordinates of five digits leave. Of a free body zero modes mend
 /// what patches are tied by; of a held one nothing does, and in a thin part little displacement is much stiffness.
 const FIVE_DIGITS: f64 = 2e-5;
+/// That of coordinates of three digits, which is as much as belongs to any model of the same nodes: a map of other nodes or axes moves
+/// them by a hundredth or more.
+const THREE_DIGITS: f64 = 2e-3;
 
 /// What is known of all bodies once there is a doubt.
 struct Case<'a> {
@@ -33,7 +36,7 @@ struct Case<'a> {
     free: Vec<Free>,
     /// Motions without energy that the coordinates explain, and rows that move by themselves.
     n_explained: usize,
-    /// Labels of the nodes that rigid patches tie by their coordinates.
+    /// Labels of the nodes that patches tie by their coordinates.
     tied: &'a HashSet<i64>,
 }
 
@@ -111,7 +114,7 @@ impl Case<'_> {
         let is_rounded = !cost.energy.is_nan() && cost.energy <= expected;
         let is_held = worst.costly.iter().all(|costly| !costly.is_free);
         if is_rounded && is_held {
-            self.refuse_patches_out_of_place(worst, &rotations)?;
+            self.refuse_out_of_place(worst, &rotations)?;
         }
         if is_rounded && zeros.count() >= self.n_of_right_coordinates() {
             // Of a body whose rows are nearly all touched the others say little, and the number of motions all.
@@ -132,21 +135,28 @@ impl Case<'_> {
         Err(self.misfit(zeros, &rotations, Cost { expected, ..cost }, at))
     }
 
-    /// Of a held body nothing mends the coordinates that tie nodes to a rigid patch; those of other nodes the result does not depend on.
-    fn refuse_patches_out_of_place(&self, doubt: &Doubt, rotations: &[usize]) -> Result<()> {
+    /// Of a held body nothing mends the coordinates that tie nodes to a patch, and of other nodes no rounding moves so many so far.
+    fn refuse_out_of_place(&self, doubt: &Doubt, rotations: &[usize]) -> Result<()> {
         let motions = self.motions;
-        let dof = |row: usize| motions.model.dofs.as_ref().and_then(|dofs| dofs[row]);
-        let is_tied = |row: &usize| dof(*row).is_some_and(|dof| self.tied.contains(&dof.node));
-        let tied: Vec<usize> = doubt.costly[0].witnesses.iter().copied().filter(is_tied).collect();
-        let Place { at: dof, largest: energy, .. } = Place::of(motions, &tied, rotations);
-        if energy <= FIVE_DIGITS {
-            return Ok(());
+        let dof = |row: &usize| motions.model.dofs.as_ref().and_then(|dofs| dofs[*row]);
+        let is_tied = |row: &usize| dof(row).is_some_and(|dof| self.tied.contains(&dof.node));
+        let witnesses = &doubt.costly[0].witnesses;
+        let tied: Vec<usize> = witnesses.iter().copied().filter(is_tied).collect();
+        let n_tied = motions.bodies[doubt.body].rows.iter().filter(|row| is_tied(row)).count();
+        // Rounding is of one size everywhere: of a patch next to supports the other witnesses tell.
+        let of_patches = if tied.len() < n_tied { witnesses } else { &tied };
+        let of_patches = Some((of_patches, FIVE_DIGITS)).filter(|_| n_tied > 0);
+        for (rows, expected) in of_patches.into_iter().chain([(witnesses, THREE_DIGITS)]) {
+            let Place { at: dof, largest: energy, .. } = Place::of(motions, rows, rotations);
+            if energy > expected {
+                let found = format!(
+                    "nodes of the held component are out of place by up to {} of its size, the worst at {dof}",
+                    quantity(energy, 2)
+                );
+                return Err(Error::CoordinatesDoNotFit { found, energy, expected, dof });
+            }
         }
-        let found = format!(
-            "nodes of rigid patches are out of place by up to {} of the size of the component, the worst at {dof}",
-            quantity(energy, 2)
-        );
-        Err(Error::CoordinatesDoNotFit { found, energy, expected: FIVE_DIGITS, dof })
+        Ok(())
     }
 
     /// Motions without energy there would be if the coordinates were right but for rounding: what is free by them, and the

@@ -10,12 +10,14 @@
 //! Nothing larger outlives this stage.
 
 use faer::{Mat, MatRef};
+use supel_runtime::MatrixKind;
 
 use super::bilinear::{Bilinear, Known};
 use super::columns::{Columns, Named};
 use super::dependence::Dependence;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::partition::Partition;
+use crate::reduction::clear_rounding;
 use crate::sparse::energies_of_terms;
 use crate::sparse::{SparseMatrix, panels, product, product_and_terms};
 
@@ -70,8 +72,13 @@ pub(super) struct Projected {
 }
 
 impl Projected {
-    /// Projects the matrices; `unit` are the unit motions, translations first, where the directions are known.
-    pub(super) fn new(partition: &Partition, columns: Columns, unit: Option<MatRef<'_, f64>>) -> Self {
+    /// Projects the matrices; `unit` are the unit motions, translations first, where the directions are known, and `n_zero` is how many
+    /// motions are free.
+    pub(super) fn new(
+        partition: &Partition,
+        columns: Columns,
+        (unit, n_zero): (Option<MatRef<'_, f64>>, usize),
+    ) -> Self {
         let (shapes, n_probes) = (columns.shapes.as_ref(), columns.n_probes());
         let stiffness = form(&partition.stiffness, shapes, &columns.energy_errors);
         let mass = form(&partition.mass, shapes, &columns.inertia_errors);
@@ -95,7 +102,12 @@ impl Projected {
         let lengths: Vec<f64> = (0..shapes.ncols()).map(|j| mass.matrix[(j, j)].max(0.0).sqrt()).collect();
         let known = Known { lengths: &lengths, errors: &mass.errors, diagonal: &diagonal };
         let further = partition.matrices.iter();
-        let matrices = further.map(|carried| Bilinear::of(&carried.matrix, shapes, known)).collect();
+        let mut matrices: Vec<Bilinear> = further.map(|carried| Bilinear::of(&carried.matrix, shapes, known)).collect();
+        for (carried, form) in partition.matrices.iter().zip(&mut matrices) {
+            if shapes.ncols() == n_zero && carried.facts.kind == MatrixKind::Damping {
+                clear_rounding(&mut form.matrix, carried, shapes);
+            }
+        }
         let recovery = (!partition.recovered.rows.is_empty()).then(|| recovered(partition, &columns, &mass));
         let is_modal = columns.probes.ncols() == 0;
         let motions =
