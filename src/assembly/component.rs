@@ -96,11 +96,13 @@ pub(super) fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// The largest eigenvalue that rounding made of a rigid-body motion, whose energy should be nothing.
+/// The largest eigenvalue that rounding made of rigid-body motion, whose energy should be nothing, in any combination of the motions.
 fn rounding_of(stiffness: MatRef<'_, f64>, mass: MatRef<'_, f64>, rigid: MatRef<'_, f64>) -> Result<f64> {
     let motions = dense::orthonormal(rigid, mass)?;
-    let energies = dense::dots(motions.as_ref(), dense::product(stiffness, motions.as_ref()).as_ref());
-    Ok(energies.into_iter().fold(0.0, |most, energy| most.max(energy.abs())))
+    let mut energies = dense::gram(motions.as_ref(), dense::product(stiffness, motions.as_ref()).as_ref());
+    dense::symmetrise(&mut energies);
+    let (values, _) = dense::symmetric_eigen(energies.as_ref())?;
+    Ok(values.into_iter().fold(0.0, |most, value| most.max(value.abs())))
 }
 
 /// How far the first eigenvalue of a mode may be off by its error bar; zero without modes, and the eigenvalue itself where no bar is known.

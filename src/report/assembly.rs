@@ -135,12 +135,15 @@ impl ModesReport<'_> {
                     .to_owned(),
             );
         }
-        if modes.modes.iter().any(|mode| mode.kind == Kind::WithoutEnergy) {
-            notes.push(
-                "a motion that strains a component has no energy beyond rounding: its frequency is given as 0"
-                    .to_owned(),
-            );
-        }
+        let without_energy = modes.modes.iter().filter(|mode| mode.kind == Kind::WithoutEnergy);
+        let unknown_to = without_energy.map(|mode| mode.rounding_hz).reduce(f64::max);
+        notes.extend(unknown_to.map(|hertz| {
+            format!(
+                "a motion that strains a component has no energy beyond rounding, which leaves {} Hz open: its frequency is given \
+                 as 0",
+                number::quantity(hertz, 2)
+            )
+        }));
         notes
     }
 

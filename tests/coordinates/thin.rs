@@ -3,7 +3,7 @@
 use supel::error::Error;
 use supel::model::{CoordinateFit, Model as Checked};
 use supel_models::transform::supported;
-use supel_models::{Inertia, Material, Model, Section, brick, frame};
+use supel_models::{Inertia, Material, Model, Section, SplitMix64, brick, frame};
 
 use crate::Ties;
 use crate::chain::input;
@@ -112,4 +112,28 @@ fn coordinates_of_another_state_of_a_thin_held_part() {
     let five_digits =
         with_nodes(&held, |place| place.map(|x| format!("{:.4e}", x + 0.1234567).parse().expect("a number")));
     assert!(fit(&five_digits, Ties::All).is_ok());
+}
+
+/// Held at some nodes anywhere, its supports are far stiffer than what other axes or another state cost: that is no rounding, whatever
+/// ties the nodes.
+#[test]
+fn other_axes_of_a_held_component_are_no_rounding() {
+    for (cells, size) in [([3, 2, 2], [1.0, 0.6, 0.45]), ([4, 3, 1], [1.0, 0.7, 0.2]), ([3, 3, 3], [1.0, 0.9, 0.8])] {
+        let whole = brick(cells, size, &Material::STEEL_SI);
+        let n = whole.nodes.len() as u64;
+        for seed in 0..20 {
+            let mut random = SplitMix64::new(seed);
+            let at_rest: Vec<i64> = (0..3 + seed % 3).map(|_| 1 + random.below(n) as i64).collect();
+            let held = supported(&whole, |(label, _)| at_rest.contains(&label));
+            for faulty in [
+                with_nodes(&held, |[x, y, z]| [y, x, z]),
+                with_nodes(&held, |[x, y, z]| [x, z, y]),
+                with_nodes(&held, |[x, y, z]| [x, y + 0.13 * z, z - 0.13 * y]),
+                with_nodes(&held, |[x, y, z]| [x, y, z + 0.1 * (3.0 * x).sin() * y]),
+            ] {
+                let found = fit(&faulty, Ties::None);
+                assert!(!matches!(found, Ok(CoordinateFit::Rounded(_))), "seed {seed}, {at_rest:?}: {found:?}");
+            }
+        }
+    }
 }

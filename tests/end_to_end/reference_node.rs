@@ -22,10 +22,10 @@ fn with_rigid_element(to: &[i64]) -> Model {
     for label in to {
         let [x, y, z]: [f64; 3] = std::array::from_fn(|axis| at(*label)[axis] - centre[axis]);
         let turned = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]];
-        for axis in 0..3 {
+        for (axis, of_axis) in turned.iter().enumerate() {
             let row = model.dofs.iter().position(|dof| *dof == (*label, axis as u8)).expect("a dof") as u32;
             let mut factors = vec![(row, 1.0), (first + axis as u32, -1.0)];
-            factors.extend((0..3).map(|about| (first + 3 + about as u32, -turned[axis][about])));
+            factors.extend((0..3).map(|about| (first + 3 + about as u32, -of_axis[about])));
             for (i, a) in &factors {
                 factors.iter().filter(|(_, b)| a * b != 0.0).for_each(|(j, b)| stiffness.add(*i, *j, 1e13 * a * b));
             }

@@ -229,3 +229,23 @@ fn one_node_holds_a_frame_that_is_damped() {
         }
     }
 }
+
+/// Damping of the stiffness, of a frame that one node holds: nothing deforms, and what is projected is the rounding of its terms.
+#[test]
+fn damping_of_a_frame_that_one_node_holds() {
+    let nodes: Vec<[f64; 3]> =
+        (0..8).map(|k| [0.2 * f64::from(k), 0.07 * f64::from(k % 3), 0.03 * f64::from(k)]).collect();
+    let edges: Vec<[usize; 2]> = (1..8).map(|node| [node - 1, node]).collect();
+    let model = frame(&nodes, &edges, &Section::round(0.01), &Material::STEEL_SI, Inertia::Consistent);
+    for digits in [17, 9, 6] {
+        let case = Case::new(model.clone());
+        let printed = |value: f64| format!("{:.*e}", digits - 1, 1e-5 * value).parse().expect("a number");
+        let entries = model.stiffness.iter().map(|(i, j, value)| (*i, *j, printed(*value))).collect();
+        case.matrix("C.mtx", "symmetric", &entries);
+        let more = "[[matrix]]\nname = \"c\"\nkind = \"damping\"\nfile = \"C.mtx\"\n";
+        let file = case.reduced(r#"{ name = "a", nodes = [3] }"#, r#"method = "guyan""#, more);
+        assert_eq!(unpacked(file.tensors().damping.as_ref().expect("damping")).norm_max(), 0.0, "{digits} digits");
+        case.verify(&[]).expect(ExitCode::Done);
+        case.verify_with_job().expect(ExitCode::Done);
+    }
+}

@@ -9,14 +9,18 @@ use supel::job::Job;
 
 use super::schema;
 
-/// Jobs that together have every key. No number that the changes put in crosses another one: corners of a box stay in order.
-fn jobs() -> Vec<Value> {
-    let regions = [
+/// Every kind of region.
+fn regions() -> [Value; 4] {
+    [
         json!({ "box": { "min": [-9.5, -9.5, -9.5], "max": [9.5, 9.5, 9.5] } }),
         json!({ "plane": { "point": [0.25, 1.25, 2.25], "normal": [0.5, 0.5, 0.5], "tolerance": 0.25 } }),
         json!({ "cylinder": { "from": [0.25, 0.5, 0.75], "to": [3.25, 4.25, 5.25], "radius": 9.5, "inner_radius": 0.25 } }),
         json!({ "sphere": { "center": [0.25, 1.25, 2.25], "radius": 0.25 } }),
-    ];
+    ]
+}
+
+/// Jobs that together have every key. No number that the changes put in crosses another one: corners of a box stay in order.
+fn jobs() -> Vec<Value> {
     let job = |interfaces: Value, modes: Value, recovered: Value| {
         json!({
             "model": {
@@ -67,7 +71,7 @@ fn jobs() -> Vec<Value> {
     jobs[1]["damping"]["modal"] = json!({ "table": [[10.5, 0.25]] });
     jobs[3]["reduction"] = json!({ "method": "mixed-interface", "modes": { "count": 5 }, "held": ["hub", "hub.rx"] });
     jobs.push(of_file);
-    jobs.extend(regions.map(|region| {
+    jobs.extend(regions().map(|region| {
         let hub = json!([{ "name": "hub", "nodes": { "within": region }, "coupling": "rigid", "origin": [0.25, 1.25, 2.25] }]);
         job(hub, json!({ "count": 5 }), json!({ "within": { "sphere": { "center": [0.25, 1.25, 2.25], "radius": 0.25 } } }))
     }));

@@ -214,3 +214,22 @@ fn two_loads_that_are_nearly_one() {
         }
     }
 }
+
+/// Rigid-body motion of a free body costs what its digits leave, and nothing in its file.
+#[test]
+fn free_bodies_of_few_digits_without_interface() {
+    let model = supel_models::brick([3, 2, 2], [0.3, 0.2, 0.2], &Material::STEEL_SI);
+    for digits in [7, 9, 12] {
+        let printed = |entries: &[(u32, u32, f64)]| {
+            entries
+                .iter()
+                .map(|(i, j, a)| (*i, *j, format!("{a:.*e}", digits - 1).parse().expect("a number")))
+                .collect()
+        };
+        let model = Model { stiffness: printed(&model.stiffness), mass: printed(&model.mass), ..model.clone() };
+        for method in ["herting", "craig-bampton"] {
+            let job = plain("", &format!(r#"method = "{method}", modes = {{ count = 4 }}"#));
+            reduces_and_passes(&model, &job, &format!("{digits} digits, {method}"));
+        }
+    }
+}
