@@ -206,17 +206,13 @@ pub fn least_squares(a: MatRef<'_, f64>, f: MatRef<'_, f64>) -> Mat<f64> {
 
 /// A⁻¹ of a small regular matrix.
 pub fn inverse(a: MatRef<'_, f64>) -> Mat<f64> {
-    divided(Mat::<f64>::identity(a.nrows(), a.nrows()).as_ref(), a)
+    a.partial_piv_lu().solve(Mat::<f64>::identity(a.nrows(), a.nrows()))
 }
 
-/// B A⁻¹ of a small regular matrix A, its columns brought to one size first: pivots are then chosen by what is left of a column, whatever
-/// the sizes of the others. Of a triangle they are its diagonal, and every entry is as exact as its terms.
+/// B A⁻¹ of a small regular matrix A by the pivots of A: of an upper triangle they are its diagonal, and columns of any sizes keep their
+/// digits.
 pub fn divided(b: MatRef<'_, f64>, a: MatRef<'_, f64>) -> Mat<f64> {
-    let largest = |j: usize| column(a, j).iter().fold(0.0f64, |max, value| max.max(value.abs()));
-    let scale: Vec<f64> = (0..a.ncols()).map(|j| power_of_two_root(largest(j).powi(2))).collect();
-    let scaled = Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * scale[j]);
-    let right = Mat::from_fn(b.ncols(), b.nrows(), |i, j| b[(j, i)] * scale[i]);
-    scaled.partial_piv_lu().solve_transpose(right).transpose().to_owned()
+    a.partial_piv_lu().solve_transpose(b.transpose().to_owned()).transpose().to_owned()
 }
 
 /// |A|, entry by entry.

@@ -11,7 +11,7 @@
 use faer::{Mat, MatRef};
 
 use crate::dense::{self, NOISE_FACTOR};
-use crate::eigen::{eigenpairs, lowest_ratio_of};
+use crate::eigen::{lowest_eigenpairs, lowest_ratio_of};
 use crate::error::Result;
 
 /// β over α: far enough from the elastic eigenvalues for what rounding leaves of the mass of R to stay below that of the others.
@@ -60,11 +60,11 @@ impl Pencil {
             let beta = RIGID_STIFFNESS * alpha;
             let stiffness =
                 Mat::from_fn(n, n, |i, j| self.stiffness[(i, j)] + 0.5 * beta * (lifted[(i, j)] + lifted[(j, i)]));
-            let pairs = eigenpairs(stiffness.as_ref(), mass.as_ref(), alpha)?;
-            if pairs.values.is_empty() && n > n_r && mass.norm_max() > 0.0 {
+            let (values, shapes) = lowest_eigenpairs(stiffness.as_ref(), mass.as_ref(), alpha, n)?;
+            if values.is_empty() && n > n_r && mass.norm_max() > 0.0 {
                 break;
             }
-            let spectrum = self.quotients(pairs.vectors, &momenta);
+            let spectrum = self.quotients(shapes, &momenta);
             let first = spectrum.first_elastic();
             best = Some(spectrum);
             match first {

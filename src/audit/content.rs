@@ -5,8 +5,7 @@ use supel_runtime::{Coordinate, Superelement};
 
 use super::version::kept_job;
 use crate::dense::{self, NOISE_FACTOR, unpacked};
-use crate::eigen::eigenvalue_beyond;
-use crate::eigen::elastic_scale;
+use crate::eigen::{eigenvalue_beyond, elastic_scale};
 use crate::error::Result;
 use crate::job::{Boundary, Job};
 use crate::rigid::n_passing;

@@ -8,7 +8,7 @@ use super::flaw::flaw;
 use super::spectrum::Spectrum;
 use crate::dense;
 use crate::dofs::Direction;
-use crate::eigen::{Equilibrated, zero};
+use crate::eigen::{Equilibrated, lowest_eigenpairs, zero};
 use crate::error::Result;
 use crate::model::Site;
 use crate::verification::check::{Check, Limits};
@@ -140,9 +140,9 @@ pub(super) fn zero_modes(content: &Content<'_>) -> Result<Check> {
             Err(_) => is_independent = false,
         }
     }
-    let found = crate::eigen::eigenpairs(lifted.as_ref(), content.m.as_ref(), content.first)?;
-    let is_zero = |j: &usize| found.values[*j] <= zero_level(content, dense::column(found.vectors.as_ref(), *j));
-    let n_more = (0..found.values.len()).filter(is_zero).count();
+    let (values, shapes) = lowest_eigenpairs(lifted.as_ref(), content.m.as_ref(), content.first, content.n_reduced())?;
+    let is_zero = |j: &usize| values[*j] <= zero_level(content, dense::column(shapes.as_ref(), *j));
+    let n_more = (0..values.len()).filter(is_zero).count();
     let text = format!("{} zero modes, {n_r} rigid-body modes", n_r + n_more);
     Ok(Check {
         id: "M-12",

@@ -4,8 +4,7 @@ use faer::{Mat, MatRef};
 
 use super::content::Content;
 use crate::dense;
-use crate::eigen::eigenvalues;
-use crate::eigen::sharpen;
+use crate::eigen::{eigenvalues, sharpen};
 use crate::error::Result;
 use crate::job::Boundary;
 use crate::verification::check::{Check, Limits};

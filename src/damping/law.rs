@@ -10,7 +10,7 @@ use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef};
 
 use crate::dense;
-use crate::eigen::{eigenpairs, eigenvalue_beyond, elastic_scale};
+use crate::eigen::{eigenvalue_beyond, elastic_scale, lowest_eigenpairs};
 use crate::error::{Error, Result};
 use crate::job::{ComponentDampingJob, MassActsOn, ModalDampingJob};
 
@@ -93,13 +93,13 @@ fn elastic_modes(reduced: Reduced<'_>) -> Result<(Vec<f64>, Mat<f64>)> {
     }
     let Some(near) = elastic_scale((k, m, motions))? else { return none() };
     // Near the first elastic eigenvalue rounding is relative to the low ones.
-    let pairs = eigenpairs(k, m, eigenvalue_beyond(n_r, (k, m), near)?)?;
-    if pairs.values.is_empty() {
+    let (values, shapes) = lowest_eigenpairs(k, m, eigenvalue_beyond(n_r, (k, m), near)?, r)?;
+    if values.is_empty() {
         return Err(Error::DenseEigen { n: r });
     }
-    let elastic: Vec<usize> = (n_r..pairs.values.len()).filter(|mode| pairs.values[*mode] > 0.0).collect();
-    let shapes = without_rigid_motion(reduced, dense::columns(pairs.vectors.as_ref(), &elastic));
-    Ok((elastic.iter().map(|mode| pairs.values[*mode]).collect(), shapes))
+    let elastic: Vec<usize> = (n_r..values.len()).filter(|mode| values[*mode] > 0.0).collect();
+    let shapes = without_rigid_motion(reduced, dense::columns(shapes.as_ref(), &elastic));
+    Ok((elastic.iter().map(|mode| values[*mode]).collect(), shapes))
 }
 
 /// P X: what rounding has left of rigid-body motion goes.

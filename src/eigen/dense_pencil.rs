@@ -5,25 +5,21 @@ use faer::{Mat, MatRef};
 use super::spectral::Spectral;
 use crate::error::Result;
 
-/// Eigenpairs of a dense pencil: as many values as M has rank.
-pub(crate) struct DensePairs {
-    /// λ ascending; empty where K + αM is not definite.
-    pub(crate) values: Vec<f64>,
-    /// M-orthonormal, r × number of values.
-    pub(crate) vectors: Mat<f64>,
-}
-
-/// Eigenpairs of K x = λ M x by the definite matrix K + αM, as [`Spectral`] finds them. With α near the first elastic eigenvalue
-/// rounding is relative to the low eigenvalues.
-pub(crate) fn eigenpairs(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Result<DensePairs> {
+/// Eigenvalues of K x = λ M x, ascending, and the first `n_shapes` M-orthonormal eigenvectors, by [`Spectral`]: with α near the first
+/// elastic eigenvalue rounding is relative to the low eigenvalues and not to the high ones. A pencil that is too far from definite has none.
+pub(crate) fn lowest_eigenpairs(
+    k: MatRef<'_, f64>,
+    m: MatRef<'_, f64>,
+    alpha: f64,
+    n_shapes: usize,
+) -> Result<(Vec<f64>, Mat<f64>)> {
     let spectral = Spectral::if_definite(k, m, alpha)?;
-    let (values, vectors) = spectral.map_or_else(|| (Vec::new(), Mat::zeros(k.nrows(), 0)), |s| s.lowest(usize::MAX));
-    Ok(DensePairs { values, vectors })
+    Ok(spectral.map_or((Vec::new(), Mat::zeros(k.nrows(), 0)), |spectral| spectral.lowest(n_shapes)))
 }
 
-/// The eigenvalues of [`eigenpairs`].
+/// The eigenvalues of [`lowest_eigenpairs`].
 pub(crate) fn eigenvalues(k: MatRef<'_, f64>, m: MatRef<'_, f64>, alpha: f64) -> Result<Vec<f64>> {
-    eigenpairs(k, m, alpha).map(|pairs| pairs.values)
+    lowest_eigenpairs(k, m, alpha, 0).map(|(values, _)| values)
 }
 
 /// The eigenvalue after the first `n`, where it is positive, else `near`, which lies near it.

@@ -29,7 +29,7 @@ mod spectral;
 pub(crate) mod zero;
 
 pub use cluster::REPEATED_WITHIN;
-pub(crate) use dense_pencil::{eigenpairs, eigenvalue_beyond, eigenvalues, lowest_ratio_of};
+pub(crate) use dense_pencil::{eigenvalue_beyond, eigenvalues, lowest_eigenpairs, lowest_ratio_of};
 pub(crate) use elastic::{CARRIES_NOTHING, judged, pairs_between, purified, settled_at};
 pub use elastic::{Eigensolver, ModeRequest, elastic_modes};
 pub(crate) use elastic_scale::elastic_scale;

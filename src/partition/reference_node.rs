@@ -15,7 +15,9 @@ const FEWEST: usize = 3;
 
 /// For each patch that a node of the model is joined to already: that it is there, and what to do with it.
 pub fn reference_nodes(model: &Model, interfaces: &[InterfaceJob]) -> Vec<String> {
-    let Some(dofs) = model.dofs.as_deref() else { return Vec::new() };
+    let Some(dofs) = model.dofs.as_deref().filter(|_| interfaces.iter().any(|job| job.coupling.is_patch())) else {
+        return Vec::new();
+    };
     let catalogue = NodeCatalogue::new(model);
     let of_patch = |job: &InterfaceJob| {
         let labels: BTreeSet<i64> = catalogue.select(model, &job.selection()).ok()?.into_iter().collect();

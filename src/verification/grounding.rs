@@ -5,9 +5,9 @@ use faer::MatRef;
 use super::directions::Directions;
 use super::evidence::Evidence;
 use super::limits::NEARLY_FREE;
-use super::spectrum::{Spectrum, lowest_eigenpairs};
+use super::spectrum::Spectrum;
 use crate::dense::{self, NOISE_FACTOR};
-use crate::eigen::Equilibrated;
+use crate::eigen::{Equilibrated, eigenvalues};
 use crate::error::Result;
 use crate::sparse::{product, product_and_terms};
 
@@ -122,7 +122,7 @@ fn ritz_values(
     let mut masses = dense::gram(motions, product(&evidence.partition.mass, motions).as_ref());
     dense::symmetrise(&mut energies);
     dense::symmetrise(&mut masses);
-    let values = lowest_eigenpairs(energies.as_ref(), masses.as_ref(), first, 0)?.0;
+    let values = eigenvalues(energies.as_ref(), masses.as_ref(), first)?;
     // Without a definite pencil nothing is known of the motions. Zero stands for that: it is never above an eigenvalue.
     Ok(if values.is_empty() { vec![0.0] } else { values })
 }

@@ -6,9 +6,7 @@ use super::check::Limits;
 use super::evidence::{Evidence, coordinate_scales, data_noise};
 use super::limits::{GROUNDED, n_nearly_free};
 use crate::dense;
-use crate::eigen::elastic_scale;
-use crate::eigen::{Spectral, scaled_by, sharpen};
-use crate::eigen::{rayleigh_quotients, zero};
+use crate::eigen::{Spectral, eigenvalues, elastic_scale, rayleigh_quotients, scaled_by, sharpen, zero};
 use crate::error::Result;
 use crate::job::Boundary;
 use crate::rigid::zero_modes;
@@ -67,7 +65,7 @@ impl Spectrum {
                 let (moving, n_zero) = (evidence.moving(), evidence.n_zero());
                 let [k, m] = [k, m].map(|a| dense::part(a, &moving));
                 let inner = (k.as_ref(), m.as_ref());
-                let (mut held, _) = lowest_eigenpairs(inner.0, inner.1, lambda, 0)?;
+                let mut held = eigenvalues(inner.0, inner.1, lambda)?;
                 sharpen(&mut held, inner, lambda, n_zero + n_modes)?;
                 held.split_off(n_zero.min(held.len()))
             }
@@ -225,17 +223,4 @@ fn largest_component(vectors: MatRef<'_, f64>) -> usize {
 fn equilibrated(a: MatRef<'_, f64>, by: MatRef<'_, f64>) -> Mat<f64> {
     let scales: Vec<f64> = (0..by.nrows()).map(|i| dense::power_of_two_root(by[(i, i)])).collect();
     scaled_by(a, &scales)
-}
-
-/// Eigenvalues of K x = λ M x, ascending, and the first `n_shapes` M-orthonormal eigenvectors; accurate at the low end:
-/// θ = 1/(λ + α) of (M, K + αM) with α at the first elastic eigenvalue, so that rounding is relative to the low
-/// eigenvalues and not to the high ones. A pencil that is too far from definite has none.
-pub(super) fn lowest_eigenpairs(
-    k: MatRef<'_, f64>,
-    m: MatRef<'_, f64>,
-    alpha: f64,
-    n_shapes: usize,
-) -> Result<(Vec<f64>, Mat<f64>)> {
-    let spectral = Spectral::if_definite(k, m, alpha)?;
-    Ok(spectral.map_or((Vec::new(), Mat::zeros(k.nrows(), 0)), |spectral| spectral.lowest(n_shapes)))
 }

@@ -10,5 +10,6 @@ pub mod cases;
 pub mod chain;
 pub mod corpus;
 pub mod evidence;
+pub mod pencil;
 pub mod place;
 pub mod sample;

@@ -4,6 +4,7 @@ use std::io::Write;
 
 use supel::cli::ExitCode;
 use supel_models::Model;
+use supel_testing::pencil::unpacked;
 use supel_testing::place::{Place, steel_brick, supel};
 
 use crate::{Case, TIP, array};
@@ -137,8 +138,8 @@ fn modes_have_a_value_for_dropped_rows_too() {
     let flags = format!("--drop-empty --interface tip=rows:{rows} --method mode-acceleration --modes-from {modes}");
     place.reduce(&place.matrix_flags(), &flags).expect(ExitCode::Done);
     let found = place.superelement("x.supel");
-    for [found, expected] in [[&found.tensors().mass, &expected.tensors().mass].map(crate::unpacked), {
-        [&found.tensors().stiffness, &expected.tensors().stiffness].map(crate::unpacked)
+    for [found, expected] in [[&found.tensors().mass, &expected.tensors().mass].map(unpacked), {
+        [&found.tensors().stiffness, &expected.tensors().stiffness].map(unpacked)
     }] {
         // Rigid-body modes come from the matrices here, which changes the correction of Ψ_S by its rounding.
         let size = expected.norm_max();

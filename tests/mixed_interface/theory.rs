@@ -6,9 +6,10 @@ use serde_json::Value;
 use supel::cli::ExitCode;
 use supel_models::Model;
 use supel_runtime::{Coordinate, Method, Superelement};
+use supel_testing::pencil::{difference, eigen, matrices, part, spectrum};
 use supel_testing::place::{Place, steel_brick, supel};
 
-use crate::{Case, difference, eigen, matrices, part, spectrum};
+use crate::Case;
 
 /// What two ways to one spectrum may differ by: θ = 1/(λ + α) is known to ε times the condition of the factor in unit diagonal, which is
 /// below 10⁵ here, a dozen times over.
