@@ -18,8 +18,8 @@ use supel_runtime::{FileError, MatrixKind};
 
 use code::catalogued;
 use words::{
-    At, BY_ROWS, FEW_DIGITS, OFF_THE_AXIS, Offered, ROWS_THAT_MOVE, SIX_DOFS, STATE_DIGITS, STATE_EXACT, Suggested,
-    at_line, column_words, forecast, groups, listed, multipliers, not_text, place, quoted,
+    At, BY_ROWS, FEW_DIGITS, OFF_THE_AXIS, Offered, ROWS_THAT_MOVE, SIX_DOFS, SOFTER_THAN_DIGITS, STATE_DIGITS,
+    STATE_EXACT, Suggested, at_line, column_words, forecast, groups, listed, multipliers, not_text, place, quoted,
 };
 
 use crate::number::{bytes, count, counted, quantity, typed};
@@ -2162,8 +2162,8 @@ pub enum Error {
         "check the magnitudes of the input for values near the ends of the range of a double"
     )]
     #[error(
-        "a dense eigenproblem of order {n} did not converge – its matrix holds values that are not finite – check the \
-        magnitudes of the input"
+        "a dense eigenproblem of order {n} has no answer – found values that are not finite, or energies below zero – expected finite \
+        matrices, positive where modes need it – check the magnitudes of the input"
     )]
     DenseEigen {
         /// Its order.
@@ -2436,8 +2436,9 @@ pub enum Error {
     #[error(
         "{n_floating} of the {} of the model float free of every interface – the first holds {dof} – \
         expected an interface node on each, or a support – add an interface node there, connect the body or leave it \
-        out",
-        counted(*n_bodies, "body", "bodies")
+        out{}",
+        counted(*n_bodies, "body", "bodies"),
+        if *is_free_by_digits { SOFTER_THAN_DIGITS } else { "" }
     )]
     FloatingBody {
         /// How many.
@@ -2446,6 +2447,8 @@ pub enum Error {
         n_bodies: usize,
         /// A dof of the first.
         dof: String,
+        /// Whether what holds the first may be lost in the rounding of few digits of K.
+        is_free_by_digits: bool,
     },
     /// The interface leaves a rigid-body motion free, as far as the digits of the stiffness tell.
     #[entry("E-INTERFACE-RANK", ModelPhysics, "add interface nodes off the axis named, or give them rotations")]

@@ -20,6 +20,9 @@ const RIGID_STIFFNESS: f64 = 1e6;
 const NEAR: f64 = 16.0;
 /// How often α is taken anew; each time it comes nearer by as many powers of ten as a double has digits.
 const MAX_SHIFTS: usize = 4;
+/// By how much α is raised where K + αM is not definite: few digits of a component leave energies below zero, which soft components
+/// next to it do not raise.
+const RAISED: f64 = 1e4;
 
 /// A pencil, its rigid-body motions and the rounding of its entries.
 #[derive(Clone, Debug)]
@@ -62,7 +65,11 @@ impl Pencil {
                 Mat::from_fn(n, n, |i, j| self.stiffness[(i, j)] + 0.5 * beta * (lifted[(i, j)] + lifted[(j, i)]));
             let (values, shapes) = lowest_eigenpairs(stiffness.as_ref(), mass.as_ref(), alpha, n)?;
             if values.is_empty() && n > n_r && mass.norm_max() > 0.0 {
-                break;
+                if best.is_some() {
+                    break;
+                }
+                alpha *= RAISED;
+                continue;
             }
             let spectrum = self.quotients(shapes, &momenta);
             let first = spectrum.first_elastic();

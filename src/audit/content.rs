@@ -247,7 +247,8 @@ pub(super) fn boundary(superelement: &Superelement) -> Boundary {
 /// The noise of energies relative to the first elastic one, by the bars that the file states. No file is written with a frequency that
 /// is unknown, and a bar that says so excuses nothing.
 fn by_own_bars(superelement: &Superelement, first: f64) -> f64 {
-    let known = superelement.metadata().coordinates.iter().filter_map(|coordinate| {
+    // Modes that the interface spans are no coordinates and have bars all the same.
+    let known = superelement.metadata().named_columns().filter_map(|coordinate| {
         let ((_, frequency_hz), bar) = (coordinate.mode()?, coordinate.error_bar_hz()?);
         // The bar of the square of a frequency is twice that of the frequency.
         let omega = frequency_hz * std::f64::consts::TAU;

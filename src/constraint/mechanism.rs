@@ -127,7 +127,7 @@ fn refuse_uncounted(
     let of_next = lambda.iter().zip(&errors).map(|(lambda, error)| error.zero_level / lambda);
     match others.chain(of_next).fold(0.0, f64::max) {
         worst if worst <= COUNTED_BELOW => Ok(()),
-        worst => Err(uncounted(partition, rigid.count() + found.mechanisms.len(), worst)),
+        worst => Err(uncounted(partition.precision.stiffness, rigid.count() + found.mechanisms.len(), worst)),
     }
 }
 

@@ -87,6 +87,7 @@ impl Case<'_> {
         if !is_unexplained {
             return Ok(CoordinateFit::Exact);
         }
+        zeros.refuse_uncounted()?;
         let costly: Vec<usize> = (0..6).filter(|motion| self.costs_energy(worst, *motion)).collect();
         let place = Place::of(motions, &motions.bodies[worst.body].rows, &costly);
         Err(self.misfit(zeros, &costly, cost, place.at))

@@ -9,7 +9,8 @@ use crate::error::{Error, Result};
 use crate::factor::count_below;
 use crate::model::Model;
 use crate::partition::{DofOrigin, Held, Partition};
-use crate::rigid::{ZeroModes, moving_directions, zero_modes};
+use crate::rigid::{COUNTED_BELOW, ZeroModes, moving_directions, uncounted, zero_modes};
+use crate::sparse::Rounding;
 
 /// A shift just above zero, in units of what rounding of the data can make of a zero eigenvalue: as many as an eigenvalue may
 /// be off by rounding of the factorisation before a sign is wrong.
@@ -58,12 +59,17 @@ pub(super) struct Zeros {
     pub(super) momenta: Mat<f64>,
     /// The first eigenvalues above zero, ascending.
     elastic: Vec<f64>,
+    /// Relative error bar that few digits of K leave of the first of them.
+    bar_of_digits: f64,
+    /// How well the entries of K are known.
+    rounding: Rounding,
 }
 
 impl Zeros {
     /// By inverse iteration on the whole pencil.
     pub(super) fn of(whole: &Partition) -> Result<Self> {
-        let ZeroModes { rigid: zero, elastic, .. } = zero_modes(whole)?;
+        let ZeroModes { rigid: zero, elastic, bar_of_digits, .. } = zero_modes(whole)?;
+        let rounding = whole.precision.stiffness;
         let by_row = |a: &Mat<f64>| {
             let mut rows = Mat::zeros(a.nrows(), a.ncols());
             for (dof, reduced) in whole.dofs.iter().enumerate() {
@@ -72,7 +78,13 @@ impl Zeros {
             }
             rows
         };
-        Ok(Self { shapes: by_row(&zero.orthonormal), momenta: by_row(&zero.mass_orthonormal), elastic })
+        Ok(Self {
+            shapes: by_row(&zero.orthonormal),
+            momenta: by_row(&zero.mass_orthonormal),
+            elastic,
+            bar_of_digits,
+            rounding,
+        })
     }
 
     /// The first eigenvalue that is elastic where some above zero are those of motions that springs hold.
@@ -82,6 +94,14 @@ impl Zeros {
 
     pub(super) fn count(&self) -> usize {
         self.shapes.ncols()
+    }
+
+    /// An error where few digits of K leave open which motions are without energy.
+    pub(super) fn refuse_uncounted(&self) -> Result<()> {
+        match self.bar_of_digits <= COUNTED_BELOW {
+            true => Ok(()),
+            false => Err(uncounted(self.rounding, self.count(), self.bar_of_digits)),
+        }
     }
 
     /// Combinations of the zero modes that are rigid-body motions, body by body, on the rows that no support touches.

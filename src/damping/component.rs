@@ -5,7 +5,7 @@ use supel_runtime::MatrixKind;
 
 use super::law::{Law, Reduced};
 use crate::dense;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::job::{Job, RigidMotionDamping};
 use crate::partition::Partition;
 use crate::reduction::{Reduction, UserUnits};
@@ -42,7 +42,15 @@ impl Damping {
             Reduced { stiffness: stiffness.as_ref(), mass: mass.as_ref(), motions: rigid_body_modes.as_ref() };
         let all = partition.matrices.iter().zip(&matrices);
         let damping = all.filter(|(carried, _)| carried.facts.kind == MatrixKind::Damping).map(|(_, matrix)| matrix);
-        Self::of(job, reduced, damping)
+        match Self::of(job, reduced, damping) {
+            Err(Error::DenseEigen { .. }) if partition.has_few_digits() => Err(Error::DigitsTooFew {
+                what:
+                    "the elastic modes of the reduced model, which damping acts on, from motions of energy below zero"
+                        .to_owned(),
+                known: partition.precision.stiffness.in_words(),
+            }),
+            damping => damping,
+        }
     }
 
     /// The damping that a job asks for, from its damping matrices ΨᵀCΨ in the user's units; none where it asks for none.

@@ -20,6 +20,10 @@ pub(super) const STATE_DIGITS: &str = "if its numbers have fewer digits than the
 pub(super) const FEW_DIGITS: &str =
     ", or say model.stiffness_digits = 17 in the job if the numbers of the stiffness are exact";
 
+/// Where few digits of K hide what is softer than their rounding.
+pub(super) const SOFTER_THAN_DIGITS: &str = "; what is softer than the rounding of few digits of the stiffness cannot be \
+    told from free: write it with more";
+
 /// What to do where a rigid-body motion about a known axis leaves the interface at rest.
 pub(super) const OFF_THE_AXIS: &str = "add interface nodes off that axis or give the nodes rotations";
 /// What to do where it is a motion of rows.

@@ -87,7 +87,9 @@ impl VerificationReport {
             }
         }
         page.line("");
-        for line in table::wrap(&conclusion(&self.audit.checks, 0, self.audit.verdict()), WIDTH) {
+        let shares = metadata.named_columns().map(|column| Some(column.error_bar_hz()? / column.mode()?.1));
+        let open = shares.flatten().fold(0.0, f64::max);
+        for line in table::wrap(&conclusion(&self.audit.checks, 0, self.audit.verdict(), open), WIDTH) {
             page.line(Page::toned(&line, Tone::Of(self.audit.verdict())));
         }
         page.into_text()

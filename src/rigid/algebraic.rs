@@ -9,6 +9,7 @@ use crate::eigen::{Shifted, mass_qr, shifted};
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, SolveOperator};
 use crate::partition::Partition;
+use crate::sparse::Rounding;
 use crate::sparse::energies_of_terms;
 use crate::sparse::{product, product_and_terms};
 
@@ -27,6 +28,8 @@ pub(crate) struct ZeroModes {
     pub(crate) rigid: RigidBodyModes,
     /// Eigenvalues above zero, ascending: the first ones, or none where there are none.
     pub(crate) elastic: Vec<f64>,
+    /// Relative error bar that few digits of K leave of the first of them; 0 where there are none or the digits are all there.
+    pub(crate) bar_of_digits: f64,
     /// Factorisations it took.
     pub(crate) n_factorisations: usize,
 }
@@ -39,7 +42,12 @@ pub(crate) fn zero_modes(partition: &Partition) -> Result<ZeroModes> {
     let analysis = Analysis::new(partition.pencil())?;
     let problem = partition.free_problem();
     let found = shifted(&analysis, problem, &|step| partition.name_of(step))?;
-    refuse_uncounted(partition, &found)?;
+    let bar_of_digits = bar_of_digits(partition, &found);
+    // A soft mode looks like a mechanism where rounding of few digits is larger than its energy: more zero modes than bodies can have are
+    // believed where that rounding is nothing compared with the first elastic mode.
+    if found.n_zero > 6 * partition.model.n_bodies && bar_of_digits > COUNTED_BELOW {
+        return Err(uncounted(partition.precision.stiffness, found.n_zero, bar_of_digits));
+    }
     let orthonormal = without_elastic_rounding(partition, &found);
     let (forces, terms) = product_and_terms(&partition.stiffness, orthonormal.as_ref());
     let magnitudes = energies_of_terms(orthonormal.as_ref(), terms.as_ref());
@@ -66,37 +74,32 @@ pub(crate) fn zero_modes(partition: &Partition) -> Result<ZeroModes> {
         energy,
         passing: None,
     };
-    Ok(ZeroModes { rigid, elastic, n_factorisations: found.n_factorisations })
+    Ok(ZeroModes { rigid, elastic, bar_of_digits, n_factorisations: found.n_factorisations })
 }
 
 /// Relative error bar of the first elastic eigenvalue up to which mechanisms below it are counted: what is lost in rounding is then
 /// slower than a hundredth of the first elastic mode, as what M-05 takes for a support is.
 pub(crate) const COUNTED_BELOW: f64 = 1e-4;
 
-/// A soft mode looks like a mechanism where rounding of few digits is larger than its energy: more zero modes than bodies can have are
-/// believed where that rounding is nothing compared with the first elastic mode.
-fn refuse_uncounted(partition: &Partition, found: &Shifted<'_>) -> Result<()> {
-    let n_of_bodies = 6 * partition.model.n_bodies;
-    if found.n_zero <= n_of_bodies || !partition.has_few_digits() {
-        return Ok(());
-    }
-    let bar = match (found.lowest.errors.get(found.n_zero), found.lowest.next) {
+/// What few digits leave of the first eigenvalue above the zero ones.
+fn bar_of_digits(partition: &Partition, found: &Shifted<'_>) -> f64 {
+    match (found.lowest.errors.get(found.n_zero), found.lowest.next) {
+        _ if !partition.has_few_digits() => 0.0,
         (Some(error), _) => error.data_bar,
         // Nothing was found that is not zero, and there is more.
         (None, Some(_)) => 1.0,
         (None, None) => 0.0,
-    };
-    if bar <= COUNTED_BELOW { Ok(()) } else { Err(uncounted(partition, found.n_zero, bar)) }
+    }
 }
 
 /// Motions seem to cost no energy, and the next one is known to a share of its eigenvalue only.
-pub(crate) fn uncounted(partition: &Partition, n_zero: usize, bar: f64) -> Error {
+pub(crate) fn uncounted(rounding: Rounding, n_zero: usize, bar: f64) -> Error {
     let known = 0.5 * bar;
     let what = format!(
         "how many motions cost no energy: {n_zero} seem to, and with the frequency of the next known to {known:.0e} of itself \
          elastic ones may be among them"
     );
-    Error::DigitsTooFew { what, known: partition.precision.stiffness.in_words() }
+    Error::DigitsTooFew { what, known: rounding.in_words() }
 }
 
 /// The zero modes after a step of inverse iteration, which takes what rounding of the eigensolver left of an elastic motion

@@ -98,6 +98,7 @@ fn refuse_floating_bodies(partition: &Partition, bodies: &[Body]) -> Result<()> 
             n_floating: floating.len(),
             n_bodies: bodies.len(),
             dof: partition.name_of(first.dofs[0]),
+            is_free_by_digits: partition.has_few_digits() && first.energy.largest_quotient > 0.0,
         }),
         None => Ok(()),
     }

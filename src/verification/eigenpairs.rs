@@ -209,6 +209,17 @@ pub(super) fn stiffness_orthogonality(evidence: &Evidence<'_>, pairs: &Pairs) ->
     }
 }
 
+/// What few digits of K leave of the backward error of a mode in the reduced model: what they leave of it in the full one, and what M-04
+/// has measured that they leave of x_iᵀKx_j, which the row of one mode in the residual of another is. Up to √k modes add to it.
+pub(super) fn left_by_digits(evidence: &Evidence<'_>, coupling: &Check) -> f64 {
+    if evidence.partition.precision.share() <= f64::EPSILON {
+        return 0.0;
+    }
+    let n_modes = evidence.retained.modes.count() as f64;
+    let of_pairs = n_modes.sqrt() * coupling.value.min(coupling.fail_above);
+    residual_limits(evidence).data.max(NOISE_FACTOR * of_pairs)
+}
+
 /// M-09.
 pub(super) fn data_precision(evidence: &Evidence<'_>) -> Check {
     // The bar of a frequency is half that of its square.

@@ -56,11 +56,13 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
         grounding: grounding::groundings(evidence, &spectrum)?,
         effective_mass: effective_mass?,
     };
+    let coupling = eigenpairs::stiffness_orthogonality(evidence, &pairs);
+    let of_digits = eigenpairs::left_by_digits(evidence, &coupling);
     let mut checks = vec![
         eigenpairs::backward_error(evidence, &pairs),
         eigenpairs::componentwise_error(evidence, &pairs),
         eigenpairs::orthogonality(evidence),
-        eigenpairs::stiffness_orthogonality(evidence, &pairs),
+        coupling,
         rigid_motion::energy(evidence, &spectrum, &rigid_body.grounding),
         rigid_motion::residual(evidence, &rigid_body.grounding),
     ];
@@ -75,7 +77,7 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     checks.push(rigid_motion::force(evidence, &spectrum)?);
     checks.push(rigid_motion::zero_modes(evidence, &spectrum));
     checks.push(reduced::block_coupling(evidence, &terms));
-    checks.push(reduced::pair_residual(evidence));
+    checks.push(reduced::pair_residual(evidence, of_digits));
     checks.push(reduced::frequency_difference(evidence, &spectrum));
     checks.push(mass::preserved(evidence));
     if evidence.rigid.is_classical {

@@ -89,8 +89,8 @@ pub(super) fn block_coupling(evidence: &Evidence<'_>, terms: &Terms) -> Check {
     }
 }
 
-/// M-14, equations (34) and (35): backward error of the retained pairs in the reduced pencil.
-pub(super) fn pair_residual(evidence: &Evidence<'_>) -> Check {
+/// M-14, equations (34) and (35): backward error of the retained pairs in the reduced pencil; `of_digits` is what few digits leave of it.
+pub(super) fn pair_residual(evidence: &Evidence<'_>, of_digits: f64) -> Check {
     let reduction = evidence.reduction;
     let modes = &evidence.retained.modes;
     let norms = reduced_norms(evidence);
@@ -119,7 +119,7 @@ pub(super) fn pair_residual(evidence: &Evidence<'_>) -> Check {
     let dependence =
         reduction.n_reduced() as f64 * f64::EPSILON / independence(evidence, Columns::BeforeResidualVectors).0;
     let arithmetic = zero.arithmetic.max(dependence).max(repeated_rounding(modes)).max(coupling_rounding(modes));
-    let limits = Limits { engineering: 1e-12, arithmetic, data: zero.data };
+    let limits = Limits { engineering: 1e-12, arithmetic, data: zero.data.max(of_digits) };
     Check {
         id: "M-14",
         name: "modes are eigenpairs of the reduced model",

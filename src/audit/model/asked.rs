@@ -50,7 +50,7 @@ pub(super) struct AskedModes {
     /// Why the modes were found again by the eigensolver of the job, where the other one failed.
     other_failed: Option<String>,
     /// What few digits leave of the backward error of a mode that is kept apart from motions which K does not quite let pass: half a
-    /// unit of the last digit in every entry.
+    /// unit of the last digit in every entry, ten times where rigid-body motions are taken out, which stands for the sum over them.
     of_digits: f64,
 }
 
@@ -104,7 +104,9 @@ impl AskedModes {
         }
         let shapes = full.partition.whole_under(boundary, found.modes.shapes);
         let modes = Modes { shapes, ..found.modes };
-        Ok(Self { boundary, n_zero: passing.map_or(0, RigidBodyModes::count), modes, ..found })
+        let n_zero = passing.map_or(0, RigidBodyModes::count);
+        let of_digits = if n_zero > 0 { 10.0 * found.of_digits } else { found.of_digits };
+        Ok(Self { boundary, n_zero, modes, of_digits, ..found })
     }
 
     /// Modes with the interface held; none where there is no interior.

@@ -66,7 +66,8 @@ fn facts(page: &mut Page, run: &RunFacts) {
 fn verdict(page: &mut Page, report: &Report) {
     let body = &report.body;
     let verdict = body.verdict();
-    let text = conclusion(&body.checks, body.warnings.len(), verdict);
+    let known = body.reduction.modes.iter().map(|mode| mode.error_bar_hz / mode.frequency_hz);
+    let text = conclusion(&body.checks, body.warnings.len(), verdict, known.fold(0.0, f64::max));
     let text = if report.run.superelement.is_none() { text + " – no superelement was written" } else { text };
     for line in table::wrap(&text, WIDTH) {
         page.line(Page::toned(&line, Tone::Of(verdict)));
