@@ -2476,11 +2476,19 @@ pub enum Error {
         body – ask for modes or add an interface"
     )]
     NothingLeft,
+    /// The mass of MacNeal's method has neither a mode nor a rigid-body motion to see.
+    #[entry("E-MODAL-MASS", InputData, "ask for modes, or reduce with guyan")]
+    #[error(
+        "no modes are kept and nothing of the component moves as a rigid body, so that macneal leaves no mass – expected a mode or a \
+        rigid-body motion – ask for modes, or reduce with guyan"
+    )]
+    NoModalMass,
     /// A superelement has no inertia-relief modes, which Rubin's matrices are made from.
     #[entry("E-NO-RELIEF", Usage, "reduce with rubin or herting")]
     #[error(
-        "{} has no interface, lacks inertia relief for a rigid-body motion, or has modes of the held interface – expected \
-        an interface and free modes with inertia relief, of which Rubin's matrices are made – reduce with rubin or herting",
+        "{} has no interface, lacks inertia relief for a rigid-body motion, has modes of the held interface, or a singular mass – \
+        expected an interface, free modes with inertia relief and the mass of both, of which Rubin's matrices are made – reduce with \
+        rubin or herting",
         path.display()
     )]
     NoInertiaRelief {
@@ -2842,6 +2850,16 @@ pub enum Error {
         matrix: &'static str,
         /// The eigenvalue, relative to the largest.
         value: f64,
+    },
+    /// A component was reduced by a method that leaves static answers without mass.
+    #[entry("E-ASSEMBLY-MASSLESS", InputData, "reduce the component with herting, whose space is the same")]
+    #[error(
+        "component {name} has a singular mass by its method – found the mass of its free modes alone – expected that of all its \
+        coordinates, without which motions of an assembly have no frequency – reduce it with herting, whose space is the same"
+    )]
+    AssemblySingularMass {
+        /// The component.
+        name: String,
     },
     /// The rigid-body modes of a component strain it.
     #[entry("E-ASSEMBLY-RIGID", InputData, "check the file with `supel verify`")]

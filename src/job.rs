@@ -37,7 +37,7 @@ pub use interface::{Axes, AxesGiven, Coupling, InterfaceJob, Origin, Weights};
 pub use load::{LoadJob, LoadPattern, RotationJob};
 pub use location::Holder;
 pub use matrix::MatrixJob;
-pub use method::{Boundary, Method, ModeOrigin};
+pub use method::{Boundary, MassOf, Method, ModeOrigin};
 pub use node_selection::{NodeSelection, Region};
 pub use quantities::QuantitiesJob;
 pub use recovery::RecoveryJob;

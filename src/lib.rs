@@ -77,7 +77,7 @@
 //! ```text
 //! number · dofs · error · heap · foreign_exit · regular_file · linked · random · dense · sparse
 //! factor · eigen
-//! job · input · model · partition · rigid · coordinates · constraint · modes · basis · reduction · rubin · damping
+//! job · input · model · partition · rigid · coordinates · constraint · modes · basis · modal_mass · reduction · rubin · damping
 //! memory_forecast · verification · audit · assembly
 //! report · output · outcome · export · recovery · cli
 //! ```
@@ -87,7 +87,7 @@
 //! 1. Of the stages only [`input`] and [`output`] touch files. Around them [`job`] reads its document, [`report`] reads the
 //!    clock, [`cli`] and the program have the terminal, and [`heap`] writes the last line of a run that finds no memory.
 //! 2. [`job::Method`] alone decides what a reduction method means: the boundary under which its modes are sought or the file that
-//!    has them, whether it has inertia relief, and what is proved of it. No later stage asks which method it is: modes, basis and verification know
+//!    has them, whether it has inertia relief, what its mass sees, and what is proved of it. No later stage asks which method it is: modes, basis and verification know
 //!    the boundary, basis and audit whether there is inertia relief, output and report the name.
 //! 3. A matrix is factored once per shift and solved many times; no inverse is ever formed.
 //! 4. The superelement format has one owner, the crate `supel-runtime`, used by the writer and by every reader.
@@ -114,6 +114,7 @@ pub mod input;
 pub mod job;
 mod linked;
 pub mod memory_forecast;
+pub mod modal_mass;
 pub mod model;
 pub mod modes;
 mod number;
@@ -188,7 +189,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let basis = Basis::answering(component, &named).with_coordinates()?;
 
     observer.stage("projection");
-    let reduction = Reduction::new(&partition, &basis, &rigid);
+    let reduction = Reduction::new(&partition, &basis, &rigid).with_mass_of(&job.reduction, &basis, &retained)?;
     let rubin = rubin::rubin_where_asked(&job.reduction, &basis, &reduction, &retained)?;
 
     let damping = Damping::of_reduction(job, &partition, &reduction)?;

@@ -8,7 +8,7 @@
 //! M_F     n_r × n_r  UᵀMU of the full model
 //! ```
 //! K̂ is formed as ΨᵀKΨ, whose error is of second order in that of Ψ; its blocks between interface and dynamic
-//! coordinates vanish by (29) and are set to zero after being measured.
+//! coordinates vanish by (29) and are set to zero after being measured. Of MacNeal's method M̂ is what [`ModalMass`] leaves of it.
 
 use std::ops::Range;
 
@@ -17,6 +17,11 @@ use supel_runtime::{MatrixKind, Symmetry};
 
 use crate::basis::Basis;
 use crate::dense::{self, NOISE_FACTOR};
+use crate::eigen::{elastic_scale, relief_scale};
+use crate::error::Result;
+use crate::job::{MassOf, ReductionJob};
+use crate::modal_mass::ModalMass;
+use crate::modes::Retained;
 use crate::partition::{CarriedMatrix, Partition};
 use crate::rigid::RigidBodyModes;
 use crate::sparse::{SparseMatrix, absolute_energy, panels, product};
@@ -28,6 +33,8 @@ pub struct Reduction {
     pub stiffness: Mat<f64>,
     /// M̂.
     pub mass: Mat<f64>,
+    /// What M̂ was made from where it sees the retained modes and rigid-body motion alone, and is singular for it.
+    pub modal_mass: Option<ModalMass>,
     /// Û.
     pub rigid_body_modes: Mat<f64>,
     /// M_F.
@@ -106,6 +113,7 @@ impl Reduction {
         Self {
             stiffness,
             mass,
+            modal_mass: None,
             rigid_body_modes,
             rigid_body_mass: rigid.rigid_body_mass(&partition.mass),
             gravity,
@@ -114,6 +122,23 @@ impl Reduction {
             cleared,
             measured,
         }
+    }
+
+    /// The reduction with the mass that the method of a job has; `retained` are modes of whose columns the basis is.
+    ///
+    /// # Errors
+    /// The errors of [`ModalMass::new`].
+    pub fn with_mass_of(mut self, job: &ReductionJob, basis: &Basis, retained: &Retained) -> Result<Self> {
+        if job.method.mass() == MassOf::RetainedModes {
+            let modes = basis.reduced_modes(&retained.modes, basis.constraint_modes.nrows());
+            (self.mass, self.modal_mass) = ModalMass::new(self.mass, &self.rigid_body_modes, modes)?;
+        }
+        Ok(self)
+    }
+
+    /// The rank of M̂ where the method makes it singular.
+    pub fn mass_rank(&self) -> Option<usize> {
+        self.modal_mass.as_ref().map(|modal| modal.rank)
     }
 
     /// K̂, M̂, Û and the further matrices in the user's units.
@@ -141,6 +166,17 @@ impl Reduction {
     /// r.
     pub fn n_reduced(&self) -> usize {
         self.stiffness.nrows()
+    }
+
+    /// The first elastic eigenvalue where no mode tells it, by the reduced matrices.
+    ///
+    /// # Errors
+    /// A dense eigenproblem that does not converge.
+    pub(crate) fn elastic_scale(&self) -> Result<Option<f64>> {
+        match self.modal_mass {
+            Some(_) => Ok(relief_scale(self.pencil(), self.cleared.nrows())),
+            None => elastic_scale(self.pencil()),
+        }
     }
 
     /// K̂, M̂ and the motions Û that K̂ lets pass.

@@ -15,7 +15,7 @@
 
 use faer::prelude::Solve;
 use faer::{Mat, MatRef, Side};
-use supel_runtime::{Coordinate, Superelement};
+use supel_runtime::{Coordinate, Flag, Superelement};
 
 use crate::basis::Basis;
 use crate::dense::{self, unpacked};
@@ -63,7 +63,7 @@ impl Herting {
     }
 
     /// Of a superelement, in its units; none where it has no inertia relief for every rigid-body motion, no modes of the free interface,
-    /// or no interface.
+    /// or no interface, and none of a singular mass, which is not that of Rubin's residual modes.
     pub fn of_file(superelement: &Superelement) -> Option<Self> {
         let (n_b, tensors) = (superelement.n_interface(), superelement.tensors());
         let coordinates = &superelement.metadata().coordinates[n_b..];
@@ -82,7 +82,8 @@ impl Herting {
             use Coordinate::{ElasticMode, InertiaRelief, ResidualVector};
             matches!(c, InertiaRelief { .. } | ElasticMode { .. } | ResidualVector { .. })
         };
-        if n_b == 0 || !coordinates.iter().all(is_free) {
+        let is_singular = superelement.metadata().flags.contains(&Flag::SingularMass);
+        if is_singular || n_b == 0 || !coordinates.iter().all(is_free) {
             return None;
         }
         let modes = coordinates.iter().enumerate().filter_map(|(slot, c)| c.mode().map(|(mode, _)| (slot, mode)));

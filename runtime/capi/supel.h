@@ -27,7 +27,8 @@
 // Deformation measured by displacements and skew parts of rotations, for comparison.
 #define SUPEL_CLASSICAL 1
 
-// The mass matrix is semidefinite: it cannot be factored, and an explicit integrator cannot be used.
+// The mass matrix is semidefinite: it cannot be factored, and an explicit integrator cannot be used. An implicit one needs numerical
+// damping, because motions without mass follow at once.
 #define SUPEL_SINGULAR_MASS 1
 
 // What a call says.

@@ -164,7 +164,8 @@ pub struct InterfaceDof {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Flag {
-    /// The mass matrix is semidefinite: it cannot be factored, and an explicit integrator cannot be used.
+    /// The mass matrix is semidefinite: it cannot be factored, and an explicit integrator cannot be used. An implicit one needs numerical
+    /// damping, because motions without mass follow at once.
     SingularMass,
 }
 

@@ -1,7 +1,7 @@
 //! A superelement of an assembly, under the name it has there.
 
 use faer::{Mat, MatRef};
-use supel_runtime::{Coordinate, Superelement};
+use supel_runtime::{Coordinate, Flag, Superelement};
 
 use super::omitted::{Omitted, omitted};
 use crate::audit::negative_mass;
@@ -37,11 +37,14 @@ impl Component {
     /// A component of an assembly; `name` is what selections call it.
     ///
     /// # Errors
-    /// [`Error::AssemblyIndefinite`] where the mass has a negative eigenvalue, [`Error::AssemblyRigid`] where the rigid-body modes strain it;
+    /// [`Error::AssemblySingularMass`] where a method left static answers without mass; [`Error::AssemblyIndefinite`] where the mass has a negative eigenvalue, [`Error::AssemblyRigid`] where the rigid-body modes strain it;
     /// [`Error::DenseEigen`].
     pub fn new(name: String, superelement: Superelement) -> Result<Self> {
         // Small matrices are decomposed by one thread, so that the order of sums never depends on how many there are.
         faer::set_global_parallelism(faer::Par::Seq);
+        if superelement.metadata().flags.contains(&Flag::SingularMass) {
+            return Err(Error::AssemblySingularMass { name });
+        }
         let tensors = superelement.tensors();
         let (stiffness, mass) = (unpacked(&tensors.stiffness), unpacked(&tensors.mass));
         let rigid = unpacked(&tensors.rigid_body_modes);

@@ -1,13 +1,15 @@
 //! The content of a superelement file, in the form the checks work on.
 
+use std::collections::BTreeSet;
+
 use faer::{Mat, MatRef};
-use supel_runtime::{Coordinate, Superelement};
+use supel_runtime::{Coordinate, Flag, Superelement};
 
 use super::version::kept_job;
 use crate::dense::{self, NOISE_FACTOR, unpacked};
-use crate::eigen::{eigenvalue_beyond, elastic_scale};
+use crate::eigen::{eigenvalue_beyond, elastic_scale, relief_scale};
 use crate::error::Result;
-use crate::job::{Boundary, Job};
+use crate::job::{Boundary, Job, MassOf, Method};
 use crate::rigid::n_passing;
 use crate::verification::check::Limits;
 use crate::verification::limits::{self, Judged, Known, LARGEST_EXCUSE};
@@ -36,6 +38,8 @@ pub(super) struct Content<'a> {
     /// Powers of two near 1/√(K̂ + λ₁M̂)_ii. Of K̂ alone nothing may be left: an interface that just holds the component
     /// has none.
     pub(super) scale: Vec<f64>,
+    /// The rank of M̂ of a method that makes it singular: the modes and rigid-body motion.
+    pub(super) mass_rank: Option<usize>,
     /// The job kept in the file, where it is one of this version.
     pub(super) job: Option<Job>,
 }
@@ -75,7 +79,11 @@ impl<'a> Content<'a> {
         let u = unpacked(&tensors.rigid_body_modes);
         let lambda: Vec<f64> = tensors.frequencies.iter().map(|omega| omega * omega).collect();
         let stated = lambda.iter().copied().find(|lambda| *lambda > 0.0);
-        let first = first_elastic((k.as_ref(), m.as_ref(), u.as_ref()), stated)?;
+        let parts = (k.as_ref(), m.as_ref(), u.as_ref());
+        let first = match (mass_rank(superelement), stated) {
+            (Some(_), None) => relief_scale(parts, superelement.n_interface()).unwrap_or(1.0),
+            (_, stated) => first_elastic(parts, stated)?,
+        };
         let scale: Vec<f64> = (0..k.nrows()).map(|i| dense::power_of_two_root(k[(i, i)] + first * m[(i, i)])).collect();
         Ok(Self {
             superelement,
@@ -84,6 +92,7 @@ impl<'a> Content<'a> {
             n_b: superelement.n_interface(),
             boundary: boundary(superelement),
             noise: noise.map_or_else(|| Noise::OfFile(by_own_bars(superelement, first)), Noise::OfModel),
+            mass_rank: mass_rank(superelement),
             job: kept_job(superelement),
             k,
             m,
@@ -230,6 +239,18 @@ pub(super) fn coordinate_name(superelement: &Superelement, coordinate: usize) ->
         Some(mode) => mode.mode_name(&metadata.load_names).unwrap_or_default(),
         None => "no coordinate".to_owned(),
     }
+}
+
+/// The rank that the mass of a file has by its method, where that is less than r.
+pub(super) fn mass_rank(superelement: &Superelement) -> Option<usize> {
+    let method = Method::of_file(superelement.metadata().method)?;
+    let rank = superelement.n_rigid() + superelement.tensors().frequencies.len();
+    (method.mass() == MassOf::RetainedModes && rank < superelement.n_coordinates()).then_some(rank)
+}
+
+/// What a reduction says of the mass for clients.
+pub(super) fn flags(superelement: &Superelement) -> BTreeSet<Flag> {
+    mass_rank(superelement).map(|_| Flag::SingularMass).into_iter().collect()
 }
 
 /// The kind of a mode tells where it was computed, whatever the method is called.

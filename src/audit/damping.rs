@@ -43,7 +43,12 @@ fn made(content: &Content<'_>, job: &Job) -> Result<Option<Damping>> {
     let matrices = content.superelement.further_matrices();
     let damping = matrices.filter(|(named, _)| named.kind == MatrixKind::Damping).map(|(_, matrix)| unpacked(matrix));
     let damping: Vec<Mat<f64>> = damping.collect();
-    let reduced = Reduced { stiffness: content.k.as_ref(), mass: content.m.as_ref(), motions: content.u.as_ref() };
+    let reduced = Reduced {
+        stiffness: content.k.as_ref(),
+        mass: content.m.as_ref(),
+        motions: content.u.as_ref(),
+        mass_rank: content.mass_rank,
+    };
     match Damping::of(job, reduced, &damping) {
         Err(Error::DampingModes { .. } | Error::DenseEigen { .. }) => Ok(None),
         other => other,

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use supel_runtime::{Coordinate, Generator, RigidBodyModes, Superelement};
 
-use super::content::Content;
+use super::content::{Content, flags};
 use super::flaw::flaw;
 use super::mass::is_of_a_body;
 use super::record;
@@ -47,7 +47,7 @@ fn made_by_none(content: &Content<'_>) -> Vec<String> {
     let found = [
         (content.job.is_none(), "it is no job of the version that wrote it"),
         (tensors.damping.is_some() && !content.job.as_ref().is_some_and(Job::has_damping), "damping"),
-        (!metadata.flags.is_empty(), "flags"),
+        (metadata.flags != flags(content.superelement), "flags"),
         (metadata.validity.assumptions != assumptions, "assumptions about the simulation"),
         (!metadata.validity.unloaded.is_empty(), "unloaded directions"),
         (!metadata.inputs.contains_key("stiffness") || !metadata.inputs.contains_key("mass"), "no digests"),

@@ -98,7 +98,7 @@ pub fn against(superelement: &Superelement, reference: &Reference<'_>) -> Result
 fn checked(content: &Content<'_>) -> Result<Audit> {
     let spectrum = spectrum::Spectrum::of(content)?;
     let mut audit = Audit::default();
-    audit.checks.push(spectrum::modal_masses(content));
+    audit.checks.push(spectrum::modal_masses(content)?);
     audit.checks.extend(rigid_motion::positions(content));
     audit.checks.push(rigid_motion::null_space(content));
     audit.checks.push(rigid_motion::energy(content, &spectrum));

@@ -31,12 +31,13 @@ use faer::Mat;
 use supel_runtime::Superelement;
 
 use super::Audit;
-use super::content::ModelNoise;
+use super::content::{ModelNoise, mass_rank};
 use super::spectrum::condition_of;
+use crate::dense;
 use crate::error::Result;
 use crate::factor::{Analysis, Cholesky};
 use crate::input::InputFacts;
-use crate::job::{Boundary, Job};
+use crate::job::{Boundary, Job, MassOf};
 use crate::partition::Partition;
 use crate::rigid::{self, RigidBodyModes, RigidSource};
 use crate::verification;
@@ -50,7 +51,7 @@ use comparison::Comparison;
 use full::Full;
 use interior::Interior;
 use motions::KnownMotions;
-use projection::Projected;
+use projection::{Massive, Projected};
 use scaled::Scaled;
 
 /// Condition of a reduced mass in which lengths of columns are rounding.
@@ -98,7 +99,20 @@ impl<'a> Reference<'a> {
                 with_interior(job, partition, (asked, Motions { carried: &given, relieved, source }), first)?
             }
         };
-        let projected = Projected::new(partition, columns, (unit, zero.count()));
+        let massive =
+            (job.reduction.method.mass() == MassOf::RetainedModes).then(|| {
+                let rigid = deflated(&given, &zero);
+                let shapes = asked.modes.shapes.as_ref();
+                let shapes = Mat::from_fn(partition.n_dofs(), shapes.ncols(), |i, j| {
+                    if i < shapes.nrows() { shapes[(i, j)] } else { 0.0 }
+                });
+                let angles = asked.angles.iter().copied();
+                Massive {
+                    shapes: dense::side_by_side(rigid.orthonormal.as_ref(), shapes.as_ref()),
+                    angle: angles.fold(if rigid.count() > 0 { rigid.energy.angle } else { 0.0 }, f64::max),
+                }
+            });
+        let projected = Projected::new(partition, columns, (unit, zero.count()), massive);
         let noise = energy_noise((partition, &given), asked.known(), first);
         Ok(Self { job, facts, partition, motions, asked: asked.without_shapes(), projected, first, noise })
     }
@@ -148,7 +162,7 @@ impl<'a> Reference<'a> {
         checks.push(identity::n_modes(superelement, &self.asked));
         checks.push(identity::modal_coordinates(superelement, &self.projected, self.asked.boundary));
         checks.push(self.solves());
-        match condition_of(file.m.as_ref())? < SINGULAR {
+        match mass_rank(superelement).is_none() && condition_of(file.m.as_ref())? < SINGULAR {
             true => {
                 checks.extend(identity::dropped(superelement, (&self.projected, self.partition), self.asked.boundary))
             }

@@ -71,8 +71,44 @@ pub(super) fn frequencies(content: &Content<'_>, spectrum: &Spectrum) -> Check {
     }
 }
 
-/// M-03: the dynamic modes are mass-normalised, so that their block of M̂ is the identity.
-pub(super) fn modal_masses(content: &Content<'_>) -> Check {
+/// M-03: the dynamic modes are mass-normalised, so that their block of M̂ is the identity. Of MacNeal's method M̂ sees the modes and
+/// rigid-body motion alone instead.
+pub(super) fn modal_masses(content: &Content<'_>) -> Result<Check> {
+    match content.mass_rank {
+        Some(rank) => massless(content, rank),
+        None => Ok(unit_masses(content)),
+    }
+}
+
+/// M-03: beyond the modes and rigid-body motion nothing has mass.
+///
+/// That these have theirs is seen in the frequencies (M-14) and the rigid-body mass (M-16). M̂ is a sum of squares, so that rounding leaves
+/// r ε of the largest, and no square root of it.
+fn massless(content: &Content<'_>, rank: usize) -> Result<Check> {
+    let (values, vectors) = dense::symmetric_eigen(dense::unit_diagonal(content.m.as_ref()).0.as_ref())?;
+    let r = values.len();
+    // Ascending: the first r − rank are those of motions without mass.
+    let of = |at: usize| values[at].abs() / values[r - 1].abs().max(f64::MIN_POSITIVE);
+    let mut worst = (0.0, None);
+    for at in 0..r - rank {
+        if dense::worse(of(at), worst.0) {
+            let part = |i: usize| vectors[(i, at)].abs();
+            let largest = (0..r).max_by(|a, b| part(*a).total_cmp(&part(*b)));
+            worst = (of(at), largest.map(|i| content.name_of(i)));
+        }
+    }
+    Ok(Check {
+        id: "M-03",
+        name: "mass is that of the modes and of rigid-body motion",
+        equation: "max |λ| / λ_max of D M̂ D with unit diagonal, beyond the largest n_r + n_modes",
+        value: worst.0,
+        limits: Limits { engineering: 1e-10, ..Limits::default() },
+        fail_above: 1e-8,
+        worst: worst.1,
+    })
+}
+
+fn unit_masses(content: &Content<'_>) -> Check {
     let (b, r) = (content.n_b, content.n_reduced());
     let mut worst = (0.0, None);
     for j in b..r {
@@ -119,7 +155,7 @@ pub(super) fn block_coupling(content: &Content<'_>) -> Check {
 
 /// M-23: conditioning of M̂, which every explicit integrator and every initial acceleration divides by.
 pub(super) fn condition(content: &Content<'_>) -> Result<Check> {
-    let value = condition_of(content.m.as_ref())?;
+    let value = condition_on(content.m.as_ref(), content.mass_rank)?;
     Ok(Check {
         id: "M-23",
         name: "condition of the reduced mass",
@@ -133,8 +169,14 @@ pub(super) fn condition(content: &Content<'_>) -> Result<Check> {
 
 /// λ_max / λ_min of D M D with unit diagonal. A semidefinite mass is judged by M-25.
 pub(super) fn condition_of(m: MatRef<'_, f64>) -> Result<f64> {
+    condition_on(m, None)
+}
+
+/// The condition of a mass on the motions that have any, of which there are as many as its rank.
+fn condition_on(m: MatRef<'_, f64>, rank: Option<usize>) -> Result<f64> {
     let (values, _) = dense::symmetric_eigen(dense::unit_diagonal(m).0.as_ref())?;
-    let (least, most) = (values.first().copied().unwrap_or(1.0), values.last().copied().unwrap_or(1.0));
+    let n_massless = rank.map_or(0, |rank| values.len() - rank);
+    let (least, most) = (values.get(n_massless).copied().unwrap_or(1.0), values.last().copied().unwrap_or(1.0));
     Ok(if least > 0.0 { most / least } else { 1.0 / f64::EPSILON })
 }
 

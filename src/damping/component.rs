@@ -38,8 +38,12 @@ impl Damping {
             return Ok(None);
         }
         let UserUnits { stiffness, mass, rigid_body_modes, matrices } = reduction.in_user_units(partition);
-        let reduced =
-            Reduced { stiffness: stiffness.as_ref(), mass: mass.as_ref(), motions: rigid_body_modes.as_ref() };
+        let reduced = Reduced {
+            stiffness: stiffness.as_ref(),
+            mass: mass.as_ref(),
+            motions: rigid_body_modes.as_ref(),
+            mass_rank: reduction.mass_rank(),
+        };
         let all = partition.matrices.iter().zip(&matrices);
         let damping = all.filter(|(carried, _)| carried.facts.kind == MatrixKind::Damping).map(|(_, matrix)| matrix);
         match Self::of(job, reduced, damping) {

@@ -23,6 +23,8 @@ pub struct Reduced<'a> {
     pub mass: MatRef<'a, f64>,
     /// Û, r × n_r.
     pub motions: MatRef<'a, f64>,
+    /// The rank of M̂, where its method makes it singular.
+    pub mass_rank: Option<usize>,
 }
 
 /// Damping made from reduced matrices.
@@ -85,10 +87,10 @@ impl Law {
 
 /// λ ascending and Φ, M̂-orthonormal and without rigid-body motion, of the elastic modes with the interface free.
 fn elastic_modes(reduced: Reduced<'_>) -> Result<(Vec<f64>, Mat<f64>)> {
-    let Reduced { stiffness: k, mass: m, motions } = reduced;
+    let Reduced { stiffness: k, mass: m, motions, mass_rank } = reduced;
     let (r, n_r) = (k.nrows(), motions.ncols());
     let none = || Ok((Vec::new(), Mat::zeros(r, 0)));
-    if r <= n_r {
+    if mass_rank.unwrap_or(r) <= n_r {
         return none();
     }
     let Some(near) = elastic_scale((k, m, motions))? else { return none() };
@@ -97,7 +99,8 @@ fn elastic_modes(reduced: Reduced<'_>) -> Result<(Vec<f64>, Mat<f64>)> {
     if values.is_empty() {
         return Err(Error::DenseEigen { n: r });
     }
-    let elastic: Vec<usize> = (n_r..values.len()).filter(|mode| values[*mode] > 0.0).collect();
+    let n_finite = mass_rank.map_or(values.len(), |rank| values.len().min(rank));
+    let elastic: Vec<usize> = (n_r..n_finite).filter(|mode| values[*mode] > 0.0).collect();
     let shapes = without_rigid_motion(reduced, dense::columns(shapes.as_ref(), &elastic));
     Ok((elastic.iter().map(|mode| values[*mode]).collect(), shapes))
 }

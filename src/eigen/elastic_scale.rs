@@ -9,7 +9,8 @@
 //! Coordinates do not tell it: where one interface node holds the component, K̂_ii of its dofs is what rounding left of a stiffness that
 //! cancels, and the ratio K̂_ii / M̂_ii is no eigenvalue of anything.
 
-use faer::{Mat, MatRef};
+use faer::linalg::solvers::Solve;
+use faer::{Mat, MatRef, Side};
 
 use super::dense_pencil::lowest_ratio;
 use super::spectral::{Spectral, scaled_by};
@@ -58,6 +59,19 @@ fn held_out(m: MatRef<'_, f64>, motions: MatRef<'_, f64>) -> Mat<f64> {
 /// As [`first_elastic`].
 pub(crate) fn elastic_scale(parts: (MatRef<'_, f64>, MatRef<'_, f64>, MatRef<'_, f64>)) -> Result<Option<f64>> {
     Ok(first_elastic(parts)?.or_else(|| lowest_ratio(parts.0, parts.1)))
+}
+
+/// λ₁ of a component whose mass is that of rigid-body motion alone: what the inertia of each motion is to the energy that its relief
+/// stores, the first `n_b` coordinates held, min (ûᵀM̂û) / (hᵀK̂_ηη⁻¹h) with h the modal rows of M̂û. None where nothing gives way.
+pub(crate) fn relief_scale((k, m, u): (MatRef<'_, f64>, MatRef<'_, f64>, MatRef<'_, f64>), n_b: usize) -> Option<f64> {
+    let (n_eta, momenta) = (k.nrows() - n_b, dense::product(m, u));
+    let (scaled, d) = dense::unit_diagonal(k.submatrix(n_b, n_b, n_eta, n_eta));
+    let factor = scaled.llt(Side::Lower).ok()?;
+    let loads = Mat::from_fn(n_eta, u.ncols(), |i, j| momenta[(n_b + i, j)] * d[i]);
+    let answers = factor.solve(&loads);
+    let energies = dense::dots(loads.as_ref(), answers.as_ref());
+    let ratios = dense::dots(u, momenta.as_ref()).into_iter().zip(energies).filter(|(_, energy)| *energy > 0.0);
+    ratios.map(|(inertia, energy)| inertia / energy).filter(|ratio| *ratio > 0.0).reduce(f64::min)
 }
 
 #[cfg(test)]

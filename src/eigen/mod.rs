@@ -32,7 +32,7 @@ pub use cluster::REPEATED_WITHIN;
 pub(crate) use dense_pencil::{eigenvalue_beyond, eigenvalues, lowest_eigenpairs, lowest_ratio_of};
 pub(crate) use elastic::{CARRIES_NOTHING, judged, pairs_between, purified, settled_at};
 pub use elastic::{Eigensolver, ModeRequest, elastic_modes};
-pub(crate) use elastic_scale::elastic_scale;
+pub(crate) use elastic_scale::{elastic_scale, relief_scale};
 pub use equilibration::Equilibrated;
 pub use lanczos::{lanczos, lanczos_between};
 pub use modal_problem::{EnergyNoise, ModalProblem};

@@ -11,7 +11,7 @@
 use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
 use faer::{Mat, MatRef, Par, Side, c64};
 
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::error::{Error, Result};
 
 /// The spectral form of K − zM.
@@ -23,6 +23,10 @@ pub(crate) struct Spectral {
     theta: Vec<f64>,
     /// P, r × r, in the order of θ.
     shapes: Mat<f64>,
+    /// How many eigenvalues are finite at most.
+    rank: usize,
+    /// Share of the largest θ at which one belongs to an infinite eigenvalue.
+    rounding: f64,
 }
 
 impl Spectral {
@@ -55,7 +59,17 @@ impl Spectral {
         for j in 0..n {
             dense::column_mut(shapes.as_mut(), j).iter_mut().zip(&scale).for_each(|(value, d)| *value *= d);
         }
-        Ok(Some(Self { alpha, theta, shapes }))
+        Ok(Some(Self { alpha, theta, shapes, rank: n, rounding: f64::EPSILON }))
+    }
+
+    /// The form of a pencil whose mass has no more than this rank by its making, and zero eigenvalues that are the rounding of r sums;
+    /// without a rank any other form.
+    pub(crate) fn of_rank(mut self, rank: Option<usize>) -> Self {
+        if let Some(rank) = rank {
+            self.rank = rank.min(self.n());
+            self.rounding = NOISE_FACTOR * self.n() as f64 * f64::EPSILON;
+        }
+        self
     }
 
     /// r.
@@ -67,7 +81,7 @@ impl Spectral {
     pub(crate) fn eigenvalues(&self) -> Vec<f64> {
         let largest = self.theta.first().copied().unwrap_or(0.0);
         // A θ at the rounding of the largest belongs to an infinite eigenvalue.
-        let finite = self.theta.iter().take_while(|theta| **theta > f64::EPSILON * largest);
+        let finite = self.theta.iter().take(self.rank).take_while(|theta| **theta > self.rounding * largest);
         finite.map(|theta| 1.0 / theta - self.alpha).collect()
     }
 

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use faer::Mat;
-use supel_runtime::{Coordinate, InterfaceNode, Metadata, Method, Superelement};
+use supel_runtime::{Coordinate, Flag, InterfaceNode, Metadata, Method, Superelement};
 use toml::Value;
 
 use super::names::Names;
@@ -21,12 +21,17 @@ use crate::error::Result;
 /// Digits of K̂ below which a second reduction cannot tell stiffness from rounding.
 const FEWEST_DIGITS: i64 = 4;
 
-/// The job, TOML; `labels` are those of the interface nodes. Without an interface there is nothing to reduce a superelement to, and an
-/// interface that just holds its component has no stiffness but rounding.
+/// The job, TOML; `labels` are those of the interface nodes. Without an interface there is nothing to reduce a superelement to, an
+/// interface that just holds its component has no stiffness but rounding, and a mass that is singular by its method is that of no model.
 pub(super) fn job(superelement: &Superelement, labels: &[i64], names: &Names) -> Result<Option<String>> {
     let digits = digits(superelement)?;
     let is_rigid = superelement.n_rigid() >= superelement.n_coordinates();
-    if superelement.n_interface() == 0 || is_rigid || digits.is_some_and(|digits| digits < FEWEST_DIGITS) {
+    let has_singular_mass = superelement.metadata().flags.contains(&Flag::SingularMass);
+    if has_singular_mass
+        || superelement.n_interface() == 0
+        || is_rigid
+        || digits.is_some_and(|digits| digits < FEWEST_DIGITS)
+    {
         return Ok(None);
     }
     let metadata = superelement.metadata();

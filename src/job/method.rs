@@ -14,6 +14,8 @@ pub enum Method {
     Herting,
     /// Residual attachment modes and free-free modes: the space of Herting's method, written in Herting's variables.
     Rubin,
+    /// The space of Rubin's method with the mass of its free-free modes alone: the residual flexibility has none.
+    Macneal,
     /// Constraint modes and mode-accelerated modes computed with some interface dofs held and the others free.
     MixedInterface,
     /// Constraint modes alone: exact in statics, without modes.
@@ -44,6 +46,15 @@ pub enum Boundary {
     MixedInterface,
 }
 
+/// The motions that a reduced mass sees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MassOf {
+    /// All that the columns of Ψ make: M̂ = ΨᵀMΨ (31).
+    AllMotions,
+    /// The retained modes and those of rigid bodies; what statics adds to them has no mass.
+    RetainedModes,
+}
+
 impl Boundary {
     /// The boundary that holds `n_held` of the interface: mixed boundaries that hold all of it, or nothing, are those of others.
     pub fn holding(self, n_held: usize, n_interface: usize) -> Self {
@@ -62,6 +73,7 @@ impl Method {
             Self::CraigBampton => supel_runtime::Method::CraigBampton,
             Self::Herting => supel_runtime::Method::Herting,
             Self::Rubin => supel_runtime::Method::Rubin,
+            Self::Macneal => supel_runtime::Method::Macneal,
             Self::MixedInterface => supel_runtime::Method::MixedInterface,
             Self::Guyan => supel_runtime::Method::Guyan,
             Self::ModeAcceleration => supel_runtime::Method::ModeAcceleration,
@@ -87,7 +99,7 @@ impl Method {
     pub fn boundary(self) -> Boundary {
         match self {
             Self::CraigBampton | Self::Guyan | Self::ModeAcceleration => Boundary::FixedInterface,
-            Self::Herting | Self::Rubin => Boundary::FreeInterface,
+            Self::Herting | Self::Rubin | Self::Macneal => Boundary::FreeInterface,
             Self::MixedInterface => Boundary::MixedInterface,
         }
     }
@@ -95,7 +107,9 @@ impl Method {
     /// Where its modes come from.
     pub fn modes(self) -> ModeOrigin {
         match self {
-            Self::CraigBampton | Self::Herting | Self::Rubin | Self::MixedInterface => ModeOrigin::Computed,
+            Self::CraigBampton | Self::Herting | Self::Rubin | Self::Macneal | Self::MixedInterface => {
+                ModeOrigin::Computed
+            }
             Self::ModeAcceleration => ModeOrigin::File,
             Self::Guyan => ModeOrigin::None,
         }
@@ -104,6 +118,19 @@ impl Method {
     /// Whether inertia-relief modes are part of it; of other methods the job may ask for them.
     pub fn has_inertia_relief(self) -> bool {
         self.boundary() == Boundary::FreeInterface
+    }
+
+    /// The motions that its reduced mass sees.
+    pub fn mass(self) -> MassOf {
+        match self {
+            Self::Macneal => MassOf::RetainedModes,
+            Self::CraigBampton
+            | Self::Herting
+            | Self::Rubin
+            | Self::MixedInterface
+            | Self::Guyan
+            | Self::ModeAcceleration => MassOf::AllMotions,
+        }
     }
 
     /// Whether it is proved that the space is that of the residual attachment modes (50).

@@ -101,6 +101,7 @@ fn reduction(results: &Results<'_>) -> ReductionReport {
         n_inertia_relief,
         n_modes: basis.n_dynamic() - n_inertia_relief - n_rigid_body - n_expansion_modes - n_residual_vectors,
         n_reduced: basis.n_reduced(),
+        mass_rank: evidence.reduction.mass_rank(),
         modes_held: results.job.reduction.held.as_ref().map(|held| held.iter().map(|held| held.0.clone()).collect()),
         expansion: expansion::report(results),
         loads: loads(results),

@@ -1,6 +1,5 @@
 //! The superelement from the results of the stages.
 
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use faer::{Mat, MatRef};
@@ -169,7 +168,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Resul
             assumptions: results.job.assumptions(),
             ..file::Validity::default()
         },
-        flags: BTreeSet::new(),
+        flags: evidence.reduction.modal_mass.iter().map(|_| file::Flag::SingularMass).collect(),
         model: file::ModelSummary {
             n_dofs: evidence.partition.model.n_moving() as u64,
             rigid_body_modes: match evidence.rigid.are_unit_motions(evidence.partition) {

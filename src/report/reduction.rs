@@ -25,6 +25,9 @@ pub struct ReductionReport {
     pub n_modes: usize,
     /// Order of the reduced matrices.
     pub n_reduced: usize,
+    /// Rank of the reduced mass, where the method makes it singular; absent elsewhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass_rank: Option<usize>,
     /// Interfaces, and directions of them, held while the modes were computed; absent with methods that are not told what to hold.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub modes_held: Option<Vec<String>>,

@@ -75,6 +75,12 @@ pub(super) fn coordinates(reduction: &ReductionReport) -> Vec<String> {
     parts
 }
 
+/// What is special about the reduced mass, where something is.
+pub(super) fn mass(reduction: &ReductionReport) -> Option<String> {
+    let rank = reduction.mass_rank?;
+    Some(format!("of the modes and of rigid-body motion alone · singular, of rank {rank}"))
+}
+
 /// The modes of a file: how many, what the reduced model makes of them, and what of them nothing follows.
 pub(super) fn expansion(expansion: &ExpansionReport) -> Vec<String> {
     /// Less than this is rounding of coordinates and of the file.

@@ -109,7 +109,8 @@ pub const CATALOGUE: &[Entry] = &[
         "M-03",
         Proof::Measured,
         Recorded::Always(1),
-        "Modal masses are one and modes do not couple through the mass. If they did, one vibration would be counted twice.",
+        "Modal masses are one and modes do not couple through the mass. If they did, one vibration would be counted twice. In a file of \
+         MacNeal's method the mass is that of the modes and of rigid-body motion, and nothing else has any.",
         "Two modes named together describe the same motion: ask for a few modes more, so that their group is whole.",
     ),
     line(

@@ -63,9 +63,15 @@ pub(super) fn conditioning(evidence: &Evidence<'_>, internal: f64) -> Result<Vec
         ),
         shown("condition of the internal stiffness", "κ₁(D K_II D), estimated", (internal, None)),
     ];
-    let (mass, softest) = condition(evidence, evidence.reduction.mass.as_ref(), &mass_scales(evidence), 0)?;
+    // What MacNeal's method leaves without mass has none by its making; clients are told that M̂ is singular.
+    let n_massless = evidence.reduction.mass_rank().map_or(0, |rank| evidence.reduction.n_reduced() - rank);
+    let equation = match n_massless {
+        0 => "κ₂(D M̂ D), unit diagonal",
+        _ => "κ₂(D M̂ D), unit diagonal, on the motions with mass",
+    };
+    let mass = condition(evidence, evidence.reduction.mass.as_ref(), &mass_scales(evidence), n_massless)?;
     // At this condition a client that factors M̂ loses half its digits.
-    checks.push(judged("condition of the reduced mass", "κ₂(D M̂ D), unit diagonal", (mass, softest), 1e8));
+    checks.push(judged("condition of the reduced mass", equation, mass, 1e8));
     let stiffness = evidence.reduction.stiffness.as_ref();
     let (stiffness, softest) = condition(evidence, stiffness, &coordinate_scales(evidence), evidence.rigid.count())?;
     let equation = "κ₂(D K̂ D) without its rigid-body modes, in the scales of the uncondensed stiffness";

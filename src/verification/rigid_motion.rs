@@ -9,7 +9,6 @@ use super::residual::Worst;
 use super::spectrum::{NOT_FREE, Spectrum, zero_level};
 use crate::constraint::rigid_error;
 use crate::dense::{self, NOISE_FACTOR};
-use crate::eigen::elastic_scale;
 use crate::error::Result;
 
 /// M-05, energy. The value is shown and not judged where no elastic mode is known to compare it with.
@@ -167,7 +166,7 @@ impl Disturbance {
         let known = spectrum.first_elastic();
         let first = match known {
             Some(first) => first,
-            None => elastic_scale(evidence.reduction.pencil())?.unwrap_or(1.0),
+            None => evidence.reduction.elastic_scale()?.unwrap_or(1.0),
         };
         let noise = known.map_or(0.0, |first| energy_noise(evidence, first));
         Ok(Self { first, noise, share_of_data: share_of_data(evidence.partition) })

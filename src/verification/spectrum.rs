@@ -6,7 +6,7 @@ use super::check::Limits;
 use super::evidence::{Evidence, coordinate_scales, data_noise};
 use super::limits::{GROUNDED, n_nearly_free};
 use crate::dense;
-use crate::eigen::{Spectral, eigenvalues, elastic_scale, rayleigh_quotients, scaled_by, sharpen, zero};
+use crate::eigen::{Spectral, eigenvalues, rayleigh_quotients, scaled_by, sharpen, zero};
 use crate::error::Result;
 use crate::job::Boundary;
 use crate::rigid::zero_modes;
@@ -42,7 +42,7 @@ impl Spectrum {
         let (k, m) = (evidence.reduction.stiffness.as_ref(), evidence.reduction.mass.as_ref());
         let lambda = match first_of_full(evidence, evidence.rigid.n_grey) {
             Some(lambda) => lambda,
-            None => elastic_scale(evidence.reduction.pencil())?.unwrap_or(1.0),
+            None => evidence.reduction.elastic_scale()?.unwrap_or(1.0),
         };
         let (_, vectors) = dense::symmetric_eigen(scaled_by(k, &coordinate_scales(evidence)).as_ref())?;
         let (masses, mass_vectors) = dense::symmetric_eigen(equilibrated(m, m).as_ref())?;
@@ -51,6 +51,7 @@ impl Spectrum {
         // Those beyond the rigid-body modes that are soft by their own account, and one more.
         let n_looked_at = n_pencil + evidence.rigid.n_grey + 1;
         let spectral = Spectral::if_definite(k_held.as_ref(), m, lambda)?;
+        let spectral = spectral.map(|spectral| spectral.of_rank(evidence.reduction.mass_rank()));
         let is_definite = spectral.is_some();
         if !is_definite {
             // Whether K itself is at fault, or its digits, says the full model.

@@ -7,7 +7,8 @@ use crate::faults::{FAULTS, FAULTS_OF_DIRECTIONS, UNSEEN, against_rotation, bloc
 use crate::place::{Ended, Place};
 
 /// Methods with their modes.
-const METHODS: [&str; 4] = ["herting --modes 5", "craig-bampton --modes 5", "rubin --modes 5", "guyan"];
+const METHODS: [&str; 5] =
+    ["herting --modes 5", "craig-bampton --modes 5", "rubin --modes 5", "macneal --modes 5", "guyan"];
 
 /// How the two ends of the block are coupled.
 const COUPLINGS: [&str; 3] = ["direct", "rigid", "both"];

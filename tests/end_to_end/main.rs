@@ -7,6 +7,7 @@ mod few_digits;
 mod fixed_point;
 mod foreign_names;
 mod links;
+mod macneal;
 mod methods;
 mod misleading;
 mod penalties;

@@ -497,7 +497,7 @@ fn origin_at_the_centroid_of_faces() {
 fn an_average_is_verified() {
     let place = graded_block();
     let keys = "coupling = \"average\"\nweights = \"area\"\norigin = \"area\"\n[run]\ncertify = \"full\"";
-    for method in ["herting", "craig-bampton", "rubin", "guyan"] {
+    for method in ["herting", "craig-bampton", "rubin", "macneal", "guyan"] {
         let modes = if method == "guyan" { "" } else { ", modes = { count = 5 }" };
         let tip = "[[interface]]\nname = \"tip\"\ncoupling = \"rigid\"\nnodes = { within = { plane = { point = [2, 0, 0], \
             normal = [1, 0, 0], tolerance = 1e-9 } } }\n";

@@ -182,7 +182,7 @@ fn values_of_the_wrong_kind_are_located() {
     };
     let at_28 = |to: &str| wrong("{ up_to_hz = 1000 }", to);
     insta::assert_snapshot!(wrong("mass      = \"model.h5:/M\"", ""), @"job.toml:2: `model.mass` is missing");
-    insta::assert_snapshot!(wrong("\"herting\"", "\"hurting\""), @r#"job.toml:27: `reduction.method` is "hurting" – expected "craig-bampton", "herting", "rubin", "mixed-interface", "guyan" or "mode-acceleration""#);
+    insta::assert_snapshot!(wrong("\"herting\"", "\"hurting\""), @r#"job.toml:27: `reduction.method` is "hurting" – expected "craig-bampton", "herting", "rubin", "macneal", "mixed-interface", "guyan" or "mode-acceleration""#);
     insta::assert_snapshot!(at_28("{ up_to_hz = 1000, count = 4 }"), @"job.toml:28: `reduction.modes` has `count` and `up_to_hz` – expected exactly one of `count`, `up_to_hz` and `file`");
     insta::assert_snapshot!(at_28("{ }"), @"job.toml:28: `reduction.modes` is empty – expected exactly one of `count`, `up_to_hz` and `file`");
     insta::assert_snapshot!(at_28("3"), @"job.toml:28: `reduction.modes` is 3 – expected a table with keys of count, file, up_to_hz");

@@ -11,7 +11,7 @@ use supel_models::{Inertia, Material, Model, Section, frame};
 use supel_runtime::Superelement;
 use supel_testing::place::{Ended, Place, supel};
 
-const METHODS: [&str; 4] = ["craig-bampton", "herting", "rubin", "guyan"];
+const METHODS: [&str; 5] = ["craig-bampton", "herting", "rubin", "macneal", "guyan"];
 
 /// A model in a folder, with what its job says of interfaces, held dofs and loads.
 struct Case {

@@ -36,6 +36,20 @@ impl Dense {
         Self { k: part(&self.k), m: part(&self.m) }
     }
 
+    /// The finite frequencies of a pencil whose mass may be singular, ascending, in Hz: by θ = 1/(λ + α), which is zero for the others.
+    pub(crate) fn finite_hz(&self, alpha: f64) -> Vec<f64> {
+        let n = self.k.nrows();
+        let sum = Mat::from_fn(n, n, |i, j| self.k[(i, j)] + alpha * self.m[(i, j)]);
+        let l = sum.llt(Side::Lower).expect("K + αM is definite").L().to_owned();
+        let mut c = self.m.clone();
+        l.as_ref().solve_lower_triangular_in_place(&mut c);
+        let mut c = c.transpose().to_owned();
+        l.as_ref().solve_lower_triangular_in_place(&mut c);
+        let theta = c.self_adjoint_eigenvalues(Side::Lower).expect("converges");
+        let finite = theta.iter().rev().take_while(|value| **value > 1e-12 * theta[n - 1]);
+        finite.map(|value| (1.0 / value - alpha).sqrt() / std::f64::consts::TAU).collect()
+    }
+
     pub(crate) fn modes(&self) -> AllModes {
         AllModes::of(self)
     }

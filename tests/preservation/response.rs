@@ -38,7 +38,7 @@ fn response(preservation: &Preservation) -> &supel::verification::preservation::
 #[test]
 fn response_of_the_full_model_is_that_of_dense_elimination() {
     for files in cases() {
-        for method in ["herting", "craig-bampton"] {
+        for method in ["herting", "craig-bampton", "macneal"] {
             let outcome = files.reduce(method, "count = 6", SCENE);
             let body = &outcome.report.body;
             let response = response(&body.preservation);

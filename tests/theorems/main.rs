@@ -6,6 +6,7 @@
 mod average;
 mod basis;
 mod eigenpairs;
+mod macneal;
 mod reduction;
 mod rigid_body;
 mod rubin;

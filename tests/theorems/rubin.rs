@@ -19,7 +19,7 @@ fn rubin(chain: &Chain) -> Rubin {
 
 /// [A_B A_I] in the order of the twin: static answers to forces at the interface, (40), from the bordered system of section 2.3 of
 /// the notes on the paper, [K MU; UᵀM 0].
-fn attachment_modes(twin: &Twin, u: MatRef<'_, f64>) -> Mat<f64> {
+pub(super) fn attachment_modes(twin: &Twin, u: MatRef<'_, f64>) -> Mat<f64> {
     let (n, n_r, n_b) = (twin.k.nrows(), u.ncols(), twin.k.nrows() - twin.n_i);
     let momenta = &twin.m * u;
     let mut bordered = Mat::zeros(n + n_r, n + n_r);
@@ -32,7 +32,7 @@ fn attachment_modes(twin: &Twin, u: MatRef<'_, f64>) -> Mat<f64> {
     answers.as_ref().subrows(0, n).to_owned()
 }
 
-fn condition(a: MatRef<'_, f64>) -> f64 {
+pub(super) fn condition(a: MatRef<'_, f64>) -> f64 {
     let values = a.singular_values().expect("finite");
     values[0] / values[values.len() - 1]
 }

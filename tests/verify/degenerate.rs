@@ -94,7 +94,7 @@ fn long_frame(n: usize, radius: f64) -> Model {
 fn long_part_on_a_short_interface() {
     for (n, radius) in [(6, 0.003), (6, 0.01), (20, 0.01)] {
         let place = Place::with(&long_frame(n, radius));
-        for method in ["herting", "rubin", "craig-bampton"] {
+        for method in ["herting", "rubin", "macneal", "craig-bampton"] {
             let rest = format!("--interface a={},{} --method {method} --modes 3", 2 * n, 2 * n + 1);
             let said = agree(&place, &place.model_flags(), &rest);
             assert!(!said.contains("! warn"), "{method}, {n} beams, radius {radius}: {said}");

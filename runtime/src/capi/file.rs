@@ -7,7 +7,8 @@ use super::{SupelComponent, SupelStatus, c_string, guarded, null, pointer};
 use crate::metadata::{Flag, Verdict};
 use crate::superelement::Superelement;
 
-/// The mass matrix is semidefinite: it cannot be factored, and an explicit integrator cannot be used.
+/// The mass matrix is semidefinite: it cannot be factored, and an explicit integrator cannot be used. An implicit one needs numerical
+/// damping, because motions without mass follow at once.
 pub const SUPEL_SINGULAR_MASS: u32 = 1;
 
 /// What a check said when the file was made; the later the worse.

@@ -133,7 +133,7 @@ fn seen(file: &Scaled, projected: &Projected, mixing: Option<MatRef<'_, f64>>) -
     let inertia = |j: usize| projected.mass.matrix[(j, j)].max(f64::MIN_POSITIVE).sqrt();
     let coupling = dense::product(projected.probes.transpose(), file.m.as_ref().subrows(0, file.n_b));
     let weighted = |a: Mat<f64>| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] / inertia(i));
-    let known = projected.mass.matrix.as_ref().submatrix(0, p, p, n_named).to_owned();
+    let known = projected.reduced_mass().matrix.as_ref().submatrix(0, p, p, n_named).to_owned();
     add(1.0, [weighted(known), weighted(of_file(&coupling))]);
     if let Some(motions) = projected.motions.as_ref().filter(|motions| motions.nrows() == file.u.ncols()) {
         // Without an interface Û are the amplitudes ΨᵀMU: rigid-body motion as the stored columns see it.

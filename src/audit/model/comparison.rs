@@ -33,7 +33,7 @@ impl Comparison<'_> {
         let Self { projected, file, first, .. } = self;
         let (p, b) = (projected.n_probes(), &self.b);
         let name = |i: usize| self.name_of(i);
-        let (mut stiffness, mass) = (self.without_rigid_energy().combined(b), projected.mass.combined(b));
+        let (mut stiffness, mass) = (self.without_rigid_energy().combined(b), projected.reduced_mass().combined(b));
         if file.u.ncols() == file.k.nrows() {
             // Nothing but rigid-body motion: what was projected is the rounding of its terms.
             stiffness.matrix.fill(0.0);

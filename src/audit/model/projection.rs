@@ -50,6 +50,8 @@ pub(super) struct Projected {
     pub(super) named: Vec<Named>,
     pub(super) stiffness: Form,
     pub(super) mass: Form,
+    /// What M̂ has to be in place of WᵀMW, where it sees some motions alone.
+    modal_mass: Option<Form>,
     /// (WᵀMe)ᵀ, 3 × q, where the directions are known.
     pub(super) gravity: Option<Rows>,
     /// 1/√m by which the loads of gravity count among what tells columns apart, of a component that the job holds: of a free one they
@@ -78,10 +80,12 @@ impl Projected {
         partition: &Partition,
         columns: Columns,
         (unit, n_zero): (Option<MatRef<'_, f64>>, usize),
+        massive: Option<Massive>,
     ) -> Self {
         let (shapes, n_probes) = (columns.shapes.as_ref(), columns.n_probes());
         let stiffness = form(&partition.stiffness, shapes, &columns.energy_errors);
         let mass = form(&partition.mass, shapes, &columns.inertia_errors);
+        let modal_mass = massive.map(|massive| massive.form(partition, shapes, &mass));
         let of_held = partition.gravity.as_ref().map(|gravity| (gravity.loads.clone(), gravity.mass));
         let gravity_weight = of_held.as_ref().filter(|(_, mass)| *mass > 0.0).map(|(_, mass)| 1.0 / mass.sqrt());
         let loads_of = |unit: MatRef<'_, f64>| {
@@ -119,6 +123,7 @@ impl Projected {
             named,
             stiffness,
             mass,
+            modal_mass,
             gravity,
             gravity_weight,
             loads: named_loads,
@@ -129,6 +134,11 @@ impl Projected {
             residual,
             dependence,
         }
+    }
+
+    /// What M̂ has to be on the columns.
+    pub(super) fn reduced_mass(&self) -> &Form {
+        self.modal_mass.as_ref().unwrap_or(&self.mass)
     }
 
     /// p.
@@ -170,6 +180,28 @@ impl Projected {
             self.mass.terms[at].powi(2) / self.mass.matrix[(at, at)].max(f64::MIN_POSITIVE)
         };
         NOISE_FACTOR * f64::EPSILON * others.iter().chain([&column]).map(square).sum::<f64>()
+    }
+}
+
+/// The motions that a reduced mass sees where it does not see all: Q, n' × (n_r + k), rigid-body motion and modes found again.
+pub(super) struct Massive {
+    /// Q, M-orthonormal.
+    pub(super) shapes: Mat<f64>,
+    /// How far a motion of this space may lie outside of that of the reduction: the sine of an angle in the mass.
+    pub(super) angle: f64,
+}
+
+impl Massive {
+    /// WᵀMQ (WᵀMQ)ᵀ, with `mass` the form WᵀMW.
+    ///
+    /// Another Q, at an angle α to this one, changes wᵀMQ QᵀMv by α ‖w‖ ‖QᵀMv‖ and α ‖v‖ ‖QᵀMw‖ at most. Both are those of an error α‖w‖ of each column.
+    fn form(self, partition: &Partition, shapes: MatRef<'_, f64>, mass: &Form) -> Form {
+        let seen = dense::gram(shapes, product(&partition.mass, self.shapes.as_ref()).as_ref());
+        let mut matrix = dense::product(seen.as_ref(), seen.transpose());
+        dense::symmetrise(&mut matrix);
+        let length = |j: usize| mass.matrix[(j, j)].max(0.0).sqrt();
+        let errors = mass.errors.iter().enumerate().map(|(j, error)| error + self.angle * length(j)).collect();
+        Form { matrix, errors, terms: mass.terms.clone() }
     }
 }
 

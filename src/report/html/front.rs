@@ -56,6 +56,7 @@ pub(super) fn front(page: &mut Markup, body: &ReportBody) {
         ("Method", vec![method(&body.reduction)]),
         ("Interfaces", interfaces(&body.reduction)),
         ("Reduced to", vec![coordinates(&body.reduction)]),
+        ("Reduced mass", words::mass(&body.reduction).into_iter().collect()),
         ("Modes kept", modes(&body.reduction)),
         ("Loads by name", words::loads(&body.reduction)),
         ("Completeness", vec![sentence(&body.completeness.statement())]),

@@ -120,6 +120,7 @@ fn reduced(page: &mut Page, reduction: &ReductionReport) {
     }
     let parts = words::coordinates(reduction);
     page.entry("coordinates", &format!("{} = {}", number::count(reduction.n_reduced as u64), parts.join(" + ")));
+    words::mass(reduction).iter().for_each(|mass| page.entry("reduced mass", mass));
     if let Some(expansion) = &reduction.expansion {
         page.entry("modes", &format!("blake3 {}…", short(&expansion.digest)));
         listing(page, "", &words::expansion(expansion));

@@ -80,6 +80,7 @@ impl Compared {
         let (k, m) = (&evidence.reduction.stiffness, &evidence.reduction.mass);
         let spectral = shift(evidence).and_then(|alpha| Spectral::of(k.as_ref(), m.as_ref(), alpha));
         let spectral = self.kept("highest reduced frequency", spectral)?;
+        let spectral = spectral.map(|spectral| spectral.of_rank(evidence.reduction.mass_rank()));
         self.report.highest = spectral.and_then(|spectral| sizes::highest(evidence, &spectral));
         Ok(())
     }

@@ -32,6 +32,7 @@ pub(super) fn preserved(evidence: &Evidence<'_>) -> Result<Preserved> {
     let (moving, n_zero) = (evidence.moving(), evidence.n_zero());
     let alpha = modes.lambda.first().copied().unwrap_or(1.0);
     let spectral = Spectral::of(dense::part(k, &moving).as_ref(), dense::part(m, &moving).as_ref(), alpha)?;
+    let spectral = spectral.of_rank(evidence.reduction.mass_rank());
     let reduced: Vec<f64> = spectral.eigenvalues().into_iter().skip(n_zero).collect();
     let n_found = modes.count().min(reduced.len());
     let vectors: Vec<Vec<f64>> = (0..n_found).map(|j| spectral.eigenvector(n_zero + j)).collect();

@@ -50,7 +50,7 @@ pub(super) fn quotients(
     while let Some(first) = reference.lambda.get(found.len()) {
         let mass_taken = dense::product(supported.mass.as_ref(), taken.as_ref());
         let stiffness = without(&supported.stiffness, &taken, &mass_taken);
-        let spectral = Spectral::of(stiffness.as_ref(), supported.mass.as_ref(), *first)?;
+        let spectral = Spectral::of(stiffness.as_ref(), supported.mass.as_ref(), *first)?.of_rank(supported.mass_rank);
         let lambda = spectral.eigenvalues().split_off(taken.ncols().min(spectral.eigenvalues().len()));
         // Rounding may leave the first one of a near-mechanism below zero.
         let n_new = lambda.iter().take_while(|value| **value <= SPREAD * lambda[0].abs()).count();
@@ -79,6 +79,8 @@ struct Supported {
     n_free: usize,
     /// Powers of two near one over the root of the stiffness before condensation.
     scales: Vec<f64>,
+    /// The rank that the mass has at most, where the method makes it singular: that of the component, and the dofs with loads.
+    mass_rank: Option<usize>,
 }
 
 impl Supported {
@@ -92,7 +94,9 @@ impl Supported {
         (0..n_free).for_each(|i| mass[(i, i)] += boundary.load[kept[i]]);
         let all = coordinate_scales(evidence);
         let scales = kept.iter().map(|i| all[*i]).collect();
-        Self { stiffness, mass, kept, n_free, scales }
+        let n_loaded = kept[..n_free].iter().filter(|i| boundary.load[**i] > 0.0).count();
+        let mass_rank = evidence.reduction.mass_rank().map(|rank| rank + n_loaded);
+        Self { stiffness, mass, kept, n_free, scales, mass_rank }
     }
 
     /// The Rayleigh quotients of columns, which are brought to unit modal mass.

@@ -48,6 +48,7 @@ pub(super) fn with_zeros(
         let past = |i: usize| if i < dof { i } else { i + 1 };
         let held = |a: &Mat<f64>| Mat::from_fn(a.nrows() - 1, a.nrows() - 1, |i, j| a[(past(i), past(j))]);
         let spectral = Spectral::of(held(k).as_ref(), held(m).as_ref(), shift(evidence)?)?;
+        let spectral = spectral.of_rank(evidence.reduction.mass_rank());
         let zeros = spectral.eigenvalues().into_iter().filter(|lambda| *lambda > 0.0);
         all.extend(within(zeros.map(|lambda| evidence.partition.scaling.hertz(lambda)).collect()));
     }

@@ -1,6 +1,5 @@
 //! The shift that spectral forms are accurate about.
 
-use crate::eigen::elastic_scale;
 use crate::error::Result;
 use crate::verification::evidence::Evidence;
 
@@ -11,7 +10,7 @@ use crate::verification::evidence::Evidence;
 pub(super) fn shift(evidence: &Evidence<'_>) -> Result<f64> {
     let lowest = match evidence.retained.modes.lambda.first() {
         Some(lowest) => Some(*lowest),
-        None => elastic_scale(evidence.reduction.pencil())?,
+        None => evidence.reduction.elastic_scale()?,
     };
     Ok(lowest.filter(|lowest| *lowest > 0.0 && lowest.is_finite()).unwrap_or(1.0))
 }

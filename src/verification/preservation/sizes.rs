@@ -44,8 +44,9 @@ fn size_error(
     (n_modes, band_hz): (usize, [f64; 2]),
 ) -> Result<SizeError> {
     let n = evidence.partition.n_interface() + n_columns(evidence, n_modes);
-    let (k, m) = (&evidence.reduction.stiffness, &evidence.reduction.mass);
-    let (k, m) = (k.submatrix(0, 0, n, n), m.submatrix(0, 0, n, n));
+    let k = evidence.reduction.stiffness.submatrix(0, 0, n, n);
+    let smaller = evidence.reduction.modal_mass.as_ref().map(|modal| modal.of_leading(n)).transpose()?;
+    let m = smaller.as_ref().map_or_else(|| evidence.reduction.mass.submatrix(0, 0, n, n), |mass| mass.as_ref());
     let mut frequency_error = 0.0;
     for reference in references {
         let reduced = quotients(evidence, reference, k, m)?;
@@ -74,7 +75,9 @@ fn n_columns(evidence: &Evidence<'_>, n_modes: usize) -> usize {
 
 /// The highest frequency of the reduced model with its interface free.
 pub(super) fn highest(evidence: &Evidence<'_>, reduced: &Spectral) -> Option<HighestFrequency> {
-    let lambda = reduced.eigenvalues().last().copied().filter(|lambda| *lambda > 0.0)?;
+    // A mass of rigid-body motion alone has zero eigenvalues and no others.
+    let n_zero = evidence.rigid.count() - evidence.rigid.n_massless;
+    let lambda = reduced.eigenvalues().get(n_zero..)?.last().copied().filter(|lambda| *lambda > 0.0)?;
     let frequency_hz = evidence.partition.scaling.hertz(lambda);
     Some(HighestFrequency {
         frequency_hz,

@@ -147,8 +147,8 @@ pub fn reduce(
     let retained = Retained { modes, boundary };
     let job = ReductionJob::new(method, ModeSelection::Count { count });
     let named = retained_columns(component, &job, &retained);
-    let modes = retained.modes;
     let basis = Basis::new(&constraint, &named, partition.internal().mass);
-    let reduction = Reduction::new(&partition, &basis, &rigid);
+    let reduction = Reduction::new(&partition, &basis, &rigid).with_mass_of(&job, &basis, &retained)?;
+    let modes = retained.modes;
     Ok(Chain { partition, rigid, constraint, modes, named, basis, reduction })
 }

@@ -94,6 +94,7 @@ fn body() -> ReportBody {
             n_interface: 9,
             n_inertia_relief: 6,
             n_modes: 50,
+            mass_rank: None,
             n_reduced: 65,
             modes_held: None,
             expansion: None,
