@@ -3,6 +3,7 @@
 //! Flags can give what a single run needs. Paths are relative to the folder of the document; [`Job::resolve`]
 //! makes them absolute before any stage sees them. Unknown keys are errors.
 
+mod accept;
 mod added_mass;
 mod damping;
 mod document;
@@ -28,6 +29,7 @@ mod validation;
 mod whole;
 
 pub use crate::eigen::Eigensolver;
+pub use accept::AcceptJob;
 pub use added_mass::AddedMassJob;
 pub use damping::{ComponentDampingJob, MassActsOn, ModalDampingJob, RayleighJob, RigidMotionDamping};
 pub use document::Notation;
@@ -42,7 +44,7 @@ pub use node_selection::{NodeSelection, Region};
 pub use quantities::QuantitiesJob;
 pub use recovery::RecoveryJob;
 pub use reduction::{ModeSelection, ModesJob, ReductionJob};
-pub use scene::{DampingJob, SceneJob, Support};
+pub use scene::{DampingJob, SceneJob, Support, boundary_in_words};
 pub use schema::{Role, schema};
 pub use selection::Selection;
 pub(crate) use shape::nearest;

@@ -78,7 +78,7 @@
 //! number · dofs · error · heap · foreign_exit · regular_file · linked · random · dense · sparse
 //! factor · eigen
 //! job · input · model · partition · rigid · coordinates · constraint · modes · basis · modal_mass · reduction · rubin · damping
-//! memory_forecast · verification · audit · assembly
+//! memory_forecast · size_forecast · verification · audit · assembly
 //! report · output · outcome · export · recovery · cli
 //! ```
 //!
@@ -128,16 +128,18 @@ mod regular_file;
 pub mod report;
 pub mod rigid;
 pub mod rubin;
+pub mod size_forecast;
 pub mod sparse;
 pub mod verification;
 
 use audit::{Audit, Reference};
 use basis::Basis;
-use constraint::{Constrained, constrained};
+use constraint::{Constrained, LooseMotions, constrained};
 use damping::{Damping, refuse_resistance};
 use error::Result;
+use factor::Analysis;
 use input::{Allowance, InputFacts};
-use job::Job;
+use job::{AcceptJob, Job};
 use memory_forecast::Resources;
 use model::Model;
 use modes::{Component, ModeSource, Retained, Search};
@@ -158,30 +160,62 @@ use verification::Evidence;
 /// The errors of the stages; each says what is wrong, where, what was found, what was expected and what to do.
 pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Result<Outcome> {
     let (facts, partition) = prepared(job, resources, observer)?;
+    with_stages(job, &partition, (resources, observer), |stages, observer| {
+        let Stages { evidence, analysis, loose, n_other_factors } = stages;
+        observer.stage("verification");
+        let findings = verification::verify(&evidence)?;
 
+        observer.stage("preservation");
+        let preserved = verification::preservation(&evidence, analysis, job)?;
+
+        let (input, findings, preserved) = (&facts, &findings, &preserved);
+        let results = Results { job, input, loose, evidence, findings, preserved, analysis, n_other_factors };
+        output::output(&results).map(|(superelement, report)| Outcome { superelement, report })
+    })
+}
+
+/// What the stages up to the projection have made.
+struct Stages<'a> {
+    evidence: Evidence<'a>,
+    analysis: &'a Analysis,
+    loose: &'a LooseMotions,
+    /// Factorisations in addition to that of K_II.
+    n_other_factors: usize,
+}
+
+/// The stages from the rigid-body modes to the projection, and what is made of their results.
+fn with_stages<T>(
+    job: &Job,
+    partition: &Partition,
+    (resources, observer): (Resources, &mut dyn Observer),
+    then: impl FnOnce(Stages<'_>, &mut dyn Observer) -> Result<T>,
+) -> Result<T> {
+    size_forecast::of_interfaces(partition).iter().for_each(|warning| observer.warned(warning));
     observer.stage("rigid-body modes");
     // The analysis reads the pattern of the matrices alone, so that it runs at the same time.
-    let (rigid, analysis) = rayon::join(|| rigid::rigid_body_modes(&partition), || partition.analysis());
+    let (rigid, analysis) = rayon::join(|| rigid::rigid_body_modes(partition), || partition.analysis());
     let ((rigid, n_extra), analysis) = (rigid?, analysis?);
-    let rank = refuse_resistance(job, &partition, &rigid).and_then(|()| rigid::interface_rank(&partition, &rigid))?;
+    let rank = refuse_resistance(job, partition, &rigid).and_then(|()| rigid::interface_rank(partition, &rigid))?;
 
     observer.stage("factor");
-    let storage = memory_forecast::storage_within_memory(&analysis, &partition, job, resources)?;
-    let factor = constraint::interior_factor(&partition, &analysis, &rigid, storage)?;
+    let storage = memory_forecast::storage_within_memory(&analysis, partition, job, resources)?;
+    let factor = constraint::interior_factor(partition, &analysis, &rigid, storage)?;
 
     observer.stage("constraint modes");
-    let Constrained { modes: constraint, rigid, rank, loose } = constrained(&partition, &factor, rigid, rank)?;
+    let Constrained { modes: constraint, rigid, rank, loose } = constrained(partition, &factor, rigid, rank)?;
 
     observer.stage("modes");
-    let component = Component::new(&partition, &analysis, &factor, &rigid, &constraint);
+    let component = Component::new(partition, &analysis, &factor, &rigid, &constraint);
     let search = Search::new(component, &job.reduction)?;
     let size = (storage, search.n_expected());
-    let at_once = memory_forecast::slices_within_memory(&analysis, &partition, job, resources, size)?;
+    let forecast = search.n_expected().and_then(|n_modes| size_forecast::of_modes(n_modes, job));
+    forecast.iter().for_each(|warning| observer.warned(warning));
+    let at_once = memory_forecast::slices_within_memory(&analysis, partition, job, resources, size)?;
     let found = factor.vouched(search.with_slices_at_once(at_once).lowest(SEED))?;
 
     observer.stage("certificate");
     let (found, certificate) = modes::certified(&search, &search.problem, found, search.edge(), job.certified())?;
-    let retained = Retained::new(&partition, found, search.problem.boundary);
+    let retained = Retained::new(partition, found, search.problem.boundary);
 
     observer.stage("basis");
     let answers = basis::static_answers(component);
@@ -189,17 +223,16 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let basis = Basis::answering(component, &named).with_coordinates()?;
 
     observer.stage("projection");
-    let reduction = Reduction::new(&partition, &basis, &rigid).with_mass_of(&job.reduction, &basis, &retained)?;
+    let reduction = Reduction::new(partition, &basis, &rigid).with_mass_of(&job.reduction, &basis, &retained)?;
     let rubin = rubin::rubin_where_asked(&job.reduction, &basis, &reduction, &retained)?;
 
-    let damping = Damping::of_reduction(job, &partition, &reduction)?;
+    let damping = Damping::of_reduction(job, partition, &reduction)?;
 
     observer.stage("enclosures");
     let enclosures = verification::enclosures_where_asked(component, &retained, job.certified())?;
 
-    observer.stage("verification");
     let evidence = Evidence {
-        partition: &partition,
+        partition,
         factor: &factor,
         rigid: &rigid,
         rank,
@@ -214,22 +247,8 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
         enclosures: enclosures.as_ref(),
         expect: job.model.expect.as_ref(),
     };
-    let findings = verification::verify(&evidence)?;
-
-    observer.stage("preservation");
-    let preserved = verification::preservation(&evidence, &analysis, job)?;
-
-    let results = output::output(&Results {
-        job,
-        input: &facts,
-        loose: &loose,
-        evidence,
-        findings: &findings,
-        preserved: &preserved,
-        analysis: &analysis,
-        n_other_factors: n_extra + usize::from(search.edge().is_some()),
-    });
-    results.map(|(superelement, report)| Outcome { superelement, report })
+    let n_other_factors = n_extra + usize::from(search.edge().is_some());
+    then(Stages { evidence, analysis: &analysis, loose: &loose, n_other_factors }, observer)
 }
 
 /// The first four stages, which every look at the full model begins with.
@@ -304,5 +323,30 @@ pub fn verify(
     let reference = Reference::new(job, &facts, &partition)?;
 
     observer.stage("comparison");
-    audit::against(superelement, &reference)
+    let mut audit = audit::against(superelement, &reference)?;
+    drop(reference);
+    if job.accepted() != AcceptJob::default() {
+        audit = audit.joined(accepted(superelement, job, &partition, (resources, observer))?);
+    }
+    Ok(audit)
+}
+
+/// What the scene accepts, measured on the matrices of a file by the stages of a reduction of the same job.
+fn accepted(
+    superelement: &Superelement,
+    job: &Job,
+    partition: &Partition,
+    (resources, observer): (Resources, &mut dyn Observer),
+) -> Result<Audit> {
+    with_stages(job, partition, (resources, observer), |Stages { evidence: own, analysis, .. }, observer| {
+        observer.stage("preservation");
+        let Some(reduction) = audit::reduction_of(superelement, &own) else {
+            return Ok(Audit::unlike(
+                "what the scene accepts was not measured: its coordinates are not those of the job",
+            ));
+        };
+        let evidence = Evidence { reduction: &reduction, ..own };
+        let compared = verification::preservation_of_file((&evidence, &own), analysis, job)?;
+        Ok(Audit::of_accuracy(&compared))
+    })
 }

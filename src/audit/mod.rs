@@ -29,13 +29,14 @@ mod version;
 use supel_runtime::Superelement;
 
 use crate::error::Result;
+use crate::verification::Compared;
 use crate::verification::check::{Check, Verdict};
 
 use content::Content;
-use notes::Compared;
+use notes::Compared as ComparedWith;
 
 pub(crate) use flaw::flaw;
-pub use model::Reference;
+pub use model::{Reference, reduction_of};
 pub use notes::Unvouched;
 pub use record::rewritten;
 pub use reproduction::reproduced;
@@ -57,6 +58,17 @@ impl Audit {
     /// The worst verdict of the checks.
     pub fn verdict(&self) -> Verdict {
         self.checks.iter().map(Check::verdict).fold(Verdict::Pass, Verdict::max)
+    }
+
+    /// Nothing but a note.
+    pub(crate) fn unlike(note: &str) -> Self {
+        Self { notes: vec![note.to_owned()], ..Self::default() }
+    }
+
+    /// What the scene accepts, M-29 to M-31, of a comparison with the full model.
+    pub(crate) fn of_accuracy(compared: &Compared) -> Self {
+        let of_accuracy = |check: &&Check| ["M-29", "M-30", "M-31"].contains(&check.id);
+        Self { checks: compared.checks.iter().filter(of_accuracy).cloned().collect(), ..Self::default() }
     }
 
     /// Joins this result with another one.
@@ -82,7 +94,7 @@ pub fn of_file(superelement: &Superelement) -> Result<Audit> {
     let mut audit = checked(&content)?;
     audit.checks.extend(kept_job::n_modes(&content));
     let audit = audit.sorted();
-    Ok(Audit { unvouched: notes::fields(superelement, Compared::Alone), ..audit })
+    Ok(Audit { unvouched: notes::fields(superelement, ComparedWith::Alone), ..audit })
 }
 
 /// Checks a superelement against the rest of itself and against the reference, which also says how much rounding may change.
@@ -92,7 +104,7 @@ pub fn of_file(superelement: &Superelement) -> Result<Audit> {
 pub fn against(superelement: &Superelement, reference: &Reference<'_>) -> Result<Audit> {
     let by_itself = checked(&Content::of(superelement, Some(reference.noise()))?)?;
     let audit = by_itself.joined(reference.against(superelement)?);
-    Ok(Audit { unvouched: notes::fields(superelement, Compared::WithJob), ..audit })
+    Ok(Audit { unvouched: notes::fields(superelement, ComparedWith::WithJob), ..audit })
 }
 
 fn checked(content: &Content<'_>) -> Result<Audit> {

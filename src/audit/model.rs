@@ -39,10 +39,11 @@ use crate::factor::{Analysis, Cholesky};
 use crate::input::InputFacts;
 use crate::job::{Boundary, Job, MassOf};
 use crate::partition::Partition;
+use crate::reduction::Reduction;
 use crate::rigid::{self, RigidBodyModes, RigidSource};
-use crate::verification;
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::energy_noise;
+use crate::verification::{self, Evidence};
 
 use alignment::{Combination, Freedom, combination};
 use asked::AskedModes;
@@ -56,6 +57,13 @@ use scaled::Scaled;
 
 /// Condition of a reduced mass in which lengths of columns are rounding.
 const SINGULAR: f64 = 1e-2 / f64::EPSILON;
+
+/// The reduction of a job with K̂ and M̂ of a file in the units of its partition; none where the file has other numbers of coordinates.
+pub fn reduction_of(superelement: &Superelement, evidence: &Evidence<'_>) -> Option<Reduction> {
+    let file = Scaled::of(superelement, evidence.partition);
+    let is_alike = file.n_b == evidence.partition.n_interface() && file.k.nrows() == evidence.reduction.n_reduced();
+    is_alike.then(|| Reduction { stiffness: file.k, mass: file.m, ..evidence.reduction.clone() })
+}
 
 /// What a superelement of a job has to be, computed without a superelement.
 pub struct Reference<'a> {

@@ -12,6 +12,7 @@ use crate::error::Result;
 use crate::job::{Certify, Job};
 use crate::verification::catalogue::{CATALOGUE, Entry, Recorded, entry};
 use crate::verification::check::Check;
+use crate::verification::preservation::AccuracyMeasure;
 
 /// M-26: the bytes of the file are those that its content makes: nothing is hidden in it, the digest holds.
 pub fn rewritten(superelement: &Superelement, bytes: &[u8]) -> Check {
@@ -89,6 +90,15 @@ fn least(content: &Content<'_>, entry: &Entry) -> usize {
             usize::from(columns.any(|coordinate| matches!(coordinate, Coordinate::ResidualVector { .. })))
         }
         Recorded::WithDamping => usize::from(content.job.as_ref().is_some_and(Job::has_damping)),
+        Recorded::WithAccepted(measure) => {
+            let accept = content.job.as_ref().map(Job::accepted).unwrap_or_default();
+            let limit = match measure {
+                AccuracyMeasure::Frequency => accept.frequency,
+                AccuracyMeasure::Response => accept.response_db,
+                AccuracyMeasure::Static => accept.statics,
+            };
+            usize::from(limit.is_some())
+        }
         Recorded::Sometimes => 0,
     }
 }

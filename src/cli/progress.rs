@@ -3,8 +3,9 @@
 use std::io::Write;
 
 use super::answer::Progress;
+use crate::error::Warning;
 use crate::heap;
-use crate::report::Observer;
+use crate::report::{Observer, printable};
 
 /// Shows the running stage on stderr, or nothing.
 pub(super) struct StageLine {
@@ -28,6 +29,10 @@ impl Observer for StageLine {
     fn stage(&mut self, name: &'static str) {
         heap::enter_stage(name);
         self.show(&format!("  {name} …"));
+    }
+
+    fn warned(&mut self, warning: &Warning) {
+        self.show(&format!("supel: {}: {}\n", warning.code, printable(&warning.message)));
     }
 }
 

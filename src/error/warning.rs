@@ -10,3 +10,10 @@ pub struct Warning {
     /// One sentence.
     pub message: String,
 }
+
+impl Warning {
+    /// Whether it says how the answer suits what is asked of it, and nothing of the reduction itself.
+    pub fn is_of_scene(&self) -> bool {
+        ["W-ACCURACY", "W-LARGE", "W-NO-MODES"].contains(&self.code)
+    }
+}

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use supel_runtime::MatrixKind;
 
+use super::accept::AcceptJob;
 use super::damping::{ComponentDampingJob, RigidMotionDamping};
 use super::location::Holder;
 use super::reduction::ModesJob;
@@ -69,6 +70,11 @@ impl Job {
     /// What becomes of damping that resists rigid-body motion.
     pub fn rigid_motion(&self) -> RigidMotionDamping {
         self.damping.as_ref().map_or_else(RigidMotionDamping::default, |damping| damping.rigid_motion)
+    }
+
+    /// The errors that the scene accepts; where it says nothing, of no kind.
+    pub fn accepted(&self) -> AcceptJob {
+        self.scene.as_ref().and_then(|scene| scene.accept).unwrap_or_default()
     }
 
     /// How completeness of the computed modes is certified: not at all where a file has the modes, which may leave out any others.

@@ -6,6 +6,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
+use super::accept::AcceptJob;
 use super::interface::InterfaceJob;
 use super::ranges::{LARGEST, SMALLEST, number, size};
 use crate::error::{Error, Result};
@@ -25,6 +26,9 @@ pub struct SceneJob {
     /// Damping of the frequency response.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damping: Option<DampingJob>,
+    /// Errors that are accepted; beyond them the reduction fails.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accept: Option<AcceptJob>,
 }
 
 /// Damping of the component.
@@ -117,6 +121,19 @@ impl TryFrom<String> for Support {
     }
 }
 
+/// A boundary in words: `base held` for `fix:base`, `base loaded` for `mass:base`, `base loaded by 2.5` for `mass:base=2.5`;
+/// names of others as they stand.
+pub fn boundary_in_words(code: &str) -> String {
+    if let Some(interface) = code.strip_prefix("fix:") {
+        return format!("{interface} held");
+    }
+    let Some(loaded) = code.strip_prefix("mass:") else { return code.to_owned() };
+    match loaded.rsplit_once('=').filter(|(_, mass)| mass.parse::<f64>().is_ok()) {
+        Some((interface, mass)) => format!("{interface} loaded by {mass}"),
+        None => format!("{loaded} loaded"),
+    }
+}
+
 /// Two frequencies, the higher one above zero.
 fn band_schema(_: &mut SchemaGenerator) -> Schema {
     let (low, high) = (
@@ -155,5 +172,5 @@ pub(super) fn validate(scene: &SceneJob, interfaces: &[InterfaceJob]) -> Result<
             return Err(number("scene.damping.ratio".to_owned(), damping.ratio, "a share of critical damping below 1"));
         }
     }
-    Ok(())
+    scene.accept.map_or(Ok(()), |accept| accept.validate())
 }

@@ -14,7 +14,7 @@ use crate::report::{Report, RunFacts};
 pub fn output(results: &Results<'_>) -> Result<(Superelement, Report)> {
     results.evidence.factor.refinement()?;
     let body = body::body(results);
-    let superelement = superelement::superelement(results, body.verdict())?;
+    let superelement = superelement::superelement(results, body.verdict_of_reduction())?;
     let run = RunFacts { work: results.work(), ..Default::default() };
     Ok((superelement, Report { body, run }))
 }

@@ -8,7 +8,9 @@ mod expansion;
 mod recovery;
 mod report;
 mod results;
+
 mod rigid_body;
+mod scene;
 mod soft_rotation;
 mod superelement;
 mod user_basis;

@@ -1,7 +1,7 @@
 //! The body of the report from the results of the stages.
 
 use super::results::Results;
-use super::{expansion, rigid_body, soft_rotation, warnings};
+use super::{expansion, rigid_body, scene, soft_rotation, warnings};
 use crate::basis::DynamicCoordinate;
 use crate::eigen::CLUSTER_GAP;
 use crate::error::Warning;
@@ -281,6 +281,7 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
     warnings.extend(rigid_body::expectation_unchecked(results));
     warnings.extend(number_of_modes(results));
     warnings.extend(expansion::not_followed(results));
+    warnings.extend(scene::warnings(results));
     if let Some(certificate) = evidence.certificate.filter(|certificate| certificate.doubt() > 1.0) {
         warnings.push(Warning {
             code: "W-COUNT-LIKELY",

@@ -263,10 +263,20 @@ pub struct WorkCounters {
 impl ReportBody {
     /// The worst verdict of the checks; with warnings at least [`Verdict::Warn`], with missing modes [`Verdict::Fail`].
     pub fn verdict(&self) -> Verdict {
+        self.verdict_with(self.warnings.len())
+    }
+
+    /// The verdict that a superelement keeps: without warnings of how it suits the scene, which a file for another scene need not have.
+    /// What the scene accepts are checks, and count.
+    pub fn verdict_of_reduction(&self) -> Verdict {
+        self.verdict_with(self.warnings.iter().filter(|warning| !warning.is_of_scene()).count())
+    }
+
+    fn verdict_with(&self, n_warnings: usize) -> Verdict {
         let floor = match &self.completeness {
             Completeness::SturmCount { n_counted, n_found, .. } if n_counted != n_found => Verdict::Fail,
             Completeness::SturmCount { .. } if !self.completeness.is_certified() => Verdict::Warn,
-            _ if self.warnings.is_empty() => Verdict::Pass,
+            _ if n_warnings == 0 => Verdict::Pass,
             _ => Verdict::Warn,
         };
         self.checks.iter().map(Check::verdict).fold(floor, Verdict::max)

@@ -4,12 +4,17 @@ use std::time::Instant;
 
 use serde::Serialize;
 
+use crate::error::Warning;
+
 /// Hears of each stage of the pipeline as it begins.
 ///
 /// The pipeline knows neither the clock nor the terminal; what a stage took and what is shown is the listener's.
 pub trait Observer {
     /// A stage begins, and with it the one before has ended.
     fn stage(&mut self, name: &'static str);
+
+    /// What is known before the long work begins, and will stand in the report.
+    fn warned(&mut self, _warning: &Warning) {}
 }
 
 /// An observer that ignores the stages.
@@ -62,5 +67,9 @@ impl<O: Observer + ?Sized> Observer for StageClock<'_, O> {
         self.stop();
         self.listener.stage(name);
         self.running = Some((name, Instant::now()));
+    }
+
+    fn warned(&mut self, warning: &Warning) {
+        self.listener.warned(warning);
     }
 }

@@ -2,12 +2,14 @@
 
 use super::{
     ExpansionReport, FacesReport, InterfacePosition, InterfaceReport, LoadReport, ModeKind, ModelReport,
-    PositionOrigin, ReductionReport, ResidualVector,
+    PositionOrigin, ReductionReport, ReportBody, ResidualVector,
 };
 use crate::job::Eigensolver;
+pub(super) use crate::job::boundary_in_words as boundary;
 use crate::number::{self, counted};
 use crate::partition::{Fit, Frame, HeldSelection};
 use crate::verification::check::{ActiveLimit, Check, Verdict};
+use crate::verification::preservation::{Accuracy, AccuracyMeasure, LimitSource, Preservation};
 
 pub(super) fn eigensolver(eigensolver: Eigensolver) -> &'static str {
     match eigensolver {
@@ -34,17 +36,57 @@ pub(super) fn mode_kind(kind: ModeKind) -> &'static str {
     }
 }
 
-/// A boundary in words: `base held` for `fix:base`, `base loaded` for `mass:base`, `base loaded by 2.5` for `mass:base=2.5`;
-/// names of others as they stand.
-pub(super) fn boundary(code: &str) -> String {
-    if let Some(interface) = code.strip_prefix("fix:") {
-        return format!("{interface} held");
+/// How far the reduced model answers what is asked of it, a label and a line each: errors with their limits, then the frequencies that it
+/// has. Nothing where nothing was compared.
+pub(super) fn accuracy(body: &ReportBody) -> Vec<(&'static str, String)> {
+    let preservation = &body.preservation;
+    if *preservation == Preservation::default() {
+        return Vec::new();
     }
-    let Some(loaded) = code.strip_prefix("mass:") else { return code.to_owned() };
-    match loaded.rsplit_once('=').filter(|(_, mass)| mass.parse::<f64>().is_ok()) {
-        Some((interface, mass)) => format!("{interface} loaded by {mass}"),
-        None => format!("{loaded} loaded"),
+    let mut lines: Vec<(&str, String)> = preservation.accuracy.iter().map(accuracy_of).collect();
+    if let Some([low, high]) = preservation.band_hz.filter(|_| !lines.is_empty()) {
+        lines.insert(0, ("band", format!("{} Hz to {} Hz", number::quantity(low, 4), number::quantity(high, 5))));
     }
+    let mut parts = Vec::new();
+    parts.extend(
+        body.reduction.modes.last().map(|mode| format!("modes kept to {} Hz", number::quantity(mode.frequency_hz, 5))),
+    );
+    parts.push(match preservation.highest {
+        Some(highest) => format!(
+            "highest frequency {} Hz, explicit steps below {} s",
+            number::quantity(highest.frequency_hz, 5),
+            number::scientific(highest.explicit_step_s, 2)
+        ),
+        None => "no largest explicit step is known: a motion has no mass, or none was found".to_owned(),
+    });
+    lines.push(("reduced model", parts.join(" · ")));
+    lines
+}
+
+fn accuracy_of(accuracy: &Accuracy) -> (&'static str, String) {
+    let label = match accuracy.measure {
+        AccuracyMeasure::Frequency => "frequencies",
+        AccuracyMeasure::Response => "response",
+        AccuracyMeasure::Static => "statics",
+    };
+    let at = accuracy.at.as_deref().unwrap_or("the comparison was not made");
+    let mut line = match accuracy.error {
+        None => format!("not measured: {at}"),
+        Some(0.0) => at.to_owned(),
+        Some(error) if error.is_finite() => format!("off by at most {}: {at}", accuracy.in_words(error)),
+        Some(_) => format!("not all there: {at}"),
+    };
+    if let (Some(limit), Some(_)) = (accuracy.limit, accuracy.error) {
+        let whose = match accuracy.set_by {
+            LimitSource::Scene => "the scene accepts",
+            LimitSource::Practice => "practice asks for",
+        };
+        line += &format!(" · {whose} {}", accuracy.in_words(limit));
+    }
+    if let Some(advice) = &accuracy.advice {
+        line += &format!(" – {advice}");
+    }
+    (label, line)
 }
 
 /// The boundary of the modes in words: `mixed-interface (base held)`.

@@ -1,6 +1,8 @@
 //! The catalogue of checks: identifier, proof, meaning and remedy of each, and when a reduction records it. The page, the
 //! documentation and the rules for the record in a file are made from it.
 
+use super::preservation::AccuracyMeasure;
+
 /// How firm the answer of a check is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Proof {
@@ -53,6 +55,8 @@ pub enum Recorded {
     WithResidualVector,
     /// Where the job asks for damping.
     WithDamping,
+    /// Where the scene accepts an error of this kind.
+    WithAccepted(AccuracyMeasure),
     /// Where there is something to measure it on.
     Sometimes,
 }
@@ -313,5 +317,29 @@ pub const CATALOGUE: &[Entry] = &[
         "Damping does nothing to the component as a whole, and takes energy from every other motion. Against the job: damping and further \
          matrices are those of the full model, skew parts included.",
         "Look at the motion named: a damper to the ground, or damping in proportion to the mass. A fluid may drive a motion; nothing else does.",
+    ),
+    line(
+        "M-29",
+        Proof::Measured,
+        Recorded::WithAccepted(AccuracyMeasure::Frequency),
+        "The largest relative difference of a frequency in the band, reduced against full model, under each boundary of the scene, \
+         against what the scene accepts. There is no margin: past the limit the check fails, and so it does where a boundary could not \
+         be compared.",
+        "Keep more modes, or take another method; what is named next to the worst frequency says which would do. Or accept more.",
+    ),
+    line(
+        "M-30",
+        Proof::Measured,
+        Recorded::WithAccepted(AccuracyMeasure::Response),
+        "The largest difference of the frequency response of M-20, against what the scene accepts. There is no margin.",
+        "As for M-29.",
+    ),
+    line(
+        "M-31",
+        Proof::Measured,
+        Recorded::WithAccepted(AccuracyMeasure::Static),
+        "Static stiffness of each interface (M-17) and the static answer to each load that the job names (M-27), whichever is worse, \
+         against what the scene accepts. There is no margin.",
+        "Of a load: leave its `residual = true`. Of an interface: the static solutions are poor, see M-10.",
     ),
 ];

@@ -102,6 +102,9 @@ impl Check {
     /// `fail_above` of a check that warns above its limit and never fails. It is finite, so that an infinite value does fail.
     pub const NEVER: f64 = f64::MAX;
 
+    /// `fail_above` of a check that fails above its limit and never warns.
+    pub const AT_LIMIT: f64 = f64::NEG_INFINITY;
+
     /// The verdict. NaN fails, and so does a value that only an infinite limit would let pass.
     pub fn verdict(&self) -> Verdict {
         if self.value.is_finite() && !self.is_judged() {
@@ -118,6 +121,9 @@ impl Check {
     /// Above this the check fails; between the limit and this it warns. Limits that arithmetic or data excuse may reach the figure at
     /// which a check fails, and a value just above them is no worse than one just below.
     pub fn fails_above(&self) -> f64 {
+        if self.fail_above == Self::AT_LIMIT {
+            return self.limits.value();
+        }
         if self.is_judged() { self.fail_above.max(FAR_ABOVE * self.limits.value()) } else { self.fail_above }
     }
 

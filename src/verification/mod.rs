@@ -38,5 +38,5 @@ pub use loads::EffectiveMasses;
 pub(crate) use mass::{comparable, expected_by_weight, not_comparable, of_a_body, of_held_body};
 pub(crate) use penalty::LARGEST_OF_MESHES;
 pub use penalty::{Penalties, penalties};
-pub use preservation::{Compared, preservation};
+pub use preservation::{Compared, preservation, preservation_of_file};
 pub use rigid_body::MassRoutes;

@@ -153,3 +153,10 @@ pub fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) {
         assert!(difference <= tolerance, "{found} and {expected} differ by {difference:e}");
     }
 }
+
+/// Codes of the warnings in a report that say something of the reduction, in their order: how far it suits a scene is another matter.
+pub fn warnings_of_reduction(report: &Value) -> Vec<String> {
+    let warnings = report["body"]["warnings"].as_array().expect("warnings").iter();
+    let codes = warnings.map(|warning| warning["code"].as_str().expect("a code").to_owned());
+    codes.filter(|code| !["W-ACCURACY", "W-LARGE", "W-NO-MODES"].contains(&code.as_str())).collect()
+}

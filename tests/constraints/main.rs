@@ -8,7 +8,7 @@ use faer::{Mat, MatRef};
 use supel::cli::ExitCode;
 use supel_models::Model;
 use supel_runtime::{Matrix, Superelement};
-use supel_testing::place::{Ended, Place, supel};
+use supel_testing::place::{Ended, Place, supel, warnings_of_reduction};
 
 /// A matrix by rows: columns and values.
 type Rows = Vec<Vec<(u32, f64)>>;
@@ -78,9 +78,7 @@ superelement = "x.supel"
     /// Codes of the warnings of the report, and its remarks as one text.
     fn told(&self) -> (Vec<String>, String) {
         let report = self.place.report("x.report.json");
-        let warnings = report["body"]["warnings"].as_array().expect("a list").clone();
-        let codes = warnings.iter().map(|warning| warning["code"].as_str().expect("a code").to_owned()).collect();
-        (codes, report.to_string())
+        (warnings_of_reduction(&report), report.to_string())
     }
 }
 

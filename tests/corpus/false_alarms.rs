@@ -210,7 +210,14 @@ const TRUE: &[Known] = &[
     ("nastran_cb_nas2cam_extseout_inboard", SUPERELEMENT.0, SUPERELEMENT.1),
 ];
 
-fn is_true(pair: &Pair, complaint: &str) -> bool {
+/// Modes of the held interface up to one and a half times the band leave percents of frequencies and many decibels: that is what
+/// W-ACCURACY says, with the figures next to it. Modes of the free component up to there do not.
+const HELD_MODES: (&str, &str) = ("craig-bampton", "W-ACCURACY");
+
+fn is_true(pair: &Pair, method: &str, complaint: &str) -> bool {
+    if (method, complaint) == HELD_MODES {
+        return true;
+    }
     TRUE.iter().any(|(name, known, _)| *name == pair.name && known.contains(&complaint))
 }
 
@@ -227,7 +234,7 @@ fn what_sound_pairs_are_warned_of_is_true() {
     for ((pair, method), complaints) in runs.iter().zip(&said) {
         let source = if pair.source == Source::Coordinates { "coordinates" } else { "matrices" };
         println!("| {} | {source} | {method} | {} |", pair.name, complaints.join("; "));
-        let unexplained: Vec<&String> = complaints.iter().filter(|said| !is_true(pair, said)).collect();
+        let unexplained: Vec<&String> = complaints.iter().filter(|said| !is_true(pair, method, said)).collect();
         n_silent += usize::from(complaints.is_empty());
         n_true += usize::from(!complaints.is_empty() && unexplained.is_empty());
         false_alarms.extend(unexplained.iter().map(|said| format!("{}, {method}: {said}", pair.name)));

@@ -8,7 +8,7 @@ use supel_models::model::Assembler;
 use supel_models::transform::{rounded, translated};
 use supel_models::{Inertia, Material, Model, Section, frame};
 
-use crate::place::{Place, steel_brick, supel};
+use crate::place::{Place, steel_brick, supel, warnings_of_reduction};
 
 /// A bent frame of twelve beams, one metre long; node 7 is its corner.
 fn bent() -> Model {
@@ -61,8 +61,7 @@ fn linked(penalty: f64) -> Model {
 
 /// Codes of the warnings of a report.
 fn codes(report: &Value) -> BTreeSet<String> {
-    let warnings = report["body"]["warnings"].as_array().expect("warnings").iter();
-    warnings.map(|warning| warning["code"].as_str().expect("a code").to_owned()).collect()
+    warnings_of_reduction(report).into_iter().collect()
 }
 
 /// What the run and both verifications of its file end with, and its warnings.

@@ -8,7 +8,7 @@ use supel_models::model::Assembler;
 use supel_models::transform::join;
 use supel_models::{Material, Model, brick};
 
-use crate::place::{Place, supel};
+use crate::place::{Place, supel, warnings_of_reduction};
 
 /// Nodes of one end of the first body, tied to those of the second that lie at the same places.
 const TIED: [i64; 4] = [1, 6, 11, 16];
@@ -59,8 +59,7 @@ fn frequencies(report: &Value) -> Vec<[f64; 2]> {
 
 /// Codes of the warnings of a report.
 fn codes(report: &Value) -> BTreeSet<String> {
-    let warnings = report["body"]["warnings"].as_array().expect("warnings").iter();
-    warnings.map(|warning| warning["code"].as_str().expect("a code").to_owned()).collect()
+    warnings_of_reduction(report).into_iter().collect()
 }
 
 #[test]

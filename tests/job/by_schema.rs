@@ -40,7 +40,7 @@ fn jobs() -> Vec<Value> {
             "matrix": [{ "name": "seal", "kind": "damping", "file": "C.mtx" }],
             "damping": { "rayleigh": { "mass": 0.25, "stiffness": 0.5, "mass_acts_on": "deformation" }, "modal": { "ratio": 0.25 }, "rigid_motion": "resist" },
             "reduction": { "method": "herting", "modes": modes, "inertia_relief": true, "eigensolver": "arpack" },
-            "scene": { "band_hz": [0.25, 500.5], "boundaries": ["free", "fix:hub", "mass:hub", "mass:hub=2.5"], "damping": { "ratio": 0.25 } },
+            "scene": { "band_hz": [0.25, 500.5], "boundaries": ["free", "fix:hub", "mass:hub", "mass:hub=2.5"], "damping": { "ratio": 0.25 }, "accept": { "frequency": 0.25, "response_db": 1.5, "static": 0.125 } },
             "run": { "certify": "full", "memory_gib": 4.5, "precision": "mixed" },
             "write": {
                 "superelement": "x.supel", "report": "x.json", "html": "x.html", "junit": "x.xml",

@@ -1,5 +1,6 @@
 //! What the report says the reduction preserves, against dense computations of the full model.
 
+mod accuracy;
 mod boundaries;
 mod faults;
 mod oracle;

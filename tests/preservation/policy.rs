@@ -60,3 +60,13 @@ fn without_modes_only_the_scene_knows_a_band() {
     let stated = plan(1e4, "count = 0", "[scene]\nband_hz = [0, 50]");
     assert_eq!((stated.supports.len(), stated.response), (5, true));
 }
+
+/// What is accepted on has to be measured.
+#[test]
+fn what_the_scene_accepts_is_compared_at_any_cost() {
+    let frequency = plan(1e9, "up_to_hz = 3000", "[scene]\naccept = { frequency = 0.01 }");
+    assert_eq!((frequency.supports.len(), frequency.response), (5, false));
+    let response = plan(1e9, "up_to_hz = 3000", "[scene]\naccept = { response_db = 1.0 }");
+    assert_eq!((response.supports.len(), response.response), (0, true));
+    assert!(plan(1e4, "up_to_hz = 3000", "[scene]\naccept = { static = 1e-6 }").shown > 1000);
+}

@@ -48,6 +48,9 @@ proptest! {
             prop_assert_eq!(verdict, demanded(check), "{}", check);
             worst = worst.max(rank(verdict));
         }
+        if !report["body"]["warnings"].as_array().expect("warnings").is_empty() {
+            worst = worst.max(rank("warn"));
+        }
         let verdict = report["body"]["verdict"].as_str().expect("a verdict");
         prop_assert_eq!(rank(verdict), worst, "the verdict of the whole is {}", verdict);
         prop_assert_eq!(ended.code == ExitCode::CheckFailed, verdict == "fail");

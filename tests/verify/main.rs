@@ -1,5 +1,6 @@
 //! `supel verify`: healthy files pass, files altered in any tensor and sealed again do not, nor do files of another model.
 
+mod accepted;
 mod degenerate;
 mod document;
 mod frames;

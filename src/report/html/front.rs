@@ -45,6 +45,9 @@ pub(super) fn front(page: &mut Markup, body: &ReportBody) {
     page.raw(&format!("<div class=\"box {}\">\n", class_of(verdict)));
     page.raw(&format!("<h1 id=\"verdict-heading\"><span aria-hidden=\"true\">{sign}</span> {word}</h1>\n"));
     page.paragraph(&counts(body));
+    for (label, line) in words::accuracy(body) {
+        page.classed("p", "accuracy", &format!("{}: {line}", capital(label)));
+    }
     page.raw("</div>\n");
     page.classed("p", "scope", if verdict == Verdict::Fail { NOT_PROVED } else { SCOPE });
     page.facts(&[
@@ -273,6 +276,10 @@ fn signatures(page: &mut Markup) {
 
 /// A statement with a capital letter and a full stop.
 pub(super) fn sentence(statement: &str) -> String {
-    let mut letters = statement.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().collect::<String>() + letters.as_str()) + "."
+    capital(statement) + "."
+}
+
+fn capital(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().collect::<String>() + letters.as_str())
 }

@@ -22,7 +22,9 @@ pub(super) fn size(page: &mut Markup, preservation: &Preservation) {
             in_words(highest.explicit_step_s, 3),
             in_words(highest.resolving_step_s, 3)
         )),
-        None => page.absent("Not in this report."),
+        None => page.absent(
+            "None is in this report: where a motion of the reduced model has no mass, no explicit step follows it.",
+        ),
     }
 }
 

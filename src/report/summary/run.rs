@@ -4,7 +4,7 @@ use crate::number;
 use crate::report::conclusion::conclusion;
 use crate::report::page::{LABEL, Page, Tone, WIDTH};
 use crate::report::table::{self, Align};
-use crate::report::{Report, RunFacts, StageTime, WorkCounters};
+use crate::report::{Report, RunFacts, StageTime, WorkCounters, words};
 
 /// Columns of the bar that shows a stage's share of the time.
 const BAR: usize = 40;
@@ -13,8 +13,17 @@ pub(super) fn write(page: &mut Page, report: &Report) {
     page.heading("Run");
     stages(page, &report.run.stages);
     facts(page, &report.run);
+    accuracy(page, report);
     page.line("");
     verdict(page, report);
+}
+
+fn accuracy(page: &mut Page, report: &Report) {
+    let lines = words::accuracy(&report.body);
+    if !lines.is_empty() {
+        page.heading("Accuracy");
+        lines.iter().for_each(|(label, line)| page.entry(label, line));
+    }
 }
 
 fn stages(page: &mut Page, stages: &[StageTime]) {

@@ -9,6 +9,7 @@ use crate::job::{Certify, Job};
 use crate::random::SEED;
 use crate::verification::check::Check;
 use crate::verification::evidence::Evidence;
+use crate::verification::named_loads;
 
 use super::boundaries;
 use super::boundary::Boundary;
@@ -16,6 +17,8 @@ use super::counts::Condensed;
 use super::interfaces::Interface;
 use super::reference::Reference;
 
+use super::accuracy::Accuracy;
+use super::asked::Asked;
 use super::outcome::Preservation;
 use super::policy::Plan;
 use super::shift::shift;
@@ -26,7 +29,7 @@ use super::{counts, interfaces, mac, response, sizes, statics};
 pub struct Compared {
     /// The reduced model compared with the full one.
     pub report: Preservation,
-    /// M-06, M-15, M-17, M-20, M-21 and M-24, as far as they were made.
+    /// M-06, M-15, M-17, M-20, M-21, M-24 and M-29 to M-31, as far as they were made.
     pub checks: Vec<Check>,
 }
 
@@ -35,20 +38,48 @@ pub struct Compared {
 /// # Errors
 /// No memory. A comparison that the arithmetic cannot make is left out, and the report names it.
 pub fn preservation(evidence: &Evidence<'_>, analysis: &Analysis, job: &Job) -> Result<Compared> {
+    compared((evidence, evidence), analysis, job)
+}
+
+/// Compares the reduced matrices of a file with the full model. `evidence` has those of the file and is otherwise `own`, the results of
+/// the stages for the same job, whose basis answers the loads.
+///
+/// # Errors
+/// Those of [`preservation`].
+pub fn preservation_of_file(
+    (evidence, own): (&Evidence<'_>, &Evidence<'_>),
+    analysis: &Analysis,
+    job: &Job,
+) -> Result<Compared> {
+    compared((evidence, own), analysis, job)
+}
+
+fn compared((evidence, own): (&Evidence<'_>, &Evidence<'_>), analysis: &Analysis, job: &Job) -> Result<Compared> {
     let plan = Plan::new(evidence, analysis, job);
+    let mut compared = measured(evidence, analysis, &plan)?;
+    let report = &compared.report;
+    let lacking = job.accepted().statics.and_then(|_| named_loads::lacking(own));
+    let accuracy = Asked { evidence, job, plan: &plan, report, lacking }.measures();
+    compared.checks.extend(accuracy.iter().filter_map(Accuracy::check));
+    compared.report.accuracy = accuracy;
+    Ok(compared)
+}
+
+fn measured(evidence: &Evidence<'_>, analysis: &Analysis, plan: &Plan) -> Result<Compared> {
     let interfaces = interfaces::interfaces(evidence.partition);
     let mut compared = Compared::default();
     compared.report.not_compared = plan.not_compared.clone();
+    compared.report.band_hz = plan.band_hz;
     if evidence.reduction.n_reduced() == 0 {
         return Ok(compared);
     }
     compared.modes(evidence)?;
     let notes = &mut compared.report.not_compared;
-    compared.report.statics = statics::statics(evidence, evidence.factor, &interfaces, notes);
+    compared.report.statics = statics::statics(evidence, &interfaces, plan.shown, notes);
     compared.checks.extend(statics::check(evidence, &compared.report.statics));
     if let Some(band_hz) = plan.band_hz {
-        let references = compared.references(evidence, analysis, &interfaces, &plan)?;
-        compared.dynamics(evidence, (&plan, band_hz), &references)?;
+        let references = compared.references(evidence, analysis, &interfaces, plan)?;
+        compared.dynamics(evidence, (plan, band_hz), &references)?;
     }
     Ok(compared)
 }

@@ -7,11 +7,15 @@
 //! statics      stiffness of each interface by direct solves             M-17
 //! response     frequency response of all pairs of interface dofs        M-20, M-21
 //! sizes        these errors for a smaller basis
+//! asked        the largest of them, and what the scene accepts          M-29 to M-31
 //! ```
 //! Every answer of the full model comes from the full sparse matrices, and its residual is checked. The factor of K_II,
 //! which exists already, only speeds this up. A costly comparison that the job does not ask for is left out, and the report
 //! names it.
 
+mod accuracy;
+mod advice;
+mod asked;
 mod boundaries;
 mod boundary;
 mod compared;
@@ -30,7 +34,8 @@ mod shift;
 mod sizes;
 mod statics;
 
-pub use compared::{Compared, preservation};
+pub use accuracy::{Accuracy, AccuracyMeasure, LimitSource};
+pub use compared::{Compared, preservation, preservation_of_file};
 pub use outcome::{
     BoundaryComparison, BoundaryCount, FrequencyPair, HighestFrequency, InterfaceStatics, Preservation, PreservedMode,
     ResponseComparison, ResponseSample, SizeError,

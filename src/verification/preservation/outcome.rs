@@ -3,6 +3,8 @@
 
 use serde::Serialize;
 
+use super::accuracy::Accuracy;
+
 /// Reduced against full model.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Preservation {
@@ -22,6 +24,10 @@ pub struct Preservation {
     pub highest: Option<HighestFrequency>,
     /// What was not compared, and why.
     pub not_compared: Vec<String>,
+    /// The band that was compared, in Hz; none where neither the job nor a mode gives one.
+    pub band_hz: Option<[f64; 2]>,
+    /// The largest errors, each with its limit: the accuracy of the reduced model for the scene.
+    pub accuracy: Vec<Accuracy>,
 }
 
 /// One retained mode in the full and in the reduced model.

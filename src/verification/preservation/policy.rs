@@ -10,6 +10,8 @@ use crate::job::{Certify, Job, ModeSelection, SceneJob, Support};
 const CUT_OFF: f64 = 1.5;
 /// Floating-point operations that a comparison which the job does not ask for may cost: a few seconds of one core.
 const UNASKED_FLOPS: f64 = 1e10;
+/// Dofs up to which an interface without coordinates is shown dof by dof, unless the scene asks for more.
+const SHOWN: usize = 24;
 /// Right-hand sides an eigensolution takes in addition to three for each mode found.
 const SOLVES_BESIDE: f64 = 64.0;
 /// Blocks of n_B right-hand sides that the response converges in.
@@ -28,6 +30,8 @@ pub struct Plan {
     pub certify: Certify,
     /// Whether the frequency response is compared.
     pub response: bool,
+    /// Dofs up to which the statics of an interface without coordinates are compared dof by dof.
+    pub shown: usize,
     /// What is not compared, and why.
     pub not_compared: Vec<String>,
 }
@@ -42,12 +46,14 @@ impl Plan {
     pub fn new(evidence: &Evidence<'_>, analysis: &Analysis, job: &Job) -> Self {
         let default = SceneJob::default();
         let scene = job.scene.as_ref().unwrap_or(&default);
+        let accept = job.accepted();
         let mut plan = Self {
             band_hz: scene.band_hz.or_else(|| default_band(evidence, job)),
             eta: 2.0 * scene.damping.unwrap_or_default().ratio,
             supports: scene.boundaries.clone().unwrap_or_else(|| default_supports(evidence)),
             certify: job.run.certify,
             response: true,
+            shown: if accept.statics.is_some() { usize::MAX } else { SHOWN },
             not_compared: Vec::new(),
         };
         let mut leave_out = |what: &str, why: &str| plan.not_compared.push(format!("{what}: {why}"));
@@ -63,14 +69,15 @@ impl Plan {
         let dear = "it would take long on a model of this size; state it in [scene] to have it";
         // A job that asks for more than a count asks for the whole comparison.
         let is_full = !matches!(job.run.certify, Certify::None | Certify::Count);
-        let is_asked = is_full || scene.boundaries.is_some();
+        let is_asked = is_full || scene.boundaries.is_some() || accept.frequency.is_some();
         let of_supports =
             cost.support * cost.n_new_supports + if job.run.certify == Certify::None { 0.0 } else { cost.count };
         if !is_asked && !plan.supports.is_empty() && of_supports > UNASKED_FLOPS {
             plan.not_compared.push(format!("frequencies under other boundaries: {dear}"));
             plan.supports.clear();
         }
-        let is_asked = is_full || scene.band_hz.is_some() || scene.damping.is_some();
+        let is_stated = scene.band_hz.is_some() || scene.damping.is_some() || accept.response_db.is_some();
+        let is_asked = is_full || is_stated;
         if plan.response && !is_asked && cost.response > UNASKED_FLOPS {
             plan.not_compared.push(format!("frequency response: {dear}"));
             plan.response = false;

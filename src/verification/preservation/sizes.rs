@@ -73,11 +73,12 @@ fn n_columns(evidence: &Evidence<'_>, n_modes: usize) -> usize {
     modes.map(|(at, _)| at).nth(n_modes).unwrap_or(coordinates.len())
 }
 
-/// The highest frequency of the reduced model with its interface free.
+/// The highest frequency of the reduced model with its interface free; none where a motion has no mass, which no step follows.
 pub(super) fn highest(evidence: &Evidence<'_>, reduced: &Spectral) -> Option<HighestFrequency> {
+    let all = reduced.eigenvalues();
     // A mass of rigid-body motion alone has zero eigenvalues and no others.
     let n_zero = evidence.rigid.count() - evidence.rigid.n_massless;
-    let lambda = reduced.eigenvalues().get(n_zero..)?.last().copied().filter(|lambda| *lambda > 0.0)?;
+    let lambda = all.get(n_zero..)?.last().copied().filter(|lambda| *lambda > 0.0 && all.len() == reduced.n())?;
     let frequency_hz = evidence.partition.scaling.hertz(lambda);
     Some(HighestFrequency {
         frequency_hz,

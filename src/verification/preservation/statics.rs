@@ -19,20 +19,18 @@ use crate::factor::SolveOperator;
 use crate::model::Site;
 use crate::sparse::{absolute_energy, diagonal, product};
 
-/// Dofs up to which an interface without coordinates is shown dof by dof.
-const SHOWN: usize = 24;
-
-/// The static stiffness of every interface in both models; those too large to show are named in `not_compared`.
+/// The static stiffness of every interface in both models. Interfaces without coordinates are shown dof by dof up to `shown` of them;
+/// larger ones are named in `not_compared`.
 pub(super) fn statics(
     evidence: &Evidence<'_>,
-    factor: &dyn SolveOperator,
     interfaces: &[Interface],
+    shown: usize,
     not_compared: &mut Vec<String>,
 ) -> Vec<InterfaceStatics> {
     let mut all = Vec::new();
     for interface in interfaces {
-        match motions(evidence, interface) {
-            Some(motions) => all.push(compared(evidence, factor, interface, &motions)),
+        match motions(evidence, interface, shown) {
+            Some(motions) => all.push(compared(evidence, evidence.factor, interface, &motions)),
             None => not_compared.push(format!(
                 "static stiffness of {}: {} dofs without coordinates have no rigid motions",
                 interface.name,
@@ -49,7 +47,7 @@ struct Motions {
     shapes: Mat<f64>,
 }
 
-fn motions(evidence: &Evidence<'_>, interface: &Interface) -> Option<Motions> {
+fn motions(evidence: &Evidence<'_>, interface: &Interface, shown: usize) -> Option<Motions> {
     let partition = evidence.partition;
     let n_h = interface.dofs.len();
     let own = || Motions {
@@ -61,7 +59,7 @@ fn motions(evidence: &Evidence<'_>, interface: &Interface) -> Option<Motions> {
     }
     let sites: Option<Vec<Site>> =
         interface.dofs.iter().map(|dof| partition.dofs[partition.n_internal + dof].site).collect();
-    let Some(sites) = sites else { return (n_h <= SHOWN).then(own) };
+    let Some(sites) = sites else { return (n_h <= shown).then(own) };
     let centre = [0, 1, 2].map(|axis| sites.iter().map(|site| site.position[axis]).sum::<f64>() / n_h as f64);
     let rigid = |site: &Site| site.rigid_motion_about(centre);
     let rows: Vec<[f64; 6]> = sites.iter().map(rigid).collect();

@@ -1,0 +1,37 @@
+//! What errors of the reduced model the simulation accepts.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::ranges::{LARGEST, SMALLEST, size};
+use crate::error::Result;
+
+/// The largest errors that the simulation accepts, each measured against the full model. One that is exceeded, or that cannot be
+/// measured, is a failed check; what is left out is compared with limits of practice, and exceeding those is a warning.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AcceptJob {
+    /// Relative error of a frequency in the band, under each of the boundaries.
+    #[schemars(extend("minimum" = SMALLEST, "maximum" = LARGEST))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frequency: Option<f64>,
+    /// Error of the frequency response in the band between any two interface dofs, in dB.
+    #[schemars(extend("minimum" = SMALLEST, "maximum" = LARGEST))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub response_db: Option<f64>,
+    /// Relative error of the static stiffness of each interface, and of the static answer to each load that the job names.
+    #[schemars(extend("minimum" = SMALLEST, "maximum" = LARGEST))]
+    #[serde(default, rename = "static", skip_serializing_if = "Option::is_none")]
+    pub statics: Option<f64>,
+}
+
+impl AcceptJob {
+    pub(super) fn validate(&self) -> Result<()> {
+        let limits = [
+            ("scene.accept.frequency", self.frequency),
+            ("scene.accept.response_db", self.response_db),
+            ("scene.accept.static", self.statics),
+        ];
+        limits.into_iter().try_for_each(|(key, limit)| limit.map_or(Ok(()), |limit| size(key, limit)))
+    }
+}
