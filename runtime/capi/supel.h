@@ -30,6 +30,9 @@
 // The mass matrix is semidefinite: it cannot be factored, and an explicit integrator cannot be used.
 #define SUPEL_SINGULAR_MASS 1
 
+// The stiffness is the tangent of a preloaded state. No component is made of such a file.
+#define SUPEL_PRELOADED 2
+
 // What a call says.
 typedef enum SupelStatus {
   // Done.

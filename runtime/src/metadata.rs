@@ -166,6 +166,9 @@ pub struct InterfaceDof {
 pub enum Flag {
     /// The mass matrix is semidefinite: it cannot be factored, and an explicit integrator cannot be used.
     SingularMass,
+    /// The stiffness is the tangent of a preloaded state: it lets translations pass and answers rotations with the forces of the preload
+    /// that turn, so that the component may not turn far.
+    Preloaded,
 }
 
 /// The model that was reduced.

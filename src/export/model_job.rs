@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use faer::Mat;
-use supel_runtime::{Coordinate, InterfaceNode, Metadata, Method, Superelement};
+use supel_runtime::{Coordinate, Flag, InterfaceNode, Metadata, Method, Superelement};
 use toml::Value;
 
 use super::names::Names;
@@ -22,11 +22,16 @@ use crate::error::Result;
 const FEWEST_DIGITS: i64 = 4;
 
 /// The job, TOML; `labels` are those of the interface nodes. Without an interface there is nothing to reduce a superelement to, and an
-/// interface that just holds its component has no stiffness but rounding.
+/// interface that just holds its component has no stiffness but rounding. Internal forces of a preloaded one are not in its file.
 pub(super) fn job(superelement: &Superelement, labels: &[i64], names: &Names) -> Result<Option<String>> {
     let digits = digits(superelement)?;
     let is_rigid = superelement.n_rigid() >= superelement.n_coordinates();
-    if superelement.n_interface() == 0 || is_rigid || digits.is_some_and(|digits| digits < FEWEST_DIGITS) {
+    let is_preloaded = superelement.metadata().flags.contains(&Flag::Preloaded);
+    if superelement.n_interface() == 0
+        || is_rigid
+        || is_preloaded
+        || digits.is_some_and(|digits| digits < FEWEST_DIGITS)
+    {
         return Ok(None);
     }
     let metadata = superelement.metadata();

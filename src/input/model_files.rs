@@ -38,8 +38,10 @@ pub struct Input {
     pub rows: FileRows,
     /// Multipoint constraints on the rows that are left; absent where the job names none.
     pub constraints: Option<ConstraintRows>,
-    /// BLAKE3 digests of the files of the dof map (`dofs`), of the nodes (`nodes`), of what those refer to (`nodes_data`) and of the
-    /// constraints (`constraints`), lower-case hexadecimal.
+    /// Internal forces of a preloaded state, one for each row that is left, in the units of the file; absent where the job names none.
+    pub internal_forces: Option<Vec<f64>>,
+    /// BLAKE3 digests of the files of the dof map (`dofs`), of the nodes (`nodes`), of what those refer to (`nodes_data`), of the
+    /// constraints (`constraints`) and of the internal forces (`internal_forces`), lower-case hexadecimal.
     pub digests: BTreeMap<&'static str, String>,
     /// What reading needed beyond copying.
     pub notes: Vec<InputNote>,
@@ -96,6 +98,7 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
         (None, None) => None,
     };
     let constraints = read_constraints(model, n, allowance, &mut digests)?;
+    let forces = read_internal_forces(model, n, &mut digests)?;
     let mut rows = FileRows::default();
     let tied = constraints.as_ref().map_or_else(Vec::new, ConstraintRows::tied);
     if model.drop_empty
@@ -107,7 +110,8 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
     // A row that takes part in a constraint is not dropped.
     let number = |row: u32| rows.find(row as usize).unwrap_or_default() as u32;
     let constraints = constraints.map(|constraints| constraints.renumbered(number));
-    Ok(Input { stiffness, mass, dofs, nodes, rows, constraints, digests, notes })
+    let internal_forces = forces.map(|forces| on_rows(forces, &rows, stiffness.matrix.rows())).transpose()?;
+    Ok(Input { stiffness, mass, dofs, nodes, rows, constraints, internal_forces, digests, notes })
 }
 
 /// The columns of the files of loads, one for each load that has a file.
@@ -193,6 +197,7 @@ pub fn files(model: &ModelJob) -> Vec<(&'static str, PathBuf)> {
     let mut files = vec![("the stiffness", file_of(&model.stiffness)), ("the mass", file_of(&model.mass))];
     files.extend(model.dofs.clone().map(|path| ("the dof map", path)));
     files.extend(model.constraints.clone().map(|path| ("the constraints", path)));
+    files.extend(model.internal_forces.clone().map(|path| ("the internal forces", path)));
     if let Some(nodes) = &model.nodes {
         files.push(("the nodes", nodes.clone()));
         let referenced = formats::of_nodes(nodes).map(|format| format.referenced_files(nodes)).unwrap_or_default();
@@ -283,6 +288,22 @@ fn read_constraints(
     let read = constraint_rows(path, n, allowance)?;
     digests.insert("constraints", read.digest.clone());
     Ok(Some(ConstraintRows { may_ground: model.constraints_to_ground == ConstraintsToGround::Accept, ..read }))
+}
+
+fn read_internal_forces(model: &ModelJob, n_rows: usize, digests: &mut Digests) -> Result<Option<Vec<f64>>> {
+    let Some(path) = &model.internal_forces else { return Ok(None) };
+    let LoadColumn { values, digest } =
+        load_column(WantedColumn { path, load: "internal forces", column: None, n_rows })?;
+    digests.insert("internal_forces", digest);
+    Ok(Some(values))
+}
+
+/// The internal forces of the rows that are left. Rows without stiffness and mass can have none.
+fn on_rows(forces: Vec<f64>, rows: &FileRows, n: usize) -> Result<Vec<f64>> {
+    match forces.iter().enumerate().find(|(row, force)| **force != 0.0 && rows.find(*row).is_none()) {
+        Some((row, _)) => Err(Error::PreloadEmptyRow { row: row + 1 }),
+        None => Ok((0..n).map(|row| forces[rows.of(row)]).collect()),
+    }
 }
 
 /// Refuses coordinates with which moments of inertia, and what is squared of them, would leave the range of double precision.

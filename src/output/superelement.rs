@@ -1,6 +1,5 @@
 //! The superelement from the results of the stages.
 
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use faer::{Mat, MatRef};
@@ -169,7 +168,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Resul
             assumptions: results.job.assumptions(),
             ..file::Validity::default()
         },
-        flags: BTreeSet::new(),
+        flags: results.job.flags(),
         model: file::ModelSummary {
             n_dofs: evidence.partition.model.n_moving() as u64,
             rigid_body_modes: match evidence.rigid.are_unit_motions(evidence.partition) {
@@ -240,6 +239,7 @@ fn job_document(job: &Job) -> Result<serde_json::Value> {
     relative(&mut job.model.mass);
     job.model.dofs.as_mut().map(relative);
     job.model.nodes.as_mut().map(relative);
+    job.model.internal_forces.as_mut().map(relative);
     job.loads.iter_mut().filter_map(|load| load.file.as_mut()).for_each(relative);
     job.matrices.iter_mut().for_each(|matrix| relative(&mut matrix.file));
     if let Some(ModesJob::File { file }) = &mut job.reduction.modes {

@@ -9,6 +9,8 @@ use crate::superelement::Superelement;
 
 /// The mass matrix is semidefinite: it cannot be factored, and an explicit integrator cannot be used.
 pub const SUPEL_SINGULAR_MASS: u32 = 1;
+/// The stiffness is the tangent of a preloaded state. No component is made of such a file.
+pub const SUPEL_PRELOADED: u32 = 2;
 
 /// What a check said when the file was made; the later the worse.
 #[repr(C)]
@@ -60,6 +62,7 @@ impl Said {
             });
         let flag = |flag: &Flag| match flag {
             Flag::SingularMass => SUPEL_SINGULAR_MASS,
+            Flag::Preloaded => SUPEL_PRELOADED,
         };
         Self {
             names: metadata.interface_nodes.iter().map(|node| c_string(&node.name)).collect(),
