@@ -9,6 +9,7 @@ use super::constraint_file::{ConstraintRows, constraint_rows};
 use super::format::{DirectionBase, MatrixSource, OrderSource, ReadMatrix};
 use super::further_matrix::FurtherMatrix;
 use super::hdf5_format::{self, split_group};
+use super::internal_forces::{on_rows, read_internal_forces};
 use super::load_file::{LoadColumn, WantedColumn, load_column};
 use super::modes_file::{ModeColumns, mode_columns};
 use super::patch::Patches;
@@ -288,22 +289,6 @@ fn read_constraints(
     let read = constraint_rows(path, n, allowance)?;
     digests.insert("constraints", read.digest.clone());
     Ok(Some(ConstraintRows { may_ground: model.constraints_to_ground == ConstraintsToGround::Accept, ..read }))
-}
-
-fn read_internal_forces(model: &ModelJob, n_rows: usize, digests: &mut Digests) -> Result<Option<Vec<f64>>> {
-    let Some(path) = &model.internal_forces else { return Ok(None) };
-    let LoadColumn { values, digest } =
-        load_column(WantedColumn { path, load: "internal forces", column: None, n_rows })?;
-    digests.insert("internal_forces", digest);
-    Ok(Some(values))
-}
-
-/// The internal forces of the rows that are left. Rows without stiffness and mass can have none.
-fn on_rows(forces: Vec<f64>, rows: &FileRows, n: usize) -> Result<Vec<f64>> {
-    match forces.iter().enumerate().find(|(row, force)| **force != 0.0 && rows.find(*row).is_none()) {
-        Some((row, _)) => Err(Error::PreloadEmptyRow { row: row + 1 }),
-        None => Ok((0..n).map(|row| forces[rows.of(row)]).collect()),
-    }
 }
 
 /// Refuses coordinates with which moments of inertia, and what is squared of them, would leave the range of double precision.
