@@ -1177,6 +1177,17 @@ pub enum Error {
         /// What the method needs.
         expected: String,
     },
+    /// A preloaded state without its internal forces, or internal forces without the state.
+    #[entry(
+        "E-JOB-PRELOAD",
+        Usage,
+        "give `model.state = \"preloaded\"` and `model.internal_forces` together, or neither of them"
+    )]
+    #[error("`model.internal_forces` is {found} {}", if *found == "given" { "without `model.state = \"preloaded\"` – say so, or remove the key" } else { "with `model.state = \"preloaded\"` – expected the file of the forces that rotations are compared with; the state is not taken without" })]
+    JobPreload {
+        /// Whether the key is there.
+        found: &'static str,
+    },
     /// Two interfaces have one name.
     #[entry("E-INTERFACE-NAME", Usage, "give each its own")]
     #[error("interface `{name}` is defined twice – names must be unique")]
@@ -2058,6 +2069,144 @@ pub enum Error {
         expected: f64,
         /// Where the forces are largest.
         dof: String,
+    },
+    /// A preloaded state of a model whose rows nothing places.
+    #[entry("E-PRELOAD-COORDINATES", InputData, "give `model.dofs` and `model.nodes`, in the preloaded state")]
+    #[error(
+        "the state is preloaded – the model has no dof map or no nodes, so that rotations cannot be compared with the internal forces – \
+        give model.dofs and model.nodes, with the coordinates of the preloaded state"
+    )]
+    PreloadCoordinates,
+    /// An internal force at a row that was dropped.
+    #[entry("E-PRELOAD-EMPTY", InputData, "give the internal forces of the model of K, in the order of its rows")]
+    #[error(
+        "row {row} has an internal force – found neither stiffness nor mass there, and the row was dropped – expected none – give the \
+        internal forces of the model of K, in the order of its rows"
+    )]
+    PreloadEmptyRow {
+        /// The row of the files, from one.
+        row: usize,
+    },
+    /// K of a preloaded state resists a translation.
+    #[entry(
+        "E-PRELOAD-HELD",
+        InputData,
+        "give K and the internal forces of the free component, and hold its supports by `[[fixed]]`"
+    )]
+    #[error(
+        "the stiffness of the preloaded state resists translation at {} of {}, {dof} the first – expected a free component, whose \
+        supports took no rows out – give K and the internal forces of the free component and hold its supports by [[fixed]]",
+        counted(*n_touched, "node", "nodes"), n_nodes
+    )]
+    PreloadHeld {
+        /// Nodes where a translation makes a force.
+        n_touched: usize,
+        /// Nodes of the model.
+        n_nodes: usize,
+        /// A dof of the first.
+        dof: String,
+    },
+    /// The internal forces have a resultant.
+    #[entry(
+        "E-PRELOAD-BALANCE",
+        InputData,
+        "give the forces of the elements at all nodes, those at supports and interfaces among them, without external forces"
+    )]
+    #[error(
+        "the internal forces are not in balance – found a resultant along the {motion} of {} of the sizes of its terms, the largest at \
+        {dof} – expected {} at most, because the elements of a free component make none – give the forces of the elements at all nodes, \
+        those at supports and interfaces among them, in the order of the rows of K and at the coordinates of the preloaded state",
+        quantity(*share, 2), quantity(*limit, 1)
+    )]
+    PreloadUnbalanced {
+        /// The motion whose work is not zero.
+        motion: &'static str,
+        /// Resultant over the sum of its terms.
+        share: f64,
+        /// What is allowed.
+        limit: f64,
+        /// The dof with the largest term.
+        dof: String,
+    },
+    /// K and the internal forces are not of one state.
+    #[entry(
+        "E-PRELOAD-FORCES",
+        InputData,
+        "check sign, unit, order of rows and load step of the internal forces, and take the coordinates of the preloaded state"
+    )]
+    #[error(
+        "the internal forces do not belong to the stiffness – a rotation about {axis} makes {} at {dof}, and turning the internal forces \
+        {} per radian; over all rows the stiffness answers with {} times the internal forces – expected the same within {} of the largest \
+        – check sign, unit, order of rows and load step of the forces, and take the coordinates of the preloaded state",
+        quantity(*found, 4), quantity(*expected, 4), quantity(*factor, 3), quantity(*limit, 1)
+    )]
+    PreloadMisfit {
+        /// The axis of the rotation.
+        axis: &'static str,
+        /// The dof with the largest difference.
+        dof: String,
+        /// What K makes there, in the units of the files per radian.
+        found: f64,
+        /// What turning the internal forces makes there.
+        expected: f64,
+        /// The factor of the internal forces that comes nearest to K.
+        factor: f64,
+        /// Difference allowed, relative to the largest force.
+        limit: f64,
+    },
+    /// Internal forces that K cannot be compared with.
+    #[entry(
+        "E-PRELOAD-NONE",
+        InputData,
+        "leave `model.state` out where no node has an internal force; write K with more digits where they are small"
+    )]
+    #[error(
+        "the state is preloaded – turning its internal forces makes {largest:.1e} of the terms of the stiffness at most, which rounding of \
+        the stiffness makes too – expected forces that tell a preload – leave model.state out where no node has an internal force: \
+        rotations are free then; write K with more digits where they are small"
+    )]
+    PreloadNone {
+        /// Largest force of a unit rotation over the terms of its row.
+        largest: f64,
+    },
+    /// Internal forces at nodes that a rigid tie turns.
+    #[entry(
+        "E-PRELOAD-TIED",
+        InputData,
+        "couple nodes that have internal forces by `coupling = \"direct\"`, or keep patches and constraints away from them"
+    )]
+    #[error(
+        "{dof} has an internal force, {} of the largest, and {tie} ties it to rotations – expected {} at most, because the arm of the force \
+        turns with the tie and its part of the stiffness is not in K – couple the node by coupling = \"direct\", or keep patches and \
+        constraints away from it",
+        quantity(*share, 2), quantity(*limit, 1)
+    )]
+    PreloadTied {
+        /// The dof.
+        dof: String,
+        /// What ties it.
+        tie: &'static str,
+        /// Its force over the largest.
+        share: f64,
+        /// What is allowed.
+        limit: f64,
+    },
+    /// A preloaded component that turns with negative stiffness.
+    #[entry(
+        "E-PRELOAD-NEGATIVE",
+        ModelPhysics,
+        "hold the component by `[[fixed]]` where its neighbours hold it, or reduce it at a state in which it is in tension"
+    )]
+    #[error(
+        "the preloaded component turns as a whole with the negative stiffness {energy:.1e} – expected none below -{noise:.1e} – compression \
+        has it while nothing holds the component, so that free modes and counts of modes are not those of a stable structure – hold it by \
+        [[fixed]] where its neighbours hold it, or reduce it at a state in which it is in tension"
+    )]
+    NegativePreload {
+        /// Rayleigh quotient of the motion, scaled.
+        energy: f64,
+        /// What rounding can make of it.
+        noise: f64,
     },
     /// K lets the component move in every direction but not turn.
     #[entry(

@@ -48,5 +48,7 @@ pub use scene::{DampingJob, SceneJob, Support, boundary_in_words};
 pub use schema::{Role, schema};
 pub use selection::Selection;
 pub(crate) use shape::nearest;
-pub use types::{Certify, ConstraintsToGround, Duplicates, Expectation, Job, ModelJob, Precision, RunJob, WriteJob};
+pub use types::{
+    Certify, ConstraintsToGround, Duplicates, Expectation, Job, ModelJob, ModelState, Precision, RunJob, WriteJob,
+};
 pub(crate) use validation::ends_in;

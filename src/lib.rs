@@ -274,6 +274,7 @@ fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Res
     let tied = partition::nodes_of_patches(&model, &job.interfaces);
     facts.notes.extend(partition::reference_nodes(&model, &job.interfaces));
     let model = coordinates::compared(model, &job.model.held_rotations, &tied)?;
+    facts.notes.extend(coordinates::remark(&model).map(str::to_owned));
 
     observer.stage("partition");
     let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;

@@ -31,6 +31,9 @@
 // damping, because motions without mass follow at once.
 #define SUPEL_SINGULAR_MASS 1
 
+// The stiffness is the tangent of a preloaded state. No component is made of such a file.
+#define SUPEL_PRELOADED 2
+
 // What a call says.
 typedef enum SupelStatus {
   // Done.

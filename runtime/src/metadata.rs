@@ -167,6 +167,9 @@ pub enum Flag {
     /// The mass matrix is semidefinite: it cannot be factored, and an explicit integrator cannot be used. An implicit one needs numerical
     /// damping, because motions without mass follow at once.
     SingularMass,
+    /// The stiffness is the tangent of a preloaded state: it lets translations pass and answers rotations with the forces of the preload
+    /// that turn, so that the component may not turn far.
+    Preloaded,
 }
 
 /// The model that was reduced.

@@ -248,9 +248,10 @@ pub(super) fn mass_rank(superelement: &Superelement) -> Option<usize> {
     (method.mass() == MassOf::RetainedModes && rank < superelement.n_coordinates()).then_some(rank)
 }
 
-/// What a reduction says of the mass for clients.
-pub(super) fn flags(superelement: &Superelement) -> BTreeSet<Flag> {
-    mass_rank(superelement).map(|_| Flag::SingularMass).into_iter().collect()
+/// What a reduction by this job says to clients: of the mass by the method of the file, of the rest by the job.
+pub(super) fn flags(superelement: &Superelement, job: Option<&Job>) -> BTreeSet<Flag> {
+    let of_mass = mass_rank(superelement).map(|_| Flag::SingularMass);
+    job.map_or_else(BTreeSet::new, Job::flags).into_iter().chain(of_mass).collect()
 }
 
 /// The kind of a mode tells where it was computed, whatever the method is called.

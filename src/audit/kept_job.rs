@@ -47,7 +47,7 @@ fn made_by_none(content: &Content<'_>) -> Vec<String> {
     let found = [
         (content.job.is_none(), "it is no job of the version that wrote it"),
         (tensors.damping.is_some() && !content.job.as_ref().is_some_and(Job::has_damping), "damping"),
-        (metadata.flags != flags(content.superelement), "flags"),
+        (metadata.flags != flags(content.superelement, content.job.as_ref()), "flags"),
         (metadata.validity.assumptions != assumptions, "assumptions about the simulation"),
         (!metadata.validity.unloaded.is_empty(), "unloaded directions"),
         (!metadata.inputs.contains_key("stiffness") || !metadata.inputs.contains_key("mass"), "no digests"),

@@ -20,6 +20,8 @@
 //! - There are as many, with free translations and held rotations. No solid has such supports.
 //! - Motions cost hardly anything. The coordinates are rounded; they are corrected with the motions that K knows.
 //!
+//! K of a preloaded state answers rotations with its internal forces as they turn; `preload` compares them, and nothing is mended.
+//!
 //! Local frames at a few nodes of a held body look like supports to K. A mass that couples nodes shows them.
 
 mod doubt;
@@ -29,16 +31,25 @@ mod mass;
 mod mended;
 mod motions;
 mod nodes;
+mod preload;
 mod zeros;
 
 use std::collections::HashSet;
 
 use crate::dofs::Direction;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::model::{CoordinateFit, Finding, Model, Supports};
 
 use motions::Motions;
 use nodes::Nodes;
+
+/// What a report says of a preloaded state; nothing of any other.
+pub fn remark(model: &Model) -> Option<&'static str> {
+    model.fit.is_preloaded().then_some(
+        "the stiffness is the tangent of a preloaded state: translations are free, and rotations turn the internal forces, as was confirmed \
+         at every node to 1 % of the largest force",
+    )
+}
 
 /// Compares the coordinates and the dof map of a model with its stiffness; `held` lists rotations that the job says to be
 /// held by supports although no translation is, `tied` the labels of the nodes that rigid patches tie by their coordinates.
@@ -46,12 +57,21 @@ use nodes::Nodes;
 /// One product with K where nothing is in doubt. Supports cost one more factorisation, a doubt a few.
 ///
 /// # Errors
-/// [`crate::error::Error::CoordinatesDoNotFit`] and [`crate::error::Error::RotationsHeld`]; those of finding the zero modes
-/// of K.
+/// [`Error::CoordinatesDoNotFit`] and [`Error::RotationsHeld`]; those of finding the zero modes of K. Of a preloaded state
+/// [`Error::PreloadCoordinates`], [`Error::PreloadHeld`], [`Error::PreloadUnbalanced`], [`Error::PreloadMisfit`], [`Error::PreloadNone`]
+/// and [`Error::PreloadTied`].
 pub fn compared(model: Model, held: &[Direction], tied: &HashSet<i64>) -> Result<Model> {
-    let Some(sites) = model.sites() else { return Ok(model) };
+    let Some(sites) = model.sites() else {
+        return if model.internal_forces.is_some() { Err(Error::PreloadCoordinates) } else { Ok(model) };
+    };
     let motions = Motions::of(&model, &sites);
     let nodes = Nodes::of_model(&motions);
+    if let Some(forces) = &model.internal_forces {
+        preload::confirmed(&motions, &nodes, forces, tied)?;
+        let mut findings = model.findings.clone();
+        findings.extend(mass::by_direction(&motions, &nodes, &[]));
+        return Ok(Model { fit: CoordinateFit::Preloaded, supports: Supports::None, findings, ..model });
+    }
     let doubts = doubt::doubts(&motions, &nodes, held);
     let fit = if doubts.is_empty() { CoordinateFit::Exact } else { judgement::settled(&motions, &doubts, tied)? };
     let supports = if doubts.is_empty() { Supports::None } else { Supports::Perhaps };

@@ -21,15 +21,16 @@ use crate::error::Result;
 /// Digits of K̂ below which a second reduction cannot tell stiffness from rounding.
 const FEWEST_DIGITS: i64 = 4;
 
-/// The job, TOML; `labels` are those of the interface nodes. Without an interface there is nothing to reduce a superelement to, an
-/// interface that just holds its component has no stiffness but rounding, and a mass that is singular by its method is that of no model.
+/// The job, TOML; `labels` are those of the interface nodes. Without an interface there is nothing to reduce a superelement to, and an
+/// interface that just holds its component has no stiffness but rounding. A mass that is singular by its method is that of no model, and
+/// internal forces of a preloaded component are not in its file.
 pub(super) fn job(superelement: &Superelement, labels: &[i64], names: &Names) -> Result<Option<String>> {
     let digits = digits(superelement)?;
     let is_rigid = superelement.n_rigid() >= superelement.n_coordinates();
-    let has_singular_mass = superelement.metadata().flags.contains(&Flag::SingularMass);
-    if has_singular_mass
-        || superelement.n_interface() == 0
+    let is_marked = |flag: &Flag| matches!(flag, Flag::SingularMass | Flag::Preloaded);
+    if superelement.n_interface() == 0
         || is_rigid
+        || superelement.metadata().flags.iter().any(is_marked)
         || digits.is_some_and(|digits| digits < FEWEST_DIGITS)
     {
         return Ok(None);

@@ -11,7 +11,7 @@ use crate::job::LoadJob;
 pub struct InputFacts {
     /// Digits and digest of K and M.
     pub matrices: [MatrixFacts; 2],
-    /// Digests of the other files by their role: `dofs`, `nodes`, `nodes_data` for what those refer to, `constraints`, `quantities` and
+    /// Digests of the other files by their role: `dofs`, `nodes`, `nodes_data` for what those refer to, `constraints`, `internal_forces`, `quantities` and
     /// `quantity_names`.
     pub files: BTreeMap<&'static str, String>,
     /// Digests of the files of loads by the name of the load.

@@ -21,6 +21,7 @@ mod gathering;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
 mod hdf5_format;
+mod internal_forces;
 mod load_file;
 mod matrix_market;
 mod mode_matrix;

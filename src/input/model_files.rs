@@ -9,6 +9,7 @@ use super::constraint_file::{ConstraintRows, constraint_rows};
 use super::format::{DirectionBase, MatrixSource, OrderSource, ReadMatrix};
 use super::further_matrix::FurtherMatrix;
 use super::hdf5_format::{self, split_group};
+use super::internal_forces::{on_rows, read_internal_forces};
 use super::load_file::{LoadColumn, WantedColumn, load_column};
 use super::modes_file::{ModeColumns, mode_columns};
 use super::patch::Patches;
@@ -38,8 +39,10 @@ pub struct Input {
     pub rows: FileRows,
     /// Multipoint constraints on the rows that are left; absent where the job names none.
     pub constraints: Option<ConstraintRows>,
-    /// BLAKE3 digests of the files of the dof map (`dofs`), of the nodes (`nodes`), of what those refer to (`nodes_data`) and of the
-    /// constraints (`constraints`), lower-case hexadecimal.
+    /// Internal forces of a preloaded state, one for each row that is left, in the units of the file; absent where the job names none.
+    pub internal_forces: Option<Vec<f64>>,
+    /// BLAKE3 digests of the files of the dof map (`dofs`), of the nodes (`nodes`), of what those refer to (`nodes_data`), of the
+    /// constraints (`constraints`) and of the internal forces (`internal_forces`), lower-case hexadecimal.
     pub digests: BTreeMap<&'static str, String>,
     /// What reading needed beyond copying.
     pub notes: Vec<InputNote>,
@@ -96,6 +99,7 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
         (None, None) => None,
     };
     let constraints = read_constraints(model, n, allowance, &mut digests)?;
+    let forces = read_internal_forces(model, n, &mut digests)?;
     let mut rows = FileRows::default();
     let tied = constraints.as_ref().map_or_else(Vec::new, ConstraintRows::tied);
     if model.drop_empty
@@ -107,7 +111,8 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
     // A row that takes part in a constraint is not dropped.
     let number = |row: u32| rows.find(row as usize).unwrap_or_default() as u32;
     let constraints = constraints.map(|constraints| constraints.renumbered(number));
-    Ok(Input { stiffness, mass, dofs, nodes, rows, constraints, digests, notes })
+    let internal_forces = forces.map(|forces| on_rows(forces, &rows, stiffness.matrix.rows())).transpose()?;
+    Ok(Input { stiffness, mass, dofs, nodes, rows, constraints, internal_forces, digests, notes })
 }
 
 /// The columns of the files of loads, one for each load that has a file.
@@ -193,6 +198,7 @@ pub fn files(model: &ModelJob) -> Vec<(&'static str, PathBuf)> {
     let mut files = vec![("the stiffness", file_of(&model.stiffness)), ("the mass", file_of(&model.mass))];
     files.extend(model.dofs.clone().map(|path| ("the dof map", path)));
     files.extend(model.constraints.clone().map(|path| ("the constraints", path)));
+    files.extend(model.internal_forces.clone().map(|path| ("the internal forces", path)));
     if let Some(nodes) = &model.nodes {
         files.push(("the nodes", nodes.clone()));
         let referenced = formats::of_nodes(nodes).map(|format| format.referenced_files(nodes)).unwrap_or_default();

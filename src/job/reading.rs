@@ -1,14 +1,15 @@
 //! A job from its document: read, checked, its paths resolved.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use supel_runtime::MatrixKind;
+use supel_runtime::{Flag, MatrixKind};
 
 use super::accept::AcceptJob;
 use super::damping::{ComponentDampingJob, RigidMotionDamping};
 use super::location::Holder;
 use super::reduction::ModesJob;
-use super::types::{Certify, ConstraintsToGround, Job};
+use super::types::{Certify, ConstraintsToGround, Job, ModelState};
 use super::{document, validation};
 use crate::error::{Error, Result};
 
@@ -58,7 +59,15 @@ impl Job {
             .then(|| "damping may resist rigid-body motion of the component".to_owned());
         let grounded = (self.model.constraints_to_ground == ConstraintsToGround::Accept)
             .then(|| "constraints may hold the component to the ground".to_owned());
-        held.chain(resisted).chain(grounded).collect()
+        let preloaded = (self.model.state == ModelState::Preloaded).then(|| {
+            "the component stays near the preloaded state of its stiffness and turns by small angles".to_owned()
+        });
+        held.chain(resisted).chain(grounded).chain(preloaded).collect()
+    }
+
+    /// What the job says that a client of the superelement must know.
+    pub fn flags(&self) -> BTreeSet<Flag> {
+        (self.model.state == ModelState::Preloaded).then_some(Flag::Preloaded).into_iter().collect()
     }
 
     /// Whether the superelement has damping: that of matrices, or one that is made from the reduced ones.
@@ -119,6 +128,7 @@ impl Job {
             ("model.dofs", model.dofs.as_mut()),
             ("model.nodes", model.nodes.as_mut()),
             ("model.constraints", model.constraints.as_mut()),
+            ("model.internal_forces", model.internal_forces.as_mut()),
             ("reduction.modes.file", modes),
             ("write.quantities.matrix", matrix),
             ("write.quantities.names", names),

@@ -64,6 +64,11 @@ pub struct Job {
 /// Where the matrices, the meaning of their rows and the nodes come from.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend(
+    "if" = { "properties": { "state": { "const": "preloaded" } }, "required": ["state"] },
+    "then" = { "required": ["internal_forces"] },
+    "else" = { "not": { "required": ["internal_forces"] } },
+))]
 pub struct ModelJob {
     /// File of K; inside an HDF5 file a group follows the colon: `model.h5:/K`.
     #[schemars(length(min = 1))]
@@ -119,6 +124,16 @@ pub struct ModelJob {
     #[serde(default, skip_serializing_if = "ConstraintsToGround::are_refused")]
     #[schemars(extend("default" = "refuse"))]
     pub constraints_to_ground: ConstraintsToGround,
+    /// The state that K is the tangent stiffness of.
+    #[serde(default, skip_serializing_if = "ModelState::is_unloaded")]
+    #[schemars(extend("default" = "unloaded"))]
+    pub state: ModelState,
+    /// File of the internal forces of a preloaded state, a value for each row of K: the forces and moments that the elements of the component
+    /// take up at its nodes, the derivative of their energy. A Matrix Market file of one column.
+    #[schemars(length(min = 1))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-role" = "place-of-one"))]
+    pub internal_forces: Option<PathBuf>,
     /// What the user knows of the component, to be compared with what the matrices say.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expect: Option<Expectation>,
@@ -150,6 +165,23 @@ pub enum ConstraintsToGround {
 impl ConstraintsToGround {
     fn are_refused(&self) -> bool {
         *self == Self::Refuse
+    }
+}
+
+/// The state that K is the tangent stiffness of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ModelState {
+    /// One without internal forces at the nodes: six rigid-body motions of a free body make no force.
+    #[default]
+    Unloaded,
+    /// One with internal forces: translations make no force, and rotations turn the internal forces.
+    Preloaded,
+}
+
+impl ModelState {
+    fn is_unloaded(&self) -> bool {
+        *self == Self::Unloaded
     }
 }
 

@@ -9,7 +9,7 @@ use super::node_selection::NodeSelection;
 use super::ranges::{self, positive, size};
 use super::reduction::{ModeSelection, ModesJob, ReductionJob};
 use super::selection;
-use super::types::Job;
+use super::types::{Job, ModelState};
 use crate::dofs::Direction;
 use crate::error::{Error, Result, Selector};
 
@@ -92,11 +92,17 @@ fn model(job: &Job) -> Result<()> {
         ("model.dofs", model.dofs.as_ref()),
         ("model.nodes", model.nodes.as_ref()),
         ("model.constraints", model.constraints.as_ref()),
+        ("model.internal_forces", model.internal_forces.as_ref()),
     ];
     for (key, path) in files {
         if path.is_some_and(|path| path.as_os_str().is_empty()) {
             return Err(Error::JobEmpty { key: key.to_owned(), expected: "the name of a file" });
         }
+    }
+    match (model.state, &model.internal_forces) {
+        (ModelState::Preloaded, None) => return Err(Error::JobPreload { found: "missing" }),
+        (ModelState::Unloaded, Some(_)) => return Err(Error::JobPreload { found: "given" }),
+        (ModelState::Preloaded, Some(_)) | (ModelState::Unloaded, None) => {}
     }
     let stated = [("model.stiffness_digits", model.stiffness_digits), ("model.mass_digits", model.mass_digits)];
     for (key, digits) in stated {

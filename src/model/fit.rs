@@ -14,6 +14,8 @@ pub enum CoordinateFit {
     Exact,
     /// They do but for rounding of the coordinates.
     Rounded(RoundedCoordinates),
+    /// Translations pass, and rotations turn the internal forces of the preloaded state that K is the tangent of.
+    Preloaded,
 }
 
 /// The rigid-body motions of a model whose coordinates are rounded, as K knows them.
@@ -46,8 +48,13 @@ impl CoordinateFit {
     pub fn rounded(&self) -> Option<&RoundedCoordinates> {
         match self {
             Self::Rounded(rounded) => Some(rounded),
-            Self::Unknown | Self::Exact => None,
+            Self::Unknown | Self::Exact | Self::Preloaded => None,
         }
+    }
+
+    /// Whether K is the tangent of a preloaded state: its rotations make forces, and only motions that make none are rigid.
+    pub fn is_preloaded(&self) -> bool {
+        matches!(self, Self::Preloaded)
     }
 }
 

@@ -52,6 +52,8 @@ pub struct Model {
     pub rows: FileRows,
     /// Multipoint constraints on its rows, where there are some.
     pub constraints: Option<ConstraintRows>,
+    /// Internal forces of a preloaded state / 2^a, one for each row; absent where K is that of an unloaded one.
+    pub internal_forces: Option<Vec<f64>>,
     /// Connected parts of the graph of K.
     pub bodies: Bodies,
     /// How coordinates and dof map fit K; unknown until [`crate::coordinates::compared`] has looked.
@@ -121,6 +123,8 @@ impl Model {
         findings.extend(mass_order::compared(&stiffness, &mass, dofs.as_deref(), names)?);
         clear_negative_rounding(&mut mass);
         let scaling = Scaling::take_out(&mut stiffness, &mut mass)?;
+        let in_scaled_units = |force: f64| force / scaling.stiffness_unit();
+        let internal_forces = input.internal_forces.map(|forces| forces.into_iter().map(in_scaled_units).collect());
         let [of_stiffness, of_mass] = read;
         let precision = Precision {
             stiffness: in_units(of_stiffness, scaling.stiffness_unit()).measured((&stiffness).into()),
@@ -141,6 +145,7 @@ impl Model {
             nodes,
             rows,
             constraints,
+            internal_forces,
             bodies,
             fit,
             supports,

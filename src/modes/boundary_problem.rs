@@ -283,6 +283,7 @@ mod tests {
             nodes: None,
             rows: Default::default(),
             constraints: None,
+            internal_forces: None,
             digests: Default::default(),
             notes: Vec::new(),
         };

@@ -168,7 +168,10 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Resul
             assumptions: results.job.assumptions(),
             ..file::Validity::default()
         },
-        flags: evidence.reduction.modal_mass.iter().map(|_| file::Flag::SingularMass).collect(),
+        flags: {
+            let of_mass = evidence.reduction.modal_mass.iter().map(|_| file::Flag::SingularMass);
+            results.job.flags().into_iter().chain(of_mass).collect()
+        },
         model: file::ModelSummary {
             n_dofs: evidence.partition.model.n_moving() as u64,
             rigid_body_modes: match evidence.rigid.are_unit_motions(evidence.partition) {
@@ -239,6 +242,7 @@ fn job_document(job: &Job) -> Result<serde_json::Value> {
     relative(&mut job.model.mass);
     job.model.dofs.as_mut().map(relative);
     job.model.nodes.as_mut().map(relative);
+    job.model.internal_forces.as_mut().map(relative);
     job.loads.iter_mut().filter_map(|load| load.file.as_mut()).for_each(relative);
     job.matrices.iter_mut().for_each(|matrix| relative(&mut matrix.file));
     if let Some(ModesJob::File { file }) = &mut job.reduction.modes {

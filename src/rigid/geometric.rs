@@ -4,6 +4,7 @@ use faer::{Mat, MatRef};
 
 use super::algebraic;
 use super::energy::{largest_residual, zero_energy};
+use super::preload;
 use super::rigid_body_modes::{RigidBodyModes, RigidEnergy, RigidSource};
 use crate::dense::{self, NOISE_FACTOR};
 use crate::error::{Error, Result};
@@ -136,8 +137,11 @@ fn of_body(partition: &Partition, sites: &[Option<Site>], dofs: &[usize]) -> Res
     let mut centred = partition.rigid_motions(dofs, frame.centre);
     centred.as_mut().subcols_mut(3, 3).col_iter_mut().for_each(|mut rotation| rotation /= faer::Scale(frame.size));
     let moving = moving_directions(centred.as_ref())?;
-    let (orthonormal, massless) =
-        mass_orthonormal(partition, dense::product(centred.as_ref(), moving.as_ref()).as_ref(), 0.0)?;
+    let mut motions = dense::product(centred.as_ref(), moving.as_ref());
+    if partition.fit.is_preloaded() {
+        motions = preload::without_force(partition, motions, &frame)?;
+    }
+    let (orthonormal, massless) = mass_orthonormal(partition, motions.as_ref(), 0.0)?;
     let massless = without_energy(partition, massless)?;
     let Energies { energies, directions, noise, zero } = Energies::of(partition, orthonormal.as_ref())?;
     if let Some(energy) = energies.first().filter(|energy| **energy < -zero) {
@@ -154,7 +158,8 @@ fn of_body(partition: &Partition, sites: &[Option<Site>], dofs: &[usize]) -> Res
         noise,
         angle: 0.0,
     };
-    let is_classical = n_free + massless.ncols() == 6;
+    // Were all six of a preloaded component free, the preload would show in rotations of its parts alone.
+    let is_classical = n_free + massless.ncols() == 6 && !partition.fit.is_preloaded();
     Ok(Body { dofs: dofs.to_vec(), orthonormal, massless, is_classical, energy })
 }
 

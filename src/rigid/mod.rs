@@ -5,6 +5,9 @@
 //! Q    n' × n_r    spans the space of U with QᵀMQ = I, used to deflate
 //! ```
 //!
+//! A preloaded body moves freely where that turns no internal force: its translations, and the rotation about the line of all of its
+//! forces where they have one direction. U spans those.
+//!
 //! Where coordinates are known, rigid-body modes come from them and are verified against K. Otherwise they come from the
 //! matrices, by inverse iteration. Their number is never assumed: it is the number of motions without energy that K has.
 
@@ -13,6 +16,7 @@ mod energy;
 mod geometric;
 mod of_partition;
 mod passing;
+mod preload;
 mod rank;
 mod rigid_body_modes;
 mod shift;

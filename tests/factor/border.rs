@@ -37,6 +37,7 @@ fn partition(matrix: &SparseMatrix, mass: impl Fn(usize) -> f64, interface: &[us
         nodes: None,
         rows: Default::default(),
         constraints: None,
+        internal_forces: None,
         digests: Default::default(),
         notes: Vec::new(),
     };

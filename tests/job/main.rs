@@ -534,6 +534,25 @@ fn changed_jobs() -> Vec<Value> {
     ]
 }
 
+/// The small job with a state of its stiffness, some of them allowed and some not.
+fn states() -> Vec<Value> {
+    vec![
+        with("/model/state", "unloaded".into()),
+        with("/model/state", "preloaded".into()),
+        with("/model/state", "loaded".into()),
+        with("/model/internal_forces", "q.mtx".into()),
+        with(
+            "/model",
+            json!({ "stiffness": "K.mtx", "mass": "M.mtx", "state": "preloaded", "internal_forces": "q.mtx" }),
+        ),
+        with("/model", json!({ "stiffness": "K.mtx", "mass": "M.mtx", "state": "preloaded", "internal_forces": "" })),
+        with(
+            "/model",
+            json!({ "stiffness": "K.mtx", "mass": "M.mtx", "state": "unloaded", "internal_forces": "q.mtx" }),
+        ),
+    ]
+}
+
 /// The small job with held dofs, some of them allowed and some not.
 fn fixed() -> Vec<Value> {
     let fixed = |value: Value| with("/fixed", json!([value]));
@@ -682,12 +701,12 @@ fn schema_and_program_agree() {
     let schema = schema();
     let mut n_accepted = 0;
     let cases = changed_jobs().into_iter().chain(recoveries()).chain(fixed()).chain(loads());
-    for case in cases.chain(modes_of_a_file()) {
+    for case in cases.chain(modes_of_a_file()).chain(states()) {
         let found = read(&case);
         assert_eq!(schema.is_valid(&case), found.is_ok(), "{case}: {:?}", found.err().map(|error| error.to_string()));
         n_accepted += usize::from(found.is_ok());
     }
-    assert!((10..40).contains(&n_accepted), "{n_accepted} of the cases are accepted");
+    assert!((10..50).contains(&n_accepted), "{n_accepted} of the cases are accepted");
 }
 
 #[test]

@@ -10,6 +10,8 @@ use crate::superelement::Superelement;
 /// The mass matrix is semidefinite: it cannot be factored, and an explicit integrator cannot be used. An implicit one needs numerical
 /// damping, because motions without mass follow at once.
 pub const SUPEL_SINGULAR_MASS: u32 = 1;
+/// The stiffness is the tangent of a preloaded state. No component is made of such a file.
+pub const SUPEL_PRELOADED: u32 = 2;
 
 /// What a check said when the file was made; the later the worse.
 #[repr(C)]
@@ -61,6 +63,7 @@ impl Said {
             });
         let flag = |flag: &Flag| match flag {
             Flag::SingularMass => SUPEL_SINGULAR_MASS,
+            Flag::Preloaded => SUPEL_PRELOADED,
         };
         Self {
             names: metadata.interface_nodes.iter().map(|node| c_string(&node.name)).collect(),

@@ -25,7 +25,7 @@ use crate::coordinate::Coordinate;
 use crate::direction::Direction;
 use crate::elementary::sqrt;
 use crate::matrix::Matrix;
-use crate::metadata::{MOTIONS, RigidBodyModes};
+use crate::metadata::{Flag, MOTIONS, RigidBodyModes};
 use crate::motion::{
     IDENTITY_3, IDENTITY_6, Matrix6, Vector3, Vector6, ZERO_3, blocks, dot, multiply_6, skew, transposed_times_6,
 };
@@ -63,7 +63,7 @@ impl ModalComponent {
     ///
     /// # Errors
     ///
-    /// [`ComponentError`]: interface nodes without all six dofs, bare interface rows, no interface node at all; several
+    /// [`ComponentError`]: a preloaded stiffness; interface nodes without all six dofs, bare interface rows, no interface node at all; several
     /// bodies in one superelement or one that is held; a mass that leaves the mass-weighted floating frame undefined.
     ///
     /// Source: paper, eq. (92) and the remark after (93); section 2.4 of the corrections.
@@ -150,6 +150,9 @@ impl Matrices {
 
 fn check_interface(superelement: &Superelement) -> Result<(), ComponentError> {
     let metadata = superelement.metadata();
+    if metadata.flags.contains(&Flag::Preloaded) {
+        return Err(ComponentError::Preloaded);
+    }
     let is_row = |coordinate: &&Coordinate| matches!(coordinate, Coordinate::InterfaceRow { .. });
     let count = metadata.coordinates.iter().filter(is_row).count();
     if count > 0 {

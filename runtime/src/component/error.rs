@@ -14,6 +14,11 @@ pub enum ComponentError {
         "the superelement has no interface node; its motion is that of its interface nodes: reduce it with at least one"
     )]
     NoInterfaceNodes,
+    /// The stiffness is the tangent of a preloaded state, which does not turn with the component.
+    #[error(
+        "the superelement is preloaded: its stiffness resists rotations as the preload of one direction in space does, which large motion turns; use it in linear analyses, or reduce the component without preload"
+    )]
+    Preloaded,
     /// Part of the interface are bare rows. It is not known what they displace.
     #[error(
         "{count} interface coordinates are rows without a node; large motion needs positions and six dofs: give the nodes' coordinates and reduce again"

@@ -248,7 +248,7 @@ pub(super) fn statements(
     let names = partition.loads.facts.iter().map(|load| &load.name);
     expect(metadata.load_names.iter().eq(names), "loads");
     expect(metadata.quantities == partition.quantities.names, "quantities");
-    expect(metadata.flags == flags(superelement), "flags");
+    expect(metadata.flags == flags(superelement, Some(job)), "flags");
     expect(metadata.modes_held == partition.modes_held(), "other dofs held for the modes");
     expect(metadata.validity.assumptions == job.assumptions(), "assumptions about the simulation");
     expect(metadata.validity.unloaded.is_empty(), "unloaded directions");

@@ -48,6 +48,7 @@ pub fn input(model: &models::Model) -> Input {
         dofs: (!dofs.is_empty()).then_some(dofs),
         rows: Default::default(),
         constraints: None,
+        internal_forces: None,
         digests: Default::default(),
         notes: Vec::new(),
     }

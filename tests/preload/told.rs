@@ -1,0 +1,119 @@
+//! What report, page, `inspect` and `verify` say of a preloaded state, and what assemblies make of it.
+
+use supel::cli::ExitCode;
+use supel_runtime::{Flag, Superelement};
+use supel_testing::pencil::{eigen, matrices, part};
+use supel_testing::place::supel;
+
+use crate::network::{Nodes, tower};
+use crate::{ENDS, PRELOADED, made, place_of, reduced};
+
+const STRAIN: f64 = 2e-3;
+const HERTING: &str = r#"method = "herting", modes = { count = 8 }"#;
+const STATE: &str = "the stiffness is the tangent of a preloaded state";
+
+#[test]
+fn the_state_is_told_wherever_results_are() {
+    let made = made(&tower(Nodes::Bodies, STRAIN), ENDS, HERTING);
+    assert!(made.report.to_string().contains(STATE));
+    let page = String::from_utf8(made.place.bytes("x.html")).expect("UTF-8");
+    assert!(page.contains(STATE));
+    let file = made.place.text("x.supel");
+    let shown = supel(&["inspect", &file]).expect(ExitCode::Done).out;
+    let words: Vec<&str> = shown.split_whitespace().collect();
+    let shown = words.join(" ");
+    assert!(shown.contains("preloaded: translations alone are free"), "{shown}");
+    assert!(shown.contains("stays near the preloaded state"), "{shown}");
+    let metadata = made.file.metadata();
+    assert_eq!(metadata.inputs["internal_forces"], blake3::hash(&made.place.bytes("q.mtx")).to_hex().as_str());
+    // The same state again: the bytes of the file do not depend on its folder.
+    let again = crate::made(&tower(Nodes::Bodies, STRAIN), ENDS, HERTING);
+    assert_eq!(again.place.bytes("x.supel"), made.place.bytes("x.supel"));
+}
+
+/// A file that lost its flag would be taken for one that may turn.
+#[test]
+fn a_file_without_its_flag_is_noticed() {
+    let made = made(&tower(Nodes::Bodies, STRAIN), ENDS, HERTING);
+    let mut metadata = made.file.metadata().clone();
+    assert!(metadata.flags.remove(&Flag::Preloaded));
+    let altered = Superelement::new(made.file.tensors().clone(), metadata).expect("a superelement");
+    altered.write(&made.place.path("altered.supel")).expect("written");
+    let (file, job) = (made.place.text("altered.supel"), made.place.text("job.toml"));
+    for args in [vec!["verify", &file], vec!["verify", "--job", &job, &file]] {
+        let ended = supel(&args);
+        assert_eq!(ended.code, ExitCode::CheckFailed, "{}{}", ended.out, ended.err);
+        assert!(ended.out.contains("flags"), "{}", ended.out);
+    }
+}
+
+/// Forces of another file are another model.
+#[test]
+fn other_forces_are_another_input() {
+    let made = made(&tower(Nodes::Points, STRAIN), ENDS, HERTING);
+    let forces = String::from_utf8(made.place.bytes("q.mtx")).expect("UTF-8");
+    made.place.write("q.mtx", format!("{forces}\n").as_bytes());
+    let ended = supel(&["verify", "--job", &made.place.text("job.toml"), &made.place.text("x.supel")]);
+    // Another file may hold the same forces, so that this is a warning as it is for every input.
+    assert_eq!(ended.code, ExitCode::Done, "{}{}", ended.out, ended.err);
+    assert!(ended.out.contains("worst at internal_forces"), "{}", ended.out);
+}
+
+/// Mass and centre are compared by the mass of the model, for the free motions do not have them.
+#[test]
+fn an_expected_mass_is_compared() {
+    let network = tower(Nodes::Bodies, STRAIN);
+    let centre = [0, 1, 2].map(|i| network.model.nodes.iter().map(|node| node[i] / 12.0).sum::<f64>());
+    for (mass, code) in [(24.0, ExitCode::Done), (25.0, ExitCode::CheckFailed)] {
+        let says = format!("{PRELOADED}, expect = {{ mass = {mass:?}, cg = {centre:?} }}");
+        let place = place_of(&network, &network.forces, (&says, ENDS), HERTING);
+        let ended = reduced(&place);
+        assert_eq!(ended.code, code, "{}{}", ended.out, ended.err);
+        assert!(!ended.err.contains("W-EXPECT-UNCHECKED"), "{}", ended.err);
+    }
+}
+
+/// Linear assemblies take a preloaded component, free and held.
+#[test]
+fn modes_of_an_assembly() {
+    let network = tower(Nodes::Bodies, STRAIN);
+    let [k, m] = matrices(&network.model);
+    let made = made(&network, ENDS, r#"method = "herting", modes = { count = 20 }"#);
+    let file = made.place.text("x.supel");
+    let frequencies = |args: &[&str]| -> Vec<f64> {
+        let mut all = vec!["modes", file.as_str(), "--count", "8", "--json"];
+        all.extend(args);
+        let ended = supel(&all).expect(ExitCode::Done);
+        let modes: serde_json::Value = serde_json::from_str(&ended.out).expect("JSON");
+        let modes = modes["modes"].as_array().expect("modes");
+        modes.iter().map(|mode| mode["frequency_hz"].as_f64().expect("a frequency")).collect()
+    };
+    let hertz = |lambda: f64| lambda.max(0.0).sqrt() / std::f64::consts::TAU;
+    let free = eigen(k.as_ref(), m.as_ref(), 1e3).0;
+    for (found, lambda) in frequencies(&[]).iter().zip(&free).skip(3) {
+        assert!((found / hertz(*lambda) - 1.0).abs() < 1e-9, "{found} {}", hertz(*lambda));
+    }
+    assert!(frequencies(&[])[..3].iter().all(|hz| *hz == 0.0));
+    // All four nodes of the interface at rest: modes of the free component bound those of the held one from above.
+    let moving: Vec<usize> = (12..60).collect();
+    let held = eigen(part(k.as_ref(), &moving).as_ref(), part(m.as_ref(), &moving).as_ref(), 1e3).0;
+    for (found, lambda) in frequencies(&["--fix", "x.ends"]).iter().zip(&held).take(4) {
+        assert!((1.0 - 1e-9..1.1).contains(&(found / hertz(*lambda))), "{found} {}", hertz(*lambda));
+    }
+}
+
+/// A second reduction would need internal forces of its own: matrices are written, and no job that is refused.
+#[test]
+fn exported_matrices_have_no_job() {
+    let made = made(&tower(Nodes::Points, STRAIN), ENDS, HERTING);
+    let folder = made.place.text("again");
+    std::fs::create_dir(&folder).expect("made");
+    supel(&["export", &made.place.text("x.supel"), "--to", "matrix-market", "--output", &folder])
+        .expect(ExitCode::Done);
+    let names: Vec<String> = std::fs::read_dir(&folder)
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+        .collect();
+    assert!(names.iter().any(|name| name.ends_with("stiffness.mtx")), "{names:?}");
+    assert!(!names.iter().any(|name| name.ends_with("job.toml")), "{names:?}");
+}
