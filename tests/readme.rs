@@ -119,7 +119,7 @@ fn every_command_of_the_readme_runs() {
 #[test]
 fn the_page_of_the_job_has_every_key() {
     let jobs = blocks(JOB);
-    assert_eq!(jobs.len(), 1);
+    assert_eq!(jobs.len(), 2);
     jobs.iter().for_each(|(_, content)| assert_is_job(content));
     let schema: serde_json::Value =
         serde_json::from_str(include_str!("../schemas/job.schema.json")).expect("the schema is JSON");

@@ -56,10 +56,8 @@ fn macneal_is_herting_with_the_mass_of_its_modes() {
     let with_its_mass = Tensors { mass: herting.tensors().mass.clone(), ..file.tensors().clone() };
     assert!(with_its_mass == *herting.tensors(), "nothing but the mass differs");
     assert!(file.tensors().mass != herting.tensors().mass);
-    // The highest frequency that an integrator meets is that of the last mode.
-    let highest = report["body"]["preservation"]["highest"]["frequency_hz"].as_f64().expect("a number");
-    let last = file.tensors().frequencies[N_MODES - 1] / std::f64::consts::TAU;
-    assert!((highest / last - 1.0).abs() < 1e-9, "{highest} for {last}");
+    // Motions without mass have no step that an explicit integrator could take.
+    assert!(report["body"]["preservation"]["highest"].is_null());
 
     // A client's floating frame asks for the mass of rigid-body motion alone.
     let patches = "--rigid-interface foot=1,11,31,41 --rigid-interface head=5,15,35";
@@ -144,6 +142,7 @@ model     = { stiffness = "K.mtx", mass = "M.mtx", dofs = "dofs.txt", nodes = "n
 interface = [{ name = "foot", nodes = [1, 11, 31] }, { name = "head", nodes = [5, 15, 35], coupling = "rigid" }]
 load      = [{ name = "pull", nodes = [45], force = [0, 1, 1] }]
 damping   = { modal = { ratios = [0.01, 0.02] } }
+scene     = { accept = { response_db = 30 } }
 reduction = { method = "macneal", modes = { count = 5 } }
 write     = { superelement = "x.supel" }
 "#;

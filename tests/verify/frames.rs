@@ -84,7 +84,7 @@ fn heavy_frames_are_judged_alike_by_all_three() {
             n_passed += 1;
         }
     }
-    assert!(n_passed >= 24, "{n_passed} of 30 without a warning");
+    assert!(n_passed >= 20, "{n_passed} of 30 without a warning of arithmetic or of too few modes");
 }
 
 /// Nodes of a walk at random with steps of these sizes.
