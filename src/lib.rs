@@ -87,8 +87,9 @@
 //! 1. Of the stages only [`input`] and [`output`] touch files. Around them [`job`] reads its document, [`report`] reads the
 //!    clock, [`cli`] and the program have the terminal, and [`heap`] writes the last line of a run that finds no memory.
 //! 2. [`job::Method`] alone decides what a reduction method means: the boundary under which its modes are sought or the file that
-//!    has them, whether it has inertia relief, what its mass sees, and what is proved of it. No later stage asks which method it is: modes, basis and verification know
-//!    the boundary, basis and audit whether there is inertia relief, output and report the name.
+//!    has them, whether it has inertia relief, what its mass sees, and what is proved of it. No later stage asks which method it is:
+//!    modes, basis and verification know the boundary, basis and audit whether there is inertia relief, reduction and audit what its
+//!    mass sees, output and report the name.
 //! 3. A matrix is factored once per shift and solved many times; no inverse is ever formed.
 //! 4. The superelement format has one owner, the crate `supel-runtime`, used by the writer and by every reader.
 //! 5. `supel-runtime` depends on nothing of this crate.

@@ -80,7 +80,8 @@ impl<'a> Content<'a> {
         let lambda: Vec<f64> = tensors.frequencies.iter().map(|omega| omega * omega).collect();
         let stated = lambda.iter().copied().find(|lambda| *lambda > 0.0);
         let parts = (k.as_ref(), m.as_ref(), u.as_ref());
-        let first = match (mass_rank(superelement), stated) {
+        let mass_rank = mass_rank(superelement);
+        let first = match (mass_rank, stated) {
             (Some(_), None) => relief_scale(parts, superelement.n_interface()).unwrap_or(1.0),
             (_, stated) => first_elastic(parts, stated)?,
         };
@@ -92,7 +93,7 @@ impl<'a> Content<'a> {
             n_b: superelement.n_interface(),
             boundary: boundary(superelement),
             noise: noise.map_or_else(|| Noise::OfFile(by_own_bars(superelement, first)), Noise::OfModel),
-            mass_rank: mass_rank(superelement),
+            mass_rank,
             job: kept_job(superelement),
             k,
             m,

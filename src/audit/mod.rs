@@ -29,11 +29,12 @@ mod version;
 use supel_runtime::Superelement;
 
 use crate::error::Result;
-use crate::verification::Compared;
+use crate::verification;
 use crate::verification::check::{Check, Verdict};
+use crate::verification::preservation::Accuracy;
 
 use content::Content;
-use notes::Compared as ComparedWith;
+use notes::Compared;
 
 pub(crate) use flaw::flaw;
 pub use model::{Reference, reduction_of};
@@ -66,9 +67,8 @@ impl Audit {
     }
 
     /// What the scene accepts, M-29 to M-31, of a comparison with the full model.
-    pub(crate) fn of_accuracy(compared: &Compared) -> Self {
-        let of_accuracy = |check: &&Check| ["M-29", "M-30", "M-31"].contains(&check.id);
-        Self { checks: compared.checks.iter().filter(of_accuracy).cloned().collect(), ..Self::default() }
+    pub(crate) fn of_accuracy(compared: &verification::Compared) -> Self {
+        Self { checks: compared.report.accuracy.iter().filter_map(Accuracy::check).collect(), ..Self::default() }
     }
 
     /// Joins this result with another one.
@@ -94,7 +94,7 @@ pub fn of_file(superelement: &Superelement) -> Result<Audit> {
     let mut audit = checked(&content)?;
     audit.checks.extend(kept_job::n_modes(&content));
     let audit = audit.sorted();
-    Ok(Audit { unvouched: notes::fields(superelement, ComparedWith::Alone), ..audit })
+    Ok(Audit { unvouched: notes::fields(superelement, Compared::Alone), ..audit })
 }
 
 /// Checks a superelement against the rest of itself and against the reference, which also says how much rounding may change.
@@ -104,7 +104,7 @@ pub fn of_file(superelement: &Superelement) -> Result<Audit> {
 pub fn against(superelement: &Superelement, reference: &Reference<'_>) -> Result<Audit> {
     let by_itself = checked(&Content::of(superelement, Some(reference.noise()))?)?;
     let audit = by_itself.joined(reference.against(superelement)?);
-    Ok(Audit { unvouched: notes::fields(superelement, ComparedWith::WithJob), ..audit })
+    Ok(Audit { unvouched: notes::fields(superelement, Compared::WithJob), ..audit })
 }
 
 fn checked(content: &Content<'_>) -> Result<Audit> {

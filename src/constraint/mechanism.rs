@@ -15,8 +15,7 @@ use crate::eigen::{rayleigh_quotients, zero};
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, few_digits, whole_count};
 use crate::partition::Partition;
-use crate::rigid::COUNTED_BELOW;
-use crate::rigid::uncounted;
+use crate::rigid::refuse_uncounted;
 use crate::rigid::{RigidBodyModes, largest_residual, zero_energy};
 use crate::sparse::absolute_energy;
 use crate::sparse::{product, product_and_terms};
@@ -90,7 +89,7 @@ pub fn with_mechanisms(
             found.uncertain.push(loose());
         }
     }
-    refuse_uncounted(partition, constraint, (&rigid, &found))?;
+    refuse_uncounted_mechanisms(partition, constraint, (&rigid, &found))?;
     let free = dense::columns(motions.as_ref(), &free);
     let n_grey = found.grey.len() + found.uncertain.len();
     let rigid = RigidBodyModes { n_grey, ..joined(partition, rigid, free.as_ref()) };
@@ -113,7 +112,7 @@ fn is_rounding(partition: &Partition, (lambda, noise): (f64, f64)) -> Result<boo
 }
 
 /// Mechanisms by few digits are believed where what rounding makes is nothing compared with the softest motion that is none.
-fn refuse_uncounted(
+fn refuse_uncounted_mechanisms(
     partition: &Partition,
     constraint: &ConstraintModes,
     (rigid, found): (&RigidBodyModes, &LooseMotions),
@@ -125,10 +124,8 @@ fn refuse_uncounted(
     let next = orthonormal(partition, rigid, stiffer_motion(partition, constraint, rigid)?)?;
     let (lambda, errors, _) = rayleigh_quotients(partition.free_problem(), next.as_ref());
     let of_next = lambda.iter().zip(&errors).map(|(lambda, error)| error.zero_level / lambda);
-    match others.chain(of_next).fold(0.0, f64::max) {
-        worst if worst <= COUNTED_BELOW => Ok(()),
-        worst => Err(uncounted(partition.precision.stiffness, rigid.count() + found.mechanisms.len(), worst)),
-    }
+    let bar = others.chain(of_next).fold(0.0, f64::max);
+    refuse_uncounted(partition.precision.stiffness, rigid.count() + found.mechanisms.len(), bar)
 }
 
 /// V for every eigenvector of S that is soft and no rigid-body motion; columns of unit length in the scales of the dofs.

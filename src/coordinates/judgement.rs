@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use super::doubt::{Costly, Doubt, Place};
 use super::free::Free;
 use super::mended::mended;
-use super::motions::Motions;
+use super::motions::{AXES, Motions};
 use super::zeros::{Zeros, counted, n_loose_rows, whole};
 use crate::error::{Error, ErrorClass, Result};
 use crate::model::{CoordinateFit, Misfit};
@@ -227,9 +227,6 @@ fn of_first_elastic(quotient: f64, first: Option<f64>) -> Cost {
     let energy = first.map_or(f64::INFINITY, |lambda| quotient / lambda);
     Cost { energy, of: "the energy of the first elastic mode", expected: ROUNDED }
 }
-
-/// Names of the axes.
-const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Some of the six motions by name, in their order.
 fn named(motions: &[usize]) -> String {

@@ -6,6 +6,9 @@ use crate::dense;
 use crate::model::{Frame, Model, Site};
 use crate::sparse::{product, product_and_terms};
 
+/// Names of the axes.
+pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
+
 /// Motions of all bodies of a model, in the same six columns: no two bodies share a row.
 pub(super) struct Motions<'a> {
     pub(super) model: &'a Model,

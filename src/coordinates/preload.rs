@@ -13,11 +13,12 @@
 
 use std::collections::HashSet;
 
-use super::motions::{Body, Motions};
+use super::motions::{AXES, Body, Motions};
 use super::nodes::{FIRST_ROTATION, NOTICEABLE, Nodes};
 use crate::dense;
 use crate::error::{Error, Result};
 use supel_runtime::MOTIONS;
+use supel_runtime::motion::{IDENTITY_3, cross};
 
 /// Difference of K and the internal forces relative to the largest force, beyond rounding of K. Coordinates of five digits leave 1e-5 of
 /// the terms of K, where a preload to a strain of a thousandth makes 1e-3 of them.
@@ -26,8 +27,6 @@ const OTHER_FORCES: f64 = 1e-2;
 const UNBALANCED: f64 = 1e-4;
 /// Internal force at a tied node relative to the largest that is none: what six digits leave.
 const NO_FORCE: f64 = 1e-6;
-/// Axes of rotations.
-const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Confirms that K and the internal forces are of one state; `tied` are the labels of the nodes of patches.
 pub(super) fn confirmed(motions: &Motions<'_>, nodes: &Nodes, forces: &[f64], tied: &HashSet<i64>) -> Result<()> {
@@ -108,7 +107,8 @@ impl Turned {
                     false => ([fx, fy, fz], 1.0, 1.0),
                 };
                 let per_size = share * as_force / body.frame.size;
-                let expected = [0, 1, 2].map(|axis| per_size * turned_by(axis, vector)[site.direction.axis()]);
+                let expected =
+                    [0, 1, 2].map(|axis| per_size * cross(&IDENTITY_3[axis], &vector)[site.direction.axis()]);
                 let found = [0, 1, 2].map(|axis| as_force * motions.forces[(row, FIRST_ROTATION + axis)]);
                 let scale = as_force * motions.scale_of(row);
                 let noise = NOTICEABLE * (motions.rounding_at(row) + body.lever_rounding) * scale;
@@ -158,15 +158,6 @@ impl Turned {
         let along: f64 = pairs().map(|[found, expected]| found * expected).sum();
         let square: f64 = pairs().map(|[_, expected]| expected * expected).sum();
         along / square / self.largest
-    }
-}
-
-/// e × v for the unit vector e along an axis.
-fn turned_by(axis: usize, [x, y, z]: [f64; 3]) -> [f64; 3] {
-    match axis {
-        0 => [0.0, -z, y],
-        1 => [z, 0.0, -x],
-        _ => [-y, x, 0.0],
     }
 }
 

@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::factor::count_below;
 use crate::model::Model;
 use crate::partition::{DofOrigin, Held, Partition};
-use crate::rigid::{COUNTED_BELOW, ZeroModes, moving_directions, uncounted, zero_modes};
+use crate::rigid::{ZeroModes, moving_directions, refuse_uncounted, zero_modes};
 use crate::sparse::Rounding;
 
 /// A shift just above zero, in units of what rounding of the data can make of a zero eigenvalue: as many as an eigenvalue may
@@ -98,10 +98,7 @@ impl Zeros {
 
     /// An error where few digits of K leave open which motions are without energy.
     pub(super) fn refuse_uncounted(&self) -> Result<()> {
-        match self.bar_of_digits <= COUNTED_BELOW {
-            true => Ok(()),
-            false => Err(uncounted(self.rounding, self.count(), self.bar_of_digits)),
-        }
+        refuse_uncounted(self.rounding, self.count(), self.bar_of_digits)
     }
 
     /// Combinations of the zero modes that are rigid-body motions, body by body, on the rows that no support touches.

@@ -8,7 +8,6 @@ mod expansion;
 mod recovery;
 mod report;
 mod results;
-
 mod rigid_body;
 mod scene;
 mod soft_rotation;

@@ -10,6 +10,7 @@
 
 use faer::Mat;
 use serde::Serialize;
+use supel_runtime::motion::cross;
 
 use crate::dense;
 
@@ -257,10 +258,10 @@ fn is_converged(step: &Mat<f64>) -> bool {
 fn across(axis: [f64; 3]) -> [[f64; 3]; 2] {
     let least = (0..3).min_by(|a, b| axis[*a].abs().total_cmp(&axis[*b].abs())).unwrap_or(0);
     let unit = std::array::from_fn(|i| if i == least { 1.0 } else { 0.0 });
-    let e = cross(axis, unit);
+    let e = cross(&axis, &unit);
     let norm = length(e);
     let e = e.map(|x| x / norm);
-    [e, cross(axis, e)]
+    [e, cross(&axis, &e)]
 }
 
 /// The one of the two unit vectors along an axis whose largest component is positive.
@@ -284,10 +285,6 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|i| a[i] - b[i])
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[cfg(test)]

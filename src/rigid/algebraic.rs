@@ -45,8 +45,8 @@ pub(crate) fn zero_modes(partition: &Partition) -> Result<ZeroModes> {
     let bar_of_digits = bar_of_digits(partition, &found);
     // A soft mode looks like a mechanism where rounding of few digits is larger than its energy: more zero modes than bodies can have are
     // believed where that rounding is nothing compared with the first elastic mode.
-    if found.n_zero > 6 * partition.model.n_bodies && bar_of_digits > COUNTED_BELOW {
-        return Err(uncounted(partition.precision.stiffness, found.n_zero, bar_of_digits));
+    if found.n_zero > 6 * partition.model.n_bodies {
+        refuse_uncounted(partition.precision.stiffness, found.n_zero, bar_of_digits)?;
     }
     let orthonormal = without_elastic_rounding(partition, &found);
     let (forces, terms) = product_and_terms(&partition.stiffness, orthonormal.as_ref());
@@ -79,7 +79,7 @@ pub(crate) fn zero_modes(partition: &Partition) -> Result<ZeroModes> {
 
 /// Relative error bar of the first elastic eigenvalue up to which mechanisms below it are counted: what is lost in rounding is then
 /// slower than a hundredth of the first elastic mode, as what M-05 takes for a support is.
-pub(crate) const COUNTED_BELOW: f64 = 1e-4;
+const COUNTED_BELOW: f64 = 1e-4;
 
 /// What few digits leave of the first eigenvalue above the zero ones.
 fn bar_of_digits(partition: &Partition, found: &Shifted<'_>) -> f64 {
@@ -92,14 +92,17 @@ fn bar_of_digits(partition: &Partition, found: &Shifted<'_>) -> f64 {
     }
 }
 
-/// Motions seem to cost no energy, and the next one is known to a share of its eigenvalue only.
-pub(crate) fn uncounted(rounding: Rounding, n_zero: usize, bar: f64) -> Error {
+/// An error where motions seem to cost no energy, and the next one is known to too large a share of its eigenvalue, `bar`.
+pub(crate) fn refuse_uncounted(rounding: Rounding, n_zero: usize, bar: f64) -> Result<()> {
+    if bar <= COUNTED_BELOW {
+        return Ok(());
+    }
     let known = 0.5 * bar;
     let what = format!(
         "how many motions cost no energy: {n_zero} seem to, and with the frequency of the next known to {known:.0e} of itself \
          elastic ones may be among them"
     );
-    Error::DigitsTooFew { what, known: rounding.in_words() }
+    Err(Error::DigitsTooFew { what, known: rounding.in_words() })
 }
 
 /// The zero modes after a step of inverse iteration, which takes what rounding of the eigensolver left of an elastic motion

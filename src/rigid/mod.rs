@@ -22,7 +22,7 @@ mod rigid_body_modes;
 mod shift;
 
 pub use algebraic::from_matrices;
-pub(crate) use algebraic::{COUNTED_BELOW, ZeroModes, uncounted, zero_modes};
+pub(crate) use algebraic::{ZeroModes, refuse_uncounted, zero_modes};
 pub(crate) use energy::{largest_residual, noise_of_digits, zero_energy};
 pub(crate) use geometric::{NO_MASS, moving_directions};
 pub use of_partition::{from_coordinates, rigid_body_modes};

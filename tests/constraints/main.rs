@@ -7,7 +7,8 @@ mod theory;
 use faer::{Mat, MatRef};
 use supel::cli::ExitCode;
 use supel_models::Model;
-use supel_runtime::{Matrix, Superelement};
+use supel_runtime::Superelement;
+use supel_testing::pencil::unpacked;
 use supel_testing::place::{Ended, Place, supel, warnings_of_reduction};
 
 /// A matrix by rows: columns and values.
@@ -95,10 +96,6 @@ fn dense(n: usize, entries: &[(u32, u32, f64)]) -> Mat<f64> {
     let mut matrix = Mat::zeros(n, n);
     entries.iter().for_each(|(i, j, value)| matrix[(*i as usize, *j as usize)] += value);
     matrix
-}
-
-fn unpacked(matrix: &Matrix) -> Mat<f64> {
-    Mat::from_fn(matrix.rows(), matrix.cols(), |i, j| matrix[(i, j)])
 }
 
 /// W, all rows of the model on the coordinates of a superelement.

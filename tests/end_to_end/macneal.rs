@@ -7,8 +7,9 @@ use supel::cli::ExitCode;
 use supel_models::{Ends, spring};
 use supel_runtime::component::{FloatingFrame, ModalComponent};
 use supel_runtime::{Flag, Matrix, Metadata, Method, Superelement, Tensors};
+use supel_testing::pencil::unpacked;
 
-use crate::methods::{INTERFACE, unpacked, verified};
+use crate::methods::{INTERFACE, verified};
 use crate::place::{Place, steel_brick, supel};
 
 const N_MODES: usize = 5;

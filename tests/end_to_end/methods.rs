@@ -5,7 +5,8 @@ use serde_json::Value;
 use supel::cli::ExitCode;
 use supel_models::transform::join;
 use supel_models::{Ends, Material, brick, spring};
-use supel_runtime::{Coordinate, Matrix, Method, Superelement};
+use supel_runtime::{Coordinate, Method, Superelement};
+use supel_testing::pencil::unpacked;
 
 use crate::place::{Place, supel};
 
@@ -19,10 +20,6 @@ pub(super) fn verified(place: &Place, method: &str) -> Superelement {
     place.write("job.json", supel(&["inspect", &file, "--job"]).expect(ExitCode::Done).out.as_bytes());
     supel(&["verify", &file, "--strict", "--job", &place.text("job.json")]).expect(ExitCode::Done);
     place.superelement("x.supel")
-}
-
-pub(super) fn unpacked(matrix: &Matrix) -> Mat<f64> {
-    Mat::from_fn(matrix.rows(), matrix.cols(), |i, j| matrix[(i, j)])
 }
 
 fn value_of(place: &Place, name: &str) -> f64 {

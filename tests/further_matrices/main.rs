@@ -9,7 +9,8 @@ mod rotor;
 use faer::{Mat, MatRef};
 use supel::cli::ExitCode;
 use supel_models::{Model, SplitMix64};
-use supel_runtime::{Matrix, Superelement};
+use supel_runtime::Superelement;
+use supel_testing::pencil::unpacked;
 use supel_testing::place::{Ended, Place, supel};
 
 /// A model in a folder of its own, with the superelement x.supel of job.toml.
@@ -80,10 +81,6 @@ fn dense(n: usize, entries: &Entries) -> Mat<f64> {
     let mut matrix = Mat::zeros(n, n);
     entries.iter().for_each(|(i, j, value)| matrix[(*i as usize, *j as usize)] += value);
     matrix
-}
-
-fn unpacked(matrix: &Matrix) -> Mat<f64> {
-    Mat::from_fn(matrix.rows(), matrix.cols(), |i, j| matrix[(i, j)])
 }
 
 fn absolute(a: MatRef<'_, f64>) -> Mat<f64> {

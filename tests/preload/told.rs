@@ -26,7 +26,7 @@ fn the_state_is_told_wherever_results_are() {
     assert!(shown.contains("stays near the preloaded state"), "{shown}");
     let metadata = made.file.metadata();
     assert_eq!(metadata.inputs["internal_forces"], blake3::hash(&made.place.bytes("q.mtx")).to_hex().as_str());
-    // The same state again: the bytes of the file do not depend on its folder.
+    // Made again in another folder: the bytes of the file do not depend on its folder.
     let again = crate::made(&tower(Nodes::Bodies, STRAIN), ENDS, HERTING);
     assert_eq!(again.place.bytes("x.supel"), made.place.bytes("x.supel"));
 }

@@ -73,7 +73,7 @@ impl Accuracy {
     }
 
     /// M-29 to M-31, where the scene sets the limit.
-    pub(super) fn check(&self) -> Option<Check> {
+    pub(crate) fn check(&self) -> Option<Check> {
         let limit = self.limit.filter(|_| self.set_by == LimitSource::Scene)?;
         let (id, name, equation) = match self.measure {
             AccuracyMeasure::Frequency => (

@@ -38,23 +38,19 @@ pub struct Compared {
 /// # Errors
 /// No memory. A comparison that the arithmetic cannot make is left out, and the report names it.
 pub fn preservation(evidence: &Evidence<'_>, analysis: &Analysis, job: &Job) -> Result<Compared> {
-    compared((evidence, evidence), analysis, job)
+    preservation_of_file((evidence, evidence), analysis, job)
 }
 
 /// Compares the reduced matrices of a file with the full model. `evidence` has those of the file and is otherwise `own`, the results of
 /// the stages for the same job, whose basis answers the loads.
 ///
 /// # Errors
-/// Those of [`preservation`].
+/// As [`preservation`] has them.
 pub fn preservation_of_file(
     (evidence, own): (&Evidence<'_>, &Evidence<'_>),
     analysis: &Analysis,
     job: &Job,
 ) -> Result<Compared> {
-    compared((evidence, own), analysis, job)
-}
-
-fn compared((evidence, own): (&Evidence<'_>, &Evidence<'_>), analysis: &Analysis, job: &Job) -> Result<Compared> {
     let plan = Plan::new(evidence, analysis, job);
     let mut compared = measured(evidence, analysis, &plan)?;
     let report = &compared.report;

@@ -7,6 +7,8 @@
 //! and x |x_ξ × x_η| degree 5 at most in each of ξ, η (degree 4 on a triangle, which is the square with one edge collapsed, and 5
 //! with the shrinking of its lines).
 
+use supel_runtime::motion::cross;
+
 /// A node's shape function and its two derivatives.
 type Shape = [f64; 3];
 
@@ -50,7 +52,7 @@ pub(super) fn moments(corners: &[[f64; 3]], middles: &[[f64; 3]]) -> Moments {
                 let nodes = corners.iter().chain(middles).zip(&shapes);
                 nodes.fold([0.0; 3], |sum, (x, shape)| std::array::from_fn(|axis| sum[axis] + shape[part] * x[axis]))
             };
-            let area = weight * length(cross(at(1), at(2)));
+            let area = weight * length(cross(&at(1), &at(2)));
             total = total.plus(Moments { area, first: at(0).map(|x| area * x) });
         }
     }
@@ -107,14 +109,6 @@ fn quadrilateral(x: f64, y: f64, degree: Degree) -> Vec<Shape> {
 
 pub(super) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|axis| a[axis] - b[axis])
-}
-
-pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 fn length(v: [f64; 3]) -> f64 {

@@ -5,7 +5,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::area::{Moments, cross, dot, minus};
+use supel_runtime::motion::{cross, dot};
+
+use super::area::{Moments, minus};
 
 /// A face of a patch.
 pub(super) struct Found {
@@ -110,10 +112,10 @@ pub(super) fn counted<'a>(faces: &[&'a Found]) -> Option<Vec<&'a Found>> {
 
 /// Whether a point lies in a triangle, or so near to its plane.
 fn is_inside([a, b, c]: [[f64; 3]; 3], point: [f64; 3], thickness: f64) -> bool {
-    let normal = cross(minus(b, a), minus(c, a));
-    let square = dot(normal, normal);
-    let side = |from: [f64; 3], to: [f64; 3]| dot(normal, cross(minus(to, from), minus(point, from)));
-    let is_near = dot(normal, minus(point, a)).abs() <= thickness * square.sqrt();
+    let normal = cross(&minus(b, a), &minus(c, a));
+    let square = dot(&normal, &normal);
+    let side = |from: [f64; 3], to: [f64; 3]| dot(&normal, &cross(&minus(to, from), &minus(point, from)));
+    let is_near = dot(&normal, &minus(point, a)).abs() <= thickness * square.sqrt();
     // A middle on the diagonal of a quadrilateral is on the side of one of its triangles, within rounding.
     square > 0.0 && is_near && [side(a, b), side(b, c), side(c, a)].iter().all(|side| *side >= -1e-9 * square)
 }
