@@ -216,6 +216,37 @@ fn light_oscillators_of_near_frequencies() {
     }
 }
 
+/// Oscillators of one frequency, of which one is in an average patch with rows 10¹¹ times as stiff: their sum keeps five digits of its
+/// spring, and rounding mixes its modes with those of the others, which are known far better.
+#[test]
+fn one_oscillator_of_many_in_an_average_patch() {
+    let block = brick([4, 1, 1], [0.4, 0.06, 0.09], &Material::STEEL_SI);
+    let omega = std::f64::consts::TAU * 11.0;
+    let place = Place::with(&with_oscillators(&block, 0.1 / (omega * omega), |_| 0.1));
+    let job = r#"
+        [model]
+        stiffness = "K.mtx"
+        mass = "M.mtx"
+        dofs = "dofs.txt"
+        nodes = "nodes.csv"
+
+        [[interface]]
+        name = "a"
+        nodes = [5, 10, 15, 20, 500000]
+        coupling = "average"
+
+        [reduction]
+        method = "herting"
+        modes = { count = 32 }
+
+        [write]
+        superelement = "x.supel"
+    "#;
+    place.write("job.toml", job.as_bytes());
+    supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+    supel(&["verify", &place.text("x.supel")]).expect(ExitCode::Done);
+}
+
 /// Dense matrices of this order are divided to be decomposed; in SI units their entries may be tiny.
 #[test]
 fn many_modes_of_a_component_without_interface() {

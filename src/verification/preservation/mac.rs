@@ -76,7 +76,8 @@ fn cluster_mac(evidence: &Evidence<'_>, cross: MatRef<'_, f64>) -> Vec<f64> {
     while start < n {
         let mut end = start + 1;
         while end < n && {
-            let gap = CLUSTER_GAP.max(WITHIN_BARS * modes.errors[end].relative_bar);
+            let bar = modes.errors[end].relative_bar.max(modes.errors[end - 1].relative_bar);
+            let gap = CLUSTER_GAP.max(WITHIN_BARS * bar);
             modes.lambda[end] - modes.lambda[end - 1] <= gap * modes.lambda[end]
         } {
             end += 1;
