@@ -201,7 +201,7 @@ impl Assembly {
         Ok(())
     }
 
-    fn places(&self, flag: &'static str, text: &str) -> Result<Vec<Place>> {
+    pub(super) fn places(&self, flag: &'static str, text: &str) -> Result<Vec<Place>> {
         Selector { flag, components: &self.components }.places(text)
     }
 
@@ -216,15 +216,27 @@ impl Assembly {
         parents
     }
 
-    /// The number in the assembly of each coordinate of the components; none where it is held.
-    fn numbers(&self) -> Vec<Option<usize>> {
+    /// The number in the assembly of each coordinate of the components; none where one of `held` is.
+    fn numbers(&self, held: &BTreeSet<usize>) -> Vec<Option<usize>> {
         let mut parents = self.parents();
         let roots: Vec<usize> = (0..parents.len()).map(|i| root(&mut parents, i)).collect();
-        let held: BTreeSet<usize> = self.held_coordinates.iter().map(|at| roots[*at]).collect();
+        let held: BTreeSet<usize> = held.iter().map(|at| roots[*at]).collect();
         let mut number_of = vec![None; roots.len()];
         let free = (0..roots.len()).filter(|i| roots[*i] == *i && !held.contains(i));
         free.enumerate().for_each(|(number, at)| number_of[at] = Some(number));
         roots.iter().map(|root| number_of[*root]).collect()
+    }
+
+    /// Coordinates of the components that were named to be held.
+    pub(super) fn held_coordinates(&self) -> &BTreeSet<usize> {
+        &self.held_coordinates
+    }
+
+    /// The names of components that are joined to nothing, where there are others.
+    pub fn joined_to_nothing(&self) -> impl Iterator<Item = &str> {
+        let is_alone = |index: &usize| !self.joints.iter().any(|joint| joint.components.contains(index));
+        let all = if self.components.len() > 1 { 0..self.components.len() } else { 0..0 };
+        all.filter(move |index| is_alone(index)).map(|index| self.components[index].name.as_str())
     }
 
     /// The matrices of what moves.
@@ -232,7 +244,19 @@ impl Assembly {
     /// # Errors
     /// [`Error::AssemblyHeld`] where nothing moves; [`Error::DenseEigen`].
     pub(super) fn assembled(&self) -> Result<Assembled> {
-        let numbers = self.numbers();
+        self.assembled_holding(&self.held_coordinates)
+    }
+
+    /// The matrices of the whole with nothing held.
+    ///
+    /// # Errors
+    /// [`Error::DenseEigen`].
+    pub(super) fn assembled_free(&self) -> Result<Assembled> {
+        self.assembled_holding(&BTreeSet::new())
+    }
+
+    fn assembled_holding(&self, held: &BTreeSet<usize>) -> Result<Assembled> {
+        let numbers = self.numbers(held);
         let n = numbers.iter().flatten().max().map_or(0, |last| last + 1);
         if n == 0 {
             return Err(Error::AssemblyHeld);
@@ -253,7 +277,7 @@ impl Assembly {
         for (at, part) in self.added.iter().filter_map(|(at, part)| Some((numbers[*at]?, part))) {
             mass[(at, at)] += part;
         }
-        let held: Vec<usize> = self.held_coordinates.iter().copied().collect();
+        let held: Vec<usize> = held.iter().copied().collect();
         let ties = Ties { joined: &self.joined, held: &held, distance: self.distance };
         let motions = rigid_motions(&self.components, &ties)?;
         let mut rigid = Mat::zeros(n, motions.ncols());
@@ -268,7 +292,7 @@ impl Assembly {
 
     /// What a coordinate of the assembly is called: the first of those that are joined in it.
     pub(super) fn name_of(&self, number: usize) -> String {
-        let at = self.numbers().iter().position(|own| *own == Some(number)).unwrap_or(0);
+        let at = self.numbers(&self.held_coordinates).iter().position(|own| *own == Some(number)).unwrap_or(0);
         let mut first = 0;
         for component in &self.components {
             if at < first + component.n_coordinates() {

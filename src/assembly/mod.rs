@@ -14,6 +14,7 @@
 #[expect(clippy::module_inception, reason = "the assembly is what the folder makes")]
 mod assembly;
 mod component;
+mod joined_model;
 mod joint;
 mod modes;
 mod omitted;
@@ -25,6 +26,7 @@ mod storage;
 
 pub use assembly::{Assembly, Held, Joint, Loaded, PointMass};
 pub use component::Component;
+pub use joined_model::{JoinedModel, JoinedNode, JoinedRow, JoinedSelection, Members};
 pub use modes::{AssemblyMode, AssemblyModes, Kind, Wanted};
 pub use omitted::{Omitted, SprungMass};
 pub use storage::within_memory;

@@ -116,11 +116,7 @@ impl ModesReport<'_> {
     fn notes(&self) -> Vec<String> {
         let Self { assembly, modes, .. } = *self;
         let mut notes = assembly.notes.clone();
-        if assembly.components.len() > 1 {
-            let is_alone = |index: &usize| !assembly.joints.iter().any(|joint| joint.components.contains(index));
-            let alone = (0..assembly.components.len()).filter(is_alone).map(|index| &assembly.components[index].name);
-            notes.extend(alone.map(|name| format!("{name} is joined to nothing")));
-        }
+        notes.extend(assembly.joined_to_nothing().map(|name| format!("{name} is joined to nothing")));
         if modes.n_massless > 0 {
             let motions = counted(modes.n_massless, "motion has", "motions have");
             notes.push(format!(
