@@ -2,6 +2,7 @@
 
 use supel_runtime::Superelement;
 
+use super::joined::Joined;
 use super::names::Names;
 use crate::error::Result;
 
@@ -15,6 +16,11 @@ pub trait Format: std::fmt::Debug + Sync {
     /// # Errors
     /// [`crate::error::Error::ExportLabel`] where the format cannot hold the label of a node.
     fn files(&self, superelement: &Superelement, names: &Names) -> Result<Vec<ExportedFile>>;
+
+    /// The files of an assembly as one model, in the order in which they get their names; none where the format is not one of models.
+    fn files_of_joined(&self, _joined: &Joined, _names: &Names) -> Option<Vec<ExportedFile>> {
+        None
+    }
 }
 
 /// A file of an export.

@@ -10,8 +10,10 @@ use std::fmt::Write as _;
 use supel_runtime::{Coordinate, InterfaceNode, Matrix, NamedMatrix, Quantity, Superelement, Tensors};
 
 use super::format::{ExportedFile, Format};
+use super::joined::{Joined, label, packed};
 use super::model_job::job;
 use super::names::Names;
+use crate::assembly::JoinedNode;
 use crate::error::Result;
 use crate::report::{field, printable};
 
@@ -65,11 +67,37 @@ impl Format for MatrixMarket {
             files.push(file("dofs.csv", "node and direction of each row", dofs(superelement, &labels)));
             files.push(file("nodes.csv", "nodes", node_table(nodes, &labels)));
         }
-        let job = job(superelement, &labels, names)?;
-        files.extend(job.map(|job| file("job.toml", "a job that reduces it again", job)));
+        let job = job(superelement, &labels)?;
+        files.extend(job.map(|job| file("job.toml", JOB, job.render(names))));
         Ok(files)
     }
+
+    fn files_of_joined(&self, joined: &Joined, names: &Names) -> Option<Vec<ExportedFile>> {
+        let file = ExportedFile::text;
+        let Joined { model, job, .. } = joined;
+        let rows: Vec<String> = model.rows.iter().map(|row| row.name.clone()).collect();
+        let mut files = vec![
+            file("stiffness.mtx", "stiffness", symmetric(&packed(&model.stiffness), &rows)),
+            file("mass.mtx", "mass", symmetric(&packed(&model.mass), &rows)),
+        ];
+        if model.loads.ncols() > 0 {
+            files.push(file("loads.mtx", "load vectors", array(&packed(&model.loads))));
+        }
+        if !model.nodes.is_empty() {
+            let named = model.rows.iter().map(|row| match row.at {
+                Some((node, direction)) => (Some(label(node)), direction.to_string()),
+                None => (None, SCALAR.to_owned()),
+            });
+            files.push(file("dofs.csv", "node and direction of each row", dof_map(named)));
+            files.push(file("nodes.csv", "nodes", joined_nodes(&model.nodes)));
+        }
+        files.extend(job.as_ref().map(|job| file("job.toml", JOB, job.render(names))));
+        Some(files)
+    }
 }
+
+/// What the job is, for people.
+const JOB: &str = "a job that reduces it again";
 
 /// What each row is, for people.
 fn rows(superelement: &Superelement, labels: &[i64]) -> Vec<String> {
@@ -160,13 +188,26 @@ fn quantity_table(quantities: &[Quantity]) -> String {
     std::iter::once("name,unit\n".to_owned()).chain(quantities.iter().map(row)).collect()
 }
 
+/// Nodes of an assembly with the interface nodes that they are.
+fn joined_nodes(nodes: &[JoinedNode]) -> String {
+    let mut text = String::from(NODE_TABLE);
+    for (at, node) in nodes.iter().enumerate() {
+        let [x, y, z] = node.position.map(number);
+        let _ = writeln!(text, "{},{x},{y},{z},{}", label(at), field(&node.names.join(" + ")));
+    }
+    text
+}
+
+/// The first line of a table of nodes.
+const NODE_TABLE: &str = "node,x,y,z,interface\n";
+
 /// Nodes with their interfaces; dofs of one node may belong to several.
 fn node_table(nodes: &[InterfaceNode], labels: &[i64]) -> String {
     let mut of_label: BTreeMap<i64, (usize, Vec<&str>)> = BTreeMap::new();
     for (index, node) in nodes.iter().enumerate() {
         of_label.entry(labels[index]).or_insert((index, Vec::new())).1.push(&node.name);
     }
-    let mut text = String::from("node,x,y,z,interface\n");
+    let mut text = String::from(NODE_TABLE);
     for (index, label) in labels.iter().enumerate() {
         let Some((_, names)) = of_label.get(label).filter(|(first, _)| *first == index) else { continue };
         let [x, y, z] = nodes[index].position.map(number);

@@ -4,14 +4,18 @@
 //! anything; what the file records of its verification is for the caller to say.
 
 mod format;
+mod job_text;
+mod joined;
 mod matrix_market;
 mod model_job;
 mod names;
 mod op4;
 mod op4_binary;
 mod op4_content;
+mod stiffness_digits;
 
 pub use format::{ExportedFile, Format};
+pub use joined::Joined;
 pub use names::Names;
 
 /// Every format, in the order in which help and documentation list them.

@@ -1,0 +1,45 @@
+//! The digits of a condensed stiffness, which a job that reduces it again states.
+//!
+//! ```text
+//! Q    r × n_r    rigid-body modes of the matrices, M̂-orthonormal combinations of Û
+//! ```
+//! K̂ was condensed from a stiffness that is larger by orders, and its entries carry the rounding of that one. So K̂ Q is not zero
+//! to the last digit of K̂, and the job states as many digits as K̂ Q shows: taken for exact, the zero eigenvalues of K̂
+//! would be negative or elastic.
+
+use faer::{Mat, MatRef};
+
+use crate::dense;
+use crate::error::Result;
+
+/// Digits of K̂ below which a second reduction cannot tell stiffness from rounding.
+pub(super) const FEWEST_DIGITS: i64 = 4;
+
+/// The digits that K̂ has by its rigid-body motion; nothing where it has none or all.
+///
+/// Half a unit of the last of d digits, 0.5·10^(1−d), is at least [`MARGIN`] times the largest ‖K̂q‖ / ‖|K̂||q|‖.
+///
+/// # Errors
+/// [`crate::error::Error::DenseEigen`].
+pub(super) fn digits(k: MatRef<'_, f64>, m: MatRef<'_, f64>, u: MatRef<'_, f64>) -> Result<Option<i64>> {
+    /// Combinations of the columns of Q, in which more cancels, do worse than each.
+    const MARGIN: f64 = 10.0;
+    /// As many identify almost every double, and reading takes them for all.
+    const ALL: f64 = 16.0;
+    if u.ncols() == 0 {
+        return Ok(None);
+    }
+    let mut modal_mass = dense::gram(u, dense::product(m, u).as_ref());
+    dense::symmetrise(&mut modal_mass);
+    let (masses, directions) = dense::symmetric_eigen(modal_mass.as_ref())?;
+    let massive: Vec<usize> = (0..masses.len()).filter(|j| masses[*j] > 0.0).collect();
+    let unit =
+        Mat::from_fn(masses.len(), massive.len(), |i, j| directions[(i, massive[j])] / masses[massive[j]].sqrt());
+    let q = dense::product(u, unit.as_ref());
+    let forces = dense::product(k, q.as_ref());
+    let terms = dense::product(dense::absolute(k).as_ref(), dense::absolute(q.as_ref()).as_ref());
+    let norm = |a: &Mat<f64>, j: usize| dense::norm(dense::column(a.as_ref(), j));
+    let residuals = (0..q.ncols()).filter(|j| norm(&terms, *j) > 0.0).map(|j| norm(&forces, j) / norm(&terms, j));
+    let digits = (1.0 - (2.0 * MARGIN * residuals.fold(0.0, f64::max)).log10()).floor();
+    Ok((digits < ALL).then_some(digits.max(1.0) as i64))
+}
