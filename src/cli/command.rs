@@ -3,15 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use super::flags::{
-    CommandLine, ExportFlags, InspectFlags, ModelFlags, OutputFlags, ReduceFlags, ReductionFlags, Typed, VerifyFlags,
+    CommandLine, InspectFlags, ModelFlags, OutputFlags, ReduceFlags, ReductionFlags, Typed, VerifyFlags,
 };
+use super::export_command::ExportCommand;
 use super::modes_command::ModesCommand;
 use super::process;
 use super::recover_command::RecoverCommand;
 use super::unverified::Unverified;
 use crate::dofs::Direction;
 use crate::error::{Error, Result};
-use crate::export::Format;
 use crate::job::{
     Boundary, Coupling, Duplicates, FixedJob, InterfaceJob, Job, Method, ModeOrigin, ModeSelection, ModelJob, ModesJob,
     NodeSelection, ReductionJob, RunJob, WriteJob,
@@ -73,17 +73,6 @@ pub(super) struct InspectCommand {
     pub(super) answer: InspectAnswer,
 }
 
-/// Write a superelement in another format.
-#[derive(Debug)]
-pub(super) struct ExportCommand {
-    pub(super) file: PathBuf,
-    pub(super) format: &'static dyn Format,
-    /// The start of the names of the files, or their folder.
-    pub(super) output: PathBuf,
-    pub(super) answer: Answer,
-    pub(super) unverified: Unverified,
-}
-
 /// How many threads work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Threads {
@@ -132,7 +121,7 @@ impl Command {
             Typed::Verify(flags) => build_verify(flags).map(|command| Self::Verify(Box::new(command))),
             Typed::Inspect(flags) => Ok(Self::Inspect(InspectCommand::of(flags))),
             Typed::Modes(flags) => ModesCommand::build(flags).map(Self::Modes),
-            Typed::Export(flags) => Ok(Self::Export(ExportCommand::of(flags))),
+            Typed::Export(flags) => ExportCommand::build(flags).map(Self::Export),
             Typed::Recover(flags) => RecoverCommand::build(flags).map(Self::Recover),
             Typed::RehearseReading => Ok(Self::RehearseReading),
         }
@@ -150,19 +139,6 @@ impl InspectCommand {
         let answer =
             asked.into_iter().find(|(is_asked, _)| *is_asked).map_or(InspectAnswer::Text, |(_, answer)| answer);
         Self { file, answer }
-    }
-}
-
-impl ExportCommand {
-    fn of(flags: ExportFlags) -> Self {
-        let ExportFlags { file, to, output, json, allow_unverified } = flags;
-        Self {
-            output: output.unwrap_or_else(|| file.with_extension("")),
-            file,
-            format: to,
-            answer: if json { Answer::Json } else { Answer::Text },
-            unverified: allow_unverified.into(),
-        }
     }
 }
 

@@ -33,7 +33,7 @@ pub(super) enum Typed {
     /// Expand states of a simulation to the nodes that a superelement recovers
     #[command(after_help = EXIT_CODES)]
     Recover(RecoverFlags),
-    /// Write a superelement in a format of other programs, or as a model that can be reduced again
+    /// Write a superelement in a format of other programs, or as a model that can be reduced again; or an assembly as one model
     #[command(after_help = EXIT_CODES)]
     Export(ExportFlags),
     /// Read a model described on stdin and discard it
@@ -193,12 +193,9 @@ pub(super) struct InspectFlags {
     pub(super) job: bool,
 }
 
+/// How superelements become an assembly.
 #[derive(Debug, Args)]
-#[command(group = ArgGroup::new("how many modes").args(["count", "up_to_hz"]))]
-pub(super) struct ModesFlags {
-    /// Superelement files; a component has the name of its file without .supel, or NAME
-    #[arg(required = true, value_name = "[NAME=]FILE")]
-    pub(super) files: Vec<String>,
+pub(super) struct AssemblyFlags {
     /// Join interfaces node by node: a.hub=b.pin, or a.hub.17=b.pin.4 for two of several nodes, a.rows:0,1=b.rows:8,9
     /// without nodes (repeatable)
     #[arg(long, value_name = "A=B")]
@@ -210,6 +207,16 @@ pub(super) struct ModesFlags {
     /// (repeatable)
     #[arg(long, value_name = "PLACE=MASS")]
     pub(super) mass: Vec<String>,
+}
+
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("how many modes").args(["count", "up_to_hz"]))]
+pub(super) struct ModesFlags {
+    /// Superelement files; a component has the name of its file without .supel, or NAME
+    #[arg(required = true, value_name = "[NAME=]FILE")]
+    pub(super) files: Vec<String>,
+    #[command(flatten)]
+    pub(super) assembly: AssemblyFlags,
     /// Show this many modes [default: 20]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) count: Option<u32>,
@@ -257,12 +264,19 @@ pub(super) struct RecoverFlags {
 // One field for each switch that can be typed.
 #[expect(clippy::struct_excessive_bools)]
 pub(super) struct ExportFlags {
-    /// Superelement file
-    pub(super) file: PathBuf,
+    /// Superelement file; several become an assembly, whose components have the names of their files without .supel, or NAME
+    #[arg(required = true, value_name = "[NAME=]FILE")]
+    pub(super) files: Vec<PathBuf>,
     /// Format
     #[arg(long, value_name = "FORMAT", value_parser = formats())]
     pub(super) to: &'static dyn Format,
-    /// Start of the names of the files, or a folder that is there [default: the superelement without its ending]
+    #[command(flatten)]
+    pub(super) assembly: AssemblyFlags,
+    /// Keep a joined interface as one of the assembly; others that are joined become interior: a.hub (repeatable)
+    #[arg(long, value_name = "PLACE")]
+    pub(super) keep: Vec<String>,
+    /// Start of the names of the files, or a folder that is there; an assembly needs it [default: the superelement without
+    /// its ending]
     #[arg(short, long, value_name = "PATH")]
     pub(super) output: Option<PathBuf>,
     /// Print what was written as JSON

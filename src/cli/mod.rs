@@ -11,9 +11,12 @@
 
 mod accompanying;
 mod answer;
+mod assembled;
+mod assembly_command;
 mod command;
 mod exit_code;
 mod export;
+mod export_command;
 mod flags;
 mod inspect;
 mod memory;
