@@ -138,9 +138,8 @@ impl Assembly {
     }
 
     fn same_units(&self) -> Result<()> {
-        let labelled = |component: &Component| {
-            Some((component.name.clone(), component.superelement.metadata().units.clone()?))
-        };
+        let labelled =
+            |component: &Component| Some((component.name.clone(), component.superelement.metadata().units.clone()?));
         let mut labels = self.components.iter().filter_map(labelled);
         let Some((a, of_a)) = labels.next() else { return Ok(()) };
         match labels.find(|(_, units)| *units != of_a) {
@@ -152,9 +151,10 @@ impl Assembly {
     /// Rows with their names, those of the first coordinates that they are.
     fn rows(&self, numbers: &[usize]) -> Vec<JoinedRow> {
         let mut rows: Vec<JoinedRow> = Vec::new();
-        let of_components = self.components.iter().flat_map(|component| {
-            (0..component.n_coordinates()).map(move |coordinate| (component, coordinate))
-        });
+        let of_components = self
+            .components
+            .iter()
+            .flat_map(|component| (0..component.n_coordinates()).map(move |coordinate| (component, coordinate)));
         for ((component, coordinate), number) in of_components.zip(numbers) {
             // The first coordinates of rows come in the order of these.
             if *number == rows.len() {
@@ -207,9 +207,7 @@ impl Assembly {
                 for (column, name) in metadata.load_names.iter().enumerate() {
                     let to = names.len();
                     (0..vectors.rows()).for_each(|i| loads[(numbers[first + i], to)] += vectors[(i, column)]);
-                    let is_its_own = |coordinate: &Coordinate| {
-                        matches!(coordinate, Coordinate::ResidualVector { load } if *load == column)
-                    };
+                    let is_its_own = |coordinate: &Coordinate| matches!(coordinate, Coordinate::ResidualVector { load } if *load == column);
                     names.push((format!("{}.{name}", component.name), metadata.named_columns().any(is_its_own)));
                 }
             }
@@ -253,7 +251,8 @@ fn nodes(sites: &[Site]) -> Vec<JoinedNode> {
     for site in sites {
         let Some(position) = site.position else { continue };
         let directed = || site.dofs.iter().filter_map(|dof| Some((dof.direction?, dof.row)));
-        let met = directed().filter_map(|(_, row)| node_of.get(&row)).chain(site.own.and_then(|of| own.get(&of)).into_iter());
+        let met =
+            directed().filter_map(|(_, row)| node_of.get(&row)).chain(site.own.and_then(|of| own.get(&of)).into_iter());
         let is_one = |node: &usize| directed().all(|(d, row)| nodes[*node].rows.get(&d).is_none_or(|own| *own == row));
         let node = met.copied().find(is_one);
         let left: Vec<(Direction, usize)> = directed().filter(|(_, row)| !node_of.contains_key(row)).collect();

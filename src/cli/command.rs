@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use super::export_command::ExportCommand;
 use super::flags::{
     CommandLine, InspectFlags, ModelFlags, OutputFlags, ReduceFlags, ReductionFlags, Typed, VerifyFlags,
 };
-use super::export_command::ExportCommand;
 use super::modes_command::ModesCommand;
 use super::process;
 use super::recover_command::RecoverCommand;

@@ -25,10 +25,8 @@ pub(super) fn run(command: &ExportCommand, terminal: &mut Terminal<'_>) -> Resul
         Source::File(path) => of_file(command, path)?,
         Source::Assembly { assembly, kept } => of_assembly(command, assembly, kept)?,
     };
-    let own = OwnFiles::of(
-        &made.inputs,
-        &made.files.iter().map(|(path, _)| ("--output", path.clone())).collect::<Vec<_>>(),
-    )?;
+    let own =
+        OwnFiles::of(&made.inputs, &made.files.iter().map(|(path, _)| ("--output", path.clone())).collect::<Vec<_>>())?;
     let complaints = abandoned(&own);
     let mut outputs = Outputs::new(&own);
     made.files.iter().try_for_each(|(path, file)| outputs.stage(path, &file.bytes))?;
@@ -116,9 +114,8 @@ fn of_assembly(command: &ExportCommand, parts: &AssemblyCommand, kept: &[String]
 
 fn assembly_document(parts: &AssemblyCommand, assembly: &Assembly, joined: &Joined, digests: &[String]) -> Value {
     let components = parts.components.iter().zip(digests);
-    let components: Vec<Value> = components
-        .map(|((name, path), digest)| json!({ "name": name, "path": path, "blake3": digest }))
-        .collect();
+    let components: Vec<Value> =
+        components.map(|((name, path), digest)| json!({ "name": name, "path": path, "blake3": digest })).collect();
     json!({
         "components": components,
         "joints": assembly.joints,

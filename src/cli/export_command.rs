@@ -45,9 +45,7 @@ impl ExportCommand {
         let AssemblyFlags { join, fix, mass } = &assembly;
         let is_plain = [join, fix, mass, &keep].into_iter().all(Vec::is_empty);
         let (source, output) = match files.as_slice() {
-            [file] if is_plain => {
-                (Source::File(file.clone()), output.unwrap_or_else(|| file.with_extension("")))
-            }
+            [file] if is_plain => (Source::File(file.clone()), output.unwrap_or_else(|| file.with_extension(""))),
             files => {
                 let text = |path: &PathBuf| match path.to_str() {
                     Some(text) => Ok(text.to_owned()),

@@ -65,7 +65,8 @@ fn left_behind(component: &Component) -> Option<String> {
         ("further matrices", !tensors.matrices.is_empty()),
     ];
     let names: Vec<&str> = contents.into_iter().filter(|(_, is_there)| *is_there).map(|(name, _)| name).collect();
-    (!names.is_empty()).then(|| format!("{} has {}, which the model of the whole does not have", component.name, names.join(", ")))
+    (!names.is_empty())
+        .then(|| format!("{} has {}, which the model of the whole does not have", component.name, names.join(", ")))
 }
 
 /// The digits of the matrices of the whole, or of the component that has fewest. A component that its interface just holds has no stiffness
@@ -137,7 +138,8 @@ fn job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) -> JobText
 fn method_of_whole(assembly: &Assembly) -> (&'static str, Relief) {
     let methods: Vec<(&str, Relief)> =
         assembly.components.iter().map(|component| method(&component.superelement)).collect();
-    let relief = if methods.iter().any(|(_, relief)| *relief == Relief::Asked) { Relief::Asked } else { Relief::NotAsked };
+    let relief =
+        if methods.iter().any(|(_, relief)| *relief == Relief::Asked) { Relief::Asked } else { Relief::NotAsked };
     let with_modes: Vec<&str> = methods.iter().map(|(method, _)| *method).filter(|method| *method != "guyan").collect();
     match with_modes.first() {
         None => ("guyan", relief),
@@ -170,10 +172,14 @@ fn remarks(assembly: &Assembly, band: &std::result::Result<Option<(f64, &str)>, 
     let mut remarks = vec![format!("Superelements joined: {}.", names.join(", "))];
     remarks.extend(assembly.joints.iter().map(|joint| format!("{} = {} are one.", joint.a, joint.b)));
     remarks.extend(assembly.loaded.iter().map(|loaded| {
-        let [mass, x, y, z] = [loaded.mass.mass, loaded.mass.inertia[0], loaded.mass.inertia[1], loaded.mass.inertia[2]];
+        let [mass, x, y, z] =
+            [loaded.mass.mass, loaded.mass.inertia[0], loaded.mass.inertia[1], loaded.mass.inertia[2]];
         format!("The mass has {mass} at {}, and moments of inertia {x}, {y}, {z}.", loaded.name)
     }));
-    remarks.push("Its frequencies are not below those of the full models, joined: `supel modes` bounds the difference.".to_owned());
+    remarks.push(
+        "Its frequencies are not below those of the full models, joined: `supel modes` bounds the difference."
+            .to_owned(),
+    );
     remarks.push(match band {
         Ok(Some((hz, name))) => format!(
             "{name} leaves out modes from {} Hz on. No reduction brings them back: do not ask for modes above that.",

@@ -120,16 +120,12 @@ pub(super) fn method(superelement: &Superelement) -> (&'static str, Relief) {
         metadata.coordinates.iter().any(|coordinate| matches!(coordinate, Coordinate::InertiaRelief { .. }));
     let relief = if has_relief { Relief::Asked } else { Relief::NotAsked };
     match metadata.method {
-        Method::MixedInterface if n_modes > 0 && !metadata.interface_nodes.is_empty() => {
-            ("mixed-interface", relief)
-        }
+        Method::MixedInterface if n_modes > 0 && !metadata.interface_nodes.is_empty() => ("mixed-interface", relief),
         // Rows of one interface cannot be held in part.
         Method::CraigBampton | Method::ModeAcceleration | Method::MixedInterface if n_modes > 0 => {
             ("craig-bampton", relief)
         }
-        Method::CraigBampton | Method::ModeAcceleration | Method::MixedInterface | Method::Guyan => {
-            ("guyan", relief)
-        }
+        Method::CraigBampton | Method::ModeAcceleration | Method::MixedInterface | Method::Guyan => ("guyan", relief),
         // A file of Rubin's method is in Herting's coordinates.
         Method::Herting | Method::Rubin | Method::Macneal => ("herting", Relief::NotAsked),
     }

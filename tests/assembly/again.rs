@@ -129,7 +129,7 @@ fn mass_properties_are_those_of_the_whole() {
     whole.reduce(&whole.model_flags(), "--interface ends=1,13 --method herting --modes 3").expect(ExitCode::Done);
     let expected = properties(&whole.superelement("x.supel"));
     let found = properties(&again(&lines("--method herting --modes 8"), JOINED));
-    // The stiffness lets rigid-body motion pass to some eleven digits; the condensed mass carries the square of that and n ε.
+    // Constraint modes of either half carry rigid-body motion to the digits that the check M-12 leaves, nine and more.
     let bound = 1e-9;
     assert!((found.mass / expected.mass - 1.0).abs() <= bound, "{} and {}", found.mass, expected.mass);
     for (found, expected) in found.center_of_mass.iter().zip(&expected.center_of_mass) {
@@ -198,8 +198,6 @@ fn a_ball_joint_stays_one() {
     let ball = "--join left.middle.ux=right.middle.ux --join left.middle.uy=right.middle.uy \
                 --join left.middle.uz=right.middle.uz";
     let superelement = again(&place, ball);
-    let motions = superelement.metadata().model.mass_properties;
-    assert!(motions.is_some());
     let component = Component::new("whole".to_owned(), superelement).expect("a component");
     let modes = all_modes(&Assembly::new(vec![component]).expect("one name"));
     // Six motions of the whole and three rotations of one part against the other.
@@ -218,8 +216,7 @@ fn loads_come_along_and_notes_say_what_does_not() {
             ends[0], ends[1]
         )
     };
-    let push = "[[load]]\nname = \"push\"\nnodes = [3]\nforce = [0, 1, 2]\n[damping]\nkind = \"none\"\n";
-    let push = push.split("[damping]").next().expect("the load");
+    let push = "[[load]]\nname = \"push\"\nnodes = [3]\nforce = [0, 1, 2]\n";
     left.write("job.toml", job(push, [1, 7]).as_bytes());
     let recovery = "recovery = { nodes = [2, 3] }\n";
     right.write("job.toml", (job("", [7, 1]) + recovery).as_bytes());
@@ -264,13 +261,13 @@ fn the_answer_follows_its_schema_and_every_run_writes_the_same_bytes() {
 #[test]
 fn what_cannot_be_one_model_is_refused() {
     let place = lines("--method herting --modes 6");
-    let mut wrong = vec![
+    let wrong = [
         ("--join left.middle=right.end", "E-JOIN-POSITION"),
         ("--join left.nowhere=right.middle", "E-ASSEMBLY-NAME"),
         ("--keep left.nowhere", "E-ASSEMBLY-NAME"),
         ("--join left.middle", "E-FLAG-TEXT"),
     ];
-    for (flags, code) in wrong.drain(..) {
+    for (flags, code) in wrong {
         let ended = export(&place, flags);
         assert!(ended.err.contains(code) && ended.out.is_empty(), "{flags}: {}{}", ended.out, ended.err);
     }
