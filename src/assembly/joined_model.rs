@@ -251,8 +251,7 @@ fn nodes(sites: &[Site]) -> Vec<JoinedNode> {
     for site in sites {
         let Some(position) = site.position else { continue };
         let directed = || site.dofs.iter().filter_map(|dof| Some((dof.direction?, dof.row)));
-        let met =
-            directed().filter_map(|(_, row)| node_of.get(&row)).chain(site.own.and_then(|of| own.get(&of)).into_iter());
+        let met = directed().filter_map(|(_, row)| node_of.get(&row)).chain(site.own.and_then(|of| own.get(&of)));
         let is_one = |node: &usize| directed().all(|(d, row)| nodes[*node].rows.get(&d).is_none_or(|own| *own == row));
         let node = met.copied().find(is_one);
         let left: Vec<(Direction, usize)> = directed().filter(|(_, row)| !node_of.contains_key(row)).collect();
