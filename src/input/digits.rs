@@ -105,6 +105,11 @@ impl Digits {
         }
     }
 
+    /// Sixteen digits are all that a number in double precision has.
+    pub fn are_all(self) -> bool {
+        self.significant >= 16 && self.decimals.is_none()
+    }
+
     /// `7 digits`, `4 decimals`, `7 digits and 4 decimals` where either may hold, `17 digits as the job states`.
     pub fn in_words(self) -> String {
         let digits = counted(self.significant, "digit", "digits");

@@ -4,7 +4,6 @@ use super::results::Results;
 use crate::constraint::Loose;
 use crate::error::Warning;
 use crate::factor::Refinement;
-use crate::input::MatrixFacts;
 use crate::job::{Boundary, Precision};
 use crate::number::counted;
 use crate::rigid::RigidSource;
@@ -138,9 +137,7 @@ pub(super) fn data_precision(results: &Results<'_>) -> Option<Warning> {
     let uncertain: Vec<String> = of_free.chain(of_modes).flatten().collect();
     let first = uncertain.first()?;
     let [stiffness, mass] = &results.input.matrices;
-    // Sixteen digits are all that a number in double precision has.
-    let is_full = |facts: &MatrixFacts| facts.digits.significant >= 16 && facts.digits.decimals.is_none();
-    let advice = if is_full(stiffness) && is_full(mass) {
+    let advice = if stiffness.digits.are_all() && mass.digits.are_all() {
         "double precision has no more for stiffnesses of such different size: make stiff ties and thin elements softer or leave them out"
     } else {
         "write the matrices with all their digits, and stiffnesses of like size, or say model.stiffness_digits = 17 and \

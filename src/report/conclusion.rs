@@ -4,10 +4,26 @@ use crate::eigen::NOTICED_BAR;
 use crate::number::{counted, quantity};
 use crate::verification::check::{Check, Verdict};
 
+/// How far rounding in the matrices leaves a frequency open: where that is more than goes unnoticed, it may be why a check failed.
+pub(crate) struct Open {
+    /// The largest share of a frequency that its error bar leaves open.
+    pub share: f64,
+    /// What is known of the digits of the matrices.
+    pub digits: MatrixDigits,
+}
+
+/// What is known of the digits of the matrices that a superelement came from.
+pub(crate) enum MatrixDigits {
+    /// Both have all that double precision has.
+    All,
+    /// One at least has fewer.
+    Fewer,
+    /// Nothing: a superelement does not record them.
+    Unrecorded,
+}
+
 /// The line at the end of a summary: what passed, what did not, and with what reservations.
-/// `open` is the largest share of a frequency that its error bar leaves open: where that is more than goes unnoticed, it may be why a check
-/// failed, and comes first.
-pub(crate) fn conclusion(checks: &[Check], n_warnings: usize, verdict: Verdict, open: f64) -> String {
+pub(crate) fn conclusion(checks: &[Check], n_warnings: usize, verdict: Verdict, open: &Open) -> String {
     let n_judged = checks.iter().filter(|check| check.is_judged()).count();
     let judged = counted(n_judged, "check", "checks");
     let failed = identifiers(checks, Verdict::Fail);
@@ -16,18 +32,24 @@ pub(crate) fn conclusion(checks: &[Check], n_warnings: usize, verdict: Verdict, 
         Verdict::Warn => format!("! verified, with {}", reservations(checks, n_warnings)),
         Verdict::Fail if failed.is_empty() => "✗ not verified: modes are missing".to_owned(),
         Verdict::Fail => {
-            let doubt = if open > NOTICED_BAR { doubt(open) } else { String::new() };
+            let doubt = if open.share > NOTICED_BAR { doubt(open) } else { String::new() };
             format!("✗ not verified: {} of {judged} failed: {}{doubt}", failed.len(), failed.join(", "))
         }
     }
 }
 
 /// What few digits, or stiffnesses of very different size, leave open, and what to do first.
-fn doubt(open: f64) -> String {
-    let share = quantity(100.0 * open.min(1.0), 2);
-    format!(
-        "; rounding in the matrices leaves a frequency open by {share} %, which may be why: write them with all their digits first"
-    )
+fn doubt(open: &Open) -> String {
+    let share = quantity(100.0 * open.share.min(1.0), 2);
+    let first = match open.digits {
+        MatrixDigits::All => {
+            "double precision has no more for stiffnesses of such different size: make stiff ties and thin elements softer or \
+             leave them out first"
+        }
+        MatrixDigits::Fewer => "write them with all their digits first",
+        MatrixDigits::Unrecorded => "write them with all their digits first, if they have fewer",
+    };
+    format!("; rounding in the matrices leaves a frequency open by {share} %, which may be why: {first}")
 }
 
 /// What a heading says after `Verified`.
@@ -63,29 +85,47 @@ mod tests {
         Check { id, name: "a check", equation: "", value, limits, fail_above: 10.0, worst: None }
     }
 
+    fn open(share: f64) -> Open {
+        Open { share, digits: MatrixDigits::Fewer }
+    }
+
     #[test]
     fn every_reservation_is_said_and_none_that_is_not_there() {
         let (sound, past, failed) = (check("M-01", 0.5), check("M-05", 2.0), check("M-12", 20.0));
         let alone = [sound.clone()];
-        assert_eq!(conclusion(&alone, 0, Verdict::Pass, 0.0), "✓ verified: 1 check passed");
-        assert_eq!(conclusion(&alone, 1, Verdict::Warn, 0.0), "! verified, with 1 warning");
+        assert_eq!(conclusion(&alone, 0, Verdict::Pass, &open(0.0)), "✓ verified: 1 check passed");
+        assert_eq!(conclusion(&alone, 1, Verdict::Warn, &open(0.0)), "! verified, with 1 warning");
         let two = [past.clone(), sound.clone()];
-        assert_eq!(conclusion(&two, 0, Verdict::Warn, 0.0), "! verified, with 1 check past its limit (M-05)");
+        assert_eq!(conclusion(&two, 0, Verdict::Warn, &open(0.0)), "! verified, with 1 check past its limit (M-05)");
         let three = [past.clone(), sound, check("M-23", 3.0)];
         assert_eq!(
-            conclusion(&three, 2, Verdict::Warn, 0.0),
+            conclusion(&three, 2, Verdict::Warn, &open(0.0)),
             "! verified, with 2 checks past their limits (M-05, M-23) and 2 warnings"
         );
         let failed = [failed, past];
-        assert_eq!(conclusion(&failed, 2, Verdict::Fail, 1e-5), "✗ not verified: 1 of 2 checks failed: M-12");
-        assert_eq!(
-            conclusion(&failed, 2, Verdict::Fail, 0.018),
-            "✗ not verified: 1 of 2 checks failed: M-12; rounding in the matrices leaves a frequency open by 1.8 %, which may be why: \
-            write them with all their digits first"
-        );
-        assert_eq!(conclusion(&alone, 0, Verdict::Fail, 0.0), "✗ not verified: modes are missing");
+        assert_eq!(conclusion(&failed, 2, Verdict::Fail, &open(1e-5)), "✗ not verified: 1 of 2 checks failed: M-12");
+        assert_eq!(conclusion(&alone, 0, Verdict::Fail, &open(0.0)), "✗ not verified: modes are missing");
         assert_eq!(reserved_as(&two, 0), "with checks past their limits");
         assert_eq!(reserved_as(&two, 1), "with checks past their limits and warnings");
         assert_eq!(reserved_as(&[], 1), "with warnings");
+    }
+
+    #[test]
+    fn all_digits_are_asked_for_only_where_some_are_missing() {
+        let failed = [check("M-12", 20.0)];
+        let said = |digits| conclusion(&failed, 0, Verdict::Fail, &Open { share: 0.018, digits });
+        let start = "✗ not verified: 1 of 1 check failed: M-12; rounding in the matrices leaves a frequency open by 1.8 %, which may be why: ";
+        assert_eq!(said(MatrixDigits::Fewer), format!("{start}write them with all their digits first"));
+        assert_eq!(
+            said(MatrixDigits::Unrecorded),
+            format!("{start}write them with all their digits first, if they have fewer")
+        );
+        assert_eq!(
+            said(MatrixDigits::All),
+            format!(
+                "{start}double precision has no more for stiffnesses of such different size: make stiff ties and thin elements \
+                 softer or leave them out first"
+            )
+        );
     }
 }

@@ -3,7 +3,7 @@
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use supel_runtime::Superelement;
 
-use super::conclusion::conclusion;
+use super::conclusion::{MatrixDigits, Open, conclusion};
 use super::json::CheckLine;
 use super::page::{Page, Paint, Tone, WIDTH};
 use super::summary::body;
@@ -88,8 +88,8 @@ impl VerificationReport {
         }
         page.line("");
         let shares = metadata.named_columns().map(|column| Some(column.error_bar_hz()? / column.mode()?.1));
-        let open = shares.flatten().fold(0.0, f64::max);
-        for line in table::wrap(&conclusion(&self.audit.checks, 0, self.audit.verdict(), open), WIDTH) {
+        let open = Open { share: shares.flatten().fold(0.0, f64::max), digits: MatrixDigits::Unrecorded };
+        for line in table::wrap(&conclusion(&self.audit.checks, 0, self.audit.verdict(), &open), WIDTH) {
             page.line(Page::toned(&line, Tone::Of(self.audit.verdict())));
         }
         page.into_text()

@@ -1,7 +1,7 @@
 //! What the run cost, where its files are, and the verdict as the last line.
 
 use crate::number;
-use crate::report::conclusion::conclusion;
+use crate::report::conclusion::{MatrixDigits, Open, conclusion};
 use crate::report::page::{LABEL, Page, Tone, WIDTH};
 use crate::report::table::{self, Align};
 use crate::report::{Report, RunFacts, StageTime, WorkCounters, words};
@@ -76,7 +76,10 @@ fn verdict(page: &mut Page, report: &Report) {
     let body = &report.body;
     let verdict = body.verdict();
     let known = body.reduction.modes.iter().map(|mode| mode.error_bar_hz / mode.frequency_hz);
-    let text = conclusion(&body.checks, body.warnings.len(), verdict, known.fold(0.0, f64::max));
+    let has_all = body.model.stiffness.digits.are_all() && body.model.mass.digits.are_all();
+    let digits = if has_all { MatrixDigits::All } else { MatrixDigits::Fewer };
+    let open = Open { share: known.fold(0.0, f64::max), digits };
+    let text = conclusion(&body.checks, body.warnings.len(), verdict, &open);
     let text = if report.run.superelement.is_none() { text + " – no superelement was written" } else { text };
     for line in table::wrap(&text, WIDTH) {
         page.line(Page::toned(&line, Tone::Of(verdict)));
