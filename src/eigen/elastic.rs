@@ -50,6 +50,8 @@ pub struct ModeRequest {
 const SPREAD: f64 = 1e6;
 /// Backward error of a mode that lacks no digits, a hundredth of what M-01 lets pass.
 const SETTLED: f64 = 1e-12;
+/// Residual of a mode over its own terms that lacks no digits: what rounding leaves of those up to [`SPREAD`], ε · 10⁶ of each.
+const SETTLED_OF_TERMS: f64 = f64::EPSILON * SPREAD;
 /// Backward error above which a step of inverse iteration is tried on a mode: a tenth of what M-01 asks for, and ten times what
 /// modes are left with that carry nothing unseen.
 pub(crate) const CARRIES_NOTHING: f64 = 1e-14;
@@ -95,7 +97,9 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
 /// Modes of one search that stand: all of them, or those up to [`SPREAD`] where one further up lacks digits.
 fn n_settled(problem: ModalProblem<'_>, found: &Modes, sigma: f64) -> usize {
     let (n_near, settled) = (n_near(found, sigma), settled_at(problem.precision));
-    let lacks_digits = |error: &ModeError| error.backward > settled || error.residual_bar > SETTLED_BAR;
+    let lacks_digits = |error: &ModeError| {
+        error.backward > settled || error.of_terms > settled.max(SETTLED_OF_TERMS) || error.residual_bar > SETTLED_BAR
+    };
     if n_near > 0 && found.errors[n_near..].iter().any(lacks_digits) { n_near } else { found.count() }
 }
 

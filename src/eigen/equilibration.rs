@@ -50,6 +50,18 @@ impl Equilibrated {
         dense::norm(&r) / ((self.stiffness_norm + lambda.abs() * self.mass_norm) * self.scaled_norm(x))
     }
 
+    /// ‖Dr‖ / ‖D(|K||x| + |λ||M||x|)‖: the residual of (λ, x) over the terms that it is summed from, |K||x| and |M||x|.
+    pub fn error_of_terms(&self, lambda: f64, residual: &[f64], [stiffness, mass]: [&[f64]; 2]) -> f64 {
+        let mut squares = [0.0; 2];
+        for (row, d) in self.scale.iter().enumerate() {
+            let terms = stiffness[row] + lambda.abs() * mass[row];
+            squares[0] += (d * residual[row]).powi(2);
+            squares[1] += (d * terms).powi(2);
+        }
+        let [residual, terms] = squares.map(f64::sqrt);
+        if residual > 0.0 { residual / terms } else { 0.0 }
+    }
+
     /// The row where a residual is largest, equilibrated; a row that is not a number comes first.
     pub fn largest(&self, residual: &[f64]) -> usize {
         let mut worst = (0.0, 0);

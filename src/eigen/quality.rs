@@ -13,6 +13,9 @@ use crate::sparse::{Leading, panels, product, product_and_terms};
 pub struct ModeError {
     /// Normwise backward error of the pair (M-01).
     pub backward: f64,
+    /// ‖Dr‖ / ‖D(|K| + λ|M|)|x|‖: the residual over the terms it is summed from, which the norms of the whole do not hide where a few
+    /// soft motions are all of ‖M‖.
+    pub of_terms: f64,
     /// c = (|x|ᵀ|K||x| + λ|x|ᵀ|M||x|) / (λ xᵀMx): how much larger the cancelling terms are than the modal energy (M-09).
     pub cancellation: f64,
     /// Relative error bar of λ: that of the data and that of the residual.
@@ -58,13 +61,14 @@ pub(crate) fn rayleigh_quotients(
 ) -> (Vec<f64>, Vec<ModeError>, Mat<f64>) {
     let both = |matrix| {
         let (image, terms) = product_and_terms(matrix, shapes);
-        (image, energies_of_terms(shapes, terms.as_ref()))
+        let energies = energies_of_terms(shapes, terms.as_ref());
+        (image, terms, energies)
     };
-    let (mut forces, mut stiffness_terms) = both(problem.stiffness);
+    let (mut forces, force_terms, mut stiffness_terms) = both(problem.stiffness);
     if let Some(noise) = problem.noise {
         stiffness_terms.iter_mut().zip(noise.hidden_terms(shapes)).for_each(|(terms, more)| *terms += more);
     }
-    let (momenta, mass_terms) = both(problem.mass);
+    let (momenta, momentum_terms, mass_terms) = both(problem.mass);
     let norms = Equilibrated::of(problem.pencil());
     let rounding = f64::EPSILON;
     let quotient = |j: usize| {
@@ -91,6 +95,11 @@ pub(crate) fn rayleigh_quotients(
             let rounding_floor = rounding * norms.stiffness_norm * norms.scaled_norm(x).powi(2) / modal_mass;
             let error = ModeError {
                 backward: norms.backward_error(lambda, x, force),
+                of_terms: norms.error_of_terms(
+                    lambda,
+                    force,
+                    [&force_terms, &momentum_terms].map(|terms| dense::column(terms.as_ref(), j)),
+                ),
                 cancellation: k_share + m_share,
                 relative_bar: data_bar,
                 data_bar,

@@ -180,6 +180,23 @@ fn frequencies_a_million_times_apart() {
     }
 }
 
+/// Light oscillators far below the modes of a small part: next to them a residual is nothing in the norms of the whole, and the modes
+/// of the part keep their digits row by row all the same.
+#[test]
+fn oscillators_far_below_the_modes_of_the_part() {
+    let block = brick([4, 1, 1], [0.004, 0.0006, 0.0009], &Material::STEEL_SI);
+    let omega = std::f64::consts::TAU * 30.0;
+    let mass = 2e-11;
+    let stiffness = |number| mass * omega * omega * (1.0 + 0.1 * number as f64);
+    let place = Place::with(&with_oscillators(&block, mass, stiffness));
+    for (method, count) in [("craig-bampton", 42), ("herting", 32)] {
+        let rest = format!("--rigid-interface b=5,10,15,20 --method {method} --modes {count}");
+        let ended = place.reduce(&place.model_flags(), &rest);
+        assert_eq!(ended.code, ExitCode::Done, "{method}:\n{}{}", ended.out, ended.err);
+        passes(&place, method);
+    }
+}
+
 /// A heavy mass on a soft spring to the ground, with light ones in between: the highest frequency is 10⁹ times the lowest, which is
 /// known to nine digits all the same and is no rigid-body motion.
 #[test]
