@@ -229,7 +229,7 @@ pub(super) struct ModesFlags {
 }
 
 #[derive(Debug, Args)]
-#[command(group = ArgGroup::new("results").args(["output", "quantities", "loads"]).required(true).multiple(true))]
+#[command(group = ArgGroup::new("results").args(["output", "vtkhdf", "quantities", "loads"]).required(true).multiple(true))]
 pub(super) struct RecoverFlags {
     /// Superelement file
     pub(super) file: PathBuf,
@@ -246,6 +246,9 @@ pub(super) struct RecoverFlags {
     /// File for the motion of the recovered nodes, NAME.csv
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
+    /// File for the same motion as a series that ParaView opens, NAME.vtkhdf: a vertex at each recovered node
+    #[arg(long, value_name = "FILE")]
+    pub(super) vtkhdf: Option<PathBuf>,
     /// File for the quantities of the superelement, stresses for instance, NAME.csv
     #[arg(long, value_name = "FILE")]
     pub(super) quantities: Option<PathBuf>,

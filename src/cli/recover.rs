@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use supel_runtime::{Precision, Superelement, Verdict};
+use supel_runtime::{Precision, Recovery, Superelement, Verdict};
 
 use super::answer::Terminal;
 use super::exit_code::ExitCode;
@@ -14,7 +14,7 @@ use super::unverified::refusal;
 use crate::error::{Error, Result};
 use crate::number;
 use crate::recovery::{
-    Displacements, InterfaceLoads, Order, Quantities, Sheet, SheetOutput, States, coordinate_names, fill,
+    Displacements, InterfaceLoads, MotionSeries, Order, Quantities, Sheet, SheetOutput, States, coordinate_names, fill,
 };
 use crate::report::printable;
 
@@ -26,15 +26,21 @@ pub(super) fn run(command: &RecoverCommand, terminal: &mut Terminal<'_>) -> Resu
         return Ok(ExitCode::CheckFailed);
     }
     let sheets = sheets(command, &superelement)?;
-    let outputs: Vec<Named> = sheets.iter().map(|sheet| (sheet.flag, sheet.path.to_owned())).collect();
+    let points = command.vtkhdf.as_deref().map(|path| points(path, &command.file, &superelement)).transpose()?;
+    let named = sheets.iter().map(|sheet| (sheet.flag, sheet.path.to_owned()));
+    let outputs: Vec<Named> = named.chain(points.iter().map(|points| ("--vtkhdf", points.path.to_owned()))).collect();
     let own = OwnFiles::of(&inputs(command), &outputs)?;
     let complaints = abandoned(&own);
     let mut states = States::open(&command.states, &coordinate_names(&superelement))?;
-    let n_states = write(&own, &mut states, &sheets)?;
+    let n_states = write(&own, &mut states, &sheets, points.as_ref())?;
+    let states = number::counted(n_states, "state", "states");
     for sheet in &sheets {
-        let states = number::counted(n_states, "state", "states");
         let path = sheet.path.display().to_string();
         terminal.answer(&format!("{}: {} in {states}\n", printable(&path), sheet.content));
+    }
+    if let Some(Points { path, positions, .. }) = &points {
+        let (path, nodes) = (path.display().to_string(), number::counted(positions.len() as u64, "node", "nodes"));
+        terminal.answer(&format!("{}: motion of {nodes} in {states}\n", printable(&path)));
     }
     complaints.iter().for_each(|complaint| terminal.complain(complaint));
     Ok(if verdict == Verdict::Fail { ExitCode::CheckFailed } else { ExitCode::Done })
@@ -46,6 +52,22 @@ struct Asked<'a> {
     path: &'a Path,
     content: String,
     sheet: Box<dyn Sheet + 'a>,
+}
+
+/// A series for ParaView that is asked for.
+struct Points<'a> {
+    path: &'a Path,
+    recovery: &'a Recovery,
+    positions: &'a [[f64; 3]],
+}
+
+fn points<'a>(path: &'a Path, file: &Path, superelement: &'a Superelement) -> Result<Points<'a>> {
+    let recovery = superelement.tensors().recovery.as_ref();
+    let recovery = recovery.ok_or_else(|| lacking(file, "recovered nodes", "--vtkhdf", "write.recovery"))?;
+    let positions = recovery.positions();
+    let positions =
+        positions.ok_or_else(|| lacking(file, "positions of recovered nodes", "--vtkhdf", "model.nodes"))?;
+    Ok(Points { path, recovery, positions })
 }
 
 fn sheets<'a>(command: &'a RecoverCommand, superelement: &'a Superelement) -> Result<Vec<Asked<'a>>> {
@@ -102,16 +124,24 @@ fn inputs(command: &RecoverCommand) -> Vec<Named> {
     std::iter::once(("the superelement", command.file.clone())).chain(tables).collect()
 }
 
-/// Writes all sheets, and gives them their names when all are complete.
-fn write(own: &OwnFiles, states: &mut States, sheets: &[Asked<'_>]) -> Result<u64> {
+/// Writes all sheets and the series, and gives them their names when all are complete.
+fn write(own: &OwnFiles, states: &mut States, sheets: &[Asked<'_>], points: Option<&Points<'_>>) -> Result<u64> {
     let mut writers = sheets.iter().map(|asked| writer(own, asked.path)).collect::<Result<Vec<_>>>()?;
+    let staged = points.map(|points| writer(own, points.path)).transpose()?;
+    let mut series = match points.zip(staged.as_ref()) {
+        Some((Points { path, recovery, positions }, staged)) => {
+            Some(MotionSeries::create(staged.path(), path, recovery, positions, &states.orders())?)
+        }
+        None => None,
+    };
     let both = sheets.iter().zip(&mut writers);
     let mut to_fill: Vec<SheetOutput<'_>> =
         both.map(|(asked, out)| SheetOutput { sheet: asked.sheet.as_ref(), path: asked.path, out }).collect();
-    let n_states = fill(states, &mut to_fill)?;
+    let n_states = fill(states, &mut to_fill, series.as_mut())?;
     drop(to_fill);
+    series.map_or(Ok(()), MotionSeries::finish)?;
     let mut outputs = Outputs::new(own);
-    for writer in writers {
+    for writer in writers.into_iter().chain(staged) {
         outputs.push(writer.finish().map_err(Error::of_writing)?);
     }
     outputs.commit()?;

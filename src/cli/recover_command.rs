@@ -15,6 +15,8 @@ pub(super) struct RecoverCommand {
     pub(super) states: StateFiles,
     /// Where the motion of the recovered nodes goes.
     pub(super) output: Option<PathBuf>,
+    /// Where it goes as a series for ParaView.
+    pub(super) vtkhdf: Option<PathBuf>,
     /// Where the quantities go.
     pub(super) quantities: Option<PathBuf>,
     /// Where the loads on the interface go.
@@ -26,19 +28,20 @@ pub(super) struct RecoverCommand {
 
 impl RecoverCommand {
     pub(super) fn build(flags: RecoverFlags) -> Result<Self> {
-        let RecoverFlags { file, state, velocity, acceleration, output, quantities, loads, gravity, allow_unverified } =
-            flags;
+        let RecoverFlags { file, state, velocity, acceleration, output, vtkhdf, quantities, loads, .. } = flags;
         for (flag, path) in [("--output", &output), ("--quantities", &quantities), ("--loads", &loads)] {
             path.as_ref().map_or(Ok(()), |path| ends_in(flag, path, ".csv"))?;
         }
+        vtkhdf.as_ref().map_or(Ok(()), |path| ends_in("--vtkhdf", path, ".vtkhdf"))?;
         Ok(Self {
             file,
             states: StateFiles { displacement: state, velocity, acceleration },
             output,
+            vtkhdf,
             quantities,
             loads,
-            gravity: gravity.as_deref().map(acceleration_of).transpose()?,
-            unverified: allow_unverified.into(),
+            gravity: flags.gravity.as_deref().map(acceleration_of).transpose()?,
+            unverified: flags.allow_unverified.into(),
         })
     }
 }

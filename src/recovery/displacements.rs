@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
-use supel_runtime::{Matrix, Recovery};
+use supel_runtime::Recovery;
 
+use super::product::times;
 use super::sheet::{Sheet, end_row};
 use super::state::{Order, State};
 
@@ -33,9 +34,4 @@ impl Sheet for Displacements<'_> {
         }
         Ok(())
     }
-}
-
-/// A row of a matrix times a vector.
-pub(super) fn times(matrix: &Matrix, row: usize, vector: &[f64]) -> f64 {
-    matrix.row(row).unwrap_or_default().iter().zip(vector).map(|(a, b)| a * b).sum()
 }

@@ -12,7 +12,7 @@ use std::fmt::Write;
 
 use supel_runtime::{Coordinate, Direction, Matrix, Superelement};
 
-use super::displacements::times;
+use super::product::times;
 use super::sheet::{Sheet, end_row};
 use super::state::{Order, State};
 use crate::model::Site;

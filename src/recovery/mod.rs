@@ -15,15 +15,23 @@
 mod coordinate_names;
 mod displacements;
 mod interface_loads;
+mod motion_series;
+mod product;
 mod quantities;
 mod sheet;
 mod state;
 mod states;
+mod vtk_grid;
+#[cfg_attr(not(feature = "hdf5"), path = "no_series.rs")]
+mod vtk_series;
 
 pub use coordinate_names::coordinate_names;
 pub use displacements::Displacements;
 pub use interface_loads::InterfaceLoads;
+pub use motion_series::MotionSeries;
 pub use quantities::Quantities;
 pub use sheet::{Sheet, SheetOutput, fill};
 pub use state::{Order, State};
 pub use states::{StateFiles, States};
+pub use vtk_grid::{Cells, Field, Values};
+pub use vtk_series::Series;

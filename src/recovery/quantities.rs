@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use supel_runtime::{Matrix, Quantity};
 
-use super::displacements::times;
+use super::product::times;
 use super::sheet::{Sheet, end_row};
 use super::state::{Order, State};
 use crate::report::field;

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::io::Write;
 use std::path::Path;
 
+use super::motion_series::MotionSeries;
 use super::state::{Order, State};
 use super::states::States;
 use crate::error::{Error, Result};
@@ -30,11 +31,15 @@ pub struct SheetOutput<'a> {
     pub out: &'a mut dyn Write,
 }
 
-/// Fills all sheets with all states, and says how many these are. Memory holds one state and its rows at a time.
+/// Fills all sheets, and the series if there is one, with all states, and says how many these are. Memory holds one state and its rows at a time.
 ///
 /// # Errors
 /// The errors of [`States::advance`]; [`Error::StateRange`] where a result overflows; [`Error::Write`].
-pub fn fill(states: &mut States, outputs: &mut [SheetOutput<'_>]) -> Result<u64> {
+pub fn fill(
+    states: &mut States,
+    outputs: &mut [SheetOutput<'_>],
+    mut series: Option<&mut MotionSeries<'_>>,
+) -> Result<u64> {
     let (orders, has_times) = (states.orders(), states.has_times());
     let table = states.path().to_owned();
     for output in outputs.iter_mut() {
@@ -45,11 +50,14 @@ pub fn fill(states: &mut States, outputs: &mut [SheetOutput<'_>]) -> Result<u64>
     while let Some(state) = states.advance()? {
         let time = state.time.map(|time| format!("{},", number(time))).unwrap_or_default();
         let start = format!("{},{time}", state.number);
+        let overflow = |what| Error::StateRange { path: table.clone(), number: state.number, what };
         for output in outputs.iter_mut() {
             text.clear();
-            let overflow = |what| Error::StateRange { path: table.clone(), number: state.number, what };
             output.sheet.rows(state, &start, &mut text).map_err(overflow)?;
             output.put(&text)?;
+        }
+        if let Some(series) = &mut series {
+            series.push(state)?.map_err(overflow)?;
         }
         n_states = state.number;
     }

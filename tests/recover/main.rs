@@ -4,6 +4,8 @@ mod displacements;
 mod loads;
 mod quantities;
 mod refused;
+#[cfg(feature = "hdf5")]
+mod series;
 
 use std::collections::BTreeMap;
 
