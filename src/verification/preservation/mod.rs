@@ -6,6 +6,7 @@
 //! counts       how many such frequencies the full model has             M-06
 //! statics      stiffness of each interface by direct solves             M-17
 //! response     frequency response of all pairs of interface dofs        M-20, M-21
+//! scan         where between its samples the response errs most
 //! sizes        these errors for a smaller basis
 //! asked        the largest of them, and what the scene accepts          M-29 to M-31
 //! ```
@@ -30,6 +31,7 @@ mod reduced;
 mod reference;
 mod response;
 mod samples;
+mod scan;
 mod shift;
 mod sizes;
 mod statics;

@@ -120,6 +120,8 @@ pub struct ResponseComparison {
     pub worst_at_hz: f64,
     /// Largest relative shift of a resonance peak.
     pub peak_shift: f64,
+    /// Relative distance of the frequencies between which the largest errors were looked for, on the condensed models.
+    pub scan_step: f64,
     /// The samples, ascending in frequency.
     pub samples: Vec<ResponseSample>,
 }

@@ -9,6 +9,7 @@ use super::extended::{Extended, Response};
 use super::interfaces::rotation_length;
 use super::outcome::{ResponseComparison, ResponseSample};
 use super::samples;
+use super::scan::Scan;
 use super::shift::shift;
 use crate::dense;
 use crate::eigen::Spectral;
@@ -19,8 +20,11 @@ use crate::number::quantity;
 /// A pair that responds this much less than its two driving points do is judged by them: symmetry uncouples such pairs,
 /// and what is left of them is rounding. A thousandth is 60 dB, the dynamic range of a good measurement.
 const UNCOUPLED: f64 = 1e-3;
-/// How often another pair is sampled: the antiresonances of the worst pair may show that another one is worse.
+/// How often the band is scanned: samples that were added may have taught the full model something.
 const PASSES: usize = 3;
+
+/// Share of the largest error by which what a scan foresaw may miss what its samples then show.
+const SETTLED: f64 = 1e-3;
 
 /// The answers of the full model, for further reduced models to be compared with.
 pub(super) struct FullResponse {
@@ -40,8 +44,8 @@ pub(super) struct Compared {
 /// Error of one pair.
 #[derive(Clone, Copy)]
 pub(super) struct PairError {
-    pair: (usize, usize),
-    decibel: f64,
+    pub(super) pair: (usize, usize),
+    pub(super) decibel: f64,
 }
 
 /// Compares the response of all pairs of interface dofs over the band.
@@ -61,13 +65,17 @@ pub(super) fn compared(
     let mut residuals = extended.settle(&samples_hz)?;
     let mut full = FullResponse::new(&extended, &samples_hz, eta);
     let (mut worst, mut at) = full.worst(evidence, &reduced);
+    let mut step = 0.0;
     for _ in 0..PASSES {
-        let pair = worst.pair;
-        samples_hz = samples::with_zeros(evidence, &extended.spectral, &samples_hz, [pair.0, pair.1])?;
+        let scan = Scan { evidence, full: &extended.spectral, reduced: &reduced, eta };
+        let found = scan.peaks([samples_hz[0], samples_hz[samples_hz.len() - 1]]);
+        step = found.step;
+        let (known, driven) = ((&samples_hz[..], &found.peaks_hz[..]), [worst.pair.0, worst.pair.1]);
+        samples_hz = samples::with_peaks_and_zeros(evidence, &extended.spectral, known, driven)?;
         residuals = extended.settle(&samples_hz)?;
         full = FullResponse::new(&extended, &samples_hz, eta);
         (worst, at) = full.worst(evidence, &reduced);
-        if worst.pair == pair {
+        if !dense::worse(found.largest_db, (1.0 + SETTLED) * worst.decibel) {
             break;
         }
     }
@@ -84,6 +92,7 @@ pub(super) fn compared(
             worst_db: worst.decibel,
             worst_at_hz: full.samples_hz[at],
             peak_shift: peak_shift(evidence, &extended.spectral, &reduced, band_hz),
+            scan_step: step,
             samples: full.shown(evidence, &reduced, worst.pair),
         },
         uncertainty: (full.uncertainty(&extended, least_known), full.samples_hz[least_known]),
@@ -160,7 +169,8 @@ fn floor(response: &Response, i: usize, j: usize) -> f64 {
     UNCOUPLED * (response.get(i, i).norm() * response.get(j, j).norm()).sqrt()
 }
 
-fn worst_pair(full: &Response, reduced: &Response) -> PairError {
+/// The pair of interface dofs whose responses differ most.
+pub(super) fn worst_pair(full: &Response, reduced: &Response) -> PairError {
     let mut worst = PairError { pair: (0, 0), decibel: 0.0 };
     for j in 0..full.n() {
         for i in 0..=j {

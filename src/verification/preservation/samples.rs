@@ -1,4 +1,5 @@
-//! The frequencies at which the response is compared: the ends of the band, found frequencies, antiresonances and a grid.
+//! The frequencies at which the response is compared: the ends of the band, found frequencies, antiresonances, peaks of the
+//! error and a grid.
 
 use faer::Mat;
 
@@ -28,20 +29,20 @@ pub(super) fn first(evidence: &Evidence<'_>, reduced: &Spectral, band_hz: [f64; 
     merged(grid.chain(resonances).collect())
 }
 
-/// `samples` with the elastic frequencies of the full model and the antiresonances at two driving points, which are the
-/// frequencies of the reduced model with the dof held.
+/// `samples` with peaks of the error, the elastic frequencies of the full model and the antiresonances at two driving points, which
+/// are the frequencies of the reduced model with the dof held.
 ///
 /// # Errors
 /// A reduced pencil that is not definite.
-pub(super) fn with_zeros(
+pub(super) fn with_peaks_and_zeros(
     evidence: &Evidence<'_>,
     full: &Spectral,
-    samples: &[f64],
+    (samples, peaks): (&[f64], &[f64]),
     driving_points: [usize; 2],
 ) -> Result<Vec<f64>> {
     let (start, high) = (samples[0], samples[samples.len() - 1]);
     let within = |all: Vec<f64>| spread(all.into_iter().filter(|hz| (start..=high).contains(hz)).collect());
-    let mut all = samples.to_vec();
+    let mut all = [samples, peaks].concat();
     all.extend(within(elastic_hz(evidence, full)));
     for dof in driving_points {
         let (k, m) = (&evidence.reduction.stiffness, &evidence.reduction.mass);

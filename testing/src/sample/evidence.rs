@@ -193,6 +193,7 @@ fn response() -> ResponseComparison {
         worst_db: worst.error_db,
         worst_at_hz: worst.frequency_hz,
         peak_shift: 2.9e-3,
+        scan_step: 0.01,
         samples,
     }
 }
