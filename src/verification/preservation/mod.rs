@@ -26,6 +26,7 @@ mod full;
 mod interfaces;
 mod mac;
 mod outcome;
+mod pair_error;
 mod policy;
 mod reduced;
 mod reference;

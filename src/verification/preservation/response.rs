@@ -1,6 +1,5 @@
 //! Frequency response of the reduced against the full model, pair by pair of interface dofs: M-20, M-21.
 
-use faer::c64;
 use rayon::prelude::*;
 
 use super::super::check::{Check, Limits};
@@ -8,6 +7,7 @@ use super::super::evidence::Evidence;
 use super::extended::{Extended, Response};
 use super::interfaces::rotation_length;
 use super::outcome::{ResponseComparison, ResponseSample};
+use super::pair_error::{PairError, magnitude, worst_pair};
 use super::samples;
 use super::scan::Scan;
 use super::shift::shift;
@@ -17,12 +17,8 @@ use crate::error::Result;
 use crate::factor::SolveOperator;
 use crate::number::quantity;
 
-/// A pair that responds this much less than its two driving points do is judged by them: symmetry uncouples such pairs,
-/// and what is left of them is rounding. A thousandth is 60 dB, the dynamic range of a good measurement.
-const UNCOUPLED: f64 = 1e-3;
 /// How often the band is scanned: samples that were added may have taught the full model something.
 const PASSES: usize = 3;
-
 /// Share of the largest error by which what a scan foresaw may miss what its samples then show.
 const SETTLED: f64 = 1e-3;
 
@@ -39,13 +35,6 @@ pub(super) struct Compared {
     pub(super) full: FullResponse,
     /// Bound on the relative error of the full response at its worst sample, and that sample.
     uncertainty: (f64, f64),
-}
-
-/// Error of one pair.
-#[derive(Clone, Copy)]
-pub(super) struct PairError {
-    pub(super) pair: (usize, usize),
-    pub(super) decibel: f64,
 }
 
 /// Compares the response of all pairs of interface dofs over the band.
@@ -160,38 +149,6 @@ impl FullResponse {
     }
 }
 
-/// |H_ij|, or the floor set by its driving points.
-fn magnitude(response: &Response, i: usize, j: usize) -> f64 {
-    response.get(i, j).norm().max(floor(response, i, j))
-}
-
-fn floor(response: &Response, i: usize, j: usize) -> f64 {
-    UNCOUPLED * (response.get(i, i).norm() * response.get(j, j).norm()).sqrt()
-}
-
-/// The pair of interface dofs whose responses differ most.
-pub(super) fn worst_pair(full: &Response, reduced: &Response) -> PairError {
-    let mut worst = PairError { pair: (0, 0), decibel: 0.0 };
-    for j in 0..full.n() {
-        for i in 0..=j {
-            let decibel = decibel(full.get(i, j), reduced.get(i, j), floor(full, i, j));
-            if dense::worse(decibel, worst.decibel) {
-                worst = PairError { pair: (i, j), decibel };
-            }
-        }
-    }
-    worst
-}
-
-/// Error of a response in dB: the difference of the levels or, where that is larger, the level that the complex
-/// difference adds, so that a wrong phase counts too.
-fn decibel(full: c64, reduced: c64, floor: f64) -> f64 {
-    let (size, other) = (full.norm().max(floor), reduced.norm().max(floor));
-    let levels = (20.0 * (other / size).log10()).abs();
-    let difference = 20.0 * ((reduced - full).norm() / size).ln_1p() / std::f64::consts::LN_10;
-    if dense::worse(difference, levels) { difference } else { levels }
-}
-
 /// Largest relative distance of a resonance in the band in both models: with light damping the peaks lie at the
 /// eigenvalues.
 fn peak_shift(evidence: &Evidence<'_>, full: &Spectral, reduced: &Spectral, band_hz: [f64; 2]) -> f64 {
@@ -228,20 +185,4 @@ pub(super) fn checks(compared: &Compared) -> [Check; 2] {
             worst: Some(format!("{} Hz", quantity(compared.uncertainty.1, 6))),
         },
     ]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn decibels_count_levels_and_phases() {
-        let one = c64::new(1.0, 0.0);
-        // Twice is 6.02 dB and half as well; the same size with the phase turned by 60° differs by one: 6.02 dB.
-        let six = 20.0 * 2f64.log10();
-        for other in [c64::new(2.0, 0.0), c64::new(0.5, 0.0), c64::new(0.5, 0.75f64.sqrt())] {
-            assert!((decibel(one, other, 0.0) - six).abs() < 1e-12, "{other}");
-        }
-        assert!(decibel(one * 1e-9, one * 2e-9, 1.0) < 1e-7, "below the floor");
-    }
 }

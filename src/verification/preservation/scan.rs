@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::super::evidence::Evidence;
 use super::extended::Response;
-use super::response::worst_pair;
+use super::pair_error::worst_pair;
 use crate::dense;
 use crate::eigen::Spectral;
 
