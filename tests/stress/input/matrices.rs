@@ -32,7 +32,7 @@ fn i_02_stiffness_and_mass_exchanged() {
     let held = supported(&steel_brick(), |(label, _)| label % 5 == 1);
     for (model, rest) in [
         (steel_brick(), FOOT),
-        (held, "--interface head=5,15,35 --method herting --modes 5 --threads 1"),
+        (held, "--interface head=5,15,35 --method herting --modes 12 --threads 1"),
         (spring(5, Ends::Free), CHAIN),
         (spring(5, Ends::Fixed), CHAIN),
     ] {
